@@ -1,0 +1,86 @@
+"""The exceptions of the package: what went wrong, for whom, and what to do about it.
+
+A mathematical "no" is a value, never an exception.  An exhausted budget is a value as well: the engine turns
+`LimitExceeded` into the status UNDECIDED, with the limit's own sentence as the reason.
+"""
+
+from __future__ import annotations
+
+
+class KovacicError(Exception):
+    """Base class of every exception that this package raises on purpose."""
+
+
+class InputError(KovacicError, ValueError):
+    """The input isn't an equation that the package can treat.
+
+    Attributes: `text`, the whole input where it is text; `position`, the 0-based offset of the offending part, and
+    `length`, its length; both None where the input isn't text; `hint`, what the user could write instead.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        text: str | None = None,
+        position: int | None = None,
+        length: int = 1,
+        hint: str | None = None,
+    ) -> None:
+        super().__init__(message)
+        self.message = message
+        self.text = text
+        self.position = position
+        self.length = length
+        self.hint = hint
+
+    def __str__(self) -> str:
+        parts = [self.message]
+        if self.text is not None and self.position is not None:
+            start = max(0, self.position - 30)
+            excerpt = self.text[start : self.position + max(self.length, 1) + 30].replace("\n", " ")
+            marker = " " * (self.position - start) + "^" * max(1, min(self.length, 40))
+            parts.append(f"  at position {self.position}:\n    {excerpt}\n    {marker}")
+        if self.hint:
+            parts.append(f"  hint: {self.hint}")
+        return "\n".join(parts)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _rebuild_input_error, (type(self), self.message, self.text, self.position, self.length, self.hint)
+
+
+def _rebuild_input_error(
+    cls: type[InputError], message: str, text: str | None, position: int | None, length: int, hint: str | None
+) -> InputError:
+    return cls(message, text=text, position=position, length=length, hint=hint)
+
+
+class ParseError(InputError):
+    """The text isn't an expression of the grammar."""
+
+
+class NotRational(InputError):
+    """The expression is readable, but isn't a rational function of one variable over the rational numbers."""
+
+
+class NotLinear(InputError):
+    """The equation is readable, but isn't linear of second order."""
+
+
+class LimitExceeded(KovacicError):
+    """A limit of `kovacic.limits.Limits` was reached; `limit` is the name of its field."""
+
+    def __init__(self, message: str, *, limit: str) -> None:
+        super().__init__(message)
+        self.limit = limit
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _rebuild_limit_exceeded, (self.args[0], self.limit)
+
+
+def _rebuild_limit_exceeded(message: str, limit: str) -> LimitExceeded:
+    return LimitExceeded(message, limit=limit)
+
+
+class VerificationFailed(KovacicError):
+    """A result of the engine did not pass its own exact check: a defect of this package, please report it."""

@@ -1,0 +1,51 @@
+"""What one call may cost: sizes that are checked before an operation, and a wall clock checked between steps."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+from kovacic.errors import LimitExceeded
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Limits:
+    """Bounds on the input and on the work; every one is adjustable.
+
+    Input (exceeding one raises `LimitExceeded`): `text_length`, characters of an expression; `digits`, decimal digits of
+    one number; `exponent`, the absolute value of an exponent; `degree`, the predicted degree of a numerator or
+    denominator; `bits`, the predicted size of a coefficient in bits.
+    Work (exceeding one gives the status UNDECIDED): `unknown_degree`, the degree bound of a polynomial to be found;
+    `seconds`, wall-clock time for one equation (None: no limit), checked between steps of algebra and so not a hard bound.
+    """
+
+    text_length: int = 1_000_000
+    digits: int = 100_000
+    exponent: int = 100_000
+    degree: int = 20_000
+    bits: int = 4_000_000
+    unknown_degree: int = 20_000
+    seconds: float | None = None
+
+
+DEFAULT_LIMITS = Limits()
+
+
+class Budget:
+    """The running clock of one call: `check()` between the steps, raises `LimitExceeded` once the time is over."""
+
+    __slots__ = ("_deadline", "limits")
+
+    def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
+        self.limits = limits
+        self._deadline = None if limits.seconds is None else time.monotonic() + limits.seconds
+
+    def check(self) -> None:
+        if self._deadline is not None and time.monotonic() > self._deadline:
+            raise LimitExceeded(f"the time limit of {self.limits.seconds:g} s is used up", limit="seconds")
+
+    def check_degree(self, degree: int, what: str) -> None:
+        if degree > self.limits.unknown_degree:
+            raise LimitExceeded(
+                f"{what} may have degree {degree}, above the limit of {self.limits.unknown_degree}", limit="unknown_degree"
+            )
