@@ -47,5 +47,6 @@ class Budget:
     def check_degree(self, degree: int, what: str) -> None:
         if degree > self.limits.unknown_degree:
             raise LimitExceeded(
-                f"{what} may have degree {degree}, above the limit of {self.limits.unknown_degree}", limit="unknown_degree"
+                f"{what} may have degree {degree}, above the limit of {self.limits.unknown_degree}",
+                limit="unknown_degree",
             )

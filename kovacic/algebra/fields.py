@@ -1,0 +1,416 @@
+"""Coefficient fields: the rational numbers and simple algebraic extensions.
+
+A field adds three things to the arithmetic of its polynomials, and nothing else in the package depends on which field it
+is: factoring, homomorphisms to prime fields (`bundles`), and the way back from images under such homomorphisms
+(`coordinates` and `assemble`, between which `lifting` does its work on rational numbers).
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from flint import fmpq, fmpq_poly, nmod_poly
+
+from kovacic.algebra.lifting import RationalLifter, primes
+from kovacic.algebra.poly import Poly, RationalPoly, Scalar, to_fraction
+
+
+class BadPrimeError(Exception):
+    """The prime divides a denominator, or loses structure that the caller relies on: take another one."""
+
+
+class Homomorphism(ABC):
+    """A ring homomorphism from the p-integral elements of a field to F_p, extended to polynomials."""
+
+    __slots__ = ()
+
+    p: int
+
+    @abstractmethod
+    def __call__(self, polynomial: Poly) -> Any:
+        """The image as an `nmod_poly`.  Raises `BadPrimeError` where a coefficient isn't p-integral."""
+
+    def keeping_degree(self, polynomial: Poly) -> Any:
+        """The image; `BadPrimeError` if the leading coefficient vanishes."""
+        image = self(polynomial)
+        if image.degree() != polynomial.degree:
+            raise BadPrimeError(f"{self.p} divides a leading coefficient")
+        return image
+
+
+@dataclass(frozen=True, slots=True)
+class RationalHomomorphism(Homomorphism):
+    """Reduction of rational numbers modulo p."""
+
+    p: int
+
+    def __call__(self, polynomial: Poly) -> Any:
+        rep = polynomial.rep  # type: ignore[attr-defined]
+        image = nmod_poly(rep.numer(), self.p)
+        denominator = rep.denom()
+        if denominator == 1:
+            return image
+        residue = int(denominator) % self.p
+        if residue == 0:
+            raise BadPrimeError(f"{self.p} divides a denominator")
+        return image * pow(residue, -1, self.p)
+
+
+@dataclass(frozen=True, slots=True)
+class ExtensionHomomorphism(Homomorphism):
+    """K(c) -> F_p: a homomorphism of K and the image of c, a root of c's minimal polynomial modulo p."""
+
+    base: Homomorphism
+    root: int
+
+    @property
+    def p(self) -> int:  # type: ignore[override]
+        return self.base.p
+
+    def __call__(self, polynomial: Poly) -> Any:
+        if not isinstance(polynomial, ExtensionPoly):
+            return self.base(polynomial)
+        result = nmod_poly([], self.p)
+        for part in reversed(polynomial.parts):
+            result = result * self.root + self.base(part)
+        return result
+
+
+class Field(ABC):
+    """An exact field K of characteristic 0 with polynomial arithmetic, factoring, and homomorphisms to prime fields."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def poly(self, coefficients: Iterable[Scalar | Poly]) -> Poly:
+        """The polynomial with these coefficients, low to high: rational numbers or constants of the field."""
+
+    @abstractmethod
+    def extends(self, other: Field) -> bool:
+        """Is `other` one of the fields below this one?"""
+
+    @abstractmethod
+    def embed(self, polynomial: Poly) -> Poly:
+        """A polynomial over a field below this one, over this one."""
+
+    @abstractmethod
+    def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
+        """The monic irreducible factors with their multiplicities, in a fixed order."""
+
+    @abstractmethod
+    def bundles(self) -> Iterator[tuple[Homomorphism, ...]]:
+        """Sets of homomorphisms over one prime each, such that the images under a set determine an element modulo p."""
+
+    @abstractmethod
+    def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
+        """Rational coordinates modulo p of polynomials, from their images under every homomorphism of a bundle."""
+
+    @abstractmethod
+    def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
+        """The polynomials that have these rational coordinates (`fmpq_poly`), in the order of `coordinates`."""
+
+    def lifter(self) -> Lifter:
+        """A fresh way back from images modulo primes."""
+        return Lifter(self)
+
+    def homomorphisms(self) -> Iterator[Homomorphism]:
+        """One homomorphism for each usable prime."""
+        return (bundle[0] for bundle in self.bundles())
+
+    def rational_value(self, constant: Poly) -> Fraction | None:
+        """The constant as a rational number, or None if it isn't one."""
+        coordinates = constant.rational_coefficients()
+        if any(coordinates[1:]):
+            return None
+        return to_fraction(coordinates[0]) if coordinates else Fraction(0)
+
+    @abstractmethod
+    def sqrt(self, constant: Poly) -> Poly | None:
+        """A square root within the field, or None if there is none."""
+
+
+class Lifter:
+    """Collects images under bundles of homomorphisms and proposes the polynomials over the field."""
+
+    __slots__ = ("_field", "_rational")
+
+    def __init__(self, field: Field) -> None:
+        self._field = field
+        self._rational = RationalLifter()
+
+    @property
+    def primes_used(self) -> int:
+        return self._rational.primes_used
+
+    def add(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Poly] | None:
+        """Images of the same polynomials under each homomorphism of the bundle; a proposal when one is due, else None."""
+        proposal = self._rational.add(bundle[0].p, self._field.coordinates(bundle, images))
+        return None if proposal is None else self._field.assemble(proposal)
+
+
+@dataclass(frozen=True, slots=True)
+class RationalField(Field):
+    """The field Q of rational numbers."""
+
+    def poly(self, coefficients: Iterable[Scalar | Poly]) -> RationalPoly:
+        return RationalPoly.of(c.constant() if isinstance(c, RationalPoly) else c for c in coefficients)  # type: ignore[misc]
+
+    def extends(self, other: Field) -> bool:
+        return False
+
+    def embed(self, polynomial: Poly) -> Poly:
+        return polynomial
+
+    def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
+        factors = polynomial.rep.numer().factor()[1]  # type: ignore[attr-defined]
+        ordered = sorted(factors, key=lambda pair: (pair[0].degree(), [int(c) for c in pair[0].coeffs()]))
+        return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), int(k)) for f, k in ordered]
+
+    def bundles(self) -> Iterator[tuple[Homomorphism, ...]]:
+        return ((RationalHomomorphism(p),) for p in primes())
+
+    def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
+        return list(images[0])
+
+    def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
+        return [RationalPoly(c) for c in coordinates]
+
+    def sqrt(self, constant: Poly) -> Poly | None:
+        value = constant.rep[0]  # type: ignore[attr-defined]
+        if value < 0 or not value.p.is_square() or not value.q.is_square():
+            return None
+        return RationalPoly(fmpq_poly([value.p.isqrt()], value.q.isqrt()))
+
+    def __str__(self) -> str:
+        return "Q"
+
+
+QQ = RationalField()
+
+
+@dataclass(frozen=True, slots=True)
+class AlgebraicField(Field):
+    """K(c), c a root of the monic irreducible `modulus` over K; `name` is what c is called in print."""
+
+    base: Field
+    modulus: Poly
+    name: str = "c"
+
+    @property
+    def dimension(self) -> int:
+        return self.modulus.degree
+
+    @property
+    def generator(self) -> ExtensionPoly:
+        """The constant c."""
+        zero, one = self.base.poly([]), self.base.poly([1])
+        return ExtensionPoly.make(self, [zero, one, *[zero] * (self.dimension - 2)])
+
+    def poly(self, coefficients: Iterable[Scalar | Poly]) -> ExtensionPoly:
+        parts: list[list[Scalar | Poly]] = [[] for _ in range(self.dimension)]
+        for coefficient in coefficients:
+            if isinstance(coefficient, ExtensionPoly) and coefficient.field == self:
+                for target, part in zip(parts, coefficient.parts, strict=True):
+                    target.append(part)
+            else:
+                parts[0].append(coefficient)
+                for target in parts[1:]:
+                    target.append(0)
+        return ExtensionPoly.make(self, [self.base.poly(part) for part in parts])
+
+    def extends(self, other: Field) -> bool:
+        return self.base == other or self.base.extends(other)
+
+    def embed(self, polynomial: Poly) -> Poly:
+        if polynomial.field != self.base:
+            polynomial = self.base.embed(polynomial)
+        zero = self.base.poly([])
+        return ExtensionPoly.make(self, [polynomial, *[zero] * (self.dimension - 1)])
+
+    def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
+        from kovacic.algebra.norms import factor_over_extension
+
+        return factor_over_extension(self, polynomial)
+
+    def bundles(self) -> Iterator[tuple[Homomorphism, ...]]:
+        for base_bundle in self.base.bundles():
+            homomorphisms: list[Homomorphism] = []
+            try:
+                for base in base_bundle:
+                    roots = base.keeping_degree(self.modulus).roots()
+                    if len(roots) < self.dimension:
+                        break
+                    homomorphisms += [ExtensionHomomorphism(base, root) for root in sorted(int(r) for r, _ in roots)]
+                else:
+                    yield tuple(homomorphisms)
+            except BadPrimeError:
+                continue
+
+    def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
+        n, p = self.dimension, bundle[0].p
+        base_bundle: list[Homomorphism] = []
+        base_images: list[list[Any]] = []
+        for start in range(0, len(bundle), n):
+            block = bundle[start : start + n]
+            inverse = _vandermonde_inverse([h.root for h in block], p)  # type: ignore[attr-defined]
+            base_bundle.append(block[0].base)  # type: ignore[attr-defined]
+            base_images.append(
+                [
+                    sum((column[j] * row[j] for j in range(n)), nmod_poly([], p))
+                    for column in zip(*images[start : start + n], strict=True)
+                    for row in inverse
+                ]
+            )
+        return self.base.coordinates(base_bundle, base_images)
+
+    def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
+        parts, n = self.base.assemble(coordinates), self.dimension
+        return [ExtensionPoly.make(self, parts[i : i + n]) for i in range(0, len(parts), n)]
+
+    def sqrt(self, constant: Poly) -> Poly | None:
+        for factor, _ in self.factor(self.poly([-constant, 0, 1])):
+            if factor.degree == 1:
+                return -factor[0]
+        return None
+
+    def __str__(self) -> str:
+        return f"{self.base}({self.name})"
+
+
+def _vandermonde_inverse(nodes: Sequence[int], p: int) -> list[list[int]]:
+    """Row i, column j: the coefficient of X^i in the j-th Lagrange polynomial of the nodes."""
+    columns = []
+    for j, node in enumerate(nodes):
+        basis, scale = nmod_poly([1], p), 1
+        for k, other in enumerate(nodes):
+            if k != j:
+                basis = basis * nmod_poly([-other % p, 1], p)
+                scale = scale * (node - other) % p
+        basis = basis * pow(scale, -1, p)
+        columns.append([int(basis[i]) for i in range(len(nodes))])
+    return [list(row) for row in zip(*columns, strict=True)]
+
+
+class ExtensionPoly(Poly):
+    """A polynomial over K(c): the tuple of its coordinates with respect to 1, c, c**2, ..., polynomials over K."""
+
+    __slots__ = ("_field", "parts")
+
+    _field: AlgebraicField
+    parts: tuple[Poly, ...]
+
+    def __init__(self, field: AlgebraicField, parts: tuple[Poly, ...]) -> None:
+        object.__setattr__(self, "_field", field)
+        object.__setattr__(self, "parts", parts)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("polynomials are immutable")
+
+    @classmethod
+    def make(cls, field: AlgebraicField, parts: Sequence[Poly]) -> ExtensionPoly:
+        return cls(field, tuple(parts))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return ExtensionPoly, (self._field, self.parts)
+
+    def key(self) -> tuple[Any, ...]:
+        return tuple(part.key() for part in self.parts)
+
+    @property
+    def field(self) -> AlgebraicField:
+        return self._field
+
+    @property
+    def degree(self) -> int:
+        return max(part.degree for part in self.parts)
+
+    def __getitem__(self, power: int) -> ExtensionPoly:
+        return ExtensionPoly(self._field, tuple(part[power] for part in self.parts))
+
+    def __neg__(self) -> ExtensionPoly:
+        return ExtensionPoly(self._field, tuple(-part for part in self.parts))
+
+    def _add(self, other: ExtensionPoly) -> ExtensionPoly:
+        return ExtensionPoly(self._field, tuple(a + b for a, b in zip(self.parts, other.parts, strict=True)))
+
+    def _mul(self, other: ExtensionPoly) -> ExtensionPoly:
+        n, modulus = self._field.dimension, self._field.modulus
+        products: list[Poly] = [self._field.base.poly([])] * (2 * n - 1)
+        for i, a in enumerate(self.parts):
+            if a:
+                for j, b in enumerate(other.parts):
+                    if b:
+                        products[i + j] = products[i + j] + a * b
+        for top in range(2 * n - 2, n - 1, -1):
+            if products[top]:
+                for i in range(n):
+                    products[top - n + i] = products[top - n + i] - products[top] * modulus[i]
+        return ExtensionPoly(self._field, tuple(products[:n]))
+
+    def _divmod(self, other: ExtensionPoly) -> tuple[ExtensionPoly, ExtensionPoly]:
+        inverse = other.lc.inverse()
+        if other.degree == 0:
+            return self._mul(inverse), self._field.poly([])
+        if not any(other.parts[1:]):
+            pairs = [divmod(part, other.parts[0]) for part in self.parts]
+            return tuple(ExtensionPoly(self._field, parts) for parts in zip(*pairs, strict=True))  # type: ignore[return-value]
+        remainder, quotient = self, [self._field.poly([])] * max(self.degree - other.degree + 1, 0)
+        x = self._field.poly([0, 1])
+        while remainder.degree >= other.degree:
+            shift = remainder.degree - other.degree
+            quotient[shift] = remainder.lc._mul(inverse)
+            remainder = remainder - quotient[shift]._mul(x**shift)._mul(other)
+        return self._field.poly(quotient), remainder
+
+    def gcd(self, other: Poly) -> ExtensionPoly:
+        """The monic greatest common divisor, through its images modulo primes, checked by division."""
+        first, second = self, self._coerce(other)
+        if second is None:
+            raise TypeError("both polynomials must lie over the same field")
+        if not first or not second:
+            return (first or second).monic()
+        lifter = self._field.lifter()
+        for bundle in self._field.bundles():
+            try:
+                images = [[h.keeping_degree(first).gcd(h.keeping_degree(second))] for h in bundle]
+            except BadPrimeError:
+                continue
+            if len({image[0].degree() for image in images}) > 1:
+                continue
+            if images[0][0].degree() == 0:
+                break
+            proposal = lifter.add(bundle, images)
+            if proposal and not first % proposal[0] and not second % proposal[0]:
+                return proposal[0]  # type: ignore[return-value]
+        return self._field.poly([1])
+
+    def derivative(self) -> ExtensionPoly:
+        return ExtensionPoly(self._field, tuple(part.derivative() for part in self.parts))
+
+    def inverse(self) -> ExtensionPoly:
+        if self.degree > 0:
+            raise ValueError("only constants have an inverse")
+        base = self._field.base
+        element = base.poly([part[0] for part in self.parts]).inverse_modulo(self._field.modulus)
+        return ExtensionPoly(self._field, tuple(element[i] for i in range(self._field.dimension)))
+
+    def rational_coefficients(self) -> tuple[Any, ...]:
+        length = self.degree + 1
+        padded = [[*(c := part.rational_coefficients()), *[fmpq(0)] * (length - len(c))] for part in self.parts]
+        return tuple(c for column in zip(*padded, strict=True) for c in column)
+
+    def common_denominator(self) -> int:
+        from math import lcm
+
+        return lcm(*(part.common_denominator() for part in self.parts))
+
+    def height_bits(self) -> int:
+        return max(part.height_bits() for part in self.parts)
+
+    def coefficient_str(self, power: int) -> str:
+        element = self._field.base.poly([part[power] for part in self.parts])
+        return element.integer_str(self._field.name)

@@ -1,0 +1,166 @@
+"""Power series and linear algebra over F_p.  All polynomials are flint's `nmod_poly` modulo one prime p.
+
+A series to order L is a polynomial of degree below L; the prime must exceed the orders that are asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from operator import mul
+from typing import Any
+
+from flint import fmpz, nmod_mat, nmod_poly
+
+from kovacic.algebra.fields import BadPrimeError
+
+
+def translate(polynomial: Any, point: int) -> Any:
+    """`polynomial(t + point)`."""
+    return polynomial if point == 0 else polynomial.compose(nmod_poly([point, 1], polynomial.modulus()))
+
+
+def reverse(polynomial: Any, degree: int) -> Any:
+    """`t**degree * polynomial(1/t)`; degree must be at least that of the polynomial."""
+    return polynomial.reverse().left_shift(degree - polynomial.degree()) if polynomial else polynomial
+
+
+def ordinary_point(den: Any) -> int:
+    """The integer of least absolute value at which den doesn't vanish, tried in the order 0, 1, -1, 2, ..."""
+    point = 0
+    while int(den(point)) == 0:
+        point = -point if point > 0 else 1 - point
+    return point
+
+
+def fundamental_system(num: Any, den: Any, order: int) -> tuple[Any, Any]:
+    """y1 = 1 + O(t^2) and y2 = t + O(t^2) with `y'' = (num/den) y`, to `order` terms; den(0) must not vanish.
+
+    Newton's iteration: with residuals r_i = S y_i - y_i'' the corrections are those of the variation of constants,
+    y2 int(y1 r_i) - y1 int(y2 r_i), for the Wronskian y1 y2' - y1' y2 is 1; each step doubles the number of terms.
+    """
+    p = num.modulus()
+    order = max(order, 2)
+    coefficient = num.truncate(order).mul_low(den.truncate(order).inverse_series_trunc(order), order)
+    y1, y2, known = nmod_poly([1], p), nmod_poly([0, 1], p), 2
+    while known < order:
+        known = min(2 * known, order)
+        corrections = []
+        series = coefficient.truncate(known)
+        for y in (y1, y2):
+            residual = series.mul_low(y, known) - y.derivative().derivative()
+            along1 = y1.mul_low(residual, known - 1).integral()
+            along2 = y2.mul_low(residual, known - 1).integral()
+            corrections.append(y2.mul_low(along1, known) - y1.mul_low(along2, known))
+        y1, y2 = y1 + corrections[0], y2 + corrections[1]
+    return y1, y2
+
+
+def power_series(factors: Sequence[tuple[Any, int]], order: int) -> Any:
+    """`prod f**k` as a series to `order` terms, for integers k of either sign; f(0) must not vanish where k < 0."""
+    p = factors[0][0].modulus() if factors else None
+    if p is None:
+        raise ValueError("at least one factor is needed to know the prime")
+    above, below = nmod_poly([1], p), nmod_poly([1], p)
+    for factor, exponent in factors:
+        if exponent > 0:
+            above = above.mul_low(factor.truncate(order).pow_trunc(exponent, order), order)
+        elif exponent < 0:
+            below = below.mul_low(factor.truncate(order).pow_trunc(-exponent, order), order)
+    return above if below == 1 else above.mul_low(below.inverse_series_trunc(order), order)
+
+
+def null_space(rows: Sequence[Sequence[Any]], columns: int, p: int) -> list[list[int]]:
+    """A basis of {c : sum_j rows[i][j] c_j = 0 for all i}."""
+    matrix = nmod_mat(len(rows), columns, [entry for row in rows for entry in row], p)
+    basis, nullity = matrix.nullspace()
+    return [[int(basis[i, j]) for i in range(columns)] for j in range(nullity)]
+
+
+def echelon_by_degree(polynomials: Sequence[Any]) -> list[Any]:
+    """The reduced echelon basis of the span: monic, of increasing degrees, no leading power occurring in another member.
+
+    This basis depends on the span alone, so that its images modulo different primes belong together.
+    """
+    if not polynomials:
+        return []
+    p = polynomials[0].modulus()
+    if len(polynomials) == 1:
+        return [polynomials[0] * pow(int(polynomials[0].leading_coefficient()), -1, p)]
+    width = max(f.length() for f in polynomials)
+    entries = [f[width - 1 - k] for f in polynomials for k in range(width)]
+    reduced, rank = nmod_mat(len(polynomials), width, entries, p).rref()
+    basis = [nmod_poly([reduced[i, width - 1 - k] for k in range(width)], p) for i in range(rank)]
+    return basis[::-1]
+
+
+def rational_function_from_series(series: Any, order: int, top: int) -> tuple[Any, Any]:
+    """`(A, P)` with A = P * series + O(t^order), deg A <= top and deg P < order - top, P of least degree.
+
+    Euclid's algorithm on t^order and the series.  If any pair with deg A <= top, deg P <= b and top + b < order exists, then
+    the pair returned has the same quotient A/P [von zur Gathen & Gerhard, Modern Computer Algebra, sec. 5.7].
+    """
+    p = series.modulus()
+    r0, r1 = nmod_poly([1], p).left_shift(order), series
+    t0, t1 = nmod_poly([], p), nmod_poly([1], p)
+    while r1.degree() > top:
+        quotient, rest = divmod(r0, r1)
+        r0, r1, t0, t1 = r1, rest, t1, t0 - quotient * t1
+    return r1, t1
+
+
+def series_solution(second: Any, first: Any, zeroth: Any, order: int, *, start: int = 1) -> Any:
+    """u = 1 + O(t) with `second u'' + first u' + zeroth u = 0` to `order` terms, at a singular point t = 0.
+
+    second(0) = 0, and the coefficient of t^(j-1) determines u_j through the indicial factor
+    `j (second_1 (j - 1) + first_0)`.  Raises `BadPrimeError` if that vanishes modulo p for some j below `order`.
+    """
+    p = second.modulus()
+    a, b, c = ([int(v) for v in f.coeffs()] for f in (second, first, zeroth))
+    a1, b0 = (a[1] if len(a) > 1 else 0), (b[0] if b else 0)
+    tail_a, tail_b = a[2:], b[1:]
+    u = [1]
+    weighted = [0]  # k u_k
+    twice_weighted = [0]  # k (k - 1) u_k
+    for j in range(1, order):
+        pivot = j * (a1 * (j - 1) + b0) % p
+        if pivot == 0:
+            raise BadPrimeError(f"{p} meets an indicial factor")
+        total = _dot(tail_a, twice_weighted) + _dot(tail_b, weighted) + _dot(c, u)
+        value = -total * pow(pivot, -1, p) % p
+        u.append(value)
+        weighted.append(j * value % p)
+        twice_weighted.append(j * (j - 1) % p * value % p)
+    return nmod_poly(u, p)
+
+
+def _dot(coefficients: list[int], sequence: list[int]) -> int:
+    """`sum_i coefficients[i] * sequence[-1 - i]`."""
+    n = len(coefficients)
+    return sum(map(mul, coefficients, sequence[: -n - 1 : -1])) if n else 0
+
+
+def square_root(value: int, p: int) -> int | None:
+    """A square root modulo p, or None for a non-residue."""
+    value %= p
+    if value == 0:
+        return 0
+    if fmpz(value).jacobi(p) != 1:
+        return None
+    return int(fmpz(value).sqrtmod(p))
+
+
+def square_root_series(series: Any, order: int, root: int) -> Any:
+    """The square root with constant term `root` (not 0) of a series, to `order` terms."""
+    p = series.modulus()
+    half = pow(2, -1, p)
+    result, known = nmod_poly([root], p), 1
+    while known < order:
+        known = min(2 * known, order)
+        result = (result + series.truncate(known).mul_low(result.inverse_series_trunc(known), known)) * half
+        result = result.truncate(known)
+    return result
+
+
+def simple_roots(polynomial: Any) -> Iterator[int]:
+    """The simple roots in F_p, in increasing order."""
+    return iter(sorted(int(root) for root, multiplicity in polynomial.roots() if multiplicity == 1))

@@ -1,0 +1,183 @@
+"""Immutable rational functions of one variable over an exact field."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import gcd
+from typing import Any
+
+from kovacic.algebra.fields import Field
+from kovacic.algebra.poly import Poly, Scalar
+
+
+class RatFunc:
+    """`num/den` in lowest terms, den monic; arithmetic with `+ - * / **`, polynomials and scalars.
+
+    >>> from kovacic.algebra.fields import QQ
+    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> print((x**2 - 1) / (2 * x - 2))
+    (x + 1)/2
+    """
+
+    __slots__ = ("den", "num")
+
+    num: Poly
+    den: Poly
+
+    def __init__(self, num: Poly, den: Poly | None = None, *, reduced: bool = False) -> None:
+        """`num/den`; `reduced=True` promises that they are coprime and den is monic.
+
+        Raises `ZeroDivisionError` for a zero denominator.
+        """
+        if den is None:
+            num, den = num, num.field.poly([1])
+        elif not reduced:
+            if not den:
+                raise ZeroDivisionError("the denominator is zero")
+            if num.field != den.field:
+                num, den = (num, num.field.embed(den)) if num.field.extends(den.field) else (den.field.embed(num), den)
+            if den.degree > 0:
+                common = num.gcd(den)
+                if common.degree > 0:
+                    num, den = num // common, den // common
+            leading = den.lc.inverse()
+            num, den = num * leading, den * leading
+        object.__setattr__(self, "num", num)
+        object.__setattr__(self, "den", den)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("rational functions are immutable")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _rebuild, (self.num, self.den)
+
+    @property
+    def field(self) -> Field:
+        return self.num.field
+
+    @property
+    def is_polynomial(self) -> bool:
+        return self.den.degree == 0
+
+    @property
+    def degree(self) -> int:
+        """Degree of the numerator less that of the denominator: the order of growth at infinity.  Meaningless for 0."""
+        return self.num.degree - self.den.degree
+
+    def _coerce(self, other: object) -> RatFunc | None:
+        if isinstance(other, RatFunc):
+            return other
+        if isinstance(other, Poly):
+            return RatFunc(other)
+        if isinstance(other, (int, Fraction)):
+            return RatFunc(self.field.poly([other]))
+        return None
+
+    def __neg__(self) -> RatFunc:
+        return RatFunc(-self.num, self.den, reduced=True)
+
+    def __add__(self, other: RatFunc | Poly | Scalar) -> RatFunc:
+        value = self._coerce(other)
+        if value is None:
+            return NotImplemented
+        if self.den == value.den:
+            return RatFunc(self.num + value.num, self.den)
+        return RatFunc(self.num * value.den + value.num * self.den, self.den * value.den)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: RatFunc | Poly | Scalar) -> RatFunc:
+        value = self._coerce(other)
+        return NotImplemented if value is None else self + (-value)
+
+    def __rsub__(self, other: RatFunc | Poly | Scalar) -> RatFunc:
+        return -self + other
+
+    def __mul__(self, other: RatFunc | Poly | Scalar) -> RatFunc:
+        value = self._coerce(other)
+        return NotImplemented if value is None else RatFunc(self.num * value.num, self.den * value.den)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: RatFunc | Poly | Scalar) -> RatFunc:
+        value = self._coerce(other)
+        return NotImplemented if value is None else RatFunc(self.num * value.den, self.den * value.num)
+
+    def __rtruediv__(self, other: RatFunc | Poly | Scalar) -> RatFunc:
+        value = self._coerce(other)
+        return NotImplemented if value is None else value / self
+
+    def __pow__(self, exponent: int) -> RatFunc:
+        if exponent >= 0:
+            return RatFunc(self.num**exponent, self.den**exponent, reduced=True)
+        return RatFunc(self.den ** (-exponent), self.num ** (-exponent))
+
+    def __eq__(self, other: object) -> bool:
+        value = self._coerce(other)
+        return value is not None and self.num == value.num and self.den == value.den
+
+    def __hash__(self) -> int:
+        return hash((self.num, self.den))
+
+    def __bool__(self) -> bool:
+        return bool(self.num)
+
+    def __call__(self, point: RatFunc | Poly | Scalar) -> RatFunc:
+        """The value at a point, or the composition with a rational function.  Raises ZeroDivisionError at a pole."""
+        if not isinstance(point, RatFunc):
+            return RatFunc(self._as_poly(self.num(point)), self._as_poly(self.den(point)))
+        top = max(self.num.degree, self.den.degree)
+        return RatFunc(_homogenise(self.num, point, top), _homogenise(self.den, point, top))
+
+    def _as_poly(self, value: Any) -> Poly:
+        return value if isinstance(value, Poly) else self.field.poly([value])
+
+    def derivative(self) -> RatFunc:
+        num, den = self.num, self.den
+        if den.degree == 0:
+            return RatFunc(num.derivative(), den, reduced=True)
+        common = den.gcd(den.derivative())
+        radical = den // common
+        return RatFunc(num.derivative() * radical - num * (den.derivative() // common), den * radical)
+
+    def to_str(self, variable: str = "x") -> str:
+        """Python/SymPy syntax with integer coefficients."""
+        top, bottom = self.num.common_denominator(), self.den.common_denominator()
+        common = gcd(top, bottom)
+        num, den = self.num * (top * (bottom // common)), self.den * (bottom * (top // common))
+        content = gcd(_content(num), _content(den))
+        text = (num * Fraction(1, content)).integer_str(variable)
+        den = den * Fraction(1, content)
+        if den == 1:
+            return text
+        below = den.integer_str(variable)
+        return f"{_parenthesised(text, ' ')}/{_parenthesised(below, ' *')}"
+
+    def __str__(self) -> str:
+        return self.to_str()
+
+    def __repr__(self) -> str:
+        return f"<RatFunc {self.to_str()}>"
+
+
+def _rebuild(num: Poly, den: Poly) -> RatFunc:
+    return RatFunc(num, den, reduced=True)
+
+
+def _homogenise(polynomial: Poly, point: RatFunc, degree: int) -> Poly:
+    """`den(point)**degree * polynomial(point)`."""
+    result: Poly = polynomial.field.poly([])
+    power: Poly = polynomial.field.poly([1])
+    for k in range(degree, -1, -1):
+        result = result * point.num + polynomial[k] * power
+        power = power * point.den
+    return result
+
+
+def _content(polynomial: Poly) -> int:
+    """The greatest common divisor of the integer coordinates (1 for zero)."""
+    return gcd(*(int(c.p) for c in polynomial.rational_coefficients())) or 1
+
+
+def _parenthesised(text: str, separators: str) -> str:
+    return f"({text})" if any(separator in text.lstrip("-").replace("**", "^") for separator in separators) else text
