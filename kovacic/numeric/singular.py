@@ -180,7 +180,7 @@ def check_segment(system: System, a: Point, b: Point) -> None:
 
 
 def _first_hit(system: System, a: Point, b: Point) -> tuple[str, float] | None:
-    from flint import ctx, fmpq, fmpq_poly
+    from flint import ctx
 
     step = b - a
     if step.norm_squared() == 0:
@@ -207,7 +207,6 @@ def _first_hit(system: System, a: Point, b: Point) -> tuple[str, float] | None:
                 text = where.real.mid().str(12, radius=False)
                 if not (a.is_real() and b.is_real()):
                     text += f" + {where.imag.mid().str(12, radius=False)}i"
-                del fmpq, fmpq_poly
                 return text, float(t.mid()) * length
         if not unclear:
             return None

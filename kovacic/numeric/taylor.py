@@ -8,8 +8,9 @@ dyadic, so nothing is rounded).  The recurrence for the coefficients,
 
     q_0 (n+2)(n+1) a_(n+2) = sum_j p_j a_(n-j) - sum_(j>=1) q_j (n+2-j)(n+1-j) a_(n+2-j),
 
-runs in fixed point, *without* any claim.  Its outcome, a polynomial Y of degree N with dyadic coefficients, is judged
-afterwards: the defect r = q Y'' - p Y is computed exactly in Z[u], and the error e = y - Y satisfies
+runs in fixed point, with integers A_n for a_n 2^w and division with remainder.  So the defect r = q Y'' - p Y of the polynomial
+Y = sum A_n 2^-w u^n is known: its coefficients are those remainders, smaller than the divisors, and a few more at the end that consist
+of the last A_n only.  Nothing is assumed about the stability of the recurrence.  The error e = y - Y satisfies
 
     q e'' = p e - r,   e(0) = e'(0) = 0.
 
@@ -60,7 +61,7 @@ class Frame:
     """The equation seen from a centre: x = c + H u, H = h 2^e with a small integer h.
 
     `poles` and `zeros` are those of S in the variable u (None: not isolated); `log2_lead` is log2 |H^2 lc(num)/lc(den) H^(dn-dd)|, so
-    that |H^2 S(c + H u)| = 2^log2_lead prod |u - zero| / prod |u - pole|.
+    that |H^2 S(c + H u)| = 2^log2_lead prod |u - zero| / (2^far_poles prod |u - pole|).
     """
 
     centre: Point
@@ -69,6 +70,7 @@ class Frame:
     poles: Zeros
     zeros: Zeros | None
     log2_lead: float
+    far_poles: int = 0
 
     @property
     def scale(self) -> Fraction:
@@ -78,25 +80,28 @@ class Frame:
 
 def make_frame(system: System, centre: Point, h: int, e: int) -> Frame:
     """The frame of the equation at `centre` with scale H = h 2^e."""
-    poles = _in_scale(offsets(system, "den", centre) or (), h, e)
+    poles, far_poles = _in_scale(offsets(system, "den", centre) or (), h, e)
     seen = offsets(system, "num", centre)
-    zeros = None if seen is None else _in_scale(seen, h, e)
+    zeros, far_zeros = (None, 0) if seen is None else _in_scale(seen, h, e)
     if not system.num:
-        return Frame(centre, h, e, poles, (), -math.inf)
+        return Frame(centre, h, e, poles, (), -math.inf, far_poles)
     lead = _log2(system.num[-1]) - _log2(system.den[-1])
     power = 2 + len(system.num) - len(system.den)
-    return Frame(centre, h, e, poles, zeros, lead + power * (math.log2(h) + e))
+    return Frame(centre, h, e, poles, zeros, lead + power * (math.log2(h) + e) + far_zeros, far_poles)
 
 
-def _in_scale(items: tuple[tuple[complex, float, int, int], ...], h: int, e: int) -> Zeros:
-    result = []
+def _in_scale(items: tuple[tuple[complex, float, int, int], ...], h: int, e: int) -> tuple[Zeros, int]:
+    result, far = [], 0
     for d, error, k, multiplicity in items:
-        shift = min(k - e, _FAR)  # beyond 2^_FAR: brought nearer, still farther away than anything that matters
+        shift = k - e
+        if shift > _FAR:  # brought nearer by a power of two, which is kept apart: seen from |u| <= 1 only the size matters
+            far += multiplicity * (shift - _FAR)
+            shift = _FAR
         if shift < -_FAR:
             d, error, shift = 0j, 2.0**-_FAR, 0
         factor = math.ldexp(1.0 / h, shift)
         result.append((d * factor, error * factor * _SLACK, multiplicity))
-    return tuple(result)
+    return tuple(result), far
 
 
 def _log2(value: int) -> float:
@@ -127,22 +132,24 @@ def ray_bound(frame: Frame, u: complex, log2_norm_p: float | None = None) -> Ray
     log2_min_q = math.inf
     for k in range(_PIECES):
         middle = u * ((k + 0.5) * step)
-        log2_q = 0.0
+        logs = [float(frame.far_poles)]
         for zeta, radius, multiplicity in frame.poles:
             gap = abs(zeta - middle) * (1 - 2.0**-40) - half - radius
             if gap <= 0.0:
                 return None
-            log2_q += multiplicity * math.log2(gap)
-        log2_q -= 1e-9 * (1 + abs(log2_q))
+            logs.append(multiplicity * math.log2(gap))
+        log2_q = math.fsum(logs) - _log_error(logs)
         if frame.zeros is None:
             if log2_norm_p is None:
                 return None
             log2_s = log2_norm_p - log2_q
+        elif frame.log2_lead == -math.inf:
+            log2_s = -math.inf
         else:
-            log2_s = frame.log2_lead - log2_q
+            logs = [frame.log2_lead, -log2_q]
             for eta, radius, multiplicity in frame.zeros:
-                log2_s += multiplicity * math.log2(abs(eta - middle) * (1 + 2.0**-40) + half + radius)
-        log2_s += 1e-9 * (1 + abs(log2_s)) if log2_s > -math.inf else 0.0
+                logs.append(multiplicity * math.log2(abs(eta - middle) * (1 + 2.0**-40) + half + radius))
+            log2_s = math.fsum(logs) + _log_error(logs)
         log2_min_q = min(log2_min_q, log2_q)
         if log2_s > 20:
             return None
@@ -165,6 +172,11 @@ def ray_bound(frame: Frame, u: complex, log2_norm_p: float | None = None) -> Ray
         if not growth + slope_growth < 2.0**900:
             return None
     return RayBound(error, slope, log2_min_q, math.log2(max(growth, slope_growth)))
+
+
+def _log_error(logs: list[float]) -> float:
+    """A bound of the rounding error of a sum of logarithms (each accurate to some units in the last place)."""
+    return 1e-12 * (1 + math.fsum(abs(v) for v in logs))
 
 
 @dataclass(frozen=True)
@@ -241,9 +253,9 @@ def _padded(poly: Any, degree: int) -> list[int]:
 
 @dataclass(frozen=True)
 class Expansion:
-    """Two polynomial approximations Y/2^w (columns of the identity at u = 0) and their exact defects.
+    """Two polynomial approximations Y/2^w (columns of the identity at u = 0) and their defects.
 
-    `defect[k]` is sum |r_n| 2^w, the coefficient sum of q Y'' - p Y for column k; `log2_lead_q` is log2 |lc(q)|.
+    `defect[k]` bounds sum |r_n| 2^w, the coefficient sum of q Y'' - p Y for column k; `log2_lead_q` is log2 |lc(q)|.
     """
 
     frame: Frame
@@ -270,31 +282,29 @@ def expand(system: System, frame: Frame, prec: int, bound: RayBound, budget: Bud
     """Both columns at `frame` so that the error on rays within `bound` should be about 2^-prec (what it is, `transition` says)."""
     shifted = shift_system(system, frame)
     lead = log2_lead(shifted.q)
-    loss = max(0.0, log2_norm(shifted.q) - lead - bound.log2_min_q) + bound.log2_growth
-    w = prec + int(loss) + 24 + 2 * max(8, prec.bit_length())
-    p, q = _trimmed(shifted, w)
+    loss = max(0.0, log2_norm(shifted.q) - lead - bound.log2_min_q)
+    quiet = 6 + int(loss)  # rounding errors keep the terms above about 2^loss units: they count as zero below 2^quiet
+    w = prec + quiet + int(loss + bound.log2_growth) + 12 + 3 * max(6, prec.bit_length() + 1)
+    excess = max(0, shifted.q[0][0].bit_length() - (w + 40))
+    p, q = _cut(shifted.p, excess), _cut(shifted.q, excess)
     columns, defects, terms = [], [], 0
     for start in (0, 1):
         budget.check()
-        real = shifted.q[1] is None
-        cap = 40 * w + 4000
-        re, im = _recurrence_real(p[0], q[0], w, start, cap) if real else _recurrence_complex(p, q, w, start, cap)
+        if shifted.q[1] is None:
+            re, im = _recurrence_real(p[0], q[0], w, start, 1 << quiet), None
+        else:
+            re, im = _recurrence_complex(p, q, w, start, 1 << quiet)
         columns.append(_as_polys(re, im))
-        defects.append(_defect(shifted, columns[-1]))
+        defects.append(_proven_defect(p, q, excess, re, im, 1 << quiet))
         terms = max(terms, len(re))
     return Expansion(frame, w, (columns[0], columns[1]), (defects[0], defects[1]), lead, terms)
 
 
-def _trimmed(shifted: Shifted, w: int) -> tuple[Parts, Parts]:
-    """Coefficients for the (unproven) recurrence, without bits that can't matter at w bits."""
-    excess = shifted.q[0][0].bit_length() - (w + 40)
-    if excess <= 0:
-        return shifted.p, shifted.q
-
-    def cut(parts: Parts) -> Parts:
-        return [v >> excess for v in parts[0]], None if parts[1] is None else [v >> excess for v in parts[1]]
-
-    return cut(shifted.p), cut(shifted.q)
+def _cut(parts: Parts, excess: int) -> Parts:
+    """The coefficients without their lowest `excess` bits, which are beyond the fixed point anyway."""
+    if excess == 0:
+        return parts
+    return [v >> excess for v in parts[0]], None if parts[1] is None else [v >> excess for v in parts[1]]
 
 
 def _numbers(values: list[int], w: int) -> list[Any]:
@@ -306,32 +316,31 @@ def _numbers(values: list[int], w: int) -> list[Any]:
     return [fmpz(v) for v in values]
 
 
-def _recurrence_real(p: list[int], q: list[int], w: int, start: int, cap: int) -> tuple[list[Any], None]:
+def _recurrence_real(p: list[int], q: list[int], w: int, start: int, small: int) -> list[Any]:
     dp, dq = len(p), len(q) - 1
     p_rev, q_rev, q0 = _numbers(p[::-1], w), _numbers(q[:0:-1], w), _numbers(q[:1], w)[0]
     one, zero = _numbers([1 << w, 0], w)
     pad = max(dp, dq) + 2
     a = [zero] * pad + ([one, zero] if start == 0 else [zero, one])  # a[pad + n] is a_n
     b = [zero] * (pad + 2)  # b[pad + n] = n (n - 1) a_n
-    n, quiet, unit = 0, 0, q0 == 1
+    n, quiet, cap = 0, 0, 40 * w + 4000
     while quiet <= pad:
         i = pad + n
         total = sum(map(mul, p_rev, a[i - dp + 1 : i + 1])) if dp else zero
         if dq:
             total -= sum(map(mul, q_rev, b[i + 2 - dq : i + 2]))
-        if not unit:
-            total = total // q0
-        b.append(total)
-        term = total // ((n + 1) * (n + 2))
+        k = (n + 1) * (n + 2)
+        term = total // (q0 * k)
         a.append(term)
-        quiet = quiet + 1 if -64 < term < 64 else 0
+        b.append(term * k)
+        quiet = quiet + 1 if -small < term < small else 0
         n += 1
         if n > cap:
             raise LimitExceeded(f"a Taylor expansion needs more than {cap} terms", limit="unknown_degree")
-    return a[pad:], None
+    return a[pad:]
 
 
-def _recurrence_complex(p: Parts, q: Parts, w: int, start: int, cap: int) -> tuple[list[Any], list[Any]]:
+def _recurrence_complex(p: Parts, q: Parts, w: int, start: int, small: int) -> tuple[list[Any], list[Any]]:
     assert p[1] is None or q[1] is not None
     p_im = p[1] if p[1] is not None else [0] * len(p[0])
     q_im = q[1] if q[1] is not None else [0] * len(q[0])
@@ -343,7 +352,7 @@ def _recurrence_complex(p: Parts, q: Parts, w: int, start: int, cap: int) -> tup
     ar = [zero] * pad + ([one, zero] if start == 0 else [zero, one])
     ai = [zero] * (pad + 2)
     br, bi = [zero] * (pad + 2), [zero] * (pad + 2)
-    n, quiet = 0, 0
+    n, quiet, cap = 0, 0, 40 * w + 4000
     while quiet <= pad:
         i = pad + n
         x, y = ar[i - dp + 1 : i + 1], ai[i - dp + 1 : i + 1]
@@ -353,14 +362,14 @@ def _recurrence_complex(p: Parts, q: Parts, w: int, start: int, cap: int) -> tup
             x, y = br[i + 2 - dq : i + 2], bi[i + 2 - dq : i + 2]
             re -= sum(map(mul, qr, x)) - sum(map(mul, qi, y))
             im -= sum(map(mul, qr, y)) + sum(map(mul, qi, x))
-        re, im = re // q0, im // q0
-        br.append(re)
-        bi.append(im)
         k = (n + 1) * (n + 2)
-        re, im = re // k, im // k
+        divisor = q0 * k
+        re, im = re // divisor, im // divisor
         ar.append(re)
         ai.append(im)
-        quiet = quiet + 1 if -64 < re < 64 and -64 < im < 64 else 0
+        br.append(re * k)
+        bi.append(im * k)
+        quiet = quiet + 1 if -small < re < small and -small < im < small else 0
         n += 1
         if n > cap:
             raise LimitExceeded(f"a Taylor expansion needs more than {cap} terms", limit="unknown_degree")
@@ -373,25 +382,21 @@ def _as_polys(re: list[Any], im: list[Any] | None) -> tuple[fmpz_poly, fmpz_poly
     return fmpz_poly(re), None if im is None else fmpz_poly(im)
 
 
-def _defect(shifted: Shifted, column: tuple[fmpz_poly, fmpz_poly | None]) -> int:
-    """sum |r_n| for r = q Y'' - p Y, exactly (real and imaginary parts added: an upper bound)."""
-    from flint import fmpz_poly
+def _proven_defect(p: Parts, q: Parts, excess: int, re: list[Any], im: list[Any] | None, small: int) -> int:
+    """A bound of sum |r_n| 2^w for the column, r = q Y'' - p Y with the untrimmed coefficients.
 
-    (pr, pi), (qr, qi) = ((fmpz_poly(a), None if b is None else fmpz_poly(b)) for a, b in (shifted.p, shifted.q))
-    yr, yi = column
-    real = qr * _second(yr) - pr * yr
-    if yi is None:
-        return int(sum(abs(v) for v in real.coeffs()))
-    imag = qr * _second(yi) - pr * yi
-    if qi is not None:
-        real, imag = real - qi * _second(yi), imag + qi * _second(yr)
-    if pi is not None:
-        real, imag = real + pi * yi, imag - pi * yr
-    return int(sum(abs(v) for v in real.coeffs()) + sum(abs(v) for v in imag.coeffs()))
-
-
-def _second(poly: fmpz_poly) -> fmpz_poly:
-    return poly.derivative().derivative()
+    With N terms and D_n = q_0 (n+1)(n+2): r_n is the remainder of the n-th division for n <= N - 3, below sqrt(2) D_n, and
+    sum D_n <= q_0 N^3 / 2; for n >= N - 2 it involves the last terms only, all below `small` in both parts when the recurrence
+    stopped.  A trimmed coefficient is off by less than 2^excess in both parts.
+    """
+    n = len(re)
+    width = max(len(p[0]), len(q[0])) + 3
+    norm_p, norm_q = (sum(abs(v) for part in parts if part is not None for v in part) for parts in (p, q))
+    total = q[0][0] * n**3 + 2 * small * width * (n * n * norm_q + norm_p)
+    if excess:
+        size = sum(abs(v) for part in (re, im) if part is not None for v in part)
+        total += 2 * int(size) * (len(p[0]) + len(q[0]) * n * n)
+    return int(total) << excess
 
 
 def transition(expansion: Expansion, target: Point, bound: RayBound) -> Matrix:
@@ -405,7 +410,7 @@ def transition(expansion: Expansion, target: Point, bound: RayBound) -> Matrix:
     with ctx.workprec(expansion.w + 10):
         offset = target - frame.centre
         exact = offset.scaled(1 / frame.scale)
-        entries = []
+        entries, unit = [], acb(arb((1, -expansion.w)))
         for column, defect in zip(expansion.columns, expansion.defect, strict=True):
             value, slope = _values(column, exact)
             size = arb((defect + 1, -expansion.w)) * arb(2) ** arb(-(bound.log2_min_q + expansion.log2_lead_q) + 1e-6)
@@ -413,7 +418,7 @@ def transition(expansion: Expansion, target: Point, bound: RayBound) -> Matrix:
                 radius = (size * arb(gain * _SLACK)).upper()
                 ball = arb(0, radius)
                 both = acb(ball) if column[1] is None and exact.is_real() else acb(ball, ball)
-                entries.append(number.__mul__(acb(arb((1, -expansion.w)))) + both)
+                entries.append(number * unit + both)
         h = acb(arb((frame.h, frame.e)))
         y1, d1, y2, d2 = entries
         return y1, y2 * h, d1 / h, d2

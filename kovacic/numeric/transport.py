@@ -1,0 +1,261 @@
+"""Transition matrices of y'' = S y along polygonal paths: discs, junctions, and a product tree.
+
+The guarantee: `transport` returns balls that contain the exact analytic continuation along the path (in its homotopy class
+in the plane without the singular points), or raises.
+
+A straight piece from a to b is covered by discs.  Disc i has a dyadic centre c_i beside or on the piece and is free of singular points; it
+contains the junctions s_i and s_(i+1) of the piece, so it contains the part of the piece between them (discs are convex), and
+the matrix from s_i to s_(i+1) is E_i(s_(i+1)) E_i(s_i)^-1 with the expansion E_i at c_i; the inverse is the adjugate, since
+det = 1 exactly.  Products are formed as a balanced tree: with k factors one after the other ball arithmetic would lose
+up to k bits ("wrapping"), the tree loses O(log k).
+
+Step size: half the distance from the centre to the nearest singular point (the terms then fall like 2^-n on both sides), and less
+where the solutions grow by more than a fixed share of the working precision.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from kovacic.errors import LimitExceeded
+from kovacic.limits import Budget
+from kovacic.numeric.points import Point
+from kovacic.numeric.singular import System, check_segment, distance_lower
+from kovacic.numeric.taylor import (
+    Expansion,
+    Frame,
+    Matrix,
+    RayBound,
+    expand,
+    log2_lead,
+    log2_norm,
+    make_frame,
+    ray_bound,
+    shift_system,
+    transition,
+)
+
+if TYPE_CHECKING:
+    from flint import acb
+
+_RATIO = 0.5
+"""Scale of a disc as a share of the distance to the nearest singular point."""
+
+_GROWTH = 0.2
+"""Growth of the solutions in one disc, as a share of the working precision."""
+
+_MAX_DISCS = 200_000
+
+
+@dataclass(frozen=True)
+class Disc:
+    """One expansion: its frame, the junctions where it is entered and left, and the parameter t in [0, 1] of the latter.
+
+    A junction is a short dyadic point beside the point a + t (b - a) of the piece; the disc contains both.
+    """
+
+    frame: Frame
+    enter: Point
+    leave: Point
+    stop: Fraction
+    bound: RayBound
+    norm_p: float | None
+
+
+def multiply(m: Matrix, n: Matrix) -> Matrix:
+    """The product m n."""
+    a, b, c, d = m
+    e, f, g, h = n
+    return a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h
+
+
+def adjugate(m: Matrix) -> Matrix:
+    """The inverse of a matrix of determinant 1."""
+    a, b, c, d = m
+    return d, -b, -c, a
+
+
+def identity() -> Matrix:
+    """The identity matrix."""
+    from flint import acb
+
+    return acb(1), acb(0), acb(0), acb(1)
+
+
+def apply(m: Matrix, v: tuple[acb, acb]) -> tuple[acb, acb]:
+    """m v for a state v = (y, y')."""
+    return m[0] * v[0] + m[1] * v[1], m[2] * v[0] + m[3] * v[1]
+
+
+def product(matrices: list[Matrix]) -> Matrix:
+    """M_k ... M_1 for the list [M_1, ..., M_k], as a balanced tree."""
+    if not matrices:
+        return identity()
+    level = matrices
+    while len(level) > 1:
+        paired = [multiply(level[i + 1], level[i]) for i in range(0, len(level) - 1, 2)]
+        if len(level) % 2:
+            paired.append(level[-1])
+        level = paired
+    return level[0]
+
+
+def piece_matrices(system: System, a: Point, b: Point, prec: int, budget: Budget) -> list[Matrix]:
+    """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about 2^-prec)."""
+    step = b - a
+    if step.norm_squared() == 0:
+        return []
+    check_segment(system, a, b)
+    result: list[Matrix] = []
+    t, enter = Fraction(0), a
+    guess: int | None = None
+    while t < 1:
+        budget.check()
+        disc = _next_disc(system, Piece(a, b), t, enter, prec, guess)
+        guess = disc.frame.e
+        frame = disc.frame
+        expansion = expand(system, frame, prec, disc.bound, budget)
+        start, stop = _leg(expansion, disc.enter, disc), _leg(expansion, disc.leave, disc) or identity()
+        result.append(stop if start is None else multiply(stop, adjugate(start)))
+        t, enter = disc.stop, disc.leave
+        if len(result) > _MAX_DISCS:
+            raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
+    return result
+
+
+def _leg(expansion: Expansion, target: Point, disc: Disc) -> Matrix | None:
+    """The matrix from the centre to a junction; None for the centre itself (the identity)."""
+    frame = expansion.frame
+    offset = (target - frame.centre).scaled(1 / frame.scale)
+    if offset.norm_squared() == 0:
+        return None
+    bound = ray_bound(frame, complex(float(offset.re), float(offset.im)), disc.norm_p)
+    if bound is None:
+        raise ArithmeticError("a junction lies outside of its disc")
+    return transition(expansion, target, bound)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """The straight piece from a to b."""
+
+    a: Point
+    b: Point
+
+    @property
+    def step(self) -> Point:
+        """b - a."""
+        return self.b - self.a
+
+    @property
+    def real(self) -> bool:
+        """True if it lies on the real axis."""
+        return self.a.is_real() and self.b.is_real()
+
+    def at(self, t: Fraction) -> Point:
+        """The point a + t (b - a)."""
+        return self.b if t == 1 else self.a + self.step.scaled(t)
+
+
+def _next_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int, guess: int | None) -> Disc:
+    """The disc that is entered at the parameter t: as large as the singular points and the growth of the solutions allow."""
+    remaining = (1 - t) ** 2 * piece.step.norm_squared()
+    e = _exponent(remaining)
+    if guess is not None:
+        e = min(e, guess + 2)
+    near = distance_lower(system, enter)
+    if near is not None:  # H <= 5/8 (distance here + H), so H <= 5/3 of the distance here
+        e = min(e, near[1] + math.frexp(near[0])[1] + 1)
+    for _ in range(20_000):
+        disc = _try_disc(system, piece, t, enter, prec, e)
+        if disc is not None:
+            return disc
+        e -= 1
+    raise LimitExceeded("no disc of positive size was found for the next step", limit="unknown_degree")
+
+
+def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int, e: int) -> Disc | None:
+    """The disc of scale 2^e entered at t, its centre ahead by one scale (half way to the end if that's within reach); None if it doesn't fit."""
+    step, unit = piece.step, Fraction(2) ** e
+    size = step.norm_squared()
+    last = (1 - t) ** 2 * size <= (2 * unit) ** 2 * Fraction(9, 10)
+    forward = (1 - t) / 2 if last else _ratio_down(unit, size) * (1 if piece.real else Fraction(15, 16))
+    centre = _rounded(piece.at(t + forward), e - 4)
+    if system.is_singular(centre):
+        return None
+    near = distance_lower(system, centre)
+    if near is not None and not _fits(near, e):
+        return None
+    frame = make_frame(system, centre, 1, e)
+    if last:
+        stop, leave = Fraction(1), piece.b
+    elif piece.real:
+        leave = Point(centre.re + (unit if step.re > 0 else -unit))
+        stop = (leave.re - piece.a.re) / step.re
+    else:
+        stop = t + _dyadic_down(2 * forward * Fraction(31, 32))
+        leave = _rounded(piece.at(stop), e - 4)
+    if stop <= t or stop > 1:
+        return None
+    if any((p - centre).norm_squared() > unit * unit for p in (piece.at(t), piece.at(stop), enter, leave)):
+        return None
+    norm_p = None
+    if frame.zeros is None:
+        shifted = shift_system(system, frame)
+        norm_p = log2_norm(shifted.p) - log2_lead(shifted.q)
+    bounds = []
+    for point in (enter, leave):
+        u = (point - centre).scaled(1 / unit)
+        bound = ray_bound(frame, complex(float(u.re), float(u.im)), norm_p)
+        if bound is None or bound.log2_growth > max(6.0, prec * _GROWTH):
+            return None
+        bounds.append(bound)
+    worst = RayBound(
+        max(b.gain for b in bounds),
+        max(b.gain_derivative for b in bounds),
+        min(b.log2_min_q for b in bounds),
+        max(b.log2_growth for b in bounds),
+    )
+    return Disc(frame, enter, leave, stop, worst, norm_p)
+
+
+def _fits(near: tuple[float, int], e: int) -> bool:
+    """True if 2^e <= ratio * distance (the ratio may be exceeded by a quarter: powers of two only)."""
+    shift = near[1] - e
+    return shift > 1000 or (shift > -1000 and 1 <= _RATIO * 1.25 * math.ldexp(near[0], shift))
+
+
+def _exponent(square: Fraction) -> int:
+    """An integer e with 2^e within a factor of 2 of the root of `square`."""
+    return (square.numerator.bit_length() - square.denominator.bit_length()) // 2
+
+
+def _ratio_down(unit: Fraction, size: Fraction) -> Fraction:
+    """A short dyadic number just below unit / sqrt(size)."""
+    square = unit * unit / size
+    e = _exponent(square)
+    scaled = square / Fraction(4) ** (e - 12)
+    return Fraction(math.isqrt(int(scaled))) * Fraction(2) ** (e - 12)
+
+
+def _dyadic_down(value: Fraction) -> Fraction:
+    """A dyadic number of at most 8 significant bits just below a positive value."""
+    e = value.numerator.bit_length() - value.denominator.bit_length() - 8
+    return Fraction(math.floor(value / Fraction(2) ** e)) * Fraction(2) ** e
+
+
+def _rounded(point: Point, e: int) -> Point:
+    """The nearest multiple of 2^e, in both parts."""
+    unit = Fraction(2) ** e
+    return Point(round(point.re / unit) * unit, round(point.im / unit) * unit)
+
+
+def transport(system: System, vertices: list[Point], prec: int, budget: Budget) -> Matrix:
+    """Enclosure of the transition matrix along the polygon; call it within `flint.ctx.workprec(prec + some)`."""
+    matrices: list[Matrix] = []
+    for a, b in zip(vertices, vertices[1:], strict=False):
+        matrices.extend(piece_matrices(system, a, b, prec, budget))
+    return product(matrices)
