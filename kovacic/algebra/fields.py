@@ -128,6 +128,14 @@ class Field(ABC):
             return None
         return to_fraction(coordinates[0]) if coordinates else Fraction(0)
 
+    def scalar(self, polynomial: Poly, power: int) -> Any:
+        """The coefficient of `x**power` (0 for negative powers) in the field's fastest type for `+ - * /` and truth."""
+        return polynomial[power] if power >= 0 else self.poly([])
+
+    def from_scalars(self, coefficients: Sequence[Any]) -> Poly:
+        """The polynomial with coefficients, low to high, of the type of `scalar`."""
+        return self.poly(coefficients)
+
     @abstractmethod
     def sqrt(self, constant: Poly) -> Poly | None:
         """A square root within the field, or None if there is none."""
@@ -178,6 +186,12 @@ class RationalField(Field):
 
     def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
         return [RationalPoly(c) for c in coordinates]
+
+    def scalar(self, polynomial: Poly, power: int) -> Any:
+        return polynomial.rep[power] if power >= 0 else fmpq(0)  # type: ignore[attr-defined]
+
+    def from_scalars(self, coefficients: Sequence[Any]) -> Poly:
+        return RationalPoly(fmpq_poly(list(coefficients)))
 
     def sqrt(self, constant: Poly) -> Poly | None:
         value = constant.rep[0]  # type: ignore[attr-defined]

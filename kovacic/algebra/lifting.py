@@ -51,38 +51,46 @@ def rational_reconstruction(residue: int, modulus: int, bound: int) -> tuple[int
 
 
 class RationalLifter:
-    """Collects images of a vector of rational polynomials modulo primes, and proposes the vector."""
+    """Collects images of a vector of rational polynomials modulo primes, and proposes the vector.
 
-    __slots__ = ("_lengths", "_modulus", "_next_attempt", "_residue", "primes_used")
+    Images of different shapes (numbers and lengths of the polynomials) are collected apart, so that bad primes, at which a
+    leading term vanishes or a space grows, can't spoil what the others say.
+    """
+
+    __slots__ = ("_states",)
 
     def __init__(self) -> None:
-        self._modulus = 1
-        self._residue: Any = None
-        self._lengths: list[int] = []
-        self._next_attempt = 1
-        self.primes_used = 0
+        self._states: dict[tuple[int, ...], _Residues] = {}
+
+    @property
+    def primes_used(self) -> int:
+        return sum(state.primes_used for state in self._states.values())
 
     def add(self, p: int, images: Sequence[Any]) -> list[Any] | None:
-        """Add the images modulo p; a proposal (a list of fmpq_poly) when one is due and there is one, else None.
+        """Add the images modulo p; a proposal (a list of fmpq_poly) when one is due and there is one, else None."""
+        shape = tuple(image.length() for image in images)
+        state = self._states.setdefault(shape, _Residues(shape))
+        return state.add(p, images)
 
-        Images of another shape than before (other degrees) show that one of the primes was bad: the larger vector wins,
-        because a reduction can only lose leading terms.
-        """
-        lengths = [image.length() for image in images]
-        if lengths != self._lengths:
-            if self._lengths and sum(lengths) < sum(self._lengths):
-                return None
-            self.__init__()  # type: ignore[misc]
-            self._lengths = lengths
+
+class _Residues:
+    """A vector of integers modulo the product of the primes so far: the concatenated coefficients of the polynomials."""
+
+    __slots__ = ("_modulus", "_next_attempt", "_residue", "primes_used", "shape")
+
+    def __init__(self, shape: tuple[int, ...]) -> None:
+        self.shape = shape
+        self.primes_used = 0
+        self._modulus = 1
+        self._residue: Any = fmpz_poly([])
+        self._next_attempt = 1
+
+    def add(self, p: int, images: Sequence[Any]) -> list[Any] | None:
         flat: list[Any] = []
         for image in images:
             flat.extend(image.coeffs())
-        new = nmod_poly(flat, p)
-        if self._residue is None:
-            self._residue = _to_integers(new)
-        else:
-            step = (new - nmod_poly(self._residue, p)) * pow(self._modulus, -1, p)
-            self._residue += _to_integers(step) * self._modulus
+        step = (nmod_poly(flat, p) - nmod_poly(self._residue, p)) * pow(self._modulus, -1, p)
+        self._residue += _to_integers(step) * self._modulus
         self._modulus *= p
         self.primes_used += 1
         if self.primes_used < self._next_attempt:
@@ -92,7 +100,7 @@ class RationalLifter:
 
     def _reconstruct(self) -> list[Any] | None:
         """The vector over one common denominator, or None as long as the modulus is too small for it."""
-        modulus, total = self._modulus, sum(self._lengths)
+        modulus, total = self._modulus, sum(self.shape)
         bound = isqrt(modulus >> (_SLACK_BITS + 1))
         denominator = 1
         residues = [int(c) for c in self._residue.coeffs()]
@@ -113,7 +121,7 @@ class RationalLifter:
                 return None
             numerators.append(value)
         polynomials, start = [], 0
-        for length in self._lengths:
+        for length in self.shape:
             polynomials.append(fmpq_poly(fmpz_poly(numerators[start : start + length]), denominator))
             start += length
         return polynomials

@@ -36,14 +36,15 @@ def fundamental_system(num: Any, den: Any, order: int) -> tuple[Any, Any]:
     """y1 = 1 + O(t^2) and y2 = t + O(t^2) with `y'' = (num/den) y`, to `order` terms; den(0) must not vanish.
 
     Newton's iteration: with residuals r_i = S y_i - y_i'' the corrections are those of the variation of constants,
-    y2 int(y1 r_i) - y1 int(y2 r_i), for the Wronskian y1 y2' - y1' y2 is 1; each step doubles the number of terms.
+    y2 int(y1 r_i) - y1 int(y2 r_i), for the Wronskian y1 y2' - y1' y2 is 1.  From k right terms the
+    Wronskian is 1 + O(t^(k-1)), so that a step gives 2k - 1 terms.
     """
     p = num.modulus()
     order = max(order, 2)
     coefficient = num.truncate(order).mul_low(den.truncate(order).inverse_series_trunc(order), order)
     y1, y2, known = nmod_poly([1], p), nmod_poly([0, 1], p), 2
     while known < order:
-        known = min(2 * known, order)
+        known = min(2 * known - 1, order)
         corrections = []
         series = coefficient.truncate(known)
         for y in (y1, y2):

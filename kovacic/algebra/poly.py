@@ -133,6 +133,11 @@ class Poly(ABC):
     def __mod__(self, other: Poly | Scalar) -> Self:
         return divmod(self, other)[1]
 
+    def __truediv__(self, other: Poly | Scalar) -> Self:
+        """Division by a non-zero constant."""
+        value = self._coerce(other)
+        return NotImplemented if value is None else self._mul(value.inverse())
+
     def __pow__(self, exponent: int) -> Self:
         if exponent < 0:
             raise ValueError("a polynomial has no negative powers")
@@ -178,6 +183,10 @@ class Poly(ABC):
     @property
     def is_constant(self) -> bool:
         return self.degree <= 0
+
+    def over(self, field: Field) -> Poly:
+        """The same polynomial over an extension of its field (or over the field itself)."""
+        return self if self.field == field else field.embed(self)
 
     def monic(self) -> Self:
         """The multiple with leading coefficient 1; zero stays zero."""

@@ -1,0 +1,58 @@
+"""Traces of square roots in K[x]/p: an exact bound without taking the root."""
+
+from __future__ import annotations
+
+from kovacic.algebra.poly import Poly
+
+
+def characteristic_polynomial(element: Poly, modulus: Poly) -> Poly:
+    """The characteristic polynomial of multiplication by an element of K[x]/modulus.
+
+    From the traces of its powers by Newton's identities.
+    """
+    field, n = modulus.field, modulus.degree
+    power_sums = _power_sums(modulus)
+    traces, power = [], field.poly([1])
+    for _ in range(n):
+        power = power * element % modulus
+        traces.append(sum((power[i] * power_sums[i] for i in range(power.degree + 1)), field.poly([])))
+    coefficients = [field.poly([1])]
+    for k in range(1, n + 1):
+        total = sum((coefficients[k - i] * traces[i - 1] for i in range(1, k + 1)), field.poly([]))
+        coefficients.append(total * field.poly([-k]).inverse())
+    return field.poly(coefficients[::-1])
+
+
+def _power_sums(modulus: Poly) -> list[Poly]:
+    """The sums of the i-th powers of the roots, i = 0, ..., n - 1 (modulus monic, of degree n)."""
+    n = modulus.degree
+    sums: list[Poly] = [modulus.field.poly([n])]
+    for k in range(1, n):
+        total = modulus[n - k] * k
+        for i in range(1, k):
+            total = total + modulus[n - i] * sums[k - i]
+        sums.append(-total)
+    return sums
+
+
+def trace_of_square_root(square: Poly, modulus: Poly) -> Poly | None:
+    """The trace, up to sign, over K of a square root of an element of K[x]/p, if it lies in K[x]/p.
+
+    None if it can be seen that there is no square root in K[x]/p.  Let mu, of degree n/e, be the minimal polynomial of
+    the square.  If mu(Y^2) is irreducible, a square root in K[x]/p has an even minimal polynomial and so the trace 0 (and
+    for e = 1 there is none); otherwise mu(Y^2) = +-f(Y) f(-Y), and the trace is e times that of f.
+    """
+    field = modulus.field
+    if square.degree <= 0:
+        root = field.sqrt(square)
+        if root is not None:
+            return root * modulus.degree
+        return field.poly([]) if modulus.degree % 2 == 0 else None
+    (mu, e), *others = field.factor(characteristic_polynomial(square, modulus))
+    if others:
+        raise AssertionError("a characteristic polynomial over a field is a power of an irreducible one")
+    even = field.poly([c for coefficient in mu for c in (coefficient, field.poly([]))][:-1])
+    f = field.factor(even)[0][0]
+    if f.degree == even.degree:
+        return None if e % 2 else field.poly([])
+    return f[f.degree - 1] * e

@@ -1,0 +1,79 @@
+"""The library's calls."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from kovacic import engine
+from kovacic.errors import VerificationFailed
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.result import Solution
+from kovacic.solution import Status
+
+if TYPE_CHECKING:
+    from kovacic.io.parsed import Parsed
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The case alone: `status`, `case` (1, 2, 3 or None), and the `reason` of an undecided equation."""
+
+    status: Status
+    case: int | None
+    reason: str | None = None
+
+
+def solve(S: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Solution:
+    """Decide whether y'' = S(x) y has Liouvillian (closed-form) solutions, with a certificate; verified.
+
+    S is a rational function over Q: a string ("x^2 + 3"), a SymPy expression, or a pair of coefficient sequences
+    (numerator, denominator), low to high, of integers or fractions.  `var` names the variable; by default it is the only
+    symbol of S, or x.  `limits` bounds the input and the work.
+
+    Returns a `Solution`.  Its `status` is UNDECIDED exactly when a limit of the work was reached.  Raises `InputError` for
+    what isn't such a function, `LimitExceeded` for an input above the limits, and `VerificationFailed` if the answer
+    doesn't pass its own check, which is a defect of this package.
+
+    >>> import kovacic
+    >>> answer = kovacic.solve("x^2 + 3")
+    >>> answer.case
+    1
+    >>> print(answer.omega)
+    (x**2 + 1)/x
+    >>> kovacic.solve("x").status
+    <Status.NONE_EXISTS: 'none'>
+
+    Reference: J. Kovacic, J. Symb. Comp. 2 (1986) 3-43.
+    """
+    start = time.perf_counter()
+    parsed = _read(S, var, limits)
+    text = S.strip() if isinstance(S, str) else parsed.S.to_str(parsed.variable)
+    decision = engine.decide(parsed.S, Budget(limits))
+    answer = Solution(text, parsed.variable, parsed.S, decision, parsed.notices)
+    verification = answer.verify()
+    if not verification and (verification.checks or answer.status is not Status.UNDECIDED):
+        raise VerificationFailed(
+            f"the answer for S = {parsed.S} failed its own check; please report it\n{verification}"
+        )
+    return replace(answer, verified=bool(verification), seconds=time.perf_counter() - start)
+
+
+def decide(S: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Verdict:
+    """The case of y'' = S(x) y alone, without the polynomial of omega and without the second check.
+
+    Arguments and exceptions as for `solve`.
+
+    >>> import kovacic
+    >>> kovacic.decide("-3/(16*x^2) + 1/x").case
+    2
+    """
+    decision = engine.decide(_read(S, var, limits).S, Budget(limits), certify=False)
+    return Verdict(decision.status, decision.case, decision.undecided)
+
+
+def _read(S: Any, var: str | None, limits: Limits) -> Parsed:
+    from kovacic.io.read import read_input
+
+    return read_input(S, var=var, limits=limits)

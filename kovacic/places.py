@@ -1,0 +1,251 @@
+"""Local data of y'' = S y: the singular places, their exponents, and Kovacic's necessary conditions.
+
+Conjugate poles are never separated: one irreducible factor p of the denominator stands for all of its roots.  Infinity is
+treated as the pole z = 0 of the equation that v(z) = y(1/z) z satisfies, v'' = S_inf(z) v with S_inf(z) = S(1/z)/z^4, so
+that one set of formulas serves for every place: with k the order of the pole,
+
+- k = 0 at infinity: an ordinary point;
+- k = 1: exponents 0 and 1, and a logarithm;
+- k = 2, S = b/t^2 + ...: exponents (1 +- Delta)/2 with Delta^2 = 1 + 4b; a logarithm if Delta = 0, and possibly if Delta is a
+  positive integer;
+- k >= 3: irregular; ramified for odd k, two exponential parts of opposite signs for even k.
+
+Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 2.1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+from functools import cached_property
+from math import isqrt
+from typing import Any
+
+from flint import nmod_poly
+
+from kovacic.algebra.fields import BadPrimeError, Field
+from kovacic.algebra.modular import series_solution, simple_roots, translate
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.limits import Budget
+
+
+class Kind(Enum):
+    """What an equation looks like at a place."""
+
+    ORDINARY = "ordinary point"
+    REGULAR = "regular singular point"
+    UNRAMIFIED = "irregular singular point, unramified"
+    RAMIFIED = "irregular singular point, ramified"
+
+
+@dataclass(frozen=True)
+class Place:
+    """All roots of one irreducible factor, or infinity (the root 0 in the coordinate z = 1/x).
+
+    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den.  At a regular place
+    `delta_squared` is the square of the exponent difference where it is the same constant of K at all roots, else None
+    (then Delta is irrational at every root); `delta` is Delta >= 0 where it is rational, else None.  `logarithm` says that
+    a logarithm occurs, which is proven; False only says that no proof was found.
+    """
+
+    factor: Poly
+    at_infinity: bool
+    order: int
+    num: Poly
+    den: Poly
+    delta_squared: Poly | None
+    delta: Fraction | None
+    logarithm: bool
+
+    @property
+    def degree(self) -> int:
+        """How many points of the Riemann sphere the place stands for."""
+        return self.factor.degree
+
+    @property
+    def kind(self) -> Kind:
+        if self.order == 0:
+            return Kind.ORDINARY
+        if self.order <= 2:
+            return Kind.REGULAR
+        return Kind.RAMIFIED if self.order % 2 else Kind.UNRAMIFIED
+
+    @property
+    def weight(self) -> int:
+        """The order of the pole that omega = y'/y can have: ceil(order / 2), at least 1 except at an ordinary point."""
+        return (self.order + 1) // 2
+
+    @property
+    def is_apparent(self) -> bool:
+        """Do all solutions look alike here up to a sign: integer exponent difference and no logarithm found?"""
+        if self.kind is Kind.ORDINARY:
+            return True
+        return self.delta is not None and self.delta.denominator == 1 and not self.logarithm
+
+    def __str__(self) -> str:
+        return "infinity" if self.at_infinity else str(self.factor)
+
+
+@dataclass(frozen=True)
+class Problem:
+    """y'' = S y with its local data: `places` has the finite ones first and ends with infinity, ordinary or not.
+
+    D is the product of the finite factors to the power of their weights, so that D * omega has no pole at a singular point,
+    and T = S * D^2 is a polynomial.
+    """
+
+    S: RatFunc
+    places: tuple[Place, ...]
+    budget: Budget
+
+    @property
+    def field(self) -> Field:
+        return self.S.field
+
+    @property
+    def finite_places(self) -> tuple[Place, ...]:
+        return self.places[:-1]
+
+    @property
+    def infinity(self) -> Place:
+        return self.places[-1]
+
+    @cached_property
+    def D(self) -> Poly:
+        product = self.field.poly([1])
+        for place in self.finite_places:
+            product = product * place.factor**place.weight
+        return product
+
+    @cached_property
+    def T(self) -> Poly:
+        return self.S.num * (self.D * self.D // self.S.den)
+
+
+def analyse(S: RatFunc, budget: Budget) -> Problem:
+    """The singular places of y'' = S y and their local data."""
+    places = []
+    for factor, order in S.field.factor(S.den) if S.den.degree > 0 else []:
+        budget.check()
+        places.append(_place(S.num, S.den, factor, order, budget, at_infinity=False))
+    num, den, order = at_infinity(S)
+    z = S.field.poly([0, 1])
+    places.append(_place(num, den, z, order, budget, at_infinity=True))
+    return Problem(S, tuple(places), budget)
+
+
+def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:
+    """Numerator and denominator of S(1/z)/z^4, and the order of its pole at z = 0."""
+    field = S.field
+    if not S.num:
+        return S.num, field.poly([1]), 0
+    order = S.num.degree - S.den.degree + 4
+    num = field.poly(list(S.num)[::-1])
+    den = field.poly(list(S.den)[::-1])
+    z = field.poly([0, 1])
+    return (num, den * z**order, order) if order >= 0 else (num * z**-order, den, 0)
+
+
+def _place(num: Poly, den: Poly, factor: Poly, order: int, budget: Budget, *, at_infinity: bool) -> Place:
+    delta_squared: Poly | None = None
+    delta: Fraction | None = None
+    logarithm = False
+    if order == 1:
+        delta_squared, delta, logarithm = num.field.poly([1]), Fraction(1), True
+    elif order == 2:
+        delta_squared = _delta_squared(num, den, factor)
+        if delta_squared is not None:
+            delta = rational_square_root(delta_squared)
+        if delta is not None and delta.denominator == 1:
+            logarithm = delta == 0 or _has_logarithm(num, den, factor, int(delta), budget)
+    return Place(factor, at_infinity, order, num, den, delta_squared, delta, logarithm)
+
+
+def rational_square_root(constant: Poly) -> Fraction | None:
+    """The non-negative rational square root of a constant of the field, or None."""
+    value = constant.field.rational_value(constant)
+    if value is None or value < 0:
+        return None
+    p, q = isqrt(value.numerator), isqrt(value.denominator)
+    return Fraction(p, q) if p * p == value.numerator and q * q == value.denominator else None
+
+
+def _delta_squared(num: Poly, den: Poly, factor: Poly) -> Poly | None:
+    """1 + 4b for a pole of order 2, b = num/(p'^2 q) mod p with den = p^2 q; None if b isn't constant modulo p."""
+    bottom = factor.derivative() ** 2 * (den // factor**2) % factor
+    top = num % factor
+    b = top[bottom.degree] / bottom.lc
+    return 1 + 4 * b if top == bottom * b else None
+
+
+def _has_logarithm(num: Poly, den: Poly, factor: Poly, delta: int, budget: Budget) -> bool:
+    """Is there provably a logarithm at a regular place with the positive integer exponent difference delta?
+
+    The series with the smaller exponent meets an obstruction at its term number delta.  If it doesn't vanish modulo a
+    prime, it doesn't vanish; if it does vanish, nothing is claimed (and then there is a logarithm only by a chance of
+    about 1 in 2^60).
+    """
+    budget.check_degree(delta, "a series at an apparent singularity")
+    for h in num.field.homomorphisms():
+        try:
+            root = next(simple_roots(h.keeping_degree(factor)), None)
+            if root is not None:
+                return logarithm_obstruction(local_equation(h(num), h.keeping_degree(den), root, 2), delta) != 0
+        except BadPrimeError:
+            pass
+        budget.check()
+    raise AssertionError("the sequence of primes is infinite")
+
+
+@dataclass(frozen=True)
+class LocalEquation:
+    """y'' = N / (t^order * E) y modulo p near t = 0, E(0) != 0."""
+
+    N: Any
+    E: Any
+    order: int
+
+    @property
+    def p(self) -> int:
+        return int(self.E.modulus())
+
+    @property
+    def nu(self) -> int:
+        """The order of the pole of omega: max(1, order/2)."""
+        return max(1, self.order // 2)
+
+
+def local_equation(num: Any, den: Any, root: int, order: int) -> LocalEquation:
+    """The equation at a root of den modulo p.  Raises `BadPrimeError` if the order of the pole isn't `order` there."""
+    E = translate(den, root)
+    if any(int(E[i]) for i in range(order)) or int(E[order]) == 0:
+        raise BadPrimeError("the order of a pole changes")
+    N = translate(num, root)
+    if order == 1:
+        return LocalEquation(N.left_shift(1), E.right_shift(1), 2)
+    return LocalEquation(N, E.right_shift(order), order)
+
+
+def reduced_equation(equation: LocalEquation, Q: Any) -> tuple[Any, Any, Any]:
+    """The polynomial coefficients of `u''`, `u'`, `u` after y = exp(int Q/t^nu) u.
+
+    t^nu E u'' + 2 E Q u' + V u = 0 with t^nu V = E (t^(2 nu) (Q/t^nu)' + Q^2) - t^(2 nu - order) N.
+    """
+    nu, E = equation.nu, equation.E
+    derivative = Q.derivative().left_shift(nu) - (Q * nu).left_shift(nu - 1)
+    rest = E * (derivative + Q * Q) - equation.N.left_shift(2 * nu - equation.order)
+    if any(int(rest[i]) for i in range(nu)):
+        raise BadPrimeError("the exponential part doesn't solve the equation to leading order")
+    return E.left_shift(nu), E * Q * 2, rest.right_shift(nu)
+
+
+def logarithm_obstruction(equation: LocalEquation, delta: int) -> int:
+    """The term of order delta that the series with exponent (1 - delta)/2 can't compensate, modulo p."""
+    p = equation.p
+    alpha = (1 - delta) * pow(2, -1, p) % p
+    second, first, zeroth = reduced_equation(equation, nmod_poly([alpha], p))
+    u = series_solution(second, first, zeroth, delta)
+    residual = second * u.derivative().derivative() + first * u.derivative() + zeroth * u
+    return int(residual[delta - 1])

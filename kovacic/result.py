@@ -1,0 +1,104 @@
+"""`Solution`: what `kovacic.solve` returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from kovacic.algebra.fields import AlgebraicField
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.solution import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Status
+from kovacic.verify import Verification, verify
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The answer for one equation y'' = S y: frozen, comparable, picklable, verified.
+
+    `text` is the input as it was given, `variable` the name of x, `S` the coefficient, `decision` the claim with its
+    certificates, `notices` what was noticed when the input was read (decimals taken as exact fractions, ...), `verified`
+    whether the decision has passed its independent check (always, for what `solve` returns), and `seconds` the wall-clock
+    time of reading, deciding and verifying together (None for an answer that was read from JSON).
+    """
+
+    text: str
+    variable: str
+    S: RatFunc
+    decision: Decision
+    notices: tuple[str, ...] = ()
+    verified: bool = False
+    seconds: float | None = field(default=None, compare=False)
+
+    @property
+    def status(self) -> Status:
+        """LIOUVILLIAN, NONE_EXISTS, or UNDECIDED (then `reason` says why)."""
+        return self.decision.status
+
+    @property
+    def case(self) -> int | None:
+        """Kovacic's case: 1 (omega rational), 2 (omega of degree 2), 3 (of degree 4, 6 or 12); None without a solution."""
+        return self.decision.case
+
+    @property
+    def reason(self) -> str | None:
+        """Why the equation is undecided; None if it is decided."""
+        return self.decision.undecided
+
+    @property
+    def semi_invariant(self) -> SemiInvariant | None:
+        """The product of the solutions whose logarithmic derivatives are the conjugates of omega."""
+        return self.decision.semi_invariant
+
+    @property
+    def riccati(self) -> RiccatiPolynomial | None:
+        """The monic polynomial of omega = y'/y, minimal over C(x); its `coefficients` run from W^0 to W^n."""
+        return self.decision.riccati
+
+    @property
+    def omega(self) -> RatFunc | None:
+        """omega = y'/y where it is rational (case 1), else None.  The solution is exp(int omega dx)."""
+        riccati = self.decision.riccati
+        return -riccati.coefficients[0] if riccati is not None and riccati.degree == 1 else None
+
+    @property
+    def constants(self) -> Poly | None:
+        """The minimal polynomial of the constant c in omega's coefficients; None if they lie in the field of S."""
+        riccati = self.decision.riccati
+        if riccati is None or riccati.P.field == self.S.field:
+            return None
+        extension = riccati.P.field
+        return extension.modulus if isinstance(extension, AlgebraicField) else None
+
+    @property
+    def proof(self) -> tuple[Exclusion, ...]:
+        """What was excluded and by which evidence: everything, for a "no"; all smaller structures, for a "yes"."""
+        return self.decision.exclusions
+
+    def verify(self) -> Verification:
+        """Recompute every claim by independent code; true exactly when all of them hold."""
+        return verify(self.S, self.decision)
+
+    def to_json(self, **options: Any) -> str:
+        """The answer as one line of JSON, schema 1."""
+        from kovacic.io.json import dumps
+
+        return dumps(self, **options)
+
+    @classmethod
+    def from_json(cls, text: str | Mapping[str, Any]) -> Solution:
+        """The answer that was written by `to_json`; call `verify` before trusting it."""
+        from kovacic.io.json import loads
+
+        return loads(text)
+
+    def __bool__(self) -> bool:
+        raise TypeError("ask for .status or .case: an answer is neither true nor false")
+
+    def __str__(self) -> str:
+        from kovacic.io.text import one_line
+
+        return one_line(self)

@@ -1,0 +1,258 @@
+"""The negative claims: each piece of evidence is recomputed from S alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from operator import mul
+from typing import Any
+
+from flint import nmod_poly
+
+from kovacic.algebra.fields import BadPrimeError, Homomorphism
+from kovacic.algebra.modular import (
+    fundamental_system,
+    null_space,
+    ordinary_point,
+    power_series,
+    simple_roots,
+    square_root,
+    square_root_series,
+    translate,
+)
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.solution import (
+    Evidence,
+    NecessaryCondition,
+    NoInvariant,
+    NoRationalOmega,
+    Rule,
+    Structure,
+)
+from kovacic.verify.local import Point, largest_degree, laurent_numerators, least_valuation, logarithm_at, points
+
+_ORDERS = {
+    Structure.TETRAHEDRAL: {1, 2, 3},
+    Structure.OCTAHEDRAL: {1, 2, 3, 4},
+    Structure.ICOSAHEDRAL: {1, 2, 3, 5},
+}
+#: The degree of the invariant that the structure would have; together with the uniqueness of omega for reducible groups.
+_INVARIANT_DEGREE = {
+    Structure.REDUCIBLE: 2,
+    Structure.IMPRIMITIVE: 4,
+    Structure.TETRAHEDRAL: 6,
+    Structure.OCTAHEDRAL: 8,
+    Structure.ICOSAHEDRAL: 12,
+}
+_APPLIES = {
+    Rule.RAMIFIED: {Structure.REDUCIBLE},
+    Rule.LOGARITHM: set(Structure) - {Structure.REDUCIBLE},
+    Rule.TOO_FEW_BRANCH_POINTS: {Structure.IMPRIMITIVE},
+    Rule.IRREGULAR: set(_ORDERS),
+    Rule.EXPONENTS: set(_ORDERS),
+    Rule.NOT_A_SQUARE: {Structure.REDUCIBLE},
+}
+
+
+@dataclass(frozen=True)
+class Inspector:
+    """Recomputes evidence about y'' = S y."""
+
+    S: RatFunc
+
+    @cached_property
+    def points(self) -> list[Point]:
+        return points(self.S)
+
+    @cached_property
+    def logarithmic(self) -> set[str]:
+        return {
+            point.name for point in self.points if point.order and logarithm_at(point, self.S.field.homomorphisms())
+        }
+
+    def excludes(self, structure: Structure, evidence: tuple[Evidence, ...]) -> bool:
+        """Does the evidence, recomputed, prove that the group doesn't have this structure?"""
+        if not all(self._holds(item, structure) for item in evidence):
+            return False
+        conditions = [item for item in evidence if isinstance(item, NecessaryCondition)]
+        sufficient = [item for item in conditions if item.rule is not Rule.NOT_A_SQUARE]
+        degree = _INVARIANT_DEGREE[structure]
+        no_invariant = any(isinstance(item, NoInvariant) and item.invariant_degree == degree for item in evidence)
+        if structure is not Structure.REDUCIBLE:
+            return bool(sufficient) or no_invariant
+        no_unique = any(isinstance(item, NoRationalOmega) for item in evidence) or len(conditions) > len(sufficient)
+        return bool(sufficient) or (no_invariant and no_unique)
+
+    def _holds(self, item: Evidence, structure: Structure) -> bool:
+        try:
+            if isinstance(item, NecessaryCondition):
+                return structure in _APPLIES[item.rule] and self._condition_fails(item, structure)
+            if isinstance(item, NoInvariant):
+                return self._no_invariant(item)
+            return self._no_rational_omega(item)
+        except BadPrimeError:
+            return False
+
+    def _condition_fails(self, item: NecessaryCondition, structure: Structure) -> bool:
+        named = [point for point in self.points if point.name in item.places]
+        if item.rule is Rule.TOO_FEW_BRANCH_POINTS:
+            branched = [
+                point
+                for point in self.points
+                if (point.order > 2 and point.order % 2)
+                or ((difference := point.difference) is not None and difference.denominator == 2)
+            ]
+            return sum(point.factor.degree for point in branched) < 2
+        if not named or len(named) != len(item.places):
+            return False
+        if item.rule is Rule.RAMIFIED:
+            return any(point.order > 2 and point.order % 2 for point in named)
+        if item.rule is Rule.LOGARITHM:
+            return any(point.name in self.logarithmic for point in named)
+        if item.rule is Rule.IRREGULAR:
+            return any(point.order > 2 for point in named)
+        if item.rule is Rule.EXPONENTS:
+            allowed = _ORDERS[structure]
+            differences = [point.difference for point in named if 0 < point.order <= 2]
+            return any(d is None or d.denominator not in allowed for d in differences)
+        return largest_degree(named, self.logarithmic) is None
+
+    def _homomorphism(self, p: int) -> Homomorphism | None:
+        """The homomorphism of the field's sequence that belongs to a recorded prime."""
+        for h in self.S.field.homomorphisms():
+            if h.p <= p:
+                return h if h.p == p else None
+        return None
+
+    def _no_invariant(self, item: NoInvariant) -> bool:
+        """No rational form of degree m: no room for one, or nullity 0 of the linear system modulo the prime."""
+        m, field = item.invariant_degree, self.S.field
+        valuations = [least_valuation(point, m) for point in self.points]
+        if any(
+            (point.order > 2 and v.denominator != 1) or (point.order == 2 and point.difference is None and m % 2)
+            for point, v in zip(self.points, valuations, strict=True)
+        ):
+            return True
+        least = [-(-v.numerator // v.denominator) for v in valuations]
+        room = m - sum(v * point.factor.degree for v, point in zip(least, self.points, strict=True))
+        if room < 0:
+            return True
+        h = next(field.homomorphisms()) if item.prime is None else self._homomorphism(item.prime)
+        return h is not None and self._nullity(h, m, least[:-1], room) == 0
+
+    def _nullity(self, h: Homomorphism, m: int, valuations: list[int], room: int) -> int:
+        """The dimension modulo p of the forms whose quotient by prod p^v is a polynomial of degree <= room, to some terms."""
+        order = room + m + 8
+        den = h.keeping_degree(self.S.den)
+        point = ordinary_point(den)
+        y1, y2 = fundamental_system(translate(h(self.S.num), point), translate(den, point), order)
+        factors = [
+            (translate(h.keeping_degree(place.factor), point), -v)
+            for place, v in zip(self.points[:-1], valuations, strict=True)
+        ]
+        scale = power_series([*factors, (nmod_poly([1], h.p), 1)], order)
+        powers = [[scale], [nmod_poly([1], h.p)]]
+        for _ in range(m):
+            powers[0].append(powers[0][-1].mul_low(y1, order))
+            powers[1].append(powers[1][-1].mul_low(y2, order))
+        columns = [powers[0][m - i].mul_low(powers[1][i], order) for i in range(m + 1)]
+        rows = [[column[k] for column in columns] for k in range(room + 1, order)]
+        return len(null_space(rows, m + 1, h.p))
+
+    def _no_rational_omega(self, item: NoRationalOmega) -> bool:
+        """No rational omega with the local expansions at the recorded place (invariants of degree 2 excluded elsewhere)."""
+        degree = largest_degree(self.points, self.logarithmic)
+        if degree is None or degree < 0:
+            return True
+        if item.prime is None:
+            return False
+        h = self._homomorphism(item.prime)
+        place = next((point for point in self.points if point.name == item.place), None)
+        if h is None or place is None or not self._tells_solutions_apart(place):
+            return False
+        root = next(simple_roots(h.keeping_degree(place.factor)), None)
+        if root is None:
+            return False
+        # In the coordinate t of this place; the other end of the chart is x = infinity, or x = 0 for the place at infinity.
+        num, den = translate(h(place.S.num), root), translate(h.keeping_degree(place.S.den), root)
+        opposite = next((point for point in self.points if self._is_opposite(point, place)), None)
+        growth = den.degree() + max((opposite.order + 1) // 2 if opposite else 1, 1) - 2
+        return all(
+            not _is_rational(series, num, den, max(place.order, 2) // 2, degree, growth)
+            for series in self._expansions(place, h, root, 2 * degree + growth + 2)
+        )
+
+    def _is_opposite(self, point: Point, place: Point) -> bool:
+        if place.name == "infinity":
+            return point.name != "infinity" and point.factor.degree == 1 and not point.factor[0]
+        return point.name == "infinity"
+
+    def _tells_solutions_apart(self, place: Point) -> bool:
+        if place.order > 2:
+            return place.order % 2 == 0
+        if place.order == 0:
+            return False
+        difference = place.difference
+        return difference is None or difference.denominator != 1 or place.name in self.logarithmic
+
+    def _expansions(self, place: Point, h: Homomorphism, root: int, count: int) -> list[Any]:
+        """t^nu omega, to `count` terms, for every local solution that can have a rational omega."""
+        p, nu = h.p, max(place.order, 2) // 2
+        s = laurent_numerators(place, h, root, max(count, nu))
+        half = pow(2, -1, p)
+        if nu == 1:
+            discriminant = (1 + 4 * s[0]) % p
+            r = square_root(discriminant, p)
+            if r is None:
+                return []
+            difference = place.difference
+            if difference is not None:
+                r = difference.numerator * pow(difference.denominator, -1, p) % p
+            signs = [r] if place.name in self.logarithmic else [r, -r]
+            starts = [[(1 + value) * half % p] for value in signs]
+        else:
+            r = square_root(s[0], p)
+            if r is None:
+                return []
+            starts = []
+            for a in (r, -r % p):
+                w = [int(c) for c in square_root_series(nmod_poly(s[:nu], p), nu, a).coeffs()]
+                w += [0] * (nu - len(w))
+                w[nu - 1] = (w[nu - 1] + nu * half) % p
+                starts.append(w)
+        return [_riccati_series(start, s, nu, count, p) for start in starts]
+
+
+def _riccati_series(start: list[int], s: list[int], nu: int, count: int, p: int) -> Any:
+    """w with w/t^nu a solution of omega' + omega^2 = t^(-2 nu) s, from its first terms: coefficient by coefficient.
+
+    The terms of t^j give sum_(i=0..j) w_i w_(j-i) + (j - 2 nu + 1) w_(j-nu+1) = s_j.
+    """
+    w = list(start)
+    for j in range(len(w), count):
+        total = s[j] - sum(map(mul, w[1:j], w[j - 1 : 0 : -1]))
+        if nu > 1:
+            total -= (j - 2 * nu + 1) * w[j - nu + 1]
+            pivot = 2 * w[0]
+        else:
+            pivot = 2 * w[0] + j - 1
+        if pivot % p == 0:
+            raise BadPrimeError("the prime meets an exponent")
+        w.append(total * pow(pivot, -1, p) % p)
+    return nmod_poly(w[:count], p)
+
+
+def _is_rational(series: Any, num: Any, den: Any, nu: int, degree: int, growth: int) -> bool:
+    """Is there omega = A/(den P) with this expansion of t^nu omega, deg P <= degree and deg A <= degree + growth?
+
+    Euclid's algorithm gives the only candidate; it must solve the Riccati equation of num/den.
+    """
+    top = degree + growth
+    order = top + degree + 2
+    r0, r1 = nmod_poly([1], den.modulus()).left_shift(order), den.right_shift(nu).mul_low(series, order)
+    t0, t1 = r0 * 0, nmod_poly([1], den.modulus())
+    while r1.degree() > top:
+        q = r0 // r1
+        r0, r1, t0, t1 = r1, r0 - q * r1, t1, t0 - q * t1
+    A, B = r1, den * t1
+    return t1.degree() <= degree and den * (A.derivative() * B - A * B.derivative() + A * A) == num * B * B
