@@ -1,0 +1,274 @@
+"""Exact arithmetic on what a user wrote, with every size predicted and checked before it is computed.
+
+Values are terms c*x^n with a small rational c, polynomials, and rational functions in lowest terms.  A sum stays open while
+terms are added to it: monomials are collected by their powers, and everything else is merged in pairs of about equal size,
+so that a sum of n fractions takes n mergers of which most are small, instead of n additions to a growing total.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import NamedTuple
+
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.errors import LimitExceeded
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+
+# A polynomial may have at most this many times `Limits.bits` bits in all its coefficients together.
+_TOTAL_FACTOR = 100
+
+# Above this size, flint's numbers are faster than Python's.
+_SMALL_BITS = 2048
+
+_ONE = QQ.poly([1])
+
+
+class Term(NamedTuple):
+    """`coefficient * x**power`, the coefficient an integer or fraction of at most `_SMALL_BITS` bits."""
+
+    coefficient: int | Fraction
+    power: int
+
+
+VARIABLE = Term(1, 1)
+
+
+class OpenSum:
+    """A sum whose terms are still being collected: coefficients by power; polynomials and fractions by size class."""
+
+    __slots__ = ("coefficients", "fractions", "polynomials")
+
+    def __init__(self) -> None:
+        self.coefficients: dict[int, int | Fraction] = {}
+        self.polynomials: list[tuple[int, Poly]] = []
+        self.fractions: list[tuple[int, RatFunc]] = []
+
+
+Value = Term | Poly | RatFunc | OpenSum
+
+
+class NotAnInteger(ValueError):
+    """The exponent of a power isn't an integer constant."""
+
+
+class Arithmetic:
+    """Sums, products, quotients and powers within `limits`.
+
+    Every method raises `LimitExceeded` before it computes what would be too large, and `ZeroDivisionError` where the
+    result isn't defined.
+    """
+
+    def __init__(self, limits: Limits = DEFAULT_LIMITS, budget: Budget | None = None) -> None:
+        self.limits = limits
+        self._budget = Budget(limits) if budget is None else budget
+        self._unchecked_time = limits.seconds is None and budget is None
+
+    def integer(self, digits: str) -> int:
+        """The integer with these decimal digits."""
+        if len(digits) > self.limits.digits:
+            raise LimitExceeded(f"{len(digits)} digits, above the limit of {self.limits.digits}", limit="digits")
+        return _integer(digits)
+
+    def signed_integer(self, text: str) -> int:
+        """The integer that a sign, or none, and decimal digits denote."""
+        return -self.integer(text[1:]) if text[0] == "-" else self.integer(text.lstrip("+"))
+
+    def constant(self, value: int | Fraction) -> Value:
+        """A rational number as a value."""
+        self._check(0, _bits(value))
+        return _term(value, 0)
+
+    def quotient_of_integers(self, numerator: int, denominator: int) -> Poly:
+        """`numerator/denominator` as a value; the denominator isn't zero."""
+        return QQ.poly([numerator]) * QQ.poly([denominator]).inverse()
+
+    def rational(self, value: Value) -> RatFunc:
+        """The value as a rational function in lowest terms."""
+        value = self.closed(value)
+        return RatFunc(value) if isinstance(value, Poly) else value
+
+    def negate(self, value: Value) -> Value:
+        return Term(-value.coefficient, value.power) if isinstance(value, Term) else -self.closed(value)
+
+    def add(self, left: Value, right: Value, *, subtract: bool = False) -> Value:
+        """`left + right` or `left - right`; an open sum on the left is used up."""
+        if isinstance(left, OpenSum):
+            total = left
+        else:
+            total = OpenSum()
+            self._append(total, left)
+        self._append(total, self.negate(right) if subtract else right)
+        return total
+
+    def multiply(self, left: Value, right: Value) -> Value:
+        if isinstance(left, Term) and isinstance(right, Term):
+            power = left.power + right.power
+            self._check(power, 0)
+            return _term(left.coefficient * right.coefficient, power)
+        left, right = self.closed(left), self.closed(right)
+        if isinstance(left, Poly) and isinstance(right, Poly):
+            return self._product(left, right)
+        a, b = self.rational(left), self.rational(right)
+        return RatFunc(self._product(a.num, b.num), self._product(a.den, b.den))
+
+    def divide(self, left: Value, right: Value) -> Value:
+        if isinstance(left, Term) and isinstance(right, Term) and right.power == 0 and right.coefficient:
+            return _term(Fraction(left.coefficient) / right.coefficient, left.power)
+        left, right = self.closed(left), self.closed(right)
+        if not right:
+            raise ZeroDivisionError("division by zero")
+        if isinstance(left, Poly) and isinstance(right, Poly):
+            if right.is_constant:
+                return self._product(left, right.inverse())
+            if left.is_constant and left:
+                return RatFunc(self._product(left, right.lc.inverse()), right.monic(), reduced=True)
+        a, b = self.rational(left), self.rational(right)
+        return RatFunc(self._product(a.num, b.den), self._product(a.den, b.num))
+
+    def power(self, base: Value, exponent: Value | int) -> Value:
+        """`base ** exponent`; raises `NotAnInteger` if the exponent isn't an integer constant."""
+        n = exponent if isinstance(exponent, int) else self._integer_value(exponent)
+        if abs(n) > self.limits.exponent:
+            shown = str(n) if abs(n) < 10**20 else f"of {n.bit_length()} bits"
+            raise LimitExceeded(f"an exponent {shown}, above the limit of {self.limits.exponent}", limit="exponent")
+        if isinstance(base, Term) and n > 0 and (base.coefficient == 1 or n * _bits(base.coefficient) <= _SMALL_BITS):
+            self._check(base.power * n, 0)
+            return Term(base.coefficient**n, base.power * n)
+        base = self.closed(base)
+        if not base:
+            if n <= 0:
+                raise ZeroDivisionError("0 has no powers with exponent zero or below")
+            return base
+        if n == 0:
+            return Term(1, 0)
+        if isinstance(base, Poly):
+            power = self._poly_power(base, abs(n))
+            return power if n > 0 else self.divide(_ONE, power)
+        num, den = (base.num, base.den) if n > 0 else (base.den, base.num)
+        num, den = self._poly_power(num, abs(n)), self._poly_power(den, abs(n))
+        leading = den.lc.inverse()
+        return RatFunc(num * leading, den * leading, reduced=True)
+
+    def closed(self, value: Value) -> Poly | RatFunc:
+        """The value as a polynomial or rational function, with an open sum added up."""
+        if isinstance(value, Poly | RatFunc):
+            return value
+        if isinstance(value, Term):
+            return QQ.poly([0] * value.power + [value.coefficient])
+        fraction: RatFunc | None = None
+        for _, part in reversed(value.fractions):
+            fraction = part if fraction is None else self._ratfunc_sum(part, fraction)
+        polynomial: Poly | None = None
+        for _, term in reversed(value.polynomials):
+            polynomial = term if polynomial is None else self._poly_sum(term, polynomial)
+        if value.coefficients:
+            collected = self._collected(value.coefficients)
+            polynomial = collected if polynomial is None else self._poly_sum(collected, polynomial)
+        if fraction is None:
+            assert polynomial is not None
+            return polynomial
+        if polynomial:
+            fraction = self._ratfunc_sum(fraction, RatFunc(polynomial))
+        return fraction.num if fraction.is_polynomial else fraction
+
+    def _collected(self, coefficients: dict[int, int | Fraction]) -> Poly:
+        dense: list[int | Fraction] = [0] * (max(coefficients) + 1)
+        for power, coefficient in coefficients.items():
+            dense[power] = coefficient
+        return QQ.poly(dense)
+
+    def _append(self, total: OpenSum, term: Value) -> None:
+        if isinstance(term, Term):
+            coefficient, power = term
+            known = total.coefficients.get(power, 0)
+            if _bits(known) <= _SMALL_BITS:
+                total.coefficients[power] = known + coefficient
+                return
+        term = self.closed(term)
+        rank = 0
+        if isinstance(term, Poly):
+            polynomials = total.polynomials
+            while polynomials and polynomials[-1][0] == rank:
+                term, rank = self._poly_sum(polynomials.pop()[1], term), rank + 1
+            polynomials.append((rank, term))
+        else:
+            fractions = total.fractions
+            while fractions and fractions[-1][0] == rank:
+                term, rank = self._ratfunc_sum(fractions.pop()[1], term), rank + 1
+            fractions.append((rank, term))
+
+    def _poly_sum(self, left: Poly, right: Poly) -> Poly:
+        self._check(max(left.degree, right.degree), left.height_bits() + right.height_bits() + 1)
+        return left + right
+
+    def _ratfunc_sum(self, left: RatFunc, right: RatFunc) -> RatFunc:
+        if left.den == right.den:
+            return RatFunc(self._poly_sum(left.num, right.num), left.den)
+        num = self._poly_sum(self._product(left.num, right.den), self._product(right.num, left.den))
+        return RatFunc(num, self._product(left.den, right.den))
+
+    def _product(self, left: Poly, right: Poly) -> Poly:
+        carries = (min(left.degree, right.degree) + 1).bit_length()
+        self._check(left.degree + right.degree, left.height_bits() + right.height_bits() + carries)
+        return left * right
+
+    def _poly_power(self, base: Poly, n: int) -> Poly:
+        if n == 1:
+            return base
+        if base.is_constant:
+            bits = n * base.height_bits()
+        else:  # height(P**n) <= |P|_1**n, the sum of the moduli of the coefficients
+            denominator = base.common_denominator()
+            norm = sum(abs(int(c.p)) * (denominator // int(c.q)) for c in base.rational_coefficients())
+            bits = n * max((norm - 1).bit_length(), (denominator - 1).bit_length())
+        self._check(n * base.degree, bits)
+        return base**n
+
+    def _check(self, degree: int, bits: int) -> None:
+        limits = self.limits
+        if degree > limits.degree:
+            raise LimitExceeded(f"a degree of up to {degree}, above the limit of {limits.degree}", limit="degree")
+        if bits > limits.bits:
+            raise LimitExceeded(f"coefficients of up to {bits} bits, above the limit of {limits.bits}", limit="bits")
+        if (degree + 1) * bits > _TOTAL_FACTOR * limits.bits:
+            raise LimitExceeded(
+                f"up to {degree + 1} coefficients of up to {bits} bits, above the limit of "
+                f"{_TOTAL_FACTOR * limits.bits} bits for all together",
+                limit="bits",
+            )
+        if not self._unchecked_time:
+            self._budget.check()
+
+    def _integer_value(self, exponent: Value) -> int:
+        if isinstance(exponent, Term) and exponent.power == 0 and isinstance(exponent.coefficient, int):
+            return exponent.coefficient
+        value = self.closed(exponent)
+        if isinstance(value, RatFunc) or not value.is_constant:
+            raise NotAnInteger
+        number = value.field.rational_value(value)
+        if number is None or number.denominator != 1:
+            raise NotAnInteger
+        return number.numerator
+
+
+def _integer(digits: str) -> int:
+    """`int(digits)` without Python's limit on the number of digits, and in less than quadratic time."""
+    if len(digits) <= 2000:
+        return int(digits)
+    half = len(digits) // 2
+    return _integer(digits[:-half]) * int(10**half) + _integer(digits[-half:])
+
+
+def _bits(value: int | Fraction) -> int:
+    return max(value.numerator.bit_length(), value.denominator.bit_length())
+
+
+def _term(coefficient: int | Fraction, power: int) -> Term | Poly:
+    """`coefficient * x**power`; a whole fraction becomes an integer."""
+    if isinstance(coefficient, Fraction) and coefficient.denominator == 1:
+        coefficient = coefficient.numerator
+    if _bits(coefficient) <= _SMALL_BITS:
+        return Term(coefficient, power)
+    return QQ.poly([0] * power + [coefficient])

@@ -1,0 +1,34 @@
+"""What the readers of input hand on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from kovacic.algebra.ratfunc import RatFunc
+
+
+@dataclass(frozen=True, slots=True)
+class Parsed:
+    """S as a rational function, the name of its variable, and what the user should know about how it was read."""
+
+    S: RatFunc
+    variable: str
+    notices: tuple[str, ...] = ()
+
+
+DEFAULT_VARIABLE = "x"
+
+# Names that stand for numbers unless the caller says that the variable has this name.
+NUMBER_NAMES = {
+    "I": "the imaginary unit",
+    "pi": "the number pi",
+    "π": "the number pi",
+    "E": "Euler's number",
+    "oo": "infinity",
+    "zoo": "infinity",
+    "inf": "infinity",
+    "nan": "not a number",
+}
+
+# The unknown function of y'' = S y: a variable only where the caller says so.
+UNKNOWN = "y"

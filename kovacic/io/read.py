@@ -1,0 +1,61 @@
+"""One door for every form of input."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.errors import InputError
+from kovacic.io.parsed import DEFAULT_VARIABLE, Parsed
+from kovacic.limits import DEFAULT_LIMITS, Limits
+
+
+def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:
+    """S as a rational function with the name of its variable, from whatever the user has.
+
+    S is a string, a SymPy expression, a pair (numerator, denominator) of coefficient sequences from low to high powers,
+    an integer, a fraction, or a `RatFunc`.  `var` is a name or a SymPy symbol; by default it is the only symbol, else x.
+    SymPy isn't imported unless S comes from it.  Raises `InputError` and `LimitExceeded`.
+
+    >>> str(read_input("x^2 + 3").S), str(read_input(([3, 0, 1], [1])).S)
+    ('x**2 + 3', 'x**2 + 3')
+    """
+    variable = _variable_name(var)
+    if isinstance(S, str):
+        from kovacic.io.parser import parse_rational
+
+        return parse_rational(S, variable=variable, limits=limits)
+    if isinstance(S, RatFunc):
+        return Parsed(S, variable or DEFAULT_VARIABLE)
+    if isinstance(S, int | Fraction):
+        return Parsed(RatFunc(QQ.poly([S])), variable or DEFAULT_VARIABLE)
+    if _is_sympy(S):
+        from kovacic.io.from_sympy import parse_sympy
+
+        return parse_sympy(S, variable=variable, limits=limits)
+    if isinstance(S, tuple | list) and len(S) == 2:
+        from kovacic.io.coefficients import parse_coefficients
+
+        return parse_coefficients(S[0], S[1], variable=variable, limits=limits)
+    raise InputError(
+        f"{type(S).__name__!r} isn't a form of S that can be read",
+        hint='give a string "x^2 + 3", a SymPy expression, or the pair of coefficient sequences ([3, 0, 1], [1])',
+    )
+
+
+def _is_sympy(value: Any) -> bool:
+    return any(cls.__module__.partition(".")[0] == "sympy" for cls in type(value).__mro__)
+
+
+def _variable_name(var: Any) -> str | None:
+    if var is None or isinstance(var, str):
+        name: str | None = var
+    elif _is_sympy(var) and getattr(var, "is_Symbol", False):
+        name = str(var.name)
+    else:
+        raise InputError(f"{var!r} can't be a variable", hint="give its name, or a SymPy symbol")
+    if name is not None and not name.isidentifier():
+        raise InputError(f"{name!r} can't be the name of a variable", hint="take a letter or a word: x, t, x1")
+    return name
