@@ -174,7 +174,7 @@ class Inspector:
         if root is None:
             return False
         # In the coordinate t of this place; the other end of the chart is x = infinity, or x = 0 for the place at infinity.
-        num, den = translate(h(place.S.num), root), translate(h.keeping_degree(place.S.den), root)
+        num, den = translate(h(place.num), root), translate(h.keeping_degree(place.den), root)
         opposite = next((point for point in self.points if self._is_opposite(point, place)), None)
         growth = den.degree() + max((opposite.order + 1) // 2 if opposite else 1, 1) - 2
         return all(

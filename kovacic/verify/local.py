@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from math import isqrt
 from typing import Any
 
@@ -21,25 +22,25 @@ from kovacic.algebra.traces import trace_of_square_root
 
 @dataclass(frozen=True)
 class Point:
-    """All roots of an irreducible factor of S's denominator; or infinity, with S(1/z)/z^4 for S."""
+    """All roots of an irreducible factor of den, with S = num/den; or infinity, with S(1/z)/z^4 for S."""
 
     name: str
     factor: Poly
-    S: RatFunc
+    num: Poly
+    den: Poly
     order: int
 
-    @property
+    @cached_property
     def difference_squared(self) -> Poly | None:
         """1 + 4b at a pole of order at most 2 where that is constant, else None."""
         if self.order <= 1:
             return self.factor.field.poly([1])
-        rest = self.S * RatFunc(self.factor) ** 2
         slope = self.factor.derivative()
-        top, bottom = rest.num % self.factor, rest.den * slope * slope % self.factor
+        top, bottom = self.num % self.factor, self.den // self.factor**2 % self.factor * slope * slope % self.factor
         ratio = top[bottom.degree] / bottom.lc
         return 1 + 4 * ratio if top == ratio * bottom else None
 
-    @property
+    @cached_property
     def difference(self) -> Fraction | None:
         """The exponent difference at a regular point where it is rational (1 for an ordinary point), else None."""
         square = self.difference_squared if self.order <= 2 else None
@@ -52,13 +53,20 @@ class Point:
 
 def points(S: RatFunc) -> list[Point]:
     """Every singular place, and infinity even if it is ordinary."""
-    found = [Point(str(p), p, S, k) for p, k in (S.field.factor(S.den) if S.den.degree else [])]
-    z = RatFunc(S.field.poly([0, 1]))
-    inverted = S(1 / z) / z**4 if S else S
-    order = 0
-    while inverted.den.degree >= 0 and order < inverted.den.degree and not inverted.den[order]:
-        order += 1
-    return [*found, Point("infinity", z.num, inverted, order)]
+    factors = S.field.factor(S.den) if S.den.degree else []
+    return [*(Point(str(p), p, S.num, S.den, k) for p, k in factors), _infinity(S)]
+
+
+def _infinity(S: RatFunc) -> Point:
+    z, one = S.field.poly([0, 1]), S.field.poly([1])
+    # z^deg times the polynomial at 1/z; S(1/z)/z^4 = z^(b - a - 4) num/den for the degrees a and b.
+    num, den = (S.field.poly(list(f)[::-1]) for f in (S.num, S.den))
+    order = S.num.degree - S.den.degree + 4
+    if not num:
+        return Point("infinity", z, num, one, 0)
+    if order < 0:
+        return Point("infinity", z, num * z**-order, den, 0)
+    return Point("infinity", z, num, den * z**order, order)
 
 
 def least_valuation(point: Point, m: int) -> Fraction:
@@ -100,8 +108,8 @@ def logarithm_at(point: Point, homomorphisms: Iterator[Homomorphism]) -> bool:
 def laurent_numerators(point: Point, h: Homomorphism, root: int, count: int) -> list[int]:
     """s_0, ..., s_(count-1) with S = t^(-k) sum s_j t^j at a root modulo p, k the order of the pole (2 for order 1)."""
     k = max(point.order, 2)
-    den = translate(h.keeping_degree(point.S.den), root)
-    num = translate(h(point.S.num), root).left_shift(k - point.order)
+    den = translate(h.keeping_degree(point.den), root)
+    num = translate(h(point.num), root).left_shift(k - point.order)
     if any(int(den[i]) for i in range(point.order)) or not int(den[point.order]):
         raise BadPrimeError("the order of a pole changes")
     series: Any = num.mul_low(den.right_shift(point.order).inverse_series_trunc(count), count)
@@ -140,7 +148,7 @@ def _difference_squared(point: Point) -> Poly:
     With S = t^(-2 nu) s(t), a^2 = s_0, and sqrt(s) = a sum rho_i t^i, b/a = 2 a rho_(nu-1).
     """
     p, nu = point.factor, max(point.order, 2) // 2
-    num, den = (_expansion(f, p, nu + point.order) for f in (point.S.num, point.S.den))
+    num, den = (_expansion(f, p, nu + point.order) for f in (point.num, point.den))
     den = den[point.order :]
     inverse, s = den[0].inverse_modulo(p), list[Poly]()
     for i in range(nu):
