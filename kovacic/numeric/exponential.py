@@ -1,0 +1,165 @@
+"""exp(int theta) for rational theta, in balls: partial fractions, with powers and logarithms followed along straight legs.
+
+The guarantee: `growth(a, b)` contains exp(int_a^b theta dx) along the straight segment, if it returns.
+
+The mathematics.  theta = q(x) + sum_zeta sum_k r_(zeta,k) / (x - zeta)^k.  Along a straight segment from a that doesn't meet zeta the quotient
+(x - zeta)/(a - zeta) starts at 1 and never meets the negative real axis (it lies on a line through 1 that misses 0), so its
+*principal* logarithm is the continuous one: no branch has to be chosen, and none can be chosen wrongly.
+
+Symbols: c, the root of the field's modulus that constants are embedded by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from flint import acb, acb_poly
+
+    from kovacic.algebra.poly import Poly
+    from kovacic.algebra.ratfunc import RatFunc
+
+
+def conjugates(field: Any) -> list[acb | None]:
+    """The embeddings of K(c) over K = Q as values of c at the working precision in force; [None] for Q itself."""
+    modulus = getattr(field, "modulus", None)
+    if modulus is None:
+        return [None]
+    return [root for root, _ in _integer_polynomial(modulus).complex_roots()]
+
+
+def _integer_polynomial(poly: Poly) -> Any:
+    from flint import fmpq, fmpq_poly
+
+    values = [Fraction(c) for c in poly.coefficients()]  # type: ignore[attr-defined]
+    return fmpq_poly([fmpq(v.numerator, v.denominator) for v in values]).numer()
+
+
+def embed(poly: Poly, c: acb | None) -> acb_poly:
+    """The polynomial with ball coefficients."""
+    from flint import acb_poly, fmpq, fmpq_poly
+
+    parts = getattr(poly, "parts", None) or (poly,)
+    total, power = acb_poly([]), acb_poly([1])
+    for part in parts:
+        values = [Fraction(v) for v in part.coefficients()]
+        total += acb_poly(fmpq_poly([fmpq(v.numerator, v.denominator) for v in values])) * power
+        if c is not None:
+            power *= c
+    return total
+
+
+def zeros(poly: Poly, c: acb | None) -> list[tuple[acb, int]]:
+    """Enclosures of the distinct zeros, with multiplicities (certified isolation; multiplicities are exact)."""
+    if poly.degree < 1:
+        return []
+    if getattr(poly, "parts", None) is None:
+        return [(root, int(k)) for root, k in _integer_polynomial(poly).complex_roots()]
+    result = []
+    for factor, k in _squarefree(poly):
+        if all(part.degree < 1 for part in factor.monic().parts[1:]) and all(not part for part in factor.monic().parts[1:]):
+            result += [(root, k) for root, _ in _integer_polynomial(factor.monic().parts[0]).complex_roots()]
+        else:
+            result += [(root, k) for root in embed(factor, c).roots()]
+    return result
+
+
+def _squarefree(poly: Any) -> list[tuple[Any, int]]:
+    """Yun's algorithm."""
+    result, k = [], 1
+    g = poly.gcd(poly.derivative())
+    w, y = poly // g, poly.derivative() // g
+    z = y - w.derivative()
+    while w.degree > 0:
+        f = w.gcd(z) if z else w.monic()
+        if f.degree > 0:
+            result.append((f, k))
+        w, z = w // f, (z // f) - (w // f).derivative()
+        k += 1
+    return result
+
+
+@dataclass(frozen=True)
+class Pole:
+    """A pole of theta: its place and the coefficients of (x - zeta)^-1, (x - zeta)^-2, ..."""
+
+    zeta: acb
+    coefficients: tuple[acb, ...]
+
+
+@dataclass(frozen=True)
+class LogDerivative:
+    """theta = primitive' + sum over the poles: balls, at the precision of the moment when it was made.
+
+    `residues` holds the exact residue of each pole where it is a rational number found exactly, else None.
+    """
+
+    primitive: acb_poly
+    poles: tuple[Pole, ...]
+    num: acb_poly
+    den: acb_poly
+
+    @classmethod
+    def make(cls, theta: RatFunc, c: acb | None) -> LogDerivative:
+        """The partial fractions of theta at the working precision in force."""
+        quotient, rest = divmod(theta.num, theta.den)
+        num, den = embed(rest, c), embed(theta.den, c)
+        poles = tuple(Pole(zeta, _principal_part(num, den, zeta, k)) for zeta, k in zeros(theta.den, c))
+        return cls(embed(quotient, c).integral(), poles, embed(theta.num, c), den)
+
+    def value(self, x: acb) -> acb:
+        """theta(x)."""
+        return self.num(x) / self.den(x)
+
+    def exponent(self, a: acb, b: acb, *, analytic: bool = False) -> acb:
+        """int_a^b theta along the straight segment."""
+        total = self.primitive(b) - self.primitive(a)
+        for pole in self.poles:
+            u, v = b - pole.zeta, a - pole.zeta
+            residue = pole.coefficients[0]
+            if not residue.is_zero():
+                total += residue * (u / v).log(analytic=analytic)
+            for k, coefficient in enumerate(pole.coefficients[1:], start=2):
+                total += coefficient * (v ** (1 - k) - u ** (1 - k)) / (k - 1)
+        return total
+
+    def growth(self, a: acb, b: acb, *, analytic: bool = False) -> acb:
+        """exp(int_a^b theta) along the straight segment."""
+        return self.exponent(a, b, analytic=analytic).exp()
+
+
+def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[acb, ...]:
+    """The coefficients of t^-1, ..., t^-k of num/den at x = zeta + t, a zero of den of multiplicity exactly k."""
+    from flint import acb, acb_poly, acb_series
+
+    line = acb_poly([zeta, 1])
+    top = (num(line)).coeffs()[:k]
+    bottom = (den(line)).coeffs()[k : 2 * k]  # the first k coefficients are exactly zero
+    top += [acb(0)] * (k - len(top))
+    quotient = (acb_series(top, k) / acb_series(bottom, k)).coeffs()
+    quotient += [acb(0)] * (k - len(quotient))
+    return tuple(quotient[k - 1 - j] for j in range(k))
+
+
+def continued_root(values: list[tuple[acb, int]], a: acb, b: acb, *, analytic: bool = False) -> acb:
+    """sqrt(prod ((b - rho)/(a - rho))^k), continued from 1 at a along the straight segment to b."""
+    from flint import acb
+
+    total = acb(1)
+    for rho, k in values:
+        quotient = (b - rho) / (a - rho)
+        total *= quotient ** (k // 2)
+        if k % 2:
+            total *= quotient.sqrt(analytic=analytic)
+    return total
+
+
+def integral(function: Callable[[acb, bool], acb], a: acb, b: acb) -> acb:
+    """int_a^b, by flint's rigorous adaptive quadrature; a non-finite ball where it gave up."""
+    from flint import acb
+
+    result: acb = acb.integral(function, a, b)
+    return result

@@ -1,0 +1,61 @@
+"""What is to be evaluated: S as a system with integer coefficients, the gauge of an equation, a decision where there is one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import lcm
+from typing import Any
+
+from kovacic.errors import InputError
+from kovacic.numeric.singular import System
+
+
+@dataclass(frozen=True)
+class NumericProblem:
+    """y'' = S y as `system`; `source` is the object that it was read from (a solution carries its certificate)."""
+
+    system: System
+    source: Any = None
+
+
+def as_problem(equation: object) -> NumericProblem:
+    """The numerical problem that `equation` stands for; see `kovacic.numeric.evaluate.evaluate` for what is accepted."""
+    if isinstance(equation, NumericProblem):
+        return equation
+    if isinstance(equation, System):
+        return NumericProblem(equation)
+    if isinstance(equation, tuple) and len(equation) == 2 and all(isinstance(p, Sequence) for p in equation):
+        return NumericProblem(System.make(*_integers(*equation)))
+    inner = getattr(equation, "S", None)
+    if inner is not None and inner is not equation:
+        return NumericProblem(as_problem(inner).system, equation)
+    if hasattr(equation, "num") and hasattr(equation, "den"):
+        return NumericProblem(_from_ratfunc(equation))
+    from kovacic.io.read import read_input
+
+    return NumericProblem(_from_ratfunc(read_input(equation).S))
+
+
+def _integers(num: Sequence[object], den: Sequence[object]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Coefficient lists with a common denominator cleared."""
+    from kovacic.numeric.points import as_point
+
+    lists = []
+    for name, values in (("numerator", num), ("denominator", den)):
+        points = [as_point(v, f"a coefficient of the {name}") for v in values]
+        if not all(p.is_real() for p in points):
+            raise InputError(f"the coefficients of the {name} must be real rational numbers")
+        lists.append([p.re for p in points])
+    common = lcm(*(v.denominator for values in lists for v in values))
+    n, d = (tuple(int(v * common) for v in values) for values in lists)
+    return n, d
+
+
+def _from_ratfunc(S: Any) -> System:
+    try:
+        num, den = ([Fraction(c) for c in part.coefficients()] for part in (S.num, S.den))
+    except (AttributeError, TypeError):
+        raise InputError("numerical evaluation needs S with rational coefficients (no parameters, no algebraic constants)") from None
+    return System.make(*_integers(num, den))
