@@ -1,0 +1,166 @@
+"""omega_3(u) and n(u) of the ball in closed form: as expressions, and as numbers in any precision.
+
+Both come from the constant-coefficient system of `kovacic.mechanics.ball`; symbols as there, with E = D'/2 + sqrt(l D),
+for which dE/d xi = sqrt(l) E.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
+
+import sympy as sp
+
+from kovacic.errors import InputError
+from kovacic.mechanics.ball import BallOnSphere
+from kovacic.mechanics.meridian import X
+
+C1, C2 = sp.symbols("c1 c2")
+
+
+@dataclass(frozen=True, slots=True)
+class ClosedForm:
+    """The general solution with constants c1, c2, as functions of x = cos u."""
+
+    omega_3: sp.Expr
+    n: sp.Expr
+
+
+def closed_form(sphere: BallOnSphere) -> ClosedForm:
+    """The general solution of the linear equations of the ball, degenerate balls and the plane included.
+
+    eta = c1 E^rho + c2 E^(-rho) where l != 0 and D has no double root; sines and cosines where l is known to be negative;
+    a polynomial in xi where rho^2 l = 0; powers of x - x1 at a double root.
+    Undecided symbolic parameters are taken as generic.
+
+    >>> from kovacic.mechanics.ball import Ball
+    >>> closed_form(Ball(m=1, R=1, a=0, A1="1/4", A3="1/4").on_sphere(2)).omega_3
+    2*c1 - 4*c2*x/5
+    """
+    m, R, _, A1, _ = sphere.ball.parameters
+    D, lead, rho = sphere.D, sphere.leading, sphere.ratio
+    half = sp.expand(sp.diff(D, X) / 2)
+    root = sp.sqrt(D)
+    if rho == 0:
+        eta, zeta = C1, C2
+    elif lead == 0:
+        xi = X / root if half == 0 else root / half
+        eta, zeta = C1 - rho * C2 * xi, C2
+    elif sphere.discriminant == 0:
+        # D = l (x - x1)^2, so d xi = dx/(sqrt(l) (x - x1)); here l > 0, since a double root needs A3 > A1.
+        scale = sp.sqrt(lead)
+        linear = X + half.subs(X, 0) / lead
+        root = scale * linear
+        eta = C1 * linear**rho + C2 * linear ** (-rho)
+        zeta = -scale * (C1 * linear**rho - C2 * linear ** (-rho))
+    elif lead.is_number and lead < 0:
+        scale = sp.sqrt(-lead)
+        # d phi/d xi = scale, since |E|^2 = -l D + D'^2/4 is constant
+        angle = sp.acos(half / sp.sqrt(sp.expand(half**2 - lead * D)))
+        eta = C1 * sp.cos(rho * angle) + C2 * sp.sin(rho * angle)
+        zeta = scale * (C1 * sp.sin(rho * angle) - C2 * sp.cos(rho * angle))
+    else:
+        scale = sp.sqrt(lead)
+        E = half + scale * root
+        eta = C1 * E**rho + C2 * E ** (-rho)
+        zeta = -scale * (C1 * E**rho - C2 * E ** (-rho))
+    omega_3 = eta / root
+    return ClosedForm(omega_3, (zeta - half * omega_3) / (m * R**2 * A1))
+
+
+@dataclass(frozen=True, slots=True)
+class NumericBall:
+    """The ball's numbers in one arithmetic: `functions` is numpy (arrays of floats) or mpmath (its current precision).
+
+    `kappa` is 1/R1.  All methods take x = cos u.
+    """
+
+    m: Any
+    R: Any
+    a: Any
+    A1: Any
+    A3: Any
+    kappa: Any
+    functions: ModuleType
+
+    @classmethod
+    def of(cls, sphere: BallOnSphere, functions: ModuleType) -> NumericBall:
+        """Raises `InputError` where a parameter is a symbol."""
+        values: list[Any] = []
+        kappa = sp.Integer(0) if sphere.R1.is_infinite else 1 / sphere.R1
+        for value in (*sphere.ball.parameters, kappa):
+            if not value.is_number:
+                raise InputError(f"numbers are needed for a motion, and {value} isn't one")
+            values.append(functions.mpf(value.p) / value.q if hasattr(functions, "mpf") else float(value))
+        m, R, a, A1, A3, curvature = values
+        return cls(m, R, a, A1, A3, curvature, functions)
+
+    @property
+    def rho(self) -> Any:
+        return self.R * self.kappa
+
+    @property
+    def lead(self) -> Any:
+        return self.m * self.R**2 * (self.A3 - self.A1)
+
+    def D(self, x: Any) -> Any:
+        return self.A1 * (self.A3 + self.m * self.R**2 * (1 - x * x)) + self.A3 * self.m * (self.R * x + self.a) ** 2
+
+    def half_derivative(self, x: Any) -> Any:
+        """D'(x)/2."""
+        return self.m * self.R * ((self.A3 - self.A1) * self.R * x + self.A3 * self.a)
+
+    def transport(self, x: Any, x0: Any, omega_3: Any, n: Any) -> tuple[Any, Any]:
+        """(omega_3, n) at x from their values at x0, by the closed form; one formula each for l > 0, l < 0 and l = 0."""
+        F, rho, lead = self.functions, self.rho, self.lead
+        weight = self.m * self.R**2 * self.A1
+        root0, root = F.sqrt(self.D(x0)), F.sqrt(self.D(x))
+        eta0 = omega_3 * root0
+        zeta0 = weight * n + self.half_derivative(x0) * omega_3
+        chord = (x - x0) / (root + root0)
+        if lead > 0:
+            scale = F.sqrt(lead)
+            angle = 2 * rho * _call(F, "arctanh", "atanh")(scale * chord)
+            even, odd = F.cosh(angle), F.sinh(angle)
+            eta, zeta = eta0 * even - zeta0 * odd / scale, zeta0 * even - scale * eta0 * odd
+        elif lead < 0:
+            scale = F.sqrt(-lead)
+            angle = 2 * rho * _call(F, "arctan", "atan")(scale * chord)
+            even, odd = F.cos(angle), F.sin(angle)
+            eta, zeta = eta0 * even - zeta0 * odd / scale, zeta0 * even + scale * eta0 * odd
+        else:
+            eta, zeta = eta0 - 2 * rho * zeta0 * chord, zeta0
+        omega = eta / root
+        return omega, (zeta - self.half_derivative(x) * omega) / weight
+
+    def K11(self, x: Any) -> Any:
+        """The coefficient of u'^2 in twice the kinetic energy."""
+        return (1 + self.rho) ** 2 * (self.A1 + self.m * (self.R**2 + self.a**2 + 2 * self.R * self.a * x))
+
+    def transverse_energy(self, x: Any, sine2: Any, omega_3: Any, n: Any) -> Any:
+        """sin^2 u times twice the part of the kinetic energy without u'; `sine2` = sin^2 u."""
+        y = x * n - omega_3
+        eps, a, m = self.R + self.a * x, self.a, self.m
+        first = (m * eps**2 + self.A1 * x**2 + self.A3 * sine2) * y**2
+        mixed = 2 * (m * eps * a - (self.A3 - self.A1) * x) * sine2 * y * n
+        return first + mixed + ((m * a**2 + self.A1) * sine2 + self.A3 * x**2) * sine2 * n**2
+
+
+def _call(functions: ModuleType, *names: str) -> Any:
+    return next(getattr(functions, name) for name in names if hasattr(functions, name))
+
+
+def central_gravity(sphere: BallOnSphere, g: sp.Expr) -> sp.Expr:
+    """The potential V(u) of a force m g of constant strength towards the centre of the sphere (on the plane: downwards).
+
+    The distance of the centre of mass from the sphere's centre is sqrt(R1^2 + 2 R1 eps + |rho|^2), eps = R + a cos u; V
+    is m g times its excess over |R1|.
+    """
+    u = sp.Symbol("u")
+    m, R, a, _, _ = sphere.ball.parameters
+    eps = R + a * sp.cos(u)
+    if sphere.R1.is_infinite:
+        return m * g * eps
+    square = sphere.R1**2 + 2 * sphere.R1 * eps + R**2 + a**2 + 2 * R * a * sp.cos(u)
+    return m * g * (sp.sqrt(square) - sp.Abs(sphere.R1))

@@ -1,0 +1,169 @@
+"""The reference: direct numerical integration of Woronetz's full equations of motion and of the constraints.
+
+State: (u, v, theta, u1, v1, u', v', n); on the plane u1, v1 are the Cartesian coordinates of the contact point.  This uses
+nothing of the closed form: only the kinetic energy and the coefficients of `kovacic.mechanics.woronetz`, for any body.
+The coordinates are singular where f(u) = 0 and where sin(u1) = 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import astuple, dataclass
+from typing import Any
+
+import mpmath
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+from kovacic.errors import InputError, KovacicError
+from kovacic.mechanics.field import Element
+from kovacic.mechanics.meridian import U, X
+from kovacic.mechanics.woronetz import Body, Quantities
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Position and velocity at one instant: angles in radians, rates in radians per unit of time, n the spin.
+
+    v is the longitude of the contact point on the body, theta the angle between the meridians, u1 and v1 colatitude
+    and longitude on the sphere (Cartesian coordinates on the plane).
+    """
+
+    u: Any
+    v: Any
+    theta: Any
+    u1: Any
+    v1: Any
+    du: Any
+    dv: Any
+    n: Any
+
+
+class IntegrationFailed(KovacicError):
+    """A numerical integration didn't reach the end; the message is the solver's."""
+
+
+@dataclass(frozen=True, slots=True)
+class Equations:
+    """The right-hand side of the eight equations and the energy, compiled for numpy's floats or for mpmath."""
+
+    rates: Callable[[Any, Sequence[Any]], list[Any]]
+    energy: Callable[[Sequence[Any]], Any]
+    omega_3: Callable[[Sequence[Any]], Any]
+
+
+def equations(body: Body, potential: sp.Expr, module: str = "math") -> Equations:
+    """Woronetz's equations for a body with numeric parameters under V(u) = `potential`; `module` is math or mpmath.
+
+    Raises `InputError` if a parameter is still a symbol or V depends on anything but u.
+    """
+    if body.names:
+        raise InputError(f"numbers are needed for a motion; still symbols: {', '.join(body.names)}")
+    V = sp.sympify(potential)
+    if V.free_symbols - {U}:
+        raise InputError(f"the potential depends on u alone, not on {V.free_symbols - {U}}")
+    compiled = sp.lambdify(U, _coefficients(body.quantities(), V), modules=module, cse=True)
+    functions: Any = {"math": __import__("math"), "mpmath": mpmath}[module]
+    sin, cos = functions.sin, functions.cos
+    flat = body.R1.is_infinite
+
+    def rates(_: Any, y: Sequence[Any]) -> list[Any]:
+        u, _, theta, u1, _, du, dv, n = y
+        K, dK, (P, Q, W, Y, Z, T), (spin, f, h, cos_psi, _, kappa), (_, dV) = compiled(u)
+        K11, K22, K23, K33 = K
+        dK11, dK22, dK23, dK33 = dK
+        pn, pv = K33 * n + K23 * dv, K23 * n + K22 * dv
+        quadratic = (dK33 * n * n + 2 * dK23 * dv * n - dK11 * du * du + dK22 * dv * dv) / 2
+        ddu = (quadratic + P * pn * dv + Q * pv * n - spin * n * n - Z * n * dv - dV) / K11
+        fn = du * (-W * K11 * dv - Q * pv + spin * n - T * dv - dK33 * n - dK23 * dv)
+        fv = du * (-P * pn + W * K11 * n + Y * n - dK23 * n - dK22 * dv)
+        det = K33 * K22 - K23 * K23
+        forward, side = h * du, f * dv
+        dx = side * cos(theta) - forward * sin(theta)
+        dy = forward * cos(theta) + side * sin(theta)
+        if flat:
+            return [du, dv, -n - cos_psi * dv, dx, dy, ddu, (K33 * fv - K23 * fn) / det, (K22 * fn - K23 * fv) / det]
+        dv1 = kappa * dy / sin(u1)
+        turn = -n - cos_psi * dv - dv1 * cos(u1)
+        return [du, dv, turn, kappa * dx, dv1, ddu, (K33 * fv - K23 * fn) / det, (K22 * fn - K23 * fv) / det]
+
+    def energy(y: Sequence[Any]) -> Any:
+        u, _, _, _, _, du, dv, n = y
+        (K11, K22, K23, K33), _, _, _, (value, _) = compiled(u)
+        return (K33 * n * n + 2 * K23 * dv * n + K11 * du * du + K22 * dv * dv) / 2 + value
+
+    def omega_3(y: Sequence[Any]) -> Any:
+        _, _, _, (_, f, _, cos_psi, sin_psi, kappa), _ = compiled(y[0])
+        return (kappa * f - sin_psi) * sin_psi * y[6] + cos_psi * y[7]
+
+    return Equations(rates, energy, omega_3)
+
+
+def _coefficients(q: Quantities, V: sp.Expr) -> list[list[sp.Expr]]:
+    c = q.meridian
+
+    def at_u(element: Element) -> sp.Expr:
+        return element.expression().subs(X, sp.cos(U) if c.trigonometric else U)
+
+    K = (q.K11, q.K22, q.K23, q.K33)
+    groups = (
+        K,
+        [c.derivative(entry) for entry in K],
+        q.gyroscopic(),
+        (q.m * c.h * q.q, c.f, c.h, c.cos_psi, c.sin_psi, q.kappa),
+    )
+    return [*([at_u(element) for element in group] for group in groups), [V, sp.diff(V, U)]]
+
+
+@dataclass(frozen=True, slots=True)
+class DirectSolution:
+    """The state at the times asked for, `states` of shape (8, len(times)), with omega_3 and the energy."""
+
+    times: Array
+    states: Array
+    omega_3: Array
+    energy: Array
+    evaluations: int
+
+
+def integrate(
+    body: Body,
+    potential: sp.Expr,
+    state: State,
+    times: Array,
+    *,
+    method: str = "DOP853",
+    rtol: float = 1e-10,
+    atol: float = 1e-12,
+) -> DirectSolution:
+    """The motion from `state` at time 0 by SciPy's `solve_ivp`, at increasing `times` >= 0.
+
+    Raises `IntegrationFailed` with the solver's message if it stops early.
+    """
+    system = equations(body, potential)
+    start = [float(value) for value in astuple(state)]
+    result = solve_ivp(system.rates, (0.0, float(times[-1])), start, method=method, t_eval=times, rtol=rtol, atol=atol)
+    if not result.success:
+        raise IntegrationFailed(str(result.message))
+    columns = list(result.y.T)
+    return DirectSolution(
+        times=np.asarray(times, dtype=float),
+        states=np.asarray(result.y, dtype=float),
+        omega_3=np.array([system.omega_3(column) for column in columns]),
+        energy=np.array([system.energy(column) for column in columns]),
+        evaluations=int(result.nfev),
+    )
+
+
+def integrate_precisely(body: Body, potential: sp.Expr, state: State, time: Any, *, digits: int = 50) -> list[Any]:
+    """The state at one time by mpmath's Taylor method with `digits` decimal digits (a few seconds for a few periods)."""
+    system = equations(body, potential, "mpmath")
+    with mpmath.workdps(digits + 10):
+        solution = mpmath.odefun(
+            system.rates, 0, [mpmath.mpf(value) for value in astuple(state)], tol=mpmath.mpf(10) ** -digits
+        )
+        return list(solution(mpmath.mpf(time)))

@@ -1,0 +1,250 @@
+"""The motion of the ball under a potential V(u), by quadratures.
+
+Symbols as in `kovacic.mechanics.ball`; x = cos u.  With omega_3(x), n(x) in closed form, the energy integral is
+    (dx/dt)^2 = W(x) = [2 (H - V)(1 - x^2) - T(x)] / K11,   T = `NumericBall.transverse_energy`,
+which is regular at the poles x = +-1, where it is <= 0.  Between the turning points x = mid + amp cos(phi), and
+    dphi/dt = Q(phi) = sqrt(W / ((x_max - x)(x - x_min))) > 0,
+so t and v are quadratures over phi (`kovacic.mechanics.series`), valid through any number of turning points: 10^4
+oscillations cost what one does.  v' = (x n - omega_3)/((1 + rho)(1 - x^2)) is nearly singular when the path passes near a
+pole of the body; that part is integrated exactly.
+
+The place on the fixed surface isn't a quadrature in general: the body's attitude obeys a linear equation on SO(3) with
+quasi-periodic coefficients.  `kovacic.mechanics.attitude` integrates it over one oscillation, and powers of that step
+carry it on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import astuple, dataclass
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from kovacic.errors import InputError
+from kovacic.mechanics import series
+from kovacic.mechanics.ball import BallOnSphere
+from kovacic.mechanics.closed import NumericBall
+from kovacic.mechanics.direct import State
+from kovacic.mechanics.meridian import U
+from kovacic.mechanics.series import Primitive
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Band:
+    """The band between the turning points, with the distances from the poles kept apart to full relative accuracy.
+
+    x_max = 1 - top, x_min = -1 + bottom, amp = (x_max - x_min)/2.
+    """
+
+    top: float
+    bottom: float
+    amp: float
+
+    def x(self, phi: Array) -> Array:
+        """cos u, in [x_min, x_max]."""
+        result: Array = (self.bottom - self.top) / 2 + self.amp * np.cos(phi)
+        return result
+
+    def sine(self, phi: Array) -> Array:
+        """sin u >= 0, without cancellation near the poles."""
+        above = self.top + 2 * self.amp * np.sin(phi / 2) ** 2
+        below = self.bottom + 2 * self.amp * np.cos(phi / 2) ** 2
+        return np.sqrt(above * below)
+
+    def colatitude(self, phi: Array) -> Array:
+        """u in [0, pi]."""
+        u: Array = np.arctan2(self.sine(phi), self.x(phi))
+        return u
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """A motion: `phase(t)` gives phi, everything else is a function of phi; see `solve_motion`.
+
+    `period` is the time of one oscillation of u (one passage from turning point to turning point and back).
+    """
+
+    ball: NumericBall
+    start: State
+    energy: float
+    band: Band
+    omega_3_0: float
+    speed: Array
+    time: Primitive
+    longitude: Primitive
+    phi_0: float
+    tolerance: float
+
+    @property
+    def period(self) -> float:
+        return self.time.over_period
+
+    @property
+    def turning_points(self) -> tuple[float, float]:
+        """The least and the largest u, in radians; 0 or pi where the path goes through a pole."""
+        ends = self.band.colatitude(np.array([0.0, np.pi]))
+        return float(ends[0]), float(ends[1])
+
+    def phase(self, times: Array) -> Array:
+        """phi at the given times; time 0 is the initial state."""
+        begin = float(self.time(np.array(self.phi_0)))
+        return series.invert(self.time, np.asarray(times, dtype=float) + begin, self.tolerance)
+
+    def rotation(self, phi: Array) -> tuple[Array, Array]:
+        """(omega_3, n) at phi, from the closed form."""
+        omega_3, n = self.ball.transport(self.band.x(phi), np.cos(self.start.u), self.omega_3_0, self.start.n)
+        return omega_3, n
+
+    def v(self, phi: Array) -> Array:
+        """The longitude of the contact point on the body, in radians, continuous except through a pole itself."""
+        result: Array = self.start.v + self.longitude(phi) - self.longitude(np.array(self.phi_0))
+        return result
+
+    def phase_speed(self, phi: Array) -> Array:
+        """dphi/dt."""
+        result: Any = chebyshev.chebval(np.cos(phi), self.speed)
+        return np.asarray(result, dtype=float)
+
+    def rates(self, phi: Array) -> tuple[Array, Array]:
+        """(u', v'), not defined at a pole."""
+        sine, x = self.band.sine(phi), self.band.x(phi)
+        omega_3, n = self.rotation(phi)
+        du = self.band.amp * np.sin(phi) * self.phase_speed(phi) / sine
+        return du, (x * n - omega_3) / ((1 + self.ball.rho) * sine**2)
+
+
+def solve_motion(sphere: BallOnSphere, potential: sp.Expr, state: State, *, tolerance: float = 1e-13) -> Motion:
+    """The motion with V(u) = `potential` (a SymPy expression in u, even and smooth at the poles) from `state` at t = 0.
+
+    `tolerance` bounds the relative truncation error of every series (1e-13 is about the rounding of floats).
+    Raises `InputError` for symbolic parameters, for a start at a pole of the body (u = 0 or pi: v isn't defined), and for
+    a steady motion, where u stays constant; `LimitExceeded` for a motion that takes almost forever to turn.
+
+    >>> from kovacic.mechanics.ball import Ball
+    >>> sphere = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
+    >>> motion = solve_motion(sphere, sp.cos(U), State(1.0, 0, 0, 1, 0, 0.5, 0.3, 2.0))
+    >>> 0 < motion.turning_points[0] < 1 < motion.turning_points[1]
+    True
+    """
+    ball = NumericBall.of(sphere, np)
+    u0, du, dv, n0 = (float(value) for value in (state.u, state.du, state.dv, state.n))
+    if not 0 < u0 < np.pi:
+        raise InputError(f"the motion must start between the poles, 0 < u < pi, not at u = {u0}")
+    start = State(*(float(value) for value in astuple(state)))
+    V = _compiled(potential)
+    x0, s0 = np.cos(u0), np.sin(u0)
+    omega0 = x0 * n0 - (1 + ball.rho) * s0**2 * dv
+    transverse = ball.transverse_energy(x0, s0**2, omega0, n0)
+    energy = float((ball.K11(x0) * du**2 + transverse / s0**2) / 2 + V(u0))
+
+    def numerator(x: Any, sine2: Any) -> Any:
+        omega_3, n = ball.transport(x, x0, omega0, n0)
+        u = np.arctan2(np.sqrt(sine2), x)
+        return 2 * (energy - V(u)) * sine2 - ball.transverse_energy(x, sine2, omega_3, n)
+
+    band = _turning_points(lambda x, sine2: numerator(x, sine2) / ball.K11(x), x0, u0, du)
+
+    def speed(phi: Array) -> Array:
+        x = band.x(phi)
+        W = numerator(x, band.sine(phi) ** 2) / ball.K11(x)
+        square: Array = W / (band.amp * np.sin(phi)) ** 2
+        if square.min() <= 0:
+            raise InputError("the motion is asymptotic: W has a double zero at a turning point")
+        root: Array = np.sqrt(square)
+        return root
+
+    # The quotient is 0/0 at the turning points, so it is sampled once, coarsely, and continued as a Chebyshev series.
+    Q = series.cosine_series(speed, max(tolerance, 1e-14))
+
+    def longitude_numerator(phi: Array) -> Array:
+        x = band.x(phi)
+        omega_3, n = ball.transport(x, x0, omega0, n0)
+        quotient: Array = (x * n - omega_3) / ((1 + ball.rho) * chebyshev.chebval(np.cos(phi), Q))
+        return quotient
+
+    time = Primitive.of(series.cosine_series(lambda phi: 1 / chebyshev.chebval(np.cos(phi), Q), tolerance))
+    longitude = _longitude(band, longitude_numerator, tolerance)
+    height = np.clip((x0 - (band.bottom - band.top) / 2) / band.amp, -1.0, 1.0)
+    phi_0 = float(np.arccos(height)) if du >= 0 else -float(np.arccos(height))
+    return Motion(ball, start, energy, band, float(omega0), Q, time, longitude, phi_0, tolerance)
+
+
+def _compiled(potential: sp.Expr) -> Callable[[Any], Any]:
+    V = sp.sympify(potential)
+    if V.free_symbols - {U}:
+        raise InputError(f"the potential depends on u alone, not on {V.free_symbols - {U}}")
+    compiled: Callable[[Any], Any] = sp.lambdify(U, V, modules="numpy", cse=True)
+    return compiled
+
+
+def _turning_points(W: Callable[[Any, Any], Any], x0: float, u0: float, du: float) -> Band:
+    """The zeros of W on both sides of x0, each to full relative accuracy as a distance from its pole."""
+    scale = max(abs(float(W(z, 1 - z * z))) for z in np.linspace(-0.99, 0.99, 41))
+    coefficients = series.chebyshev_interpolant(lambda z: W(z, 1 - z * z))
+    roots = chebyshev.chebroots(chebyshev.chebtrim(coefficients, 1e-15 * scale))
+    real = np.sort(roots.real[(np.abs(roots.imag) < 1e-7) & (np.abs(roots.real) < 1)])
+    step = 1e-6 * np.sin(u0)
+    slope = float(W(x0 + step, 1 - (x0 + step) ** 2) - W(x0 - step, 1 - (x0 - step) ** 2)) / (2 * step)
+    here = float(W(x0, np.sin(u0) ** 2))
+    at_rest = abs(here) <= 1e-13 * scale
+    if at_rest and abs(slope) <= 1e-9 * scale:
+        raise InputError(f"the motion is steady: u = {u0} stays constant")
+    half = 2 * np.sin(u0 / 2) ** 2, 2 * np.cos(u0 / 2) ** 2
+    top = half[0] if at_rest and slope < 0 else _distance(W, x0, half[0], real, 1, scale, at_rest)
+    bottom = half[1] if at_rest and slope > 0 else _distance(W, x0, half[1], real, -1, scale, at_rest)
+    return Band(top, bottom, 1 - (top + bottom) / 2)
+
+
+def _distance(
+    W: Callable[[Any, Any], Any], x0: float, begin: float, roots: Array, sign: int, scale: float, at_rest: bool
+) -> float:
+    """The distance of the turning point from the pole x = `sign`; `begin` is that of the start."""
+
+    def value(distance: float) -> float:
+        return float(W(sign * (1 - distance), distance * (2 - distance)))
+
+    if at_rest:
+        begin -= 1e-5 * min(begin, 1.0)
+    ahead = np.sort(sign * roots[sign * roots > 1 - begin - 1e-9])
+    gates = [1 - (a + b) / 2 for a, b in zip(ahead, [*ahead[1:], 1.0], strict=True)]
+    for gate in [g for g in gates if g < begin]:
+        if value(gate) < 0:
+            return float(brentq(value, gate, begin, xtol=1e-300, rtol=1e-15, maxiter=500))
+    if value(0.0) > -1e-14 * scale:
+        return 0.0
+    return float(brentq(value, 0.0, begin, xtol=1e-300, rtol=1e-15, maxiter=500))
+
+
+def _longitude(band: Band, numerator: Callable[[Array], Array], tolerance: float) -> Primitive:
+    """The primitive of numerator/(1 - x^2) over phi, as half the sum of numerator/(1 - x) and numerator/(1 + x)."""
+    G = series.cosine_series(numerator, tolerance)
+    regular = np.zeros(1)
+    near: list[tuple[float, float, float]] = []
+    for sign, gap in ((1, band.top), (-1, band.bottom)):
+        pole = sign * (1 + gap / band.amp)
+        if gap > 0.05 * band.amp:
+            part = series.cosine_series(
+                lambda phi, pole=pole, sign=sign: (  # type: ignore[misc]
+                    chebyshev.chebval(np.cos(phi), G) / (2 * band.amp * sign * (pole - np.cos(phi)))
+                ),
+                tolerance,
+            )
+        else:
+            H, value = series.divide(G, pole)
+            part = -sign * H / (2 * band.amp)
+            width = np.sqrt(gap * (gap + 2 * band.amp))
+            offset = 0.0 if sign > 0 else np.pi
+            if gap == 0:
+                near.append((offset, 0.5, np.inf))
+            else:
+                near.append((offset, value / (2 * width), float(np.sqrt((gap + 2 * band.amp) / gap))))
+        size = max(len(regular), len(part))
+        regular = np.pad(regular, (0, size - len(regular))) + np.pad(part, (0, size - len(part)))
+    return Primitive.of(regular, tuple(near))
