@@ -53,6 +53,15 @@ def parse_rational(text: str, *, variable: str | None = None, limits: Limits = D
     return Parsed(builder.arithmetic.rational(value), variable, tuple(builder.notices()))
 
 
+def parse_with(text: str, names: Mapping[str, Value], arithmetic: Arithmetic) -> Value:
+    """The value of an expression in these names, whatever field their values belong to.
+
+    Raises `ParseError`, `NotRational` and `LimitExceeded` as `parse_rational` does.
+    """
+    variable = next((name for name, value in names.items() if value is VARIABLE), DEFAULT_VARIABLE)
+    return run(tokenize(text), ExpressionBuilder(names, variable, arithmetic))  # type: ignore[no-any-return]
+
+
 class ExpressionBuilder:
     """The methods that `automaton.run` calls: one for each alias of the grammar.
 
@@ -321,4 +330,4 @@ def _shortened(text: str, width: int = 40) -> str:
     return text if len(text) <= width else f"{text[: width // 2]}...{text[-width // 4 :]}"
 
 
-__all__ = ["ExpressionBuilder", "parse_rational"]
+__all__ = ["ExpressionBuilder", "parse_rational", "parse_with"]

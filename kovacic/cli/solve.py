@@ -1,0 +1,64 @@
+"""`kovacic solve`: the answers for a few equations, as text or as JSON."""
+
+from __future__ import annotations
+
+import sys
+
+import click
+
+from kovacic.cli.main import BAD_INPUT, CHECK_FAILED, DECIDED, UNDECIDED
+from kovacic.cli.options import expressions, parse_limits, refuse_options
+from kovacic.cli.terminal import styled
+
+# The most serious outcome of several equations is the exit status.
+_SEVERITY = (DECIDED, UNDECIDED, BAD_INPUT, CHECK_FAILED)
+
+
+@click.command(context_settings={"ignore_unknown_options": True})
+@click.argument("equations", metavar="S...", nargs=-1, required=True)
+@click.option("--json", "as_json", is_flag=True, help="One JSON object (schema 1) a line for each equation.")
+@click.option("--var", metavar="NAME", help="The name of the variable; by default the only symbol of S, or x.")
+@click.option(
+    "--limit",
+    "limits",
+    metavar="NAME=VALUE",
+    multiple=True,
+    help="Change a limit: seconds, degree, bits, digits, exponent, text_length, unknown_degree.",
+)
+def command(equations: tuple[str, ...], as_json: bool, var: str | None, limits: tuple[str, ...]) -> int:
+    """Decide y'' = S(x) y for every S; "-" reads one S a line from standard input.
+
+    \b
+    kovacic solve "x^2 + 3"
+    kovacic solve --json "x" "1/x - 3/(16*x^2)"
+    """
+    from kovacic.api import solve
+    from kovacic.errors import InputError, LimitExceeded, VerificationFailed
+    from kovacic.solution import Status
+
+    refuse_options(equations)
+    chosen = parse_limits(limits)
+    outcomes = [DECIDED]
+    first = True
+    for text in expressions(equations):
+        try:
+            answer = solve(text, var=var, limits=chosen)
+        except (InputError, LimitExceeded, VerificationFailed) as error:
+            print(f"kovacic: {error}", file=sys.stderr)
+            outcomes.append(
+                BAD_INPUT
+                if isinstance(error, InputError)
+                else UNDECIDED
+                if isinstance(error, LimitExceeded)
+                else CHECK_FAILED
+            )
+            continue
+        outcomes.append(UNDECIDED if answer.status is Status.UNDECIDED else DECIDED)
+        if as_json:
+            print(answer.to_json(), flush=True)
+        else:
+            from kovacic.io.text import render
+
+            print(("" if first else "\n") + render(answer, style=styled), flush=True)
+        first = False
+    return max(outcomes, key=_SEVERITY.index)
