@@ -11,6 +11,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from flint import fmpq, fmpq_poly, nmod_poly
@@ -84,6 +85,11 @@ class Field(ABC):
     """An exact field K of characteristic 0 with polynomial arithmetic, factoring, and homomorphisms to prime fields."""
 
     __slots__ = ()
+
+    @property
+    def absolute_degree(self) -> int:
+        """How many rational coordinates an element has."""
+        return 1
 
     @abstractmethod
     def poly(self, coefficients: Iterable[Scalar | Poly]) -> Poly:
@@ -219,6 +225,10 @@ class AlgebraicField(Field):
         return self.modulus.degree
 
     @property
+    def absolute_degree(self) -> int:
+        return self.dimension * self.base.absolute_degree
+
+    @property
     def generator(self) -> ExtensionPoly:
         """The constant c."""
         zero, one = self.base.poly([]), self.base.poly([1])
@@ -251,6 +261,10 @@ class AlgebraicField(Field):
         return factor_over_extension(self, polynomial)
 
     def bundles(self) -> Iterator[tuple[Homomorphism, ...]]:
+        return iter(_splitting_bundles(self))
+
+    def splitting_bundles(self) -> Iterator[tuple[Homomorphism, ...]]:
+        """The bundles over primes that split completely, found one after the other."""
         for base_bundle in self.base.bundles():
             homomorphisms: list[Homomorphism] = []
             try:
@@ -286,6 +300,17 @@ class AlgebraicField(Field):
         return [ExtensionPoly.make(self, parts[i : i + n]) for i in range(0, len(parts), n)]
 
     def sqrt(self, constant: Poly) -> Poly | None:
+        value = constant if isinstance(constant, ExtensionPoly) and constant.field == self else self.poly([constant])
+        if not any(value.parts[1:]):
+            # A square root of an element of K has degree 1 or 2 over K; sqrt(v) = a + b sqrt(d) leaves a = 0 or b = 0.
+            root = self.base.sqrt(value.parts[0])
+            if root is not None or self.dimension % 2:
+                return None if root is None else self.embed(root)
+            if self.dimension == 2:
+                middle = self.generator + self.modulus[1] / 2
+                square = self.modulus[1] * self.modulus[1] / 4 - self.modulus[0]
+                root = self.base.sqrt(value.parts[0] / square)
+                return None if root is None else middle * root
         for factor, _ in self.factor(self.poly([-constant, 0, 1])):
             if factor.degree == 1:
                 return -factor[0]
@@ -293,6 +318,27 @@ class AlgebraicField(Field):
 
     def __str__(self) -> str:
         return f"{self.base}({self.name})"
+
+
+class _Remembered:
+    """A sequence that remembers what an iterator gave, so that primes are searched once for each field."""
+
+    def __init__(self, source: Iterator[tuple[Homomorphism, ...]]) -> None:
+        self._source = source
+        self._known: list[tuple[Homomorphism, ...]] = []
+
+    def __iter__(self) -> Iterator[tuple[Homomorphism, ...]]:
+        position = 0
+        while True:
+            if position == len(self._known):
+                self._known.append(next(self._source))
+            yield self._known[position]
+            position += 1
+
+
+@lru_cache(maxsize=64)
+def _splitting_bundles(field: AlgebraicField) -> _Remembered:
+    return _Remembered(field.splitting_bundles())
 
 
 def _vandermonde_inverse(nodes: Sequence[int], p: int) -> list[list[int]]:
@@ -366,6 +412,8 @@ class ExtensionPoly(Poly):
         return ExtensionPoly(self._field, tuple(products[:n]))
 
     def _divmod(self, other: ExtensionPoly) -> tuple[ExtensionPoly, ExtensionPoly]:
+        if self.degree < other.degree:
+            return self._field.poly([]), self
         inverse = other.lc.inverse()
         if other.degree == 0:
             return self._mul(inverse), self._field.poly([])
@@ -387,6 +435,8 @@ class ExtensionPoly(Poly):
             raise TypeError("both polynomials must lie over the same field")
         if not first or not second:
             return (first or second).monic()
+        if first.degree == 0 or second.degree == 0:
+            return self._field.poly([1])
         lifter = self._field.lifter()
         for bundle in self._field.bundles():
             try:
@@ -409,13 +459,19 @@ class ExtensionPoly(Poly):
         if self.degree > 0:
             raise ValueError("only constants have an inverse")
         base = self._field.base
+        if not any(self.parts[1:]):
+            return ExtensionPoly(self._field, (self.parts[0].inverse(), *self.parts[1:]))
         element = base.poly([part[0] for part in self.parts]).inverse_modulo(self._field.modulus)
         return ExtensionPoly(self._field, tuple(element[i] for i in range(self._field.dimension)))
 
     def rational_coefficients(self) -> tuple[Any, ...]:
-        length = self.degree + 1
-        padded = [[*(c := part.rational_coefficients()), *[fmpq(0)] * (length - len(c))] for part in self.parts]
-        return tuple(c for column in zip(*padded, strict=True) for c in column)
+        width = self._field.base.absolute_degree
+        result: list[Any] = []
+        for power in range(self.degree + 1):
+            for part in self.parts:
+                coordinates = part[power].rational_coefficients()
+                result += [*coordinates, *[fmpq(0)] * (width - len(coordinates))]
+        return tuple(result)
 
     def common_denominator(self) -> int:
         from math import lcm

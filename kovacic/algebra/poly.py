@@ -99,15 +99,24 @@ class Poly(ABC):
             return field.poly([other])  # type: ignore[return-value]
         return None
 
+    def _extended(self, other: object, operation: str) -> Any:
+        """The operation over the field of `other`, where that is an extension of this one.
+
+        Python doesn't try the reflected operation of two objects of one class, as polynomials over a tower are.
+        """
+        if isinstance(other, Poly) and other.field.extends(self.field):
+            return getattr(other.field.embed(self), operation)(other)
+        return NotImplemented
+
     def __add__(self, other: Poly | Scalar) -> Self:
         value = self._coerce(other)
-        return NotImplemented if value is None else self._add(value)
+        return self._extended(other, "__add__") if value is None else self._add(value)
 
     __radd__ = __add__
 
     def __sub__(self, other: Poly | Scalar) -> Self:
         value = self._coerce(other)
-        return NotImplemented if value is None else self._add(-value)
+        return self._extended(other, "__sub__") if value is None else self._add(-value)
 
     def __rsub__(self, other: Poly | Scalar) -> Self:
         value = self._coerce(other)
@@ -115,14 +124,14 @@ class Poly(ABC):
 
     def __mul__(self, other: Poly | Scalar) -> Self:
         value = self._coerce(other)
-        return NotImplemented if value is None else self._mul(value)
+        return self._extended(other, "__mul__") if value is None else self._mul(value)
 
     __rmul__ = __mul__
 
     def __divmod__(self, other: Poly | Scalar) -> tuple[Self, Self]:
         value = self._coerce(other)
         if value is None:
-            return NotImplemented
+            return self._extended(other, "__divmod__")  # type: ignore[no-any-return]
         if value.degree < 0:
             raise ZeroDivisionError("division by the zero polynomial")
         return self._divmod(value)
@@ -136,7 +145,7 @@ class Poly(ABC):
     def __truediv__(self, other: Poly | Scalar) -> Self:
         """Division by a non-zero constant."""
         value = self._coerce(other)
-        return NotImplemented if value is None else self._mul(value.inverse())
+        return self._extended(other, "__truediv__") if value is None else self._mul(value.inverse())
 
     def __pow__(self, exponent: int) -> Self:
         if exponent < 0:
@@ -319,6 +328,10 @@ class RationalPoly(Poly):
 
     def _mul(self, other: RationalPoly) -> RationalPoly:
         return RationalPoly(self.rep * other.rep)
+
+    def __call__(self, point: Poly | Scalar) -> Poly:
+        value = self._coerce(point)
+        return super().__call__(point) if value is None else RationalPoly(self.rep(value.rep))
 
     def _divmod(self, other: RationalPoly) -> tuple[RationalPoly, RationalPoly]:
         quotient, remainder = divmod(self.rep, other.rep)
