@@ -198,7 +198,7 @@ class ExpressionBuilder:
         head, arguments = values
         bare = head.rstrip("'’′″")
         inside = site.tokens.piece(site.begins[2], site.end - 1)
-        if bare == "sqrt" and len(arguments) == 1 and not isinstance(arguments[0], tuple):
+        if bare == "sqrt" and len(arguments) == 1 and not isinstance(arguments[0], list):
             return self._square_root(arguments[0], where)
         if head in self.names:
             hint = f"for a product write {head}*({_shortened(inside)})"
@@ -212,8 +212,8 @@ class ExpressionBuilder:
         values[0].append(values[1])
         return values[0]  # type: ignore[no-any-return]
 
-    def pair(self, values: list[Any], where: Where) -> tuple[Value, Value]:
-        return values[0], values[1]
+    def pair(self, values: list[Any], where: Where) -> list[Value]:
+        return values
 
     def _decimal(self, text: str) -> Value:
         mantissa, _, scale = text.lower().partition("e")

@@ -46,7 +46,7 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> P
 
 
 def _is_sympy(value: Any) -> bool:
-    return any(cls.__module__.partition(".")[0] == "sympy" for cls in type(value).__mro__)
+    return any(str(cls.__module__).partition(".")[0] == "sympy" for cls in type(value).__mro__)
 
 
 def _variable_name(var: Any) -> str | None:

@@ -1,0 +1,485 @@
+"""Reading S: text, SymPy expressions, coefficients; what is refused, and in which words; limits."""
+
+from __future__ import annotations
+
+import random
+import time
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+import sympy
+from expressions import Expression, expressions
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from lark import Lark, Token, Tree
+from lark.lexer import Lexer
+
+import kovacic
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
+from kovacic.io import compile_grammar
+from kovacic.io.automaton import run
+from kovacic.io.lexer import tokenize
+from kovacic.io.parser import parse_rational
+from kovacic.io.read import read_input
+from kovacic.limits import Limits
+
+# Far from every root that the small numbers of the strategies produce.
+POINTS = (Fraction(10007, 13), Fraction(-9973, 17))
+
+
+def value(function: RatFunc, point: Fraction) -> Fraction:
+    def horner(coefficients: tuple[Fraction, ...]) -> Fraction:
+        total = Fraction(0)
+        for coefficient in reversed(coefficients):
+            total = total * point + coefficient
+        return total
+
+    return horner(function.num.coefficients()) / horner(function.den.coefficients())
+
+
+def expected(expression: Expression) -> list[Fraction] | None:
+    """The values at the points; None where the expression isn't defined (it divides by zero identically)."""
+    try:
+        return [expression.at(point) for point in POINTS]
+    except ZeroDivisionError:
+        return None
+
+
+@given(expressions())
+@settings(max_examples=300)
+def test_random_expressions_have_their_exact_value(expression: Expression) -> None:
+    values = expected(expression)
+    if values is None:
+        with pytest.raises(NotRational):
+            parse_rational(expression.text)
+    else:
+        assert [value(parse_rational(expression.text).S, point) for point in POINTS] == values
+
+
+@given(expressions(max_leaves=8))
+@settings(max_examples=100)
+def test_random_expressions_agree_with_sympy_and_so_do_sympys_own(expression: Expression) -> None:
+    values = expected(expression)
+    if values is None:
+        return
+    # `python` was written by the strategy, not by a user.
+    symbolic = sympy.sympify(expression.python)
+    x = sympy.Symbol("x")
+    sampled = [symbolic.subs(x, sympy.Rational(p.numerator, p.denominator)) for p in POINTS]
+    assert [Fraction(int(s.p), int(s.q)) for s in sampled] == values
+    from_text, from_sympy = parse_rational(expression.text).S, read_input(symbolic, var="x").S
+    assert from_text == from_sympy
+
+
+@given(expressions())
+@settings(max_examples=100)
+def test_what_is_printed_is_read_back(expression: Expression) -> None:
+    if expected(expression) is not None:
+        S = parse_rational(expression.text).S
+        assert parse_rational(S.to_str("t"), variable="t").S == S
+
+
+PIECES = [
+    *"xxyI01234567890..++--**//^^(((()))),,=''²⁻½₁λπ \n\t!_\\",
+    "**",
+    "sin(",
+    "sqrt(",
+    "e5",
+    "1/2",
+    "diff(",
+    "y''",
+]
+
+
+@given(st.lists(st.sampled_from(PIECES), max_size=25).map("".join) | st.text(max_size=30))
+@settings(max_examples=800)
+@example("x" * 50 + "\x00")
+@example("(" * 1000)
+def test_garbage_is_refused_with_a_position_or_read(text: str) -> None:
+    outcome = outcome_of(text, Limits(exponent=200, degree=500, bits=20_000, digits=50))
+    if isinstance(outcome, InputError):
+        assert outcome.text == text
+        assert outcome.position is not None
+        assert 0 <= outcome.position <= len(text)
+        assert outcome.message in str(outcome)
+    elif isinstance(outcome, LimitExceeded):
+        assert outcome.limit in ("exponent", "degree", "bits", "digits")
+
+
+def outcome_of(text: str, limits: Limits) -> RatFunc | InputError | LimitExceeded:
+    try:
+        return parse_rational(text, limits=limits).S
+    except (InputError, LimitExceeded) as error:
+        return error
+
+
+# ------------------------------------------------------------------------------------------ the grammar
+
+
+class OurLexer(Lexer):
+    """Our terminals, for lark's own parser."""
+
+    def __init__(self, configuration: object) -> None: ...
+
+    def lex(self, text: str) -> Any:  # type: ignore[override]
+        tokens = tokenize(text)
+        for kind, start, end in zip(tokens.kinds[:-1], tokens.starts, tokens.ends, strict=False):
+            yield Token(kind, text[start:end])
+
+
+class Shapes:
+    """A builder that records what it is called with."""
+
+    def __getattr__(self, name: str) -> Any:
+        return lambda values, where: (name, *values)
+
+
+LARK = Lark(compile_grammar.GRAMMAR.read_text(encoding="utf-8"), parser="lalr", lexer=OurLexer)
+
+
+@given(expressions())
+@example(Expression("f(x, (y, 2)) = -y''(x)/3 + diff(y', x)", "", lambda x: x, 0))
+@settings(max_examples=200)
+def test_the_automaton_and_larks_parser_see_the_same_structure(expression: Expression) -> None:
+    ours = run(tokenize(expression.text), Shapes())  # type: ignore[arg-type]
+    assert ours == _without_unit_rules(LARK.parse(expression.text))
+
+
+def _without_unit_rules(tree: Any) -> Any:
+    """lark's tree in the automaton's terms: aliases are kept, rules that hand their only value on are not."""
+    if not isinstance(tree, Tree):
+        return str(tree)
+    children = [_without_unit_rules(child) for child in tree.children]
+    return (str(tree.data), *children) if isinstance(tree.data, str) and not hasattr(tree.data, "type") else children[0]
+
+
+def test_the_tables_belong_to_the_grammar() -> None:
+    grammar = compile_grammar.GRAMMAR.read_text(encoding="utf-8")
+    assert compile_grammar.TABLES.read_text(encoding="utf-8") == compile_grammar.compile_tables(grammar)
+
+
+def test_an_ambiguous_grammar_is_refused() -> None:
+    with pytest.raises(ValueError, match="conflict"):
+        compile_grammar.compile_tables('start: start "+" start | NUMBER -> number\n%declare NUMBER')
+
+
+# ------------------------------------------------------------------------------------------ spellings
+
+
+@pytest.mark.parametrize(
+    ("text", "printed"),
+    [
+        ("x^2+3", "x**2 + 3"),
+        ("3x", "3*x"),
+        ("2(x+1)(x-1)", "2*x**2 - 2"),
+        ("(x+1)x", "x**2 + x"),
+        ("2 x", "2*x"),
+        ("x^2(x+1)", "x**3 + x**2"),
+        ("-x^2", "-x**2"),
+        ("2*-x", "-2*x"),
+        ("2--x", "x + 2"),
+        ("x^-2", "1/x**2"),
+        ("x^--2", "x**2"),
+        ("2^3^2", "512"),
+        ("x**2**3", "x**8"),
+        ("(2x)/(3x^2)", "2/(3*x)"),
+        ("2x/3", "2*x/3"),
+        ("x/2/2", "x/4"),
+        ("x-1-1", "x - 2"),
+        ("x²+3x⁻²", "(x**4 + 3)/x**2"),
+        ("−x·2 ÷ 4", "-x/2"),
+        ("x\n  + 1", "x + 1"),
+        ("1/(1/x)", "x"),
+        ("(x-1)/(x-1)", "1"),
+        ("((x-1)/(x-2))^-3", "(x**3 - 6*x**2 + 12*x - 8)/(x**3 - 3*x**2 + 3*x - 1)"),
+        ("sqrt(9/4)*x", "3*x/2"),
+        ("4^(1/2)", "2"),
+        ("0", "0"),
+        ("x - x", "0"),
+        ("x^0", "1"),
+    ],
+)
+def test_spellings(text: str, printed: str) -> None:
+    assert parse_rational(text).S.to_str("x") == printed
+
+
+@pytest.mark.parametrize("name", ["x", "t", "z1", "lambda", "λ", "theta_2", "e", "n"])
+def test_any_single_name_is_the_variable(name: str) -> None:
+    parsed = parse_rational(f"{name}^2 + 3*{name}")
+    assert (parsed.variable, parsed.S) == (name, RatFunc(QQ.poly([0, 3, 1])))
+
+
+@pytest.mark.parametrize("name", ["y", "I", "E", "pi"])
+def test_reserved_names_are_variables_where_the_caller_says_so(name: str) -> None:
+    assert parse_rational(f"{name}^2", variable=name).S == RatFunc(QQ.poly([0, 0, 1]))
+    with pytest.raises(NotRational):
+        parse_rational(f"{name}^2")
+
+
+def test_decimals_are_exact_and_noticed() -> None:
+    parsed = parse_rational("0.1x + 1.5e-2 + .5 + 2.")
+    assert parsed.S == RatFunc(QQ.poly([Fraction(2515, 1000), Fraction(1, 10)]))
+    assert parsed.notices == (
+        "0.1 was taken exactly, as 1/10",
+        "1.5e-2 was taken exactly, as 3/200",
+        ".5 was taken exactly, as 1/2",
+        "1 more decimals were taken exactly",
+    )
+    assert parse_rational("1e5").notices == ("1e5 was taken exactly, as 100000",)
+    assert parse_rational("x/2").notices == ()
+
+
+REFUSED = [
+    ("", ParseError, 0, "no expression"),
+    ("  \n", ParseError, 0, "no expression"),
+    ("1/2x", ParseError, 0, "write 1/(2x) or (1/2)*x"),
+    ("1 + x^2/2(x+1)", ParseError, 4, "write x^2/(2(x+1)) or (x^2/2)*(x+1)"),
+    ("1/-2x", ParseError, 0, "write 1/(-2x)"),
+    ("x + sin(x)", NotRational, 4, "sin(x) isn't a rational function of x"),
+    ("exp(2*x)", NotRational, 0, "exp(2*x)"),
+    ("y", NotRational, 0, "the unknown function"),
+    ("x*y", NotRational, 2, "the unknown function"),
+    ("x + n", NotRational, 4, "parameters aren't supported yet"),
+    ("a*b", NotRational, 2, "parameters aren't supported yet"),
+    ("xx + x", NotRational, 0, "symbol xx"),
+    ("1/0", NotRational, 2, "division by zero"),
+    ("x/(x-x)", NotRational, 2, "division by zero"),
+    ("0/0", NotRational, 2, "division by zero"),
+    ("x + 0^0", NotRational, 4, "0^0 isn't defined"),
+    ("(x-x)^-1", NotRational, 0, "0 has no powers"),
+    ("x^x", NotRational, 0, "the variable in the exponent"),
+    ("2^x", NotRational, 0, "the variable in the exponent"),
+    ("x^(1/2)", NotRational, 0, "isn't a rational function"),
+    ("x^0.5", NotRational, 0, "isn't a rational function"),
+    ("2^(1/3)", NotRational, 0, "isn't a rational number"),
+    ("sqrt(2)", NotRational, 0, "outside the rational numbers aren't supported yet"),
+    ("sqrt(x)", NotRational, 0, "isn't a rational function"),
+    ("x + I", NotRational, 4, "I is the imaginary unit"),
+    ("pi*x", NotRational, 0, "the number pi"),
+    ("oo", NotRational, 0, "infinity"),
+    ("y'' = x*y", NotRational, 0, "give S alone"),
+    ("x = 2", NotRational, 2, "give S alone"),
+    ("(x+1", ParseError, 0, "never closed"),
+    ("2*(x+1))", ParseError, 7, "closes nothing"),
+    ("()", ParseError, 0, "nothing between"),
+    ("x+", ParseError, 1, "ends after '+'"),
+    ("*x", ParseError, 0, "nothing before '*'"),
+    ("x */ 2", ParseError, 2, "missing between '*' and '/'"),
+    ("x x", ParseError, 0, "operator is missing between 'x' and 'x'"),
+    ("2 3", ParseError, 0, "operator is missing"),
+    ("(x+1)2", ParseError, 4, "operator is missing"),
+    ("x(x+1)", NotRational, 0, "write x*(x+1)"),
+    ("x!", ParseError, 1, "unexpected character '!'"),
+    ("½x", ParseError, 0, "digits 0 to 9"),
+    ("x₁", ParseError, 1, "x1"),
+    ("[x]", ParseError, 0, "round parentheses"),
+    ("1,5*x", ParseError, 1, "point"),
+    ("1_000", ParseError, 1, "grouped"),
+    ("\\frac{1}{x}", ParseError, 0, "LaTeX"),
+    ("2e-3*e", ParseError, 0, "2*e - 3"),
+    ("1.2.3", ParseError, 0, "operator is missing"),
+    ("x\x00", ParseError, 1, "U+0000"),
+]
+
+
+@pytest.mark.parametrize(("text", "kind", "position", "words"), REFUSED, ids=[repr(row[0]) for row in REFUSED])
+def test_refusals_say_where_what_and_how_else(text: str, kind: type[InputError], position: int, words: str) -> None:
+    with pytest.raises(kind) as caught:
+        parse_rational(text)
+    assert caught.value.position == position
+    assert caught.value.text == text
+    assert words in str(caught.value)
+
+
+def test_user_text_is_never_executed() -> None:
+    for text in ("__import__('os').system('true')", "x.__class__", "(lambda: 0)()", "exec('1')"):
+        with pytest.raises(InputError):
+            parse_rational(text)
+
+
+# ------------------------------------------------------------------------------------------ limits
+
+
+@pytest.mark.parametrize(
+    ("text", "limit"),
+    [
+        ("9**9**9", "exponent"),
+        ("x^100001", "exponent"),
+        ("x^-100001", "exponent"),
+        ("x" + "^2" * 40, "exponent"),
+        ("(x+1)^20001", "degree"),
+        ("x^20000*x", "degree"),
+        ("1/x^15000/(x+1)^15000", "degree"),
+        ("(((((x^9)^9)^9)^9)^9)^9", "degree"),
+        ("(2^1000)^10000", "bits"),
+        ("(x+2^199)^20000", "bits"),
+        ("(x+2^300)^15000", "bits"),
+        ("1" * 100_001, "digits"),
+        ("1e100001", "digits"),
+        ("1e-9999999999999", "digits"),
+        ("x^" + "9" * 500, "exponent"),
+        (" " * 1_000_001, "text_length"),
+    ],
+    ids=lambda value: value[:20],
+)
+def test_limits_hold_before_the_work_is_done(text: str, limit: str) -> None:
+    start = time.perf_counter()
+    with pytest.raises(LimitExceeded) as caught:
+        parse_rational(text)
+    assert caught.value.limit == limit
+    assert time.perf_counter() - start < 1
+
+
+def test_limits_are_adjustable() -> None:
+    assert parse_rational("x^7").S.num.degree == 7
+    with pytest.raises(LimitExceeded, match="above the limit of 5"):
+        parse_rational("x^7", limits=Limits(exponent=5))
+    with pytest.raises(LimitExceeded, match="above the limit of 5"):
+        parse_rational("x^3*x^4", limits=Limits(degree=5))
+    with pytest.raises(LimitExceeded, match="above the limit of 3"):
+        parse_rational("1234", limits=Limits(digits=3))
+
+
+def test_the_wall_clock_is_checked_between_operations() -> None:
+    slow = "+".join(f"1/(x-{k})" for k in range(1500))
+    start = time.perf_counter()
+    with pytest.raises(LimitExceeded, match="time limit"):
+        parse_rational(slow, limits=Limits(seconds=0.05))
+    assert time.perf_counter() - start < 1
+
+
+@pytest.mark.parametrize(
+    ("opening", "closing", "depth"),
+    [("(", ")", 100_000), ("-(", ")", 10_000), ("(1+", ")", 10_000), ("-", "", 100_000), ("1/(", ")", 9_999)],
+)
+def test_nesting_needs_no_recursion(opening: str, closing: str, depth: int) -> None:
+    S = parse_rational(opening * depth + "x" + closing * depth).S
+    assert max(S.num.degree, S.den.degree) == 1
+
+
+def test_thousand_digit_coefficients_and_large_sums() -> None:
+    rng = random.Random(1)
+    big = [rng.randrange(10**999, 10**1000) for _ in range(50)]
+    S = parse_rational(" + ".join(f"{c}*x^{k}" for k, c in enumerate(big))).S
+    assert S.num.coefficients() == tuple(map(Fraction, big))
+    partial = parse_rational("+".join(f"{k}/(x-{k})^2" for k in range(1, 41))).S
+    assert (partial.num.degree, partial.den.degree) == (78, 80)
+    assert value(partial, POINTS[0]) == sum(Fraction(k) / (POINTS[0] - k) ** 2 for k in range(1, 41))
+
+
+# ------------------------------------------------------------------------------------------ SymPy and numbers
+
+x, n = sympy.symbols("x n")
+
+
+def test_sympy_expressions_are_walked() -> None:
+    S = (x**2 - 1) / (2 * x - 2) + sympy.Rational(1, 3) * (x + 1) ** -2
+    assert read_input(S).S == parse_rational("(x^2-1)/(2*x-2) + 1/(3*(x+1)^2)").S
+    t = sympy.Symbol("t", positive=True)
+    assert read_input(t**2 + 1).variable == "t"
+    assert read_input(sympy.Integer(2)).variable == "x"
+    assert read_input(t + 1, var=t).variable == "t"
+    assert read_input(sympy.Poly(x**2 + 1, x)).S == RatFunc(QQ.poly([1, 0, 1]))
+    unevaluated = sympy.Mul(2, sympy.Add(x, 1, evaluate=False), evaluate=False)
+    assert read_input(unevaluated).S == RatFunc(QQ.poly([2, 2]))
+
+
+def test_sympy_floats_are_exact_and_noticed() -> None:
+    parsed = read_input(0.1 * x)
+    assert parsed.S == RatFunc(QQ.poly([0, Fraction(0.1)]))
+    assert "taken exactly, as 3602879701896397/36028797018963968" in parsed.notices[0]
+
+
+@pytest.mark.parametrize(
+    ("expression", "words"),
+    [
+        (sympy.sin(x), "isn't a rational function"),
+        (sympy.sqrt(x), "isn't a rational function"),
+        (x**x, "isn't a rational function"),
+        (x**n, "symbol n beside the variable x"),
+        (x + n, "symbol n beside the variable x"),
+        (x + sympy.I, "isn't a rational number"),
+        (sympy.sqrt(2) * x, "isn't a rational number"),
+        (sympy.pi, "isn't a rational number"),
+        (sympy.zoo, "isn't a rational number"),
+        (sympy.Function("f")(x), "isn't a rational function"),
+        (sympy.Pow(x - x, -1, evaluate=False), "division by zero"),
+        (sympy.Symbol("x", real=True) + x, "same name"),
+        (sympy.Eq(x, 1), "isn't a SymPy expression"),
+    ],
+    ids=str,
+)
+def test_sympy_expressions_that_are_not_rational(expression: Any, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        read_input(expression)
+
+
+def test_deep_sympy_expressions() -> None:
+    expression = x
+    for k in range(60):
+        expression = 1 / (expression + k)
+    with pytest.raises(LimitExceeded):
+        read_input(expression, limits=Limits(bits=100))
+    S = read_input(expression).S
+    point = POINTS[0]
+    direct = point
+    for k in range(60):
+        direct = 1 / (direct + k)
+    assert value(S, point) == direct
+
+
+def test_numbers_and_coefficients() -> None:
+    assert read_input(-1).S == RatFunc(QQ.poly([-1]))
+    assert read_input(Fraction(1, 2)).S == RatFunc(QQ.poly([Fraction(1, 2)]))
+    pair = ([3, 0, 1], [Fraction(1, 2), sympy.Rational(1, 3)])
+    assert read_input(pair).S == parse_rational("(x^2+3)/(1/2 + x/3)").S
+    assert read_input(([0, 1], [1]), var="t").variable == "t"
+    S = RatFunc(QQ.poly([1]), QQ.poly([0, 1]))
+    assert read_input(S).S is S
+
+
+@pytest.mark.parametrize(
+    ("S", "words"),
+    [
+        (([1], [0]), "denominator is zero"),
+        (([1], []), "denominator is zero"),
+        (([0.5], [1]), "float|Fraction"),
+        (([1], ["2"]), "not a rational number"),
+        (([1], 2), "not a sequence"),
+        (("12", "3"), "not a sequence"),
+        ([1, 2, 3], "isn't a form of S"),
+        (None, "isn't a form of S"),
+        (2.5, "isn't a form of S"),
+        (b"x", "isn't a form of S"),
+    ],
+    ids=repr,
+)
+def test_other_objects_are_refused(S: Any, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        read_input(S)
+
+
+@pytest.mark.parametrize("var", ["", "2x", "a b", 3, sympy.Integer(1)])
+def test_names_that_are_none(var: Any) -> None:
+    with pytest.raises(InputError):
+        read_input("1", var=var)
+
+
+def test_reading_a_usual_equation_takes_less_than_a_millisecond() -> None:
+    text = "(-32*x**2 + 27*x - 27)/(144*x**4 - 288*x**3 + 144*x**2)"
+    best = min(_seconds(lambda: parse_rational(text)) for _ in range(50))
+    assert best < 2e-3  # 0.2 ms on the machine where this was written
+
+
+def _seconds(action: Any) -> float:
+    start = time.perf_counter()
+    action()
+    return time.perf_counter() - start
+
+
+def test_the_grammar_is_part_of_the_package() -> None:
+    assert Path(kovacic.__file__).parent / "io" / "grammar.lark" == compile_grammar.GRAMMAR
