@@ -99,32 +99,38 @@ class _Residues:
         return self._reconstruct()
 
     def _reconstruct(self) -> list[Any] | None:
-        """The vector over one common denominator, or None as long as the modulus is too small for it."""
-        modulus, total = self._modulus, sum(self.shape)
-        bound = isqrt(modulus >> (_SLACK_BITS + 1))
-        denominator = 1
         residues = [int(c) for c in self._residue.coeffs()]
-        residues += [0] * (total - len(residues))
-        for residue in reversed(residues):
-            value = residue * denominator % modulus
-            if value > bound and modulus - value > bound:
-                fraction = rational_reconstruction(value, modulus, bound)
-                if fraction is None or denominator * fraction[1] > bound:
-                    return None
-                denominator *= fraction[1]
-        numerators: list[int] = []
-        for residue in residues:
-            value = residue * denominator % modulus
-            if value > modulus >> 1:
-                value -= modulus
-            if abs(value) > bound:
-                return None
-            numerators.append(value)
+        vector = reconstruct_vector(residues + [0] * (sum(self.shape) - len(residues)), self._modulus)
+        if vector is None:
+            return None
+        numerators, denominator = vector
         polynomials, start = [], 0
         for length in self.shape:
             polynomials.append(fmpq_poly(fmpz_poly(numerators[start : start + length]), denominator))
             start += length
         return polynomials
+
+
+def reconstruct_vector(residues: Sequence[int], modulus: int) -> tuple[list[int], int] | None:
+    """Integers and one common denominator that give the residues, if they are small enough to be unique; else None."""
+    bound = isqrt(modulus >> (_SLACK_BITS + 1))
+    denominator = 1
+    for residue in reversed(residues):
+        value = residue * denominator % modulus
+        if value > bound and modulus - value > bound:
+            fraction = rational_reconstruction(value, modulus, bound)
+            if fraction is None or denominator * fraction[1] > bound:
+                return None
+            denominator *= fraction[1]
+    numerators = []
+    for residue in residues:
+        value = residue * denominator % modulus
+        if value > modulus >> 1:
+            value -= modulus
+        if abs(value) > bound:
+            return None
+        numerators.append(value)
+    return numerators, denominator
 
 
 def _to_integers(polynomial: Any) -> Any:

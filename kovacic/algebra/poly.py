@@ -85,6 +85,10 @@ class Poly(ABC):
     def key(self) -> tuple[Any, ...]:
         """A hashable, picklable value that determines the polynomial within its field."""
 
+    def leaves(self) -> list[Poly]:
+        """The coordinates over the ground field, polynomials themselves."""
+        return [self]
+
     @abstractmethod
     def coefficient_str(self, power: int) -> str:
         """The coefficient of `x**power` in Python syntax; it must have integer coordinates."""
@@ -220,14 +224,16 @@ class Poly(ABC):
 
     def inverse_modulo(self, modulus: Poly) -> Self:
         """The inverse of self modulo a polynomial that is coprime to it."""
-        zero, one = self.field.poly([]), self.field.poly([1])
-        r0, r1, t0, t1 = modulus, self % modulus, zero, one
+        r0: Any = modulus
+        r1: Any = self % modulus
+        t0: Any = self.field.poly([])
+        t1: Any = self.field.poly([1])
         while r1.degree > 0:
             quotient, rest = divmod(r0, r1)
             r0, r1, t0, t1 = r1, rest, t1, t0 - quotient * t1
         if not r1:
             raise ZeroDivisionError("not invertible: the polynomials have a common factor")
-        return (t1 * r1.inverse()) % modulus  # type: ignore[return-value]
+        return (t1 * r1.inverse()) % modulus  # type: ignore[no-any-return]
 
     def common_denominator(self) -> int:
         """The least positive integer d such that d * self has integer coordinates."""
@@ -238,7 +244,11 @@ class Poly(ABC):
         return max((max(int(c.p).bit_length(), int(c.q).bit_length()) for c in self.rational_coefficients()), default=0)
 
     def to_str(self, variable: str = "x") -> str:
-        """Python/SymPy syntax, with one common integer denominator."""
+        """Python/SymPy syntax, with one common denominator."""
+        if not isinstance(self.leaves()[0], RationalPoly):
+            from kovacic.algebra.ratfunc import RatFunc
+
+            return RatFunc(self, self.field.poly([1]), reduced=True).to_str(variable)
         denominator = self.common_denominator()
         text = (self * denominator).integer_str(variable)
         if denominator == 1:

@@ -11,8 +11,9 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
-from kovacic.algebra.fields import AlgebraicField, BadPrimeError
+from kovacic.algebra.fields import AlgebraicField, BadPrimeError, Homomorphism
 from kovacic.algebra.poly import Poly, to_fraction
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.algebra.traces import trace_of_square_root
@@ -135,40 +136,58 @@ def distinguishing_places(problem: Problem) -> list[Place]:
 
 
 def _unique_omega(problem: Problem) -> Form | Evidence:
-    degree = largest_degree(problem)
-    if isinstance(degree, NecessaryCondition):
-        return degree
-    if degree < 0:
-        return NoRationalOmega(degree)
-    problem.budget.check_degree(degree, "the polynomial part of a solution")
+    bound = largest_degree(problem)
+    if isinstance(bound, NecessaryCondition):
+        return bound
+    if bound < 0:
+        return NoRationalOmega(bound)
     place = distinguishing_places(problem)[0]
-    lifter = problem.field.lifter()
+    lifter, ladder = problem.field.lifter(), _ladder(bound)
     for bundle in problem.field.bundles():
-        problem.budget.check()
-        images, degrees = [], set()
         try:
-            for h in bundle:
-                c = chart(h, problem, place)
-                if c is None:
-                    break
-                found = [pair for Q in exponential_parts(c.equation, place) if (pair := rational_omega(c, Q, degree))]
-                if not found:
-                    return NoRationalOmega(degree, h.p, str(place))
-                if len(found) > 1:
-                    raise BadPrimeError("two solutions modulo this prime")
-                R, d = omega_parts(h, problem, c, *found[0])
-                images.append([R])
-                degrees.add(d)
+            parts = [_omega_modulo(h, problem, place, ladder) for h in bundle]
         except BadPrimeError:
             continue
-        if len(images) < len(bundle) or len(degrees) > 1:
+        for h, part in zip(bundle, parts, strict=True):
+            if part is None:
+                return NoRationalOmega(bound, h.p, str(place))
+        images = [part for part in parts if part is not None]
+        degrees = {d for _, d in images}
+        if len(degrees) > 1:
             continue
-        proposal = lifter.add(bundle, images)
+        degree = degrees.pop()
+        ladder = [degree] if degree == bound else [degree, *_ladder(bound)]
+        proposal = lifter.add(bundle, [[R] for R, _ in images])
         if proposal:
-            P = _polynomial_part(problem, proposal[0], degrees.pop())
+            P = _polynomial_part(problem, proposal[0], degree)
             if P is not None:
                 return Form(1, proposal[0], P)
     raise AssertionError("the sequence of primes is infinite")
+
+
+def _ladder(bound: int) -> list[int]:
+    """Degrees to be tried for P: small ones first, for the bound is often far above the degree; the bound last."""
+    return [*(4**k for k in range(2, 32) if 4**k < bound), bound]
+
+
+def _omega_modulo(h: Homomorphism, problem: Problem, place: Place, degrees: list[int]) -> tuple[Any, int] | None:
+    """R and deg P of the only rational omega modulo p; None if there is none.
+
+    Raises `BadPrimeError` if the place has no root in F_p, or if there are two such omegas modulo p.
+    """
+    c = chart(h, problem, place)
+    if c is None:
+        raise BadPrimeError("the place has no root modulo this prime")
+    parts = exponential_parts(c.equation, place)
+    for degree in degrees:
+        problem.budget.check()
+        problem.budget.check_degree(degree, "the polynomial part of a solution")
+        found = [pair for Q in parts if (pair := rational_omega(c, Q, degree))]
+        if len(found) > 1:
+            raise BadPrimeError("two solutions modulo this prime")
+        if found:
+            return omega_parts(h, problem, c, *found[0])
+    return None
 
 
 def _polynomial_part(problem: Problem, R: Poly, degree: int) -> Poly | None:

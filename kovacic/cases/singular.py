@@ -19,9 +19,10 @@ def residue(problem: Problem, R: Poly, place: Place) -> int:
     rest = R.exact_quotient(place.factor ** (place.weight - 1))
     if rest is None:
         raise AssertionError("the logarithmic derivative of a rational function has simple poles")
-    cofactor = problem.D // place.factor**place.weight * place.factor.derivative()
-    value = rest * cofactor.inverse_modulo(place.factor) % place.factor
+    cofactor = problem.D // place.factor**place.weight * place.factor.derivative() % place.factor
+    rest = rest % place.factor
+    value = rest[cofactor.degree] / cofactor.lc
     rational = problem.field.rational_value(value)
-    if value.degree > 0 or rational is None or rational.denominator != 1:
+    if rest != cofactor * value or rational is None or rational.denominator != 1:
         raise AssertionError("the residues of the logarithmic derivative of a rational function are integers")
     return int(rational)

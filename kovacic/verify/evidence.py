@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import islice, takewhile
 from operator import mul
 from typing import Any
 
@@ -13,7 +14,6 @@ from kovacic.algebra.fields import BadPrimeError, Homomorphism
 from kovacic.algebra.modular import (
     fundamental_system,
     null_space,
-    ordinary_point,
     power_series,
     simple_roots,
     square_root,
@@ -44,6 +44,8 @@ _INVARIANT_DEGREE = {
     Structure.OCTAHEDRAL: 8,
     Structure.ICOSAHEDRAL: 12,
 }
+#: How far down the sequence of primes a record may lie.
+_PRIMES = 4096
 _APPLIES = {
     Rule.RAMIFIED: {Structure.REDUCIBLE},
     Rule.LOGARITHM: set(Structure) - {Structure.REDUCIBLE},
@@ -118,33 +120,27 @@ class Inspector:
         return largest_degree(named, self.logarithmic) is None
 
     def _homomorphism(self, p: int) -> Homomorphism | None:
-        """The homomorphism of the field's sequence that belongs to a recorded prime."""
-        for h in self.S.field.homomorphisms():
-            if h.p <= p:
-                return h if h.p == p else None
-        return None
+        """The homomorphism that belongs to a recorded prime, if it is among the first ones of the field's sequence."""
+        first = islice(self.S.field.homomorphisms(), _PRIMES)
+        return next((h for h in takewhile(lambda h: h.p >= p, first) if h.p == p), None)
 
     def _no_invariant(self, item: NoInvariant) -> bool:
         """No rational form of degree m: no room for one, or nullity 0 of the linear system modulo the prime."""
-        m, field = item.invariant_degree, self.S.field
-        valuations = [least_valuation(point, m) for point in self.points]
-        if any(
-            (point.order > 2 and v.denominator != 1) or (point.order == 2 and point.difference is None and m % 2)
-            for point, v in zip(self.points, valuations, strict=True)
-        ):
-            return True
-        least = [-(-v.numerator // v.denominator) for v in valuations]
-        room = m - sum(v * point.factor.degree for v, point in zip(least, self.points, strict=True))
-        if room < 0:
-            return True
-        h = next(field.homomorphisms()) if item.prime is None else self._homomorphism(item.prime)
-        return h is not None and self._nullity(h, m, least[:-1], room) == 0
+        m = item.invariant_degree
+        valuations = [least_valuation(point, m, point.name in self.logarithmic) for point in self.points]
+        least = [v for v in valuations if v is not None]
+        room = m - sum(v * point.factor.degree for v, point in zip(least, self.points, strict=False))
+        if len(least) < len(valuations) or room < 0:
+            return item.prime is None
+        h = None if item.prime is None else self._homomorphism(item.prime)
+        return h is not None and item.degree == room and self._nullity(h, item.point, m, least[:-1], room) == 0
 
-    def _nullity(self, h: Homomorphism, m: int, valuations: list[int], room: int) -> int:
+    def _nullity(self, h: Homomorphism, point: int, m: int, valuations: list[int], room: int) -> int:
         """The dimension modulo p of the forms whose quotient by prod p^v is a polynomial of degree <= room, to some terms."""
         order = room + m + 8
         den = h.keeping_degree(self.S.den)
-        point = ordinary_point(den)
+        if not int(den(point)):
+            raise BadPrimeError("the point is singular")
         y1, y2 = fundamental_system(translate(h(self.S.num), point), translate(den, point), order)
         factors = [
             (translate(h.keeping_degree(place.factor), point), -v)
@@ -162,10 +158,10 @@ class Inspector:
     def _no_rational_omega(self, item: NoRationalOmega) -> bool:
         """No rational omega with the local expansions at the recorded place (invariants of degree 2 excluded elsewhere)."""
         degree = largest_degree(self.points, self.logarithmic)
-        if degree is None or degree < 0:
+        if degree is None:
             return True
-        if item.prime is None:
-            return False
+        if item.prime is None or item.degree != degree:
+            return degree < 0 and item.degree == degree
         h = self._homomorphism(item.prime)
         place = next((point for point in self.points if point.name == item.place), None)
         if h is None or place is None or not self._tells_solutions_apart(place):

@@ -69,14 +69,20 @@ def _infinity(S: RatFunc) -> Point:
     return Point("infinity", z, num, den * z**order, order)
 
 
-def least_valuation(point: Point, m: int) -> Fraction:
-    """A lower bound of the valuation at the point of a rational form of degree m in the solutions; exact where irregular.
+def least_valuation(point: Point, m: int, logarithm: bool) -> int | None:
+    """The least integer among the valuations that a rational form of degree m can have at the point; None if there is none.
 
-    m (1 - Delta)/2 at a regular point with rational Delta, else m/2; m k/4 at an irregular point of order k.
+    m k/4 at an irregular point of order k; m (1 + Delta)/2 with a logarithm; m/2 + (i - m/2) Delta, i = 0, ..., m, else,
+    with 0 for an irrational Delta.
     """
+    difference = point.difference
     if point.order > 2:
-        return Fraction(m * point.order, 4)
-    return m * (1 - (point.difference or Fraction(0))) / 2
+        possible = [Fraction(m * point.order, 4)]
+    elif logarithm and difference is not None:
+        possible = [m * (1 + difference) / 2]
+    else:
+        possible = [Fraction(m, 2) + (i - Fraction(m, 2)) * (difference or 0) for i in range(m + 1)]
+    return min((int(v) for v in possible if v.denominator == 1), default=None)
 
 
 def logarithm_at(point: Point, homomorphisms: Iterator[Homomorphism]) -> bool:
