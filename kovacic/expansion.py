@@ -137,24 +137,24 @@ def _recurrence(m: int, D: Any, R: Any, T: Any) -> _Recurrence:
     for k in range(m + 1):
         base = lowest * k
         following = [fmpz_poly([])] * (len(current) + max(D.degree(), R.degree() + 1, 0) + 2)
-        for h, l in enumerate(current):
-            if l:
+        for h, action in enumerate(current):
+            if action:
                 j = h + base
                 for a in range(D.degree() + 1):
                     if D[a]:
-                        following[h + a - 1 - lowest] += l * (i + (j - k * a)) * D[a]
+                        following[h + a - 1 - lowest] += action * (i + (j - k * a)) * D[a]
                 for a in range(R.degree() + 1):
                     if R[a]:
-                        following[h + a - lowest] += l * R[a]
+                        following[h + a - lowest] += action * R[a]
         coupling = k * (m - k + 1)
-        for h, l in enumerate(previous):
-            if l and coupling:
+        for h, action in enumerate(previous):
+            if action and coupling:
                 for a in range(T.degree() + 1):
                     if T[a]:
                         position = h + a - 2 * lowest
                         if position >= len(following):
                             following += [fmpz_poly([])] * (position + 1 - len(following))
-                        following[position] -= l * T[a] * coupling
+                        following[position] -= action * T[a] * coupling
         while following and not following[-1]:
             following.pop()
         previous, current = current, following
@@ -210,9 +210,7 @@ def _null_vector(rows: list[list[Any]], columns: int) -> list[Any] | None:
     reduced, rank = fmpq_mat(len(entries), columns, [value for row in entries for value in row]).rref()
     if rank != columns - 1:
         return None
-    pivots = []
-    for r in range(rank):
-        pivots.append(next(c for c in range(columns) if reduced[r, c]))
+    pivots = [next(c for c in range(columns) if reduced[r, c]) for r in range(rank)]
     free = next(c for c in range(columns) if c not in pivots)
     vector = [fmpq(0)] * columns
     vector[free] = fmpq(1)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from kovacic.algebra.fields import AlgebraicField
+from kovacic.cases.constants import square_root
 from kovacic.cases.outcome import Found, Outcome
 from kovacic.cases.singular import singular_factor
 from kovacic.invariants import invariants
@@ -56,10 +56,7 @@ def _tetrahedral(problem: Problem, F: Form) -> Form:
     b = rest.lc / pattern.lc if rest else problem.field.poly([])
     if not b or rest != pattern * b:
         raise AssertionError("T^2 = a H^3 + b F^4 holds for the tetrahedral group")
-    w = problem.field.sqrt(b)
-    if w is None:
-        w = AlgebraicField(problem.field, problem.field.poly([-b, 0, 1])).generator
-    return root(Form(12, T.R, T.P + w * G), 3, problem)
+    return root(Form(12, T.R, T.P + square_root(problem.field, b) * G), 3, problem)
 
 
 _FORMS = {

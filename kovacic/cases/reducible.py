@@ -13,10 +13,11 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from kovacic.algebra.fields import AlgebraicField, BadPrimeError, Homomorphism
+from kovacic.algebra.fields import BadPrimeError, Homomorphism
 from kovacic.algebra.poly import Poly, to_fraction
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.algebra.traces import trace_of_square_root
+from kovacic.cases.constants import square_root
 from kovacic.cases.outcome import Found, Outcome
 from kovacic.cases.singular import singular_factor
 from kovacic.invariants import invariants
@@ -51,9 +52,7 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     square, remainder = divmod(discriminant, weight * weight)
     if remainder or square.degree > 0:
         raise AssertionError("the discriminant of an invariant of degree 2 is a constant")
-    w = problem.field.sqrt(square)
-    if w is None:
-        w = AlgebraicField(problem.field, problem.field.poly([-square, 0, 1])).generator
+    w = square_root(problem.field, square)
     Y = w * weight
     P = P.over(w.field)
     zeros = P.gcd(X - Y)  # the zeros of y1 are those zeros of F at which F' = sqrt(disc)

@@ -251,4 +251,4 @@ def _is_rational(series: Any, num: Any, den: Any, nu: int, degree: int, growth: 
         q = r0 // r1
         r0, r1, t0, t1 = r1, r0 - q * r1, t1, t0 - q * t1
     A, B = r1, den * t1
-    return t1.degree() <= degree and den * (A.derivative() * B - A * B.derivative() + A * A) == num * B * B
+    return t1.degree() <= degree and bool(den * (A.derivative() * B - A * B.derivative() + A * A) == num * B * B)
