@@ -1,8 +1,8 @@
 """Answers as JSON, schema 1: a contract, described by `solution.schema.json` beside this file.
 
     {"schema": 1, "input": "2", "variable": "x", "S": "2", "status": "liouvillian", "case": 1,
-     "riccati": {"variable": "w", "degree": 1, "coefficients": ["-c/2", "1"]},
-     "constants": {"symbol": "c", "minimal_polynomial": "c**2 - 8"},
+     "riccati": {"variable": "w", "degree": 1, "coefficients": ["-c", "1"]},
+     "constants": {"symbol": "c", "minimal_polynomial": "c**2 - 2"},
      "verified": true, "proof": {...}, "notices": [], "seconds": 0.001}
 
 Coefficients run from low to high, in Python/SymPy syntax in the variable and the symbol of the constants; the last one is

@@ -1,0 +1,231 @@
+"""The command as a user runs it: output, exit status, streams, signals."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+import kovacic
+from kovacic.cli import main
+from kovacic.errors import VerificationFailed
+
+COMMAND = [sys.executable, "-m", "kovacic"]
+
+
+def run(
+    *arguments: str, stdin: str | None = None, env: dict[str, str] | None = None
+) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [*COMMAND, *arguments],
+        input=stdin,
+        stdin=subprocess.DEVNULL if stdin is None else None,
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, **(env or {})},
+        timeout=60,
+    )
+
+
+def test_a_solution_in_words() -> None:
+    done = run("solve", "x^2+3")
+    assert done.returncode == 0
+    assert done.stderr == ""
+    assert done.stdout.splitlines() == [
+        "y'' = (x^2 + 3) y",
+        "  Liouvillian solutions exist: case 1, omega = y'/y is rational",
+        "  omega = (x^2 + 1)/x",
+        "  y = exp(integral of omega dx)",
+        "  verified: omega' + omega^2 = S holds exactly",
+    ]
+
+
+def test_a_no_in_words() -> None:
+    done = run("solve", "t")
+    assert done.returncode == 0
+    lines = done.stdout.splitlines()
+    assert lines[:2] == ["y'' = t y", "  no Liouvillian solution exists: the Galois group is SL2(C)"]
+    assert any("not case 1:" in line and "infinity" in line for line in lines)
+    assert lines[-1] == "  verified: every exclusion was recomputed by independent code"
+
+
+@pytest.mark.parametrize(
+    ("S", "words"),
+    [
+        ("2", "where c is any root of c^2 - 2"),
+        ("1/x - 3/(16*x^2)", "omega is a root w of"),
+        ("(-5*x**2 - 27)/(36*x**4 - 72*x**2 + 36)", "algebraic of degree 4"),
+        ("0.25*x^2 - 7/2", "note: 0.25 was taken exactly, as 1/4"),
+        ("0", "y'' = 0"),
+        ("-x^2", "y'' = (-x^2) y"),
+    ],
+)
+def test_texts_of_other_answers(S: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main.run(["solve", S]) == 0
+    assert words in capsys.readouterr().out
+
+
+def test_json_is_one_object_a_line() -> None:
+    done = run("solve", "--json", "x^2+3", "x", "-3/(16*x^2)+1/x")
+    assert done.returncode == 0
+    answers = [json.loads(line) for line in done.stdout.splitlines()]
+    assert [(answer["input"], answer["case"]) for answer in answers] == [
+        ("x^2+3", 1),
+        ("x", None),
+        ("-3/(16*x^2)+1/x", 2),
+    ]
+
+
+def test_standard_input_one_a_line() -> None:
+    done = run("solve", "--json", "-", stdin="x\n\n# a comment\n  x^2+3  \n")
+    assert [json.loads(line)["input"] for line in done.stdout.splitlines()] == ["x", "x^2+3"]
+    assert run("solve", "-", stdin="").returncode == 0
+
+
+def test_bad_input_does_not_stop_the_others() -> None:
+    done = run("solve", "--json", "x", "sin(x)", "x^2+3")
+    assert done.returncode == 2
+    assert len(done.stdout.splitlines()) == 2
+    assert "sin(x) isn't a rational function of x" in done.stderr
+    assert "at position 0" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status"),
+    [
+        ([], 2),
+        (["solve"], 2),
+        (["solve", "x+"], 2),
+        (["solve", "1/2x"], 2),
+        (["solve", ""], 2),
+        (["solve", "--nonsense", "x"], 2),
+        (["nonsense"], 2),
+        (["solve", "x", "--limit", "nonsense=3"], 2),
+        (["solve", "x", "--limit", "degree=-3"], 2),
+        (["solve", "x", "--limit", "degree=many"], 2),
+        (["solve", "x", "--var", "2"], 2),
+        (["solve", "x^100001"], 3),
+        (["solve", "x^2-100001", "--limit", "unknown_degree=100"], 3),
+        (["solve", "x^2-100001", "--limit", "seconds=0.000001"], 3),
+        (["solve", "-x^2"], 0),
+        (["solve", "--var", "y", "y^2"], 0),
+        (["solve", "x^2-7", "--limit", "degree=5", "--limit", "bits=50"], 0),
+        (["solve", "--", "-x"], 0),
+        (["--version"], 0),
+        (["--help"], 0),
+        (["solve", "--help"], 0),
+    ],
+    ids=str,
+)
+def test_exit_status(arguments: list[str], status: int) -> None:
+    assert main.run(arguments) == status
+
+
+def test_a_failed_self_check_is_status_4(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    def failing(*arguments: object, **options: object) -> None:
+        raise VerificationFailed("the answer failed its own check; please report it")
+
+    monkeypatch.setattr("kovacic.api.solve", failing)
+    assert main.run(["solve", "x", "sin(x)"]) == 4
+    assert "please report" in capsys.readouterr().err
+
+
+def test_ctrl_c_is_status_130() -> None:
+    process = subprocess.Popen(
+        [*COMMAND, "solve", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdin is not None
+    assert process.stdout is not None
+    process.stdin.write("x\n")
+    process.stdin.flush()
+    assert process.stdout.readline() == "y'' = x y\n"  # it runs, and waits for more
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert "Traceback" not in errors
+
+
+def test_a_closed_pipe_is_quiet() -> None:
+    done = subprocess.run(
+        f"yes x | {sys.executable} -m kovacic solve --json - 2>&1 >/dev/stdout | head -1; echo ${{PIPESTATUS[1]}}",
+        shell=True,
+        executable="/bin/bash",
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+    first, status = done.stdout.splitlines()
+    assert json.loads(first)["case"] is None
+    assert status == "141"
+    assert done.stderr == ""
+
+
+def on_terminal(env: dict[str, str]) -> str:
+    """What the command writes when standard output is a terminal."""
+    leader, follower = pty.openpty()
+    process = subprocess.Popen(
+        [*COMMAND, "solve", "x^2+3"], stdout=follower, stderr=follower, stdin=subprocess.DEVNULL, env=env
+    )
+    os.close(follower)
+    output = b""
+    while True:
+        try:
+            piece = os.read(leader, 4096)
+        except OSError:  # the other end is closed
+            break
+        if not piece:
+            break
+        output += piece
+    os.close(leader)
+    process.wait(timeout=30)
+    return output.decode()
+
+
+def test_colours_on_a_terminal_only_and_not_with_no_color() -> None:
+    env = {key: value for key, value in os.environ.items() if key not in ("NO_COLOR", "TERM")}
+    assert "\x1b[" in on_terminal({**env, "TERM": "xterm"})
+    assert "\x1b[" not in on_terminal({**env, "TERM": "xterm", "NO_COLOR": "1"})
+    assert "\x1b[" not in on_terminal({**env, "TERM": "dumb"})
+    assert "\x1b[" not in run("solve", "x^2+3").stdout
+
+
+def test_the_whole_process_starts_quickly() -> None:
+    def seconds() -> float:
+        start = time.perf_counter()
+        run("solve", "x^2+3")
+        return time.perf_counter() - start
+
+    # The bare interpreter with flint is the unit, for the machine may be busy: about 0.08 s where this was written,
+    # and the whole command about 0.15 s.
+    def unit() -> float:
+        start = time.perf_counter()
+        subprocess.run([sys.executable, "-c", "import flint"], check=True)
+        return time.perf_counter() - start
+
+    ratios = [seconds() / unit() for _ in range(5)]
+    assert min(ratios) < 4
+
+
+def test_the_help_names_the_commands_without_importing_them(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main.run(["--help"]) == 0
+    assert "solve" in capsys.readouterr().out
+
+
+def test_the_version_is_the_packages(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main.run(["--version"]) == 0
+    assert capsys.readouterr().out == f"kovacic {kovacic.__version__}\n"
+
+
+def test_the_console_script_is_declared() -> None:
+    project = (Path(kovacic.__file__).parent.parent / "pyproject.toml").read_text(encoding="utf-8")
+    assert 'kovacic = "kovacic.cli.main:main"' in project

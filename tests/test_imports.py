@@ -1,0 +1,74 @@
+"""What imports what: the layers, and the heavy packages that must not be paid for at the start."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import kovacic
+
+ROOT = Path(kovacic.__file__).parent
+HEAVY = {"sympy", "mpmath", "matplotlib", "numpy", "scipy", "lark", "rich", "joblib", "dask", "hypothesis", "pytest"}
+
+
+def loaded_after(code: str) -> set[str]:
+    """The top-level packages that a fresh interpreter has imported after running `code`."""
+    report = "import sys; print('\\n' + ' '.join(sorted({name.partition('.')[0] for name in sys.modules})))"
+    done = subprocess.run([sys.executable, "-c", f"{code}\n{report}"], capture_output=True, text=True, check=True)
+    return set(done.stdout.splitlines()[-1].split())
+
+
+def test_importing_the_package_imports_nothing_heavy() -> None:
+    loaded = loaded_after("import kovacic")
+    assert "flint" in loaded
+    assert loaded & (HEAVY | {"click", "json"}) == set()
+
+
+def test_solving_text_imports_nothing_heavy() -> None:
+    code = "import kovacic; a = kovacic.solve('x^2+3'); b = kovacic.solve(([0, 1], [1])); str(a), a.verify(), b.proof"
+    assert loaded_after(code) & (HEAVY | {"click", "json"}) == set()
+
+
+@pytest.mark.parametrize("arguments", [["solve", "x^2+3"], ["solve", "--json", "x"], ["--help"], ["solve", "--help"]])
+def test_the_command_imports_nothing_heavy(arguments: list[str]) -> None:
+    assert loaded_after(f"from kovacic.cli.main import run; run({arguments!r})") & HEAVY == set()
+
+
+def test_the_layers_hold() -> None:
+    """The contracts of pyproject.toml, checked by import-linter."""
+    command = "from importlinter.cli import lint_imports_command; lint_imports_command()"
+    done = subprocess.run(
+        [sys.executable, "-c", command, "--no-cache"], cwd=ROOT.parent, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_trusted_kernel_imports_algebra_and_solution_only() -> None:
+    allowed = {"algebra", "solution", "verify"}
+    for path in sorted((ROOT / "verify").glob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+            names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            for name in names:
+                if name.partition(".")[0] == "kovacic":
+                    assert name.split(".")[1] in allowed, f"{path.name} imports {name}"
+
+
+# Where text from users arrives, or what was made from it.
+TEXT_FACING = ("api.py", "batch", "cli", "closed_form", "io", "numeric", "parametric", "result.py")
+
+
+def test_nothing_executes_text() -> None:
+    """No eval, exec, parse_expr, and no sympify where text from users could reach it: it would run."""
+    for path in sorted(ROOT.rglob("*.py")):
+        forbidden = {"eval", "exec", "parse_expr"}
+        if path.relative_to(ROOT).parts[0] in TEXT_FACING:
+            forbidden.add("sympify")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call):
+                called = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+                assert called not in forbidden, f"{path}: {called}"

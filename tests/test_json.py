@@ -1,0 +1,146 @@
+"""JSON, schema 1: the schema, the way back, and what is refused."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+import sympy
+from published import Published, load
+
+import kovacic
+from kovacic.errors import InputError
+from kovacic.io.json import dumps, loads
+from kovacic.limits import Limits
+
+SCHEMA = json.loads((Path(kovacic.__file__).parent / "io" / "solution.schema.json").read_text(encoding="utf-8"))
+VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
+PUBLISHED = load()
+
+
+def test_the_schema_is_one() -> None:
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+
+@pytest.mark.parametrize("entry", PUBLISHED, ids=lambda entry: entry.id)
+def test_published_equations_there_and_back(entry: Published) -> None:
+    answer = kovacic.solve(entry.S)
+    line = answer.to_json()
+    assert "\n" not in line
+    data = json.loads(line)
+    VALIDATOR.validate(data)
+    assert (data["schema"], data["case"], data["verified"]) == (1, entry.case, True)
+    assert data["status"] == ("none" if entry.case is None else "liouvillian")
+    read = kovacic.Solution.from_json(line)
+    assert read == answer
+    assert read.to_json() == line
+
+
+@pytest.mark.parametrize("variable", ["t", "c", "w", "W", "xx", "λ"])
+@pytest.mark.parametrize("S", ["2", "-3/(16*{0}^2) + 1/{0}", "1/(4*{0}^2)", "{0}", "-({0}^2+1)/({0}^3-{0}+1)^2"])
+def test_every_variable_name_comes_back(S: str, variable: str) -> None:
+    answer = kovacic.solve(S.format(variable), var=variable)
+    line = answer.to_json()
+    data = json.loads(line)
+    VALIDATOR.validate(data)
+    assert loads(line) == answer
+    assert dumps(loads(line)) == line
+    if data["constants"] is not None:
+        assert data["constants"]["symbol"] != variable
+    if data["riccati"] is not None:
+        assert data["riccati"]["variable"] != variable
+
+
+def test_the_form_that_other_programs_rely_on() -> None:
+    data = json.loads(kovacic.solve("2").to_json())
+    assert list(data)[:5] == ["schema", "input", "variable", "S", "status"]
+    assert data["riccati"] == {"variable": "w", "degree": 1, "coefficients": ["-c", "1"]}
+    assert data["constants"] == {"symbol": "c", "minimal_polynomial": "c**2 - 2"}
+    assert isinstance(data["seconds"], float)
+    none = json.loads(kovacic.solve("x").to_json())
+    assert (none["status"], none["case"], none["riccati"], none["constants"]) == ("none", None, None, None)
+    assert [entry["structure"] for entry in none["proof"]["excluded"]] == [
+        "reducible",
+        "imprimitive",
+        "tetrahedral",
+        "octahedral",
+        "icosahedral",
+    ]
+
+
+@pytest.mark.parametrize("S", ["x^2+3", "2", "-3/(16*x^2)+1/x", "(-5*x**2 - 27)/(36*x**4 - 72*x**2 + 36)"])
+def test_sympy_reads_the_coefficients_and_they_solve_the_riccati_equation(S: str) -> None:
+    """Independent of the package: dM/dx + (S - w^2) dM/dw = 0 modulo M, over Q(c)."""
+    data = json.loads(kovacic.solve(S).to_json())
+    x, w, c = sympy.symbols("x w c")
+    # Text that this package has written.
+    coefficients = [sympy.sympify(text) for text in data["riccati"]["coefficients"]]
+    M = sum(coefficient * w**k for k, coefficient in enumerate(coefficients))
+    identity = sympy.diff(M, x) + (sympy.sympify(data["S"]) - w**2) * sympy.diff(M, w)
+    remainder = sympy.numer(sympy.together(sympy.rem(identity, M, w)))
+    if data["constants"] is not None:
+        remainder = sympy.rem(remainder, sympy.sympify(data["constants"]["minimal_polynomial"]), c)
+    assert sympy.expand(remainder) == 0
+
+
+def test_undecided_answers_say_why() -> None:
+    answer = kovacic.solve("x^2 - 100001", limits=Limits(unknown_degree=100))
+    data = json.loads(answer.to_json())
+    VALIDATOR.validate(data)
+    assert (data["status"], data["case"]) == ("undecided", None)
+    assert "100" in data["proof"]["undecided"]
+    assert loads(answer.to_json()) == answer
+
+
+def test_a_changed_certificate_fails_its_check() -> None:
+    data = json.loads(kovacic.solve("x^2 + 3").to_json())
+    assert loads(data).verify()
+    data["riccati"]["coefficients"][0] = "(-x**2 - 2)/x"
+    assert not loads(data).verify()
+
+
+def test_a_changed_proof_fails_its_check() -> None:
+    data = json.loads(kovacic.solve("x").to_json())
+    data["S"] = "x^2 + 3"
+    assert not loads(data).verify()
+
+
+def _without(key: str) -> dict[str, Any]:
+    return {k: v for k, v in json.loads(kovacic.solve("x^2+3").to_json()).items() if k != key}
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        "not JSON",
+        "[1]",
+        "{}",
+        '{"schema": 2}',
+        _without("proof"),
+        _without("S"),
+        {**_without(""), "S": 3},
+        {**_without(""), "S": "sin(x)"},
+        {**_without(""), "case": 2},
+        {**_without(""), "status": "none"},
+        {**_without(""), "status": "maybe"},
+        {**_without(""), "riccati": {"variable": "w", "degree": 1, "coefficients": ["1"]}},
+        {**_without(""), "riccati": {"variable": "w", "degree": 1, "coefficients": ["1/(x-5)", "1"]}},
+        {**_without(""), "riccati": {"variable": "w", "degree": 1, "coefficients": ["x", "2"]}},
+        {**_without(""), "constants": {"symbol": "c", "minimal_polynomial": "1/c"}},
+    ],
+    ids=range(15),
+)
+def test_what_is_no_answer_is_refused(data: Any) -> None:
+    with pytest.raises(InputError):
+        loads(data)
+
+
+def test_notices_and_exact_text_are_kept() -> None:
+    answer = kovacic.solve(" 0.25*x^2 - 7/2 ")
+    assert answer.notices
+    assert loads(answer.to_json()).notices == answer.notices
+    assert replace(loads(answer.to_json()), seconds=None) == answer
