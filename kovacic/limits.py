@@ -14,7 +14,8 @@ class Limits:
 
     Input (exceeding one raises `LimitExceeded`): `text_length`, characters of an expression; `digits`, decimal digits of
     one number; `exponent`, the absolute value of an exponent; `degree`, the predicted degree of a numerator or
-    denominator; `bits`, the predicted size of a coefficient in bits.
+    denominator; `bits`, the predicted size of a coefficient in bits; `constants`, the degree of the field of algebraic
+    constants over Q; `parameters`, the number of symbols beside the variable.
     Work (exceeding one gives the status UNDECIDED): `unknown_degree`, the degree bound of a polynomial to be found;
     `seconds`, wall-clock time for one equation (None: no limit), checked between steps of algebra and so not a hard bound.
     """
@@ -24,6 +25,8 @@ class Limits:
     exponent: int = 100_000
     degree: int = 20_000
     bits: int = 4_000_000
+    constants: int = 24
+    parameters: int = 8
     unknown_degree: int = 20_000
     seconds: float | None = None
 

@@ -8,15 +8,16 @@ is: factoring, homomorphisms to prime fields (`bundles`), and the way back from 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 from flint import fmpq, fmpq_poly, nmod_poly
 
-from kovacic.algebra.lifting import RationalLifter, primes
+from kovacic.algebra.lifting import RationalLifter as ResidueLifter
+from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Poly, RationalPoly, Scalar, to_fraction
 
 
@@ -30,6 +31,11 @@ class Homomorphism(ABC):
     __slots__ = ()
 
     p: int
+
+    @property
+    def ground(self) -> Homomorphism:
+        """The homomorphism of Q, or of Q(t), that this one extends."""
+        return self
 
     @abstractmethod
     def __call__(self, polynomial: Poly) -> Any:
@@ -72,6 +78,10 @@ class ExtensionHomomorphism(Homomorphism):
     def p(self) -> int:  # type: ignore[override]
         return self.base.p
 
+    @property
+    def ground(self) -> Homomorphism:
+        return self.base.ground
+
     def __call__(self, polynomial: Poly) -> Any:
         if not isinstance(polynomial, ExtensionPoly):
             return self.base(polynomial)
@@ -81,14 +91,34 @@ class ExtensionHomomorphism(Homomorphism):
         return result
 
 
+class CoordinateLifter(ABC):
+    """From images of polynomials over Q, or over Q(t), back to the polynomials."""
+
+    __slots__ = ()
+
+    @property
+    @abstractmethod
+    def primes_used(self) -> int:
+        """How many images were used."""
+
+    @abstractmethod
+    def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:
+        """Add the images under a homomorphism; a proposal when one is due and there is one, else None."""
+
+
 class Field(ABC):
     """An exact field K of characteristic 0 with polynomial arithmetic, factoring, and homomorphisms to prime fields."""
 
     __slots__ = ()
 
     @property
+    def ground(self) -> Field:
+        """The field at the bottom: Q, or Q(t) for parameters t."""
+        return self
+
+    @property
     def absolute_degree(self) -> int:
-        """How many rational coordinates an element has."""
+        """The degree over the ground field."""
         return 1
 
     @abstractmethod
@@ -108,8 +138,11 @@ class Field(ABC):
         """The monic irreducible factors with their multiplicities, in a fixed order."""
 
     @abstractmethod
-    def bundles(self) -> Iterator[tuple[Homomorphism, ...]]:
-        """Sets of homomorphisms over one prime each, such that the images under a set determine an element modulo p."""
+    def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
+        """Sets of homomorphisms over one prime each, such that the images under a set determine an element modulo p.
+
+        (Over Q(t): its value at one point.)  `allowed` restricts the primes.
+        """
 
     @abstractmethod
     def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
@@ -118,6 +151,10 @@ class Field(ABC):
     @abstractmethod
     def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
         """The polynomials that have these rational coordinates (`fmpq_poly`), in the order of `coordinates`."""
+
+    def coordinate_lifter(self) -> CoordinateLifter:
+        """A fresh way back for elements of the ground field."""
+        return RationalLifter()
 
     def lifter(self) -> Lifter:
         """A fresh way back from images modulo primes."""
@@ -147,22 +184,38 @@ class Field(ABC):
         """A square root within the field, or None if there is none."""
 
 
-class Lifter:
-    """Collects images under bundles of homomorphisms and proposes the polynomials over the field."""
+class RationalLifter(CoordinateLifter):
+    """The way back to rational numbers."""
 
-    __slots__ = ("_field", "_rational")
+    __slots__ = ("_residues",)
 
-    def __init__(self, field: Field) -> None:
-        self._field = field
-        self._rational = RationalLifter()
+    def __init__(self) -> None:
+        self._residues = ResidueLifter()
 
     @property
     def primes_used(self) -> int:
-        return self._rational.primes_used
+        return self._residues.primes_used
+
+    def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:
+        return self._residues.add(homomorphism.p, images)
+
+
+class Lifter:
+    """Collects images under bundles of homomorphisms and proposes the polynomials over the field."""
+
+    __slots__ = ("_coordinates", "_field")
+
+    def __init__(self, field: Field) -> None:
+        self._field = field
+        self._coordinates = field.ground.coordinate_lifter()
+
+    @property
+    def primes_used(self) -> int:
+        return self._coordinates.primes_used
 
     def add(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Poly] | None:
         """Images of the same polynomials under each homomorphism of the bundle; a proposal when one is due, else None."""
-        proposal = self._rational.add(bundle[0].p, self._field.coordinates(bundle, images))
+        proposal = self._coordinates.add(bundle[0].ground, self._field.coordinates(bundle, images))
         return None if proposal is None else self._field.assemble(proposal)
 
 
@@ -184,8 +237,8 @@ class RationalField(Field):
         ordered = sorted(factors, key=lambda pair: (pair[0].degree(), [int(c) for c in pair[0].coeffs()]))
         return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), int(k)) for f, k in ordered]
 
-    def bundles(self) -> Iterator[tuple[Homomorphism, ...]]:
-        return ((RationalHomomorphism(p),) for p in primes())
+    def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
+        return ((RationalHomomorphism(p),) for p in primes() if allowed is None or allowed(p))
 
     def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
         return list(images[0])
@@ -225,6 +278,10 @@ class AlgebraicField(Field):
         return self.modulus.degree
 
     @property
+    def ground(self) -> Field:
+        return self.base.ground
+
+    @property
     def absolute_degree(self) -> int:
         return self.dimension * self.base.absolute_degree
 
@@ -260,12 +317,13 @@ class AlgebraicField(Field):
 
         return factor_over_extension(self, polynomial)
 
-    def bundles(self) -> Iterator[tuple[Homomorphism, ...]]:
-        return iter(_splitting_bundles(self))
+    def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
+        return iter(_splitting_bundles(self)) if allowed is None else self.splitting_bundles(allowed)
 
-    def splitting_bundles(self) -> Iterator[tuple[Homomorphism, ...]]:
+    def splitting_bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
         """The bundles over primes that split completely, found one after the other."""
-        for base_bundle in self.base.bundles():
+        base_bundles = self.base.bundles(self._splitting(allowed) if self._is_numerical else allowed)
+        for base_bundle in base_bundles:
             homomorphisms: list[Homomorphism] = []
             try:
                 for base in base_bundle:
@@ -277,6 +335,25 @@ class AlgebraicField(Field):
                     yield tuple(homomorphisms)
             except BadPrimeError:
                 continue
+
+    @property
+    def _is_numerical(self) -> bool:
+        """Does c lie over Q while there are parameters?  Then the prime decides about splitting, not the point."""
+        return self.ground != QQ and all(self.base.rational_value(c) is not None for c in self.modulus)
+
+    def _splitting(self, allowed: Callable[[int], bool] | None) -> Callable[[int], bool]:
+        values = [self.base.rational_value(c) for c in self.modulus]
+        modulus = QQ.poly([v for v in values if v is not None])
+
+        @cache
+        def splits(p: int) -> bool:
+            try:
+                roots = RationalHomomorphism(p).keeping_degree(modulus).roots()
+            except BadPrimeError:
+                return False
+            return len(roots) == self.dimension and (allowed is None or allowed(p))
+
+        return splits
 
     def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
         n, p = self.dimension, bundle[0].p
@@ -379,6 +456,9 @@ class ExtensionPoly(Poly):
 
     def key(self) -> tuple[Any, ...]:
         return tuple(part.key() for part in self.parts)
+
+    def leaves(self) -> list[Poly]:
+        return [leaf for part in self.parts for leaf in part.leaves()]
 
     @property
     def field(self) -> AlgebraicField:

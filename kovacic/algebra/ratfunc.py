@@ -6,7 +6,7 @@ from fractions import Fraction
 from math import gcd
 from typing import Any
 
-from kovacic.algebra.fields import Field
+from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.poly import Poly, Scalar
 
 
@@ -142,16 +142,26 @@ class RatFunc:
 
     def to_str(self, variable: str = "x") -> str:
         """Python/SymPy syntax with integer coefficients."""
-        top, bottom = self.num.common_denominator(), self.den.common_denominator()
-        common = gcd(top, bottom)
-        num, den = self.num * (top * (bottom // common)), self.den * (bottom * (top // common))
-        content = gcd(_content(num), _content(den))
-        text = (num * Fraction(1, content)).integer_str(variable)
-        den = den * Fraction(1, content)
+        num, den = self._cleared()
+        text = num.integer_str(variable)
         if den == 1:
             return text
         below = den.integer_str(variable)
         return f"{_parenthesised(text, ' ')}/{_parenthesised(below, ' *')}"
+
+    def _cleared(self) -> tuple[Poly, Poly]:
+        """Numerator and denominator without denominators and common factors in their coefficients."""
+        ground = self.field.ground
+        if ground != QQ:
+            from kovacic.algebra.function_field import FunctionField, cleared
+
+            assert isinstance(ground, FunctionField)
+            return cleared(self.num, self.den, ground)
+        top, bottom = self.num.common_denominator(), self.den.common_denominator()
+        common = gcd(top, bottom)
+        num, den = self.num * (top * (bottom // common)), self.den * (bottom * (top // common))
+        content = gcd(_content(num), _content(den))
+        return num * Fraction(1, content), den * Fraction(1, content)
 
     def __str__(self) -> str:
         return self.to_str()

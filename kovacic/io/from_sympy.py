@@ -11,16 +11,26 @@ from fractions import Fraction
 from operator import index
 from typing import Any
 
+from flint import acb, arb
+
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.poly import Poly
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.io.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
+from kovacic.io.constants import Constants, read_with_constants
 from kovacic.io.parsed import DEFAULT_VARIABLE, Parsed
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
+#: Digits of the approximation that tells an algebraic number from its conjugates.
+_DIGITS = 15
+LARGEST_INDEX = 100
+
 
 def parse_sympy(expression: Any, *, variable: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:
-    """The rational function over Q that a SymPy expression denotes.
+    """The rational function that a SymPy expression denotes.
 
-    The variable is the only symbol in the expression, else x; or the one with the given name.  Floats are taken
+    The variable is the only symbol in the expression, else x; or the one with the given name; other symbols are parameters.
+    Constants may be algebraic numbers: I, radicals, `CRootOf`, `AlgebraicNumber`, cosines of rational angles.  Floats are taken
     exactly, with a notice.  Raises `NotRational` for whatever isn't a rational function of that variable, and `LimitExceeded`.
     """
     import sympy
@@ -38,18 +48,29 @@ def parse_sympy(expression: Any, *, variable: str | None = None, limits: Limits 
             f"different symbols have the same name: {', '.join(names)}", hint="use one symbol x throughout"
         )
     if variable is None:
+        if len(names) > 1 and DEFAULT_VARIABLE not in names:
+            raise InputError(
+                f"which of {', '.join(names[:6])} is the variable?",
+                hint=f"name it: var={names[0]!r}; the others are parameters",
+            )
         variable = names[0] if len(names) == 1 else DEFAULT_VARIABLE
-    walker = _Walker(variable, Arithmetic(limits))
-    value = walker.value(expression)
-    return Parsed(walker.arithmetic.rational(value), variable, tuple(walker.notices))
+    chosen = variable
+
+    def read(constants: Constants) -> Parsed:
+        walker = _Walker(chosen, Arithmetic(limits), constants)
+        S = constants.embedded(walker.arithmetic.rational(walker.value(expression)))
+        return Parsed(S, chosen, (*walker.notices, *constants.notices()))
+
+    return read_with_constants(read, limits)
 
 
 class _Walker:
     """The post-order walk over one expression."""
 
-    def __init__(self, variable: str, arithmetic: Arithmetic) -> None:
+    def __init__(self, variable: str, arithmetic: Arithmetic, constants: Constants) -> None:
         self.variable = variable
         self.arithmetic = arithmetic
+        self.constants = constants
         self.notices: list[str] = []
 
     def value(self, expression: Any) -> Value:
@@ -74,41 +95,73 @@ class _Walker:
         arithmetic = self.arithmetic
         try:
             if node.is_Pow:
-                return arithmetic.power(arguments[0], arguments[1])
+                return self._power(node, arguments[0], arguments[1])
             combine = arithmetic.add if node.is_Add else arithmetic.multiply
             result = arguments[0]
             for argument in arguments[1:]:
                 result = combine(result, argument)
-        except NotAnInteger:
-            raise self._refused(node, "exponents are integers") from None
         except ZeroDivisionError:
             raise NotRational(f"division by zero in {_shown(node)}") from None
         except LimitExceeded as error:
             raise LimitExceeded(f"{_shown(node)} would have {error}", limit=error.limit) from None
         return result
 
+    def _power(self, node: Any, base: Value, exponent: Value) -> Value:
+        arithmetic = self.arithmetic
+        try:
+            return arithmetic.power(base, exponent)
+        except NotAnInteger:
+            pass
+        closed, power = arithmetic.closed(base), arithmetic.closed(exponent)
+        if isinstance(closed, Poly) and closed.is_constant and isinstance(power, Poly) and power.is_constant:
+            number = power.field.rational_value(power)
+            if number is not None and number.denominator <= LARGEST_INDEX:
+                root = self.constants.radical(closed, number.denominator, _label(node.base, number.denominator))
+                if root is not None:
+                    return arithmetic.power(root, number.numerator)
+        raise self._refused(node, "exponents are integers, and roots those of numbers")
+
     def _leaf(self, node: Any) -> Value:
         if node.is_Symbol:
-            if node.name == self.variable:
-                return VARIABLE
-            raise NotRational(
-                f"the symbol {node.name} beside the variable {self.variable}: parameters aren't supported yet",
-                hint="substitute numbers for parameters; if another symbol is the variable, name it (var=)",
-            )
+            return VARIABLE if node.name == self.variable else self.constants.parameter(node.name)
         if node.is_Rational:
             return self.arithmetic.constant(Fraction(index(node.p), index(node.q)))
         if node.is_Float and node.is_finite:
             exact = exact_float(node)
             self.notices.append(f"the float {_shown(node)} was taken exactly, as {_shown(exact)}")
             return self.arithmetic.constant(exact)
+        if node.is_number and node.is_algebraic:
+            return self._algebraic(node)
         raise self._refused(node, None)
+
+    def _algebraic(self, node: Any) -> Value:
+        """An algebraic number of any other form, through its minimal polynomial."""
+        import sympy
+
+        if node is sympy.I:
+            root = self.constants.radical(QQ.poly([-1]), 2, "I")
+            assert root is not None
+            return root
+        exact = node.as_expr() if isinstance(node, sympy.AlgebraicNumber) else node
+        try:
+            is_root = isinstance(exact, sympy.CRootOf)
+            minimal = exact.poly if is_root else sympy.minimal_polynomial(exact, sympy.Dummy(), polys=True)
+        except NotImplementedError:
+            raise self._refused(node, None) from None
+        coefficients = [Fraction(index(c.p), index(c.q)) for c in reversed(minimal.all_coeffs())]
+        real, imaginary = sympy.N(exact, _DIGITS).as_real_imag()
+        approximation = acb(arb(str(real)), arb(str(imaginary)))
+        return self.constants.root(QQ.poly(coefficients), approximation, "")
 
     def _refused(self, node: Any, hint: str | None) -> NotRational:
         if node.is_number:
-            return NotRational(
-                f"{_shown(node)} isn't a rational number; constants outside the rational numbers aren't supported yet"
-            )
+            return NotRational(f"{_shown(node)} isn't known to be an algebraic number", hint=hint)
         return NotRational(f"{_shown(node)} isn't a rational function of {self.variable}", hint=hint)
+
+
+def _label(base: Any, n: int) -> str:
+    """The n-th root of a number as `io.parser` reads it."""
+    return f"{'sqrt' if n == 2 else 'cbrt'}({base})" if n < 4 else f"root({base}, {n})"
 
 
 def exact_float(number: Any) -> Fraction:

@@ -18,11 +18,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from kovacic.algebra.fields import QQ, AlgebraicField, Field
+from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import InputError
 from kovacic.io.arithmetic import VARIABLE, Arithmetic, Value
-from kovacic.io.names import Names
+from kovacic.io.names import Names, parameters_of
 from kovacic.io.parser import parse_with
 from kovacic.limits import Limits
 from kovacic.result import Solution
@@ -44,6 +45,9 @@ SCHEMA = 1
 
 # An answer may be larger than an input may be by default.
 _LIMITS = Limits(digits=10**7, exponent=10**6, degree=200_000, bits=40_000_000)
+
+# Stands for a generator such as sqrt(2) where text is read.
+_RADICAL = "radical_"
 
 _DEGREES = (1, 2, 4, 6, 12)
 
@@ -74,7 +78,7 @@ def loads(text: str | Mapping[str, Any]) -> Solution:
 
 def to_dict(solution: Solution) -> dict[str, Any]:
     """The answer as a JSON object of plain Python values."""
-    names = Names(solution.variable)
+    names = Names(solution.variable, parameters_of(solution.S.field))
     decision = solution.decision
     riccati = decision.riccati
     return {
@@ -82,6 +86,7 @@ def to_dict(solution: Solution) -> dict[str, Any]:
         "input": solution.text,
         "variable": solution.variable,
         "S": names.ratfunc(solution.S),
+        "field": _field(solution.S.field),
         "status": decision.status.value,
         "case": decision.case,
         "riccati": None
@@ -112,11 +117,12 @@ def to_dict(solution: Solution) -> dict[str, Any]:
 def from_dict(data: Mapping[str, Any]) -> Solution:
     """The answer that `to_dict` made into an object."""
     variable, proof, constants = data["variable"], data["proof"], data["constants"]
-    rational = reader = _Reader(QQ, {variable: VARIABLE})
+    rational = reader = _base_reader(data.get("field"), variable)
     if constants is not None:
         symbol = constants["symbol"]
-        field = AlgebraicField(QQ, _Reader(QQ, {symbol: VARIABLE}).poly(constants["minimal_polynomial"]))
-        reader = _Reader(field, {variable: VARIABLE, symbol: field.generator})
+        modulus = rational.over({symbol: VARIABLE}).poly(constants["minimal_polynomial"])
+        field = AlgebraicField(rational.field, modulus)
+        reader = rational.over({variable: VARIABLE, symbol: field.generator}, field)
     semi_invariant, riccati = proof["semi_invariant"], data["riccati"]
     form = None if semi_invariant is None else reader.semi_invariant(semi_invariant)
     polynomial = None
@@ -143,15 +149,55 @@ def from_dict(data: Mapping[str, Any]) -> Solution:
     )
 
 
+def _field(field: Field) -> dict[str, Any] | None:
+    """The coefficient field of S: parameters, and an algebraic number with its minimal polynomial over Q."""
+    if field == QQ:
+        return None
+    data: dict[str, Any] = {"parameters": list(parameters_of(field)), "symbol": None, "minimal_polynomial": None}
+    if isinstance(field, AlgebraicField):
+        data["symbol"], data["minimal_polynomial"] = field.name, field.modulus.to_str("t")
+    return data
+
+
+def _base_reader(data: Mapping[str, Any] | None, variable: str) -> _Reader:
+    """The reader over the coefficient field of S."""
+    if data is None:
+        return _Reader(QQ, {variable: VARIABLE}, {})
+    field: Field = QQ
+    constants: dict[str, Value] = {}
+    radical = ""
+    if data["parameters"]:
+        field = ground = FunctionField(tuple(data["parameters"]))
+        constants.update((name, ground.generator(name)) for name in ground.names)
+    if data["symbol"] is not None:
+        modulus = _Reader(QQ, {"t": VARIABLE}, {}).poly(data["minimal_polynomial"])
+        field = extension = AlgebraicField(field, modulus.over(field), data["symbol"])
+        name = data["symbol"]
+        if not name.isidentifier():
+            name, radical = _RADICAL, name
+        constants[name] = extension.generator
+    return _Reader(field, {variable: VARIABLE}, constants, radical)
+
+
 class _Reader:
     """Expressions in given names, as polynomials and rational functions over a field."""
 
-    def __init__(self, field: Field, names: Mapping[str, Value]) -> None:
-        self._field = field
-        self._names = names
+    def __init__(
+        self, field: Field, names: Mapping[str, Value], constants: Mapping[str, Value], radical: str = ""
+    ) -> None:
+        self.field = field
+        self._constants = constants
+        self._names = {**constants, **names}
+        self._radical = radical
         self._arithmetic = Arithmetic(_LIMITS)
 
+    def over(self, names: Mapping[str, Value], field: Field | None = None) -> _Reader:
+        """A reader that knows the same constants, for other names."""
+        return _Reader(field or self.field, names, self._constants, self._radical)
+
     def ratfunc(self, text: str) -> RatFunc:
+        if self._radical:
+            text = text.replace(self._radical, f"({_RADICAL})")
         value = self._arithmetic.rational(parse_with(text, self._names, self._arithmetic))
         return RatFunc(self._embedded(value.num), self._embedded(value.den), reduced=True)
 
@@ -162,7 +208,7 @@ class _Reader:
         return value.num
 
     def _embedded(self, polynomial: Poly) -> Poly:
-        return self._field.embed(polynomial) if self._field.extends(polynomial.field) else polynomial
+        return self.field.embed(polynomial) if self.field.extends(polynomial.field) else polynomial
 
     def semi_invariant(self, data: Mapping[str, Any]) -> SemiInvariant:
         return SemiInvariant(data["degree"], self.ratfunc(data["theta"]), self.poly(data["P"]))

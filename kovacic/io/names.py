@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from itertools import count
 
-from kovacic.algebra.fields import AlgebraicField, ExtensionPoly
+from kovacic.algebra.fields import QQ, AlgebraicField, ExtensionPoly, Field
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 
@@ -13,13 +15,24 @@ _VARIABLE = "x"
 _SYMBOL = "c"
 
 
+def parameters_of(field: Field) -> tuple[str, ...]:
+    """The names of the parameters of a coefficient field."""
+    ground = field.ground
+    return () if ground == QQ else ground.names  # type: ignore[attr-defined]
+
+
+def _first_free(name: str, taken: set[str]) -> str:
+    return next(candidate for k in count() if (candidate := name + (str(k) if k else "")) not in taken)
+
+
 class Names:
     """The names of one answer: those of the engine, unless the user's variable is called the same."""
 
-    def __init__(self, variable: str) -> None:
+    def __init__(self, variable: str, taken: Sequence[str] = ()) -> None:
+        """`taken` are the names of the parameters."""
         self.variable = variable
-        self.symbol = _SYMBOL if variable != _SYMBOL else _SYMBOL + "1"
-        self.unknown = "w" if variable != "w" else "W"
+        self.symbol = _first_free(_SYMBOL, {variable, *taken})
+        self.unknown = next(name for name in ("w", "W", "w1", "w2", "w3") if name not in {variable, *taken})
 
     def poly(self, polynomial: Poly) -> str:
         """Python syntax."""
@@ -42,7 +55,9 @@ class Names:
         return place if self.variable == _VARIABLE else re.sub(rf"\b{re.escape(self.variable)}\b", _VARIABLE, place)
 
     def _renamed(self, polynomial: Poly) -> Poly:
-        if not isinstance(polynomial, ExtensionPoly) or polynomial.field.name == self.symbol:
+        if not isinstance(polynomial, ExtensionPoly):
             return polynomial
         field = polynomial.field
+        if field.name != _SYMBOL or self.symbol == _SYMBOL:  # any other name belongs to the field of S
+            return polynomial
         return ExtensionPoly.make(AlgebraicField(field.base, field.modulus, self.symbol), polynomial.parts)

@@ -11,18 +11,25 @@ is no tree and no recursion, and no part of the text is ever executed.  `arithme
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from typing import Any
 
+from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.io.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.io.automaton import Site, run
+from kovacic.io.constants import Constants, read_with_constants
 from kovacic.io.lexer import Tokens, tokenize
 from kovacic.io.parsed import DEFAULT_VARIABLE, NUMBER_NAMES, UNKNOWN, Parsed
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
 _SUPERSCRIPTS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
 _SHOWN_DECIMALS = 3
+
+# The functions that stand for roots of numbers, with their index (root has it as its second argument).
+_ROOTS = {"sqrt": 2, "cbrt": 3, "root": 0}
+_LARGEST_INDEX = 100
 
 # A function that says where in the text the symbols of a rule are.
 Where = Callable[[], Site]
@@ -48,9 +55,14 @@ def parse_rational(text: str, *, variable: str | None = None, limits: Limits = D
         raise ParseError("there is no expression", text=text, position=0, hint="give S(x), for example x^2 + 3")
     _refuse_equations(tokens)
     variable = _choose_variable(tokens, variable)
-    builder = ExpressionBuilder({variable: VARIABLE}, variable, Arithmetic(limits))
-    value = run(tokens, builder)
-    return Parsed(builder.arithmetic.rational(value), variable, tuple(builder.notices()))
+    chosen = variable
+
+    def read(constants: Constants) -> Parsed:
+        builder = ExpressionBuilder({chosen: VARIABLE}, chosen, Arithmetic(limits), constants)
+        S = constants.embedded(builder.arithmetic.rational(run(tokens, builder)))
+        return Parsed(S, chosen, (*builder.notices(), *constants.notices()))
+
+    return read_with_constants(read, limits)
 
 
 def parse_with(text: str, names: Mapping[str, Value], arithmetic: Arithmetic) -> Value:
@@ -66,13 +78,21 @@ class ExpressionBuilder:
     """The methods that `automaton.run` calls: one for each alias of the grammar.
 
     `names` gives the values of the names that may occur: the variable, and whatever constants the caller's coefficient
-    field has.  A method gets the values of the rule's symbols and the place in the text.
+    field has.  `constants` supplies algebraic numbers and parameters; without it both are refused.  A method gets the
+    values of the rule's symbols and the place in the text.
     """
 
-    def __init__(self, names: Mapping[str, Value], variable: str, arithmetic: Arithmetic) -> None:
+    def __init__(
+        self,
+        names: Mapping[str, Value],
+        variable: str,
+        arithmetic: Arithmetic,
+        constants: Constants | None = None,
+    ) -> None:
         self.names = names
         self.variable = variable
         self.arithmetic = arithmetic
+        self.constants = constants
         self._decimals: list[str] = []
         self._more_decimals = 0
 
@@ -103,9 +123,13 @@ class ExpressionBuilder:
         value = self.names.get(name)
         if value is not None:
             return value
+        if self.constants is not None and name == "I":
+            return self._constant(self.constants.radical(QQ.poly([-1]), 2, "I"))
+        if self.constants is not None and name not in NUMBER_NAMES and name != UNKNOWN:
+            return self.constants.parameter(name)
         if name in NUMBER_NAMES:
             raise _not_rational(
-                f"{name} is {NUMBER_NAMES[name]}; constants outside the rational numbers aren't supported yet",
+                f"{name} is {NUMBER_NAMES[name]}; constants are rational or algebraic numbers",
                 where(),
                 hint=f"if {name} is the variable, say so: var={name!r} (--var {name})",
             )
@@ -114,7 +138,7 @@ class ExpressionBuilder:
         else:
             hint = "write * in products; give numbers for parameters; if x isn't the variable, name it (var=, --var)"
         raise _not_rational(
-            f"the symbol {_shortened(name)} beside the variable {self.variable}: parameters aren't supported yet",
+            f"the symbol {_shortened(name)} beside the variable {self.variable}",
             where(),
             hint=hint,
         )
@@ -198,8 +222,11 @@ class ExpressionBuilder:
         head, arguments = values
         bare = head.rstrip("'’′″")
         inside = site.tokens.piece(site.begins[2], site.end - 1)
-        if bare == "sqrt" and len(arguments) == 1 and not isinstance(arguments[0], list):
-            return self._square_root(arguments[0], where)
+        if bare in _ROOTS and all(type(argument) is not tuple for argument in arguments):  # not a pair
+            if len(arguments) == 1 and bare != "root":
+                return self._radical(arguments[0], _ROOTS[bare], where)
+            if len(arguments) == 2 and bare == "root":
+                return self._radical(arguments[0], self._index(arguments[1], site), where)
         if head in self.names:
             hint = f"for a product write {head}*({_shortened(inside)})"
             raise _not_rational(f"{head} is followed by a parenthesis like a function", site, hint=hint)
@@ -246,34 +273,69 @@ class ExpressionBuilder:
             )
         return right
 
-    def _square_root(self, value: Value, where: Where) -> Value:
+    def _constant(self, value: Poly | None) -> Poly:
+        if value is None:
+            raise AssertionError("the constant is a number")
+        return value
+
+    def _index(self, value: Value, site: Site) -> int:
+        number = self._rational_number(value)
+        if number is None or number.denominator != 1 or not 1 < number <= _LARGEST_INDEX:
+            raise _not_rational(
+                f"the index of a root is an integer from 2 to {_LARGEST_INDEX}",
+                site,
+                hint="root(2, 3) is the cube root of 2",
+            )
+        return number.numerator
+
+    def _rational_number(self, value: Value) -> Fraction | None:
+        closed = self.arithmetic.closed(value)
+        if not isinstance(closed, Poly) or not closed.is_constant:
+            return None
+        return closed.field.rational_value(closed)
+
+    def _radical(self, value: Value, n: int, where: Where) -> Value:
+        """The principal n-th root of a number, or of a parameter's square; an error for a function of the variable."""
         site = where()
         closed = self.arithmetic.closed(value)
-        if isinstance(closed, Poly) and closed.is_constant:
-            root = closed.field.sqrt(closed)
-            if root is not None:
-                return root
-            raise _not_rational(
-                f"{_shortened(site.piece_of_all())} isn't a rational number; "
-                "constants outside the rational numbers aren't supported yet",
-                site,
-            )
-        raise _not_rational(f"{_shortened(site.piece_of_all())} isn't a rational function of {self.variable}", site)
+        shown = _shortened(site.piece_of_all())
+        if not isinstance(closed, Poly) or not closed.is_constant:
+            raise _not_rational(f"{shown} isn't a rational function of {self.variable}", site)
+        if self.constants is None:
+            root = closed.field.sqrt(closed) if n == 2 else None
+            hint = None
+        else:
+            radicand = closed.to_str() if closed.field == QQ else ""
+            label = f"{'cbrt' if n == 3 else 'sqrt'}({radicand})" if n < 4 else f"root({radicand}, {n})"
+            root = self.constants.radical(closed, n, label if radicand else shown)
+            hint = "take the root itself as the parameter: sqrt(t) with t = s^2"
+        if root is None:
+            raise _not_rational(f"{shown} isn't rational in the parameters", site, hint=hint)
+        return root
 
     def _root(self, base: Value, exponent: Value, where: Where) -> Value:
-        """`base ** exponent` for an exponent that isn't an integer: a square root of a square, or an error."""
+        """`base ** exponent` for an exponent that isn't an integer: a power of a root of a number, or an error."""
         site = where()
         power = self.arithmetic.closed(exponent)
         if not isinstance(power, Poly) or not power.is_constant:
             raise _not_rational(f"the variable in the exponent: {_shortened(site.piece_of_all())}", site)
         number = power.field.rational_value(power)
-        if number is not None and number.denominator == 2:
-            return self.arithmetic.power(self._square_root(base, where), number.numerator)
         closed = self.arithmetic.closed(base)
-        kind = "number" if isinstance(closed, Poly) and closed.is_constant else f"function of {self.variable}"
-        raise _not_rational(
-            f"{_shortened(site.piece_of_all())} isn't a rational {kind}", site, hint="exponents are integers"
-        )
+        if (
+            number is None
+            or number.denominator > _LARGEST_INDEX
+            or not isinstance(closed, Poly)
+            or not closed.is_constant
+        ):
+            kind = "number" if isinstance(closed, Poly) and closed.is_constant else f"function of {self.variable}"
+            raise _not_rational(
+                f"{_shortened(site.piece_of_all())} isn't an algebraic {kind}"
+                if kind == "number"
+                else f"{_shortened(site.piece_of_all())} isn't a rational {kind}",
+                site,
+                hint="exponents are integers",
+            )
+        return self.arithmetic.power(self._radical(base, number.denominator, where), number.numerator)
 
 
 def _choose_variable(tokens: Tokens, variable: str | None) -> str:
@@ -283,7 +345,15 @@ def _choose_variable(tokens: Tokens, variable: str | None) -> str:
         chosen = variable
     else:
         names = [name for name in tokens.names() if name not in NUMBER_NAMES and name != UNKNOWN]
-        chosen = names[0] if len(names) == 1 or (names and DEFAULT_VARIABLE not in names) else DEFAULT_VARIABLE
+        if len(names) > 1 and DEFAULT_VARIABLE not in names:
+            raise InputError(
+                f"which of {', '.join(names[:6])} is the variable?",
+                text=tokens.text,
+                position=tokens.starts[tokens.names()[names[1]]],
+                length=len(names[1]),
+                hint=f"name it: var={names[0]!r} (--var {names[0]}); the others are parameters",
+            )
+        chosen = names[0] if len(names) == 1 else DEFAULT_VARIABLE
     _refuse_ambiguous_decimals(tokens, chosen)
     return chosen
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.io.names import Names
+from kovacic.io.names import Names, parameters_of
 from kovacic.result import Solution
 from kovacic.solution import Evidence, Exclusion, NecessaryCondition, NoInvariant, RiccatiPolynomial, Status
 
@@ -35,7 +35,7 @@ def one_line(solution: Solution) -> str:
         return f"{equation}: no Liouvillian solution"
     riccati = solution.riccati
     if solution.omega is not None:
-        return f"{equation}: case {solution.case}, omega = {_caret(Names(solution.variable).ratfunc(solution.omega))}"
+        return f"{equation}: case {solution.case}, omega = {_caret(_names(solution).ratfunc(solution.omega))}"
     degree = "" if riccati is None else f", omega {_NAMES_OF_DEGREE[riccati.degree]}"
     return f"{equation}: case {solution.case}{degree}"
 
@@ -61,8 +61,12 @@ def render(solution: Solution, *, style: Style = plain) -> str:
     return "\n".join(lines)
 
 
+def _names(solution: Solution) -> Names:
+    return Names(solution.variable, parameters_of(solution.S.field))
+
+
 def _omega(solution: Solution, riccati: RiccatiPolynomial) -> list[str]:
-    variable, names = solution.variable, Names(solution.variable)
+    variable, names = solution.variable, _names(solution)
     unknown = names.unknown
     coefficients = [names.renamed(coefficient) for coefficient in riccati.coefficients]
     lines = []

@@ -1,0 +1,436 @@
+"""Rational functions of parameters as coefficients: the field Q(t1, ..., tk), for generic parameters.
+
+A polynomial over Q(t) is one polynomial in x and the t's over Z, divided by one in the t's alone; flint's sparse
+polynomials stay inside.  A homomorphism to F_p gives the parameters random values; the way back is in `interpolation`.
+An element is zero only as a function: what holds over Q(t) holds for generic values of the parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import reduce
+from typing import Any
+
+from flint import Ordering, fmpq, fmpz_mpoly_ctx, nmod_poly
+
+from kovacic.algebra.fields import BadPrimeError, CoordinateLifter, Field, Homomorphism
+from kovacic.algebra.lifting import primes
+from kovacic.algebra.poly import Poly, RationalPoly, Scalar
+
+#: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.
+_FIRST_PRIME_RUN, _QUOTA = 3, 32
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluation(Homomorphism):
+    """The parameters take the values `point` modulo p."""
+
+    p: int
+    point: tuple[int, ...]
+
+    @property
+    def ground(self) -> Homomorphism:
+        return self
+
+    def __call__(self, polynomial: Poly) -> Any:
+        p = self.p
+        if isinstance(polynomial, RationalPoly):
+            polynomial = FunctionField(tuple(f"t{i}" for i in range(len(self.point)))).embed(polynomial)
+        assert isinstance(polynomial, FunctionPoly)
+        scale = self._constant(polynomial.den)
+        if scale == 0:
+            raise BadPrimeError("a parameter takes a forbidden value")
+        coefficients = [0] * (polynomial.degree + 1)
+        for exponents, coefficient in polynomial.num.to_dict().items():
+            value = int(coefficient) % p
+            for base, exponent in zip(self.point, exponents[1:], strict=True):
+                if exponent:
+                    value = value * pow(base, int(exponent), p) % p
+            coefficients[int(exponents[0])] += value
+        image = nmod_poly([c % p for c in coefficients], p)
+        return image if scale == 1 else image * pow(scale, -1, p)
+
+    def _constant(self, polynomial: Any) -> int:
+        total = 0
+        for exponents, coefficient in polynomial.to_dict().items():
+            value = int(coefficient)
+            for base, exponent in zip(self.point, exponents[1:], strict=True):
+                if exponent:
+                    value = value * pow(base, int(exponent), self.p) % self.p
+            total += value
+        return total % self.p
+
+
+@dataclass(frozen=True, slots=True)
+class FunctionField(Field):
+    """The field Q(t1, ..., tk), `names` being the names of the parameters."""
+
+    names: tuple[str, ...]
+
+    @property
+    def ground(self) -> Field:
+        return self
+
+    @property
+    def context(self) -> Any:
+        """flint's ring Z[x, t1, ..., tk], ordered by powers of x first; its own names are never printed."""
+        return fmpz_mpoly_ctx.get(("x", *(f"t{i}" for i in range(len(self.names)))), Ordering.lex)
+
+    def generator(self, name: str) -> FunctionPoly:
+        """The parameter of this name."""
+        return FunctionPoly(self, self.context.gen(1 + self.names.index(name)), self.context.constant(1))
+
+    def make(self, num: Any, den: Any) -> FunctionPoly:
+        """num/den in lowest terms; den is free of x and not zero."""
+        if den.is_one():
+            return FunctionPoly(self, num, den)
+        if num.is_zero():
+            return FunctionPoly(self, num, self.context.constant(1))
+        common = num.gcd(den)
+        if not common.is_one():
+            num, den = num // common, den // common
+        if int(den.leading_coefficient()) < 0:
+            num, den = -num, -den
+        return FunctionPoly(self, num, den)
+
+    def poly(self, coefficients: Iterable[Scalar | Poly]) -> FunctionPoly:
+        total, power = self.make(self.context.constant(0), self.context.constant(1)), self.context.constant(1)
+        x = self.context.gen(0)
+        for coefficient in coefficients:
+            if coefficient:
+                constant = self._constant(coefficient)
+                total = total._add(self.make(constant.num * power, constant.den))
+            power = power * x
+        return total
+
+    def _constant(self, value: Scalar | Poly) -> FunctionPoly:
+        if isinstance(value, FunctionPoly):
+            return value
+        if isinstance(value, Poly):
+            return self.embed(value[0])
+        constant = self.context.constant
+        return self.make(constant(value.numerator), constant(value.denominator))
+
+    def extends(self, other: Field) -> bool:
+        return not isinstance(other, FunctionField) and other.absolute_degree == 1
+
+    def embed(self, polynomial: Poly) -> FunctionPoly:
+        denominator = polynomial.common_denominator()
+        k = len(self.names)
+        terms = {(i, *[0] * k): int(c * denominator) for i, c in enumerate(polynomial.rational_coefficients()) if c}
+        return self.make(self.context.from_dict(terms), self.context.constant(denominator))
+
+    def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
+        assert isinstance(polynomial, FunctionPoly)
+        one = self.context.constant(1)
+        factors = [
+            (FunctionPoly(self, factor, one).monic(), int(k))
+            for factor, k in polynomial.num.factor()[1]
+            if factor.degrees()[0] > 0
+        ]
+        return sorted(factors, key=lambda pair: (pair[0].degree, str(pair[0])))
+
+    def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
+        """Random points, most of them modulo the first prime, which is enough for functions with small coefficients."""
+        usable = (p for p in primes() if allowed is None or allowed(p))
+        first, other = next(usable), next(usable)
+        left, quota, state = _QUOTA, _QUOTA, 0x9E3779B97F4A7C15
+        index = 0
+        while True:
+            p = first
+            if index % (_FIRST_PRIME_RUN + 1) == _FIRST_PRIME_RUN:
+                p, left = other, left - 1
+                if not left:
+                    quota += quota // 4
+                    left, other = quota, next(usable)
+            point = []
+            for _ in self.names:
+                state = (state * 6364136223846793005 + 1442695040888963407) % (1 << 64)
+                point.append((state >> 3) % p)
+            yield (Evaluation(p, tuple(point)),)
+            index += 1
+
+    def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
+        return list(images[0])
+
+    def coordinate_lifter(self) -> CoordinateLifter:
+        from kovacic.algebra.interpolation import Interpolator
+
+        return Interpolator(self)
+
+    def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
+        return list(coordinates)
+
+    def rational_value(self, constant: Poly) -> Fraction | None:
+        assert isinstance(constant, FunctionPoly)
+        if constant.num.is_constant() and constant.den.is_constant():
+            return Fraction(_constant_term(constant.num), _constant_term(constant.den))
+        return None
+
+    def sqrt(self, constant: Poly) -> Poly | None:
+        """A square root; the one whose numerator has a positive leading coefficient."""
+        assert isinstance(constant, FunctionPoly)
+        if not constant:
+            return constant
+        roots = [_mpoly_sqrt(part, self.context) for part in (constant.num, constant.den)]
+        return None if roots[0] is None or roots[1] is None else self.make(roots[0], roots[1])
+
+    def __str__(self) -> str:
+        return f"Q({', '.join(self.names)})"
+
+
+class FunctionPoly(Poly):
+    """A polynomial in x over Q(t): `num/den` in lowest terms, den in Z[t] with a positive leading coefficient."""
+
+    __slots__ = ("_field", "den", "num")
+
+    _field: FunctionField
+    num: Any
+    den: Any
+
+    def __init__(self, field: FunctionField, num: Any, den: Any) -> None:
+        object.__setattr__(self, "_field", field)
+        object.__setattr__(self, "num", num)
+        object.__setattr__(self, "den", den)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("polynomials are immutable")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _from_key, (self._field, *self.key())
+
+    def key(self) -> tuple[Any, ...]:
+        return _terms(self.num), _terms(self.den)
+
+    @property
+    def field(self) -> FunctionField:
+        return self._field
+
+    @property
+    def degree(self) -> int:
+        return -1 if self.num.is_zero() else int(self.num.degrees()[0])
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, FunctionPoly) and other._field == self._field:
+            return bool(self.num == other.num and self.den == other.den)
+        return super().__eq__(other)
+
+    __hash__ = Poly.__hash__
+
+    def leaves(self) -> list[Poly]:
+        return [self]
+
+    def __getitem__(self, power: int) -> FunctionPoly:
+        terms = {(0, *e[1:]): c for e, c in self.num.to_dict().items() if e[0] == power}
+        return self._field.make(self._field.context.from_dict(terms), self.den)
+
+    def coefficients(self) -> list[FunctionPoly]:
+        """The coefficients from low to high."""
+        return [self._field.make(c, self.den) for c in self._columns()]
+
+    def _columns(self) -> list[Any]:
+        """The coefficients of the powers of x in the numerator, as polynomials in the parameters."""
+        columns: list[dict[tuple[int, ...], Any]] = [{} for _ in range(self.degree + 1)]
+        for exponents, coefficient in self.num.to_dict().items():
+            columns[int(exponents[0])][(0, *exponents[1:])] = coefficient
+        return [self._field.context.from_dict(column) for column in columns]
+
+    def content(self) -> Any:
+        """The greatest common divisor in Z[t] of the coefficients of the numerator."""
+        return reduce(lambda a, b: a.gcd(b), self._columns(), self._field.context.constant(0))
+
+    def __neg__(self) -> FunctionPoly:
+        return FunctionPoly(self._field, -self.num, self.den)
+
+    def _add(self, other: FunctionPoly) -> FunctionPoly:
+        if self.den == other.den:
+            return self._field.make(self.num + other.num, self.den)
+        return self._field.make(self.num * other.den + other.num * self.den, self.den * other.den)
+
+    def _mul(self, other: FunctionPoly) -> FunctionPoly:
+        return self._field.make(self.num * other.num, self.den * other.den)
+
+    def _divmod(self, other: FunctionPoly) -> tuple[FunctionPoly, FunctionPoly]:
+        """Pseudo-division of the numerators: scale * a = quotient * b + remainder."""
+        field, context = self._field, self._field.context
+        if other.degree == 0:
+            return self._mul(other.inverse()), field.poly([])
+        x, lead, n = context.gen(0), other.lc.num, other.degree
+        scale, quotient, remainder = context.constant(1), context.constant(0), self.num
+        lead = other._columns()[-1]
+        while not remainder.is_zero() and (degree := int(remainder.degrees()[0])) >= n:
+            top = FunctionPoly(field, remainder, scale)._columns()[-1]
+            common = top.gcd(lead)
+            factor, step = lead // common, (top // common) * x ** (degree - n)
+            remainder = remainder * factor - other.num * step
+            quotient, scale = quotient * factor + step, scale * factor
+        below = scale * self.den
+        return field.make(quotient * other.den, below), field.make(remainder, below)
+
+    def exact_quotient(self, divisor: Poly) -> FunctionPoly | None:
+        value = self._coerce(divisor)
+        if value is None or not value:
+            raise ZeroDivisionError("an exact quotient needs a divisor over the same field that isn't zero")
+        content = value.content()
+        quotient, remainder = divmod(self.num, value.num // content)
+        return None if remainder else self._field.make(quotient * value.den, self.den * content)
+
+    def gcd(self, other: Poly) -> FunctionPoly:
+        value = self._coerce(other)
+        if value is None:
+            raise TypeError("both polynomials must lie over the same field")
+        common = FunctionPoly(self._field, self.num.gcd(value.num), self._field.context.constant(1))
+        return common.monic()
+
+    def derivative(self) -> FunctionPoly:
+        return self._field.make(self.num.derivative(0), self.den)
+
+    def inverse(self) -> FunctionPoly:
+        if self.degree > 0:
+            raise ValueError("only constants have an inverse")
+        if not self:
+            raise ZeroDivisionError("zero has no inverse")
+        negative = int(self.num.leading_coefficient()) < 0
+        return FunctionPoly(self._field, -self.den if negative else self.den, -self.num if negative else self.num)
+
+    def rational_coefficients(self) -> tuple[Any, ...]:
+        """The images of the coefficients under a Q-linear map of Q(t) onto Q that is the identity on Q.
+
+        The constant term of the iterated Laurent series at t1 = 0, then t2 = 0, ...
+        """
+        return tuple(_laurent_constant(c.num, c.den, 1) for c in self.coefficients())
+
+    def common_denominator(self) -> int:
+        return int(abs(self.den.content())) if not self.den.is_one() else 1
+
+    def height_bits(self) -> int:
+        values = [*self.num.coeffs(), *self.den.coeffs()]
+        return max((int(c).bit_length() for c in values), default=0)
+
+    def coefficient_str(self, power: int) -> str:
+        return format_terms(self[power].num, self._field.names)
+
+    def value_at(self, values: Sequence[Poly | Scalar], field: Field) -> Poly:
+        """The polynomial over `field` in which the parameters have these values, constants of that field.
+
+        Raises `ZeroDivisionError` where the denominator vanishes.
+        """
+        constants = [v if isinstance(v, Poly) else field.poly([v]) for v in values]
+        below = _substitute(self.den, constants, field)
+        if not below:
+            raise ZeroDivisionError("a denominator vanishes at these values of the parameters")
+        return _substitute(self.num, constants, field) / below
+
+
+def _substitute(polynomial: Any, values: Sequence[Poly], field: Field) -> Poly:
+    columns: dict[int, Poly] = {}
+    powers: dict[tuple[int, int], Poly] = {}
+    for exponents, coefficient in polynomial.to_dict().items():
+        term: Poly = field.poly([int(coefficient)])
+        for i, exponent in enumerate(exponents[1:]):
+            if exponent:
+                if (i, exponent) not in powers:
+                    powers[i, exponent] = values[i] ** int(exponent)
+                term = term * powers[i, exponent]
+        power = int(exponents[0])
+        columns[power] = columns[power] + term if power in columns else term
+    zero = field.poly([])
+    return field.poly([columns.get(k, zero) for k in range(max(columns, default=-1) + 1)])
+
+
+def _laurent_constant(num: Any, den: Any, variable: int) -> Any:
+    """The constant term of num/den as a Laurent series in the variables from number `variable` on."""
+    if num.is_zero():
+        return fmpq(0)
+    if den.is_constant():
+        return fmpq(_constant_term(num), _constant_term(den))
+    size = len(num.degrees())
+    below = _by_power(den, variable)
+    start = min(below)
+    above = _by_power(num, variable)
+    first = below[start]
+    zero = first * 0
+    # series of num / (den / t^start): q_n = (num_n - sum_(i>0) den_(start+i) q_(n-i)) / first, as numerators over first^(n+1)
+    numerators: list[Any] = []
+    for n in range(start + 1):
+        total = above.get(n, zero) * first**n
+        for i in range(1, n + 1):
+            total = total - below.get(start + i, zero) * numerators[n - i] * first ** (i - 1)
+        numerators.append(total)
+    return _laurent_constant(numerators[start], first ** (start + 1), variable + 1) if variable < size else fmpq(0)
+
+
+def _by_power(polynomial: Any, variable: int) -> dict[int, Any]:
+    columns: dict[int, dict[tuple[int, ...], Any]] = {}
+    for exponents, coefficient in polynomial.to_dict().items():
+        rest = (*exponents[:variable], 0, *exponents[variable + 1 :])
+        columns.setdefault(int(exponents[variable]), {})[rest] = coefficient
+    context = polynomial.context()
+    return {power: context.from_dict(terms) for power, terms in columns.items()}
+
+
+def _constant_term(polynomial: Any) -> int:
+    return next((int(c) for e, c in polynomial.to_dict().items() if not any(e)), 0)
+
+
+def _mpoly_sqrt(polynomial: Any, context: Any) -> Any | None:
+    constant, factors = polynomial.factor()
+    value = int(constant)
+    root = int(constant.isqrt()) if value >= 0 else -1
+    if root < 0 or root * root != value or any(int(k) % 2 for _, k in factors):
+        return None
+    result = context.constant(root)
+    for factor, k in factors:
+        result = result * factor ** (int(k) // 2)
+    return -result if int(result.leading_coefficient()) < 0 else result
+
+
+def _terms(polynomial: Any) -> tuple[tuple[tuple[int, ...], int], ...]:
+    return tuple((tuple(int(i) for i in e), int(c)) for e, c in polynomial.to_dict().items())
+
+
+def _from_key(field: FunctionField, num: tuple[Any, ...], den: tuple[Any, ...]) -> FunctionPoly:
+    context = field.context
+    return FunctionPoly(field, context.from_dict(dict(num)), context.from_dict(dict(den)))
+
+
+def format_terms(polynomial: Any, names: Sequence[str]) -> str:
+    """A polynomial in the parameters, in Python syntax."""
+    terms: list[str] = []
+    for exponents, coefficient in polynomial.to_dict().items():
+        powers = [
+            name if exponent == 1 else f"{name}**{exponent}"
+            for name, exponent in zip(names, exponents[1:], strict=True)
+            if exponent
+        ]
+        value = int(coefficient)
+        if not powers:
+            terms.append(str(value))
+        elif abs(value) == 1:
+            terms.append(("-" if value < 0 else "") + "*".join(powers))
+        else:
+            terms.append("*".join([str(value), *powers]))
+    return " + ".join(terms).replace("+ -", "- ") if terms else "0"
+
+
+def cleared(num: Poly, den: Poly, ground: FunctionField) -> tuple[Poly, Poly]:
+    """A common multiple of two polynomials over an extension of Q(t) by an element of Q(t): coprime, without denominators."""
+    leaves = [leaf for polynomial in (num, den) for leaf in polynomial.leaves() if leaf]
+    multiple = ground.context.constant(1)
+    for leaf in leaves:
+        assert isinstance(leaf, FunctionPoly)
+        multiple = multiple * (leaf.den // multiple.gcd(leaf.den))
+    contents = [leaf.content() * (multiple // leaf.den) for leaf in leaves if isinstance(leaf, FunctionPoly)]
+    common = reduce(lambda a, b: a.gcd(b), contents, ground.context.constant(0))
+    last = den.leaves()[0]
+    if common.is_zero():
+        return num, den
+    scale: Poly = ground.make(multiple, common)
+    for leaf in den.leaves():
+        if isinstance(leaf, FunctionPoly) and leaf:
+            last = leaf
+    if isinstance(last, FunctionPoly) and last and int((last * scale).num.leading_coefficient()) < 0:
+        scale = -scale
+    return num * scale, den * scale
