@@ -126,10 +126,16 @@ def square_root(value: Fraction) -> Number:
     return Surd.make({r: Fraction(s, value.denominator)})
 
 
+#: The largest degree of P that is tried.
+LARGEST_DEGREE = 24
+
+
 def natural(value: Number) -> int | None:
     """The value if it is 0, 1, 2, ..., else None."""
     if isinstance(value, Surd) or value < 0 or Fraction(value).denominator != 1:
         return None
+    if value > LARGEST_DEGREE:
+        raise OutOfDomainError(f"P may have degree {value}")
     return int(value)
 
 
