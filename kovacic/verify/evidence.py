@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import islice, takewhile
+from itertools import islice
 from operator import mul
 from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.fields import BadPrimeError, Homomorphism
+from kovacic.algebra.fields import QQ, BadPrimeError, Homomorphism
 from kovacic.algebra.modular import (
     fundamental_system,
     null_space,
@@ -119,10 +120,21 @@ class Inspector:
             return any(d is None or d.denominator not in allowed for d in differences)
         return largest_degree(named, self.logarithmic) is None
 
-    def _homomorphism(self, p: int) -> Homomorphism | None:
-        """The homomorphism that belongs to a recorded prime, if it is among the first ones of the field's sequence."""
-        first = islice(self.S.field.homomorphisms(), _PRIMES)
-        return next((h for h in takewhile(lambda h: h.p >= p, first) if h.p == p), None)
+    def _at_prime(self, p: int | None, claim: Callable[[Homomorphism], bool]) -> bool:
+        """Does the claim hold under a homomorphism to F_p among the first ones of the field's sequence?
+
+        Over Q(t) several belong to one prime, the parameters taking different values; any of them proves the claim.
+        """
+        ground = self.S.field.ground
+        for h in islice(self.S.field.homomorphisms(), _PRIMES if p is not None else 0):
+            try:
+                if h.p == p and claim(h):
+                    return True
+            except BadPrimeError:
+                continue
+            if p is None or (h.p < p and ground == QQ):
+                break
+        return False
 
     def _no_invariant(self, item: NoInvariant) -> bool:
         """No rational form of degree m: no room for one, or nullity 0 of the linear system modulo the prime."""
@@ -132,8 +144,9 @@ class Inspector:
         room = m - sum(v * point.factor.degree for v, point in zip(least, self.points, strict=False))
         if len(least) < len(valuations) or room < 0:
             return item.prime is None
-        h = None if item.prime is None else self._homomorphism(item.prime)
-        return h is not None and item.degree == room and self._nullity(h, item.point, m, least[:-1], room) == 0
+        return item.degree == room and self._at_prime(
+            item.prime, lambda h: self._nullity(h, item.point, m, least[:-1], room) == 0
+        )
 
     def _nullity(self, h: Homomorphism, point: int, m: int, valuations: list[int], room: int) -> int:
         """The dimension modulo p of the forms whose quotient by prod p^v is a polynomial of degree <= room, to some terms."""
@@ -162,10 +175,13 @@ class Inspector:
             return True
         if item.prime is None or item.degree != degree:
             return degree < 0 and item.degree == degree
-        h = self._homomorphism(item.prime)
         place = next((point for point in self.points if point.name == item.place), None)
-        if h is None or place is None or not self._tells_solutions_apart(place):
+        if place is None or not self._tells_solutions_apart(place):
             return False
+        return self._at_prime(item.prime, lambda h: self._no_omega_at(place, h, degree))
+
+    def _no_omega_at(self, place: Point, h: Homomorphism, degree: int) -> bool:
+        """None of the expansions at the place is that of a rational omega modulo p."""
         root = next(simple_roots(h.keeping_degree(place.factor)), None)
         if root is None:
             return False
