@@ -1,0 +1,245 @@
+"""Polynomials, rational functions and products as SymPy expressions, built directly and without simplification."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from functools import cached_property
+from math import gcd
+from typing import Any
+
+import sympy
+from sympy import Add, Integer, Mul, Pow, Rational, Symbol, exp, log, sqrt
+
+from kovacic.algebra.fields import AlgebraicField, Field
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.partial_fractions import Decomposition, Residue
+from kovacic.closed_form.product import Product
+
+Expr = Any  # SymPy publishes no types
+
+
+def rational(value: Fraction | int) -> Expr:
+    """A SymPy rational number."""
+    return Rational(value.numerator, value.denominator)
+
+
+class Atoms:
+    """Conversions for one variable.  Algebraic constants become radicals if they are quadratic, else a `CRootOf`.
+
+    A `CRootOf` is the first root in SymPy's order, which is real if there is a real one.
+    """
+
+    def __init__(self, variable: Symbol) -> None:
+        self.x = variable
+        self._generators: dict[tuple[Any, ...], Expr] = {}
+
+    @cached_property
+    def root(self) -> Expr:
+        """The bound variable of sums over roots."""
+        return sympy.Dummy("a")
+
+    # ------------------------------------------------------------------------------------------- constants
+
+    def constant(self, value: Poly) -> Expr:
+        """A constant of the field."""
+        fraction = value.field.rational_value(value)
+        if fraction is not None:
+            return rational(fraction)
+        generator = self.generator(value.field)
+        parts = value.parts  # type: ignore[attr-defined]
+        return sympy.expand_mul(Add(*(Mul(self.constant(part), generator**i) for i, part in enumerate(parts) if part)))
+
+    def generator(self, field: Field) -> Expr:
+        """The generator of an algebraic extension."""
+        if not isinstance(field, AlgebraicField):
+            raise TypeError("the rational numbers have no generator")
+        key = (str(field.base), field.modulus.key())
+        if key not in self._generators:
+            self._generators[key] = self._new_generator(field)
+        return self._generators[key]
+
+    def _new_generator(self, field: AlgebraicField) -> Expr:
+        modulus = field.modulus
+        if modulus.degree == 2:
+            half = self.constant(modulus[1]) / 2
+            return -half + sqrt(half**2 - self.constant(modulus[0]))
+        return sympy.CRootOf(sympy.Poly.from_list(self.coefficients(modulus)[::-1], self.x), 0)
+
+    def coefficients(self, polynomial: Poly) -> list[Expr]:
+        """The coefficients from low to high."""
+        if isinstance(polynomial.field, AlgebraicField):
+            return [self.constant(c) for c in polynomial]
+        return [Rational(int(c.p), int(c.q)) for c in polynomial.rational_coefficients()]
+
+    # ---------------------------------------------------------------------------------- rational functions
+
+    def poly(self, polynomial: Poly, variable: Expr = None) -> Expr:
+        """A polynomial, expanded."""
+        x = self.x if variable is None else variable
+        return Add(*(c * x**k for k, c in enumerate(self.coefficients(polynomial)) if c))
+
+    def primitive(self, polynomial: Poly) -> tuple[Fraction, Expr]:
+        """(content, expression): the polynomial is content * expression, which has coprime integer coefficients over Q."""
+        if isinstance(polynomial.field, AlgebraicField) or not polynomial:
+            return Fraction(1), self.poly(polynomial)
+        denominator = polynomial.common_denominator()
+        scaled = polynomial * denominator
+        content = gcd(*(int(c.p) for c in scaled.rational_coefficients()))
+        if polynomial.lc.rational_coefficients()[0] < 0:
+            content = -content
+        return Fraction(content, denominator), self.poly(scaled * Fraction(1, content))
+
+    def ratio(self, r: RatFunc) -> Expr:
+        """A rational function as one fraction."""
+        (c, num), (d, den) = self.primitive(r.num), self.primitive(r.den)
+        return rational(c / d) * num / den
+
+    def sum(self, r: RatFunc) -> Expr:
+        """A rational function as polynomial part and proper fraction."""
+        if r.is_polynomial:
+            return self.poly(r.num)
+        polynomial, rest = divmod(r.num, r.den)
+        return self.poly(polynomial) + self.ratio(RatFunc(rest, r.den))
+
+    # ---------------------------------------------------------------------------------------------- roots
+
+    def quadratic_roots(self, p: Poly) -> tuple[Expr, Expr, Expr]:
+        """(centre, disc, root of |disc|) of a monic quadratic polynomial over Q, whose roots are centre +- sqrt(disc)/2."""
+        b, c = self.constant(p[1]), self.constant(p[0])
+        discriminant = b**2 - 4 * c
+        return -b / 2, discriminant, sqrt(abs(discriminant))
+
+    def in_root(self, element: Poly, root: Expr) -> Expr:
+        """An element of K[x]/p at a root of p."""
+        return Add(*(c * root**k for k, c in enumerate(self.coefficients(element)) if c))
+
+    def log_sum(self, residue: Residue) -> Expr:
+        """sum over the roots a of p of residue(a) log(x - a) up to a constant; real for quadratic p over Q."""
+        p, value = residue.factor, residue.value
+        if residue.is_constant:
+            return self.constant(value) * log(self.primitive(p)[1])
+        if p.degree == 2 and not isinstance(p.field, AlgebraicField):
+            centre, discriminant, root = self.quadratic_roots(p)
+            if discriminant > 0:
+                roots = [centre - root / 2, centre + root / 2]
+                return Add(*(sympy.expand_mul(self.in_root(value, a)) * log(self.x - a) for a in roots))
+            mean, slope = self.constant(value[0]) + self.constant(value[1]) * centre, self.constant(value[1])
+            angle = -slope * root * sympy.atan(sympy.expand_mul(2 * (self.x - centre) / root))
+            return angle + (mean * log(self.primitive(p)[1]) if mean else 0)
+        a = self.root
+        body = self.in_root(value, a) * log(self.x - a)
+        return sympy.RootSum(sympy.Poly(self.poly(p, a), a), sympy.Lambda(a, body), auto=False)
+
+    def integral(self, parts: Decomposition) -> Expr:
+        """The integral of a decomposed rational function: rational part and logarithms."""
+        return Add(self.sum(parts.exact), *self.logarithms(parts.residues))
+
+    def logarithms(self, residues: Iterable[Residue]) -> list[Expr]:
+        """Logarithms; those of two linear factors with opposite residues as one, real between the roots if 0 lies there."""
+        pending, terms = list(residues), []
+        while pending:
+            first = pending.pop()
+            partner = None
+            if first.is_constant and first.factor.degree == 1:
+                candidates = (r for r in pending if r.is_constant and r.factor.degree == 1 and r.value == -first.value)
+                partner = next(candidates, None)
+            if partner is None:
+                terms.append(self.log_sum(first))
+                continue
+            pending.remove(partner)
+            top, bottom = self.primitive(first.factor)[1], self.primitive(partner.factor)[1]
+            fraction = top / bottom
+            if fraction.subs(self.x, 0).is_negative:
+                bottom = sympy.expand_mul(-bottom)
+            terms.append(self.constant(first.value) * log(top / bottom))
+        return terms[::-1]
+
+    # ------------------------------------------------------------------------------------------- products
+
+    def product(self, y: Product) -> Expr:
+        """A product, up to a constant factor."""
+        return Mul(*self.factors(y)[1])
+
+    def factors(self, y: Product, extra: RatFunc | None = None) -> tuple[Expr, list[Expr]]:
+        """(c, factors): y * extra is c times the product of the factors; common factors of y and extra are merged."""
+        scale: Expr = Integer(1)
+        exponents: list[tuple[Expr, Expr]] = []
+        rest = extra
+        for power in y.powers:
+            exponent = power.exponent
+            if rest is not None and rest:
+                num, up = rest.num.remove(power.base)
+                den, down = rest.den.remove(power.base)
+                rest = RatFunc(num, den, reduced=True)
+                exponent = exponent + (up - down)
+            if exponent:
+                content, base = self.primitive(power.base)
+                index = self.constant(exponent)
+                scale = scale * rational(content) ** index
+                exponents.append((base, index))
+        for residue in y.roots:
+            exponents += self._root_powers(residue)
+        if rest is not None:
+            (c, num), (d, den) = self.primitive(rest.num), self.primitive(rest.den)
+            scale = scale * rational(c / d)
+            exponents += [(num, Integer(1)), (den, Integer(-1))]
+        return scale, [*self._grouped(exponents), self.exponential(y)]
+
+    def exponential(self, y: Product) -> Expr:
+        """The factor exp(rational function) of a product, with the sums over roots that aren't written as powers."""
+        inner = [self.log_sum(residue) for residue in y.roots if not self._explicit(residue)]
+        if y.exponential.num.degree > 0 or not y.exponential.is_polynomial:
+            inner.append(self.sum(y.exponential))
+        return exp(Add(*inner)) if inner else Integer(1)
+
+    def is_linear_power(self, residue: Residue) -> bool:
+        """Is the residue the same at all roots, so that it is an exponent?"""
+        return residue.is_constant
+
+    def _explicit(self, residue: Residue) -> bool:
+        """Are there real roots that can be written down?"""
+        p = residue.factor
+        if p.degree != 2 or isinstance(p.field, AlgebraicField):
+            return False
+        return bool(self.quadratic_roots(p)[1] > 0)
+
+    def _root_powers(self, residue: Residue) -> list[tuple[Expr, Expr]]:
+        if not self._explicit(residue):
+            return []
+        centre, _, root = self.quadratic_roots(residue.factor)
+        return [
+            (self.x - a, sympy.expand_mul(self.in_root(residue.value, a)))
+            for a in (centre - root / 2, centre + root / 2)
+        ]
+
+    def _grouped(self, exponents: list[tuple[Expr, Expr]]) -> list[Expr]:
+        """Powers; bases with the same fractional exponent under one root, and (x - a)(x + a) multiplied out."""
+        groups: dict[Expr, list[Expr]] = {}
+        for base, exponent in exponents:
+            groups.setdefault(exponent, []).append(base)
+        powers: list[Expr] = []
+        for exponent, bases in groups.items():
+            bases = self._joined(bases)
+            if exponent.is_integer:
+                powers += [Pow(base, exponent) for base in bases]
+            else:
+                powers.append(Pow(Mul(*bases), exponent))
+        return powers
+
+    def _joined(self, bases: list[Expr]) -> list[Expr]:
+        """With every pair x - a, x + a multiplied out."""
+        pending, result = list(bases), []
+        while pending:
+            base = pending.pop(0)
+            partner = next((other for other in pending if self._opposite(base, other)), None)
+            if partner is not None:
+                pending.remove(partner)
+                base = sympy.expand_mul(base * partner)
+            result.append(base)
+        return result
+
+    def _opposite(self, first: Expr, second: Expr) -> bool:
+        """Are these a x - b and a x + b?"""
+        return bool(first.is_Add and second.is_Add and first.subs(self.x, -self.x) == -second)

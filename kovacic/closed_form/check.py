@@ -1,0 +1,105 @@
+"""Are the solutions right?  Exactly, from the structure, in rational functions; and as shown, at a point, to 50 digits."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mpmath
+
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.jets import jet
+from kovacic.closed_form.primitive import (
+    CurvePrimitive,
+    ExponentialPrimitive,
+    Primitive,
+    RationalPrimitive,
+)
+from kovacic.closed_form.product import Product
+from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
+
+DIGITS = 50
+
+
+def is_exact_solution(form: ClosedStructure, S: RatFunc, gauge: RatFunc) -> bool:
+    """Do both solutions, divided by the gauge factor, satisfy y'' = S y?  Computed from the factors as they are written.
+
+    With omega = y'/y the condition is omega' + omega^2 = S; a pair (u, v) stands for omega = u +- sqrt(delta) v and the like,
+    and an integral is right if its derivative, computed from its parts, is the integrand.  Only for cases 1 and 2.
+    """
+    if isinstance(form, Diagonal):
+        first, second = form.first.logarithmic_derivative - gauge, form.second.logarithmic_derivative - gauge
+        return first != second and _riccati(first) == S and _riccati(second) == S
+    if isinstance(form, Conjugate):
+        return _conjugate(form, S, gauge)
+    if isinstance(form, Triangular):
+        omega = form.first.logarithmic_derivative - gauge
+        bare = form.bare.logarithmic_derivative
+        return omega == bare and _riccati(omega) == S and _is_inverse_square(form.primitive, form.bare)
+    if isinstance(form, OnCurve):
+        return _on_curve(form, S, gauge)
+    raise TypeError("solutions of case 3 are checked numerically")
+
+
+def _riccati(omega: RatFunc) -> RatFunc:
+    return omega.derivative() + omega * omega
+
+
+def _conjugate(form: Conjugate, S: RatFunc, gauge: RatFunc) -> bool:
+    A, B, delta = form.A, form.B, form.delta
+    slope_a, slope_b = A.derivative(), B.derivative()
+    norm = A * A - B * B * delta
+    u = form.common.logarithmic_derivative - gauge + RatFunc(A * slope_a - B * slope_b * delta, norm)
+    v = form.phase.derivative + RatFunc(A * slope_b - B * slope_a, norm)
+    return bool(v) and _riccati(u) + v * v * delta == S and not v.derivative() + 2 * u * v
+
+
+def _on_curve(form: OnCurve, S: RatFunc, gauge: RatFunc) -> bool:
+    """omega = u +- kappa r/sqrt(g): u' + u^2 + kappa^2 r^2/g = S and (r/sqrt(g))' + 2 u r/sqrt(g) = 0."""
+    u, r, g = form.common.logarithmic_derivative - gauge, form.integral.integrand, RatFunc(form.integral.g)
+    rate = r.derivative() / r - g.derivative() / (2 * g)
+    return _riccati(u) + r * r / g * form.kappa_squared == S and not rate + 2 * u
+
+
+def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
+    """Is the derivative of the integral y^-2, up to a constant?"""
+    target = bare.logarithmic_derivative * -2
+    if isinstance(primitive, RationalPrimitive):
+        h = primitive.parts.derivative
+        return h.derivative() == target * h
+    if isinstance(primitive, CurvePrimitive):
+        r, g = primitive.integral.integrand, RatFunc(primitive.integral.g)
+        return r.derivative() / r - g.derivative() / (2 * g) == target
+    if isinstance(primitive, ExponentialPrimitive):
+        r = primitive.integrand
+        return r.derivative() / r + primitive.kernel_derivative == target
+    return True  # the integral is left as it is
+
+
+def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: Any) -> Any:
+    """|y'' - 2 g y' + (g^2 - g' - S) y| relative to its terms, g the logarithmic derivative of the gauge factor."""
+    y, first, second = jet(expression, variable, point)
+    S0, g0, slope = _value(S, point), _value(gauge, point), _value(gauge.derivative(), point)
+    terms = (second, -2 * g0 * first, (g0 * g0 - slope - S0) * y)
+    scale = max(abs(term) for term in terms) + abs(y)
+    return abs(sum(terms)) / scale if scale else mpmath.inf
+
+
+def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc) -> bool:
+    """Does the expression satisfy the equation to 50 digits at a complex point away from the real axis?"""
+    for digits in (DIGITS + 15, 3 * DIGITS):
+        with mpmath.workdps(digits):
+            point = mpmath.mpc(mpmath.mpf(137) / 101, mpmath.mpf(71) / 89)
+            if residual(expression, variable, S, gauge, point) < mpmath.mpf(10) ** -DIGITS:
+                return True
+    return False
+
+
+def _value(r: RatFunc, point: Any) -> Any:
+    return _horner(r.num, point) / _horner(r.den, point)
+
+
+def _horner(polynomial: Any, point: Any) -> Any:
+    total = mpmath.mpf(0)
+    for c in reversed(polynomial.rational_coefficients()):
+        total = total * point + mpmath.mpf(int(c.p)) / int(c.q)
+    return total

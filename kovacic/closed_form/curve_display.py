@@ -1,0 +1,175 @@
+"""Integrals on s^2 = g, and exponentials of them, as SymPy expressions that are real where g is positive.
+
+kappa int r dx/sqrt(g) is a sum of kappa C sqrt(g) and of kappa c log(Q) or kappa c atan(Q): every logarithm of
+`kovacic.closed_form.curve` and `kovacic.closed_form.units` with tau^2 < 0 is turned into an arc tangent,
+-log(A + i eta B s)/(i eta) = atan(A/(eta B s))/eta up to a constant.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import sympy
+from sympy import Add, Integer, Mul, Pow, atan, cos, exp, log, sin, sqrt
+
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.atoms import Atoms, Expr
+from kovacic.closed_form.curve import CurveIntegral
+from kovacic.closed_form.partial_fractions import Residue
+from kovacic.closed_form.structure import OnCurve
+from kovacic.closed_form.torsion import open_reason, unit_of_divisor
+from kovacic.closed_form.units import Unit, unit
+
+
+@dataclass(frozen=True)
+class _Terms:
+    """int r dx/sqrt(g) = sum of coefficient * log(base) + sum of `others`; notes on what was left as an integral."""
+
+    logarithms: tuple[tuple[Expr, Expr], ...]
+    others: tuple[Expr, ...]
+    notes: tuple[str, ...] = ()
+
+
+def curve_integral(integral: CurveIntegral, atoms: Atoms) -> Expr:
+    """int r dx/sqrt(g)."""
+    terms = _terms(integral, atoms)
+    return Add(*terms.others, *(c * log(base) for c, base in terms.logarithms))
+
+
+def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
+    """common * exp(+-kappa int r dx/sqrt(g)); with cos and sin where kappa is imaginary; and notes."""
+    form = _oriented(form)
+    terms = _terms(form.integral, atoms)
+    common = atoms.product(form.common)
+    square = atoms.constant(form.kappa_squared)
+    if square.is_negative:
+        kappa = sqrt(-square)
+        angle = Add(
+            *(_times(kappa, t) for t in terms.others), *(_times(kappa, c) * log(b) for c, b in terms.logarithms)
+        )
+        return common * cos(angle), common * sin(angle), terms.notes
+    kappa = sqrt(square)
+    pair = []
+    for sign in (kappa, -kappa):
+        powers = [Pow(*_nested(base, _times(sign, c))) for c, base in terms.logarithms]
+        inner = Add(*(_times(sign, t) for t in terms.others))
+        pair.append(Mul(common, *powers, exp(inner)))
+    return pair[0], pair[1], terms.notes
+
+
+def _nested(base: Expr, exponent: Expr) -> tuple[Expr, Expr]:
+    return base, exponent
+
+
+def _times(factor: Expr, term: Expr) -> Expr:
+    """factor * term with the square roots of rational numbers multiplied out."""
+    coefficient, rest = (
+        term.as_independent(*term.free_symbols, as_Add=False) if term.free_symbols else (term, Integer(1))
+    )
+    return sympy.sqrtdenest(_radical_product(factor, coefficient)) * rest
+
+
+def _radical_product(a: Expr, b: Expr) -> Expr:
+    """The product of two constants; sqrt(p) sqrt(q) for rational p and q becomes sqrt(p q)."""
+    square = sympy.expand_mul(a**2 * b**2)
+    if square.is_Rational and a.is_real and b.is_real:
+        negative = (a.is_negative or False) != (b.is_negative or False)
+        return -sqrt(square) if negative else sqrt(square)
+    return sympy.expand_mul(a * b)
+
+
+def _oriented(form: OnCurve) -> OnCurve:
+    """With -g and -kappa^2 instead of g and kappa^2 if all logarithms are real where g is negative.
+
+    Only for residues at rational points or with rational tau^2, and d = 2 without a logarithm at infinity.
+    """
+    integral = form.integral
+    if integral.rest or not integral.residues or integral.g.degree != 2:
+        return form
+    units = [unit(integral, residue) for residue in integral.residues]
+    values = [None if u is None else u.tau_squared.field.rational_value(u.tau_squared) for u in units]
+    if any(value is None or value > 0 for value in values):
+        return form
+    turned = replace(integral, g=-integral.g, exact=-integral.exact)
+    return OnCurve(form.common, -form.kappa_squared, turned)
+
+
+def _terms(integral: CurveIntegral, atoms: Atoms) -> _Terms:
+    g = integral.g
+    root = sqrt(atoms.poly(g))
+    logarithms: list[tuple[Expr, Expr]] = []
+    others: list[Expr] = []
+    if integral.exact:
+        others.append(atoms.ratio(integral.exact) * root)
+    if not integral.is_elementary:
+        found = unit_of_divisor(integral)
+        rest = _integrand(integral)
+        if found is None:
+            others.append(sympy.Integral(atoms.ratio(rest) / root, atoms.x))
+            return _Terms((), tuple(others), (f"integral left because {open_reason(integral)}",))
+        _append_unit(found, root, atoms, logarithms, others)
+        return _Terms(tuple(logarithms), tuple(others))
+    if integral.rest:
+        logarithms.append((atoms.constant(integral.rest) * _half_if_split(g), _at_infinity(g, atoms)))
+    for residue in integral.residues:
+        found = unit(integral, residue)
+        if found is not None:
+            _append_unit(found, root, atoms, logarithms, others)
+        else:
+            others.append(_root_sum(integral, residue, root, atoms))
+    return _Terms(tuple(logarithms), tuple(others))
+
+
+def _integrand(integral: CurveIntegral) -> RatFunc:
+    zero = RatFunc(integral.g.field.poly([]))
+    return replace(integral, exact=zero).integrand
+
+
+def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr, Expr]], others: list[Expr]) -> None:
+    """-log((A + B tau s)/p)/tau, or the arc tangent for tau^2 < 0."""
+    square = atoms.constant(u.tau_squared)
+    A, B, p = u.A, u.B, u.p
+    content, _ = atoms.primitive(A)
+    if content:
+        A, B = A * (1 / content), B * (1 / content)
+    if square.is_negative:
+        eta = sqrt(-square)
+        others.append(atan(sympy.cancel(atoms.poly(A) / atoms.poly(B)) / (eta * root)) / eta)
+        return
+    tau = sqrt(square)
+    top = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root
+    logarithms.append((-1 / tau, top / atoms.primitive(p)[1] if p.degree > 0 else top))
+
+
+def _has_real_roots(g: Poly) -> bool:
+    """Are there two real roots, not symmetric to 0, of a quadratic polynomial over Q?"""
+    discriminant = g.field.rational_value(g[1] * g[1] - 4 * g[0] * g[2])
+    return discriminant is not None and discriminant > 0 and bool(g[1])
+
+
+def _half_if_split(g: Poly) -> Integer:
+    return Integer(2) if _has_real_roots(g) else Integer(1)
+
+
+def _at_infinity(g: Poly, atoms: Atoms) -> Expr:
+    """x - (x1 + x2)/2 + sqrt(g), or sqrt(x - x1) + sqrt(x - x2), the square root of twice that."""
+    if _has_real_roots(g):
+        centre, _, root = atoms.quadratic_roots(g)
+        return sqrt(atoms.x - (centre - root / 2)) + sqrt(atoms.x - (centre + root / 2))
+    return atoms.poly(g.derivative() * Fraction(1, 2)) + sqrt(atoms.poly(g))
+
+
+def _root_sum(integral: CurveIntegral, residue: Residue, root: Expr, atoms: Atoms) -> Expr:
+    """The sum over the roots a of p of -(rho/sqrt(gamma)) log((L_a + sqrt(gamma) s)/(x - a))."""
+    p, a = residue.factor, atoms.root
+    gamma = atoms.in_root(integral.radicand(residue), a)
+    slope = atoms.in_root(integral.g.derivative() * Fraction(1, 2) % p, a)
+    tangent = gamma + slope * (atoms.x - a)
+    body = -atoms.in_root(residue.value, a) / sqrt(gamma) * log((tangent + sqrt(gamma) * root) / (atoms.x - a))
+    if p.degree == 2 and not hasattr(p, "parts"):
+        centre, discriminant, width = atoms.quadratic_roots(p)
+        if discriminant > 0:
+            return Add(*(body.subs(a, value) for value in (centre - width / 2, centre + width / 2)))
+    return sympy.RootSum(sympy.Poly(atoms.poly(p, a), a), sympy.Lambda(a, body), auto=False)

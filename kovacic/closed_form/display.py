@@ -1,0 +1,24 @@
+"""From the structure of the solutions to two SymPy expressions."""
+
+from __future__ import annotations
+
+from kovacic.closed_form.atoms import Atoms, Expr
+from kovacic.closed_form.curve_display import exponentials
+from kovacic.closed_form.integrals import second_solution
+from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
+from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
+
+
+def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
+    """y1, y2 and notes."""
+    if isinstance(form, Diagonal):
+        return atoms.product(form.first), atoms.product(form.second), ()
+    if isinstance(form, Conjugate):
+        first, second = real_pair(form, atoms) if is_real_pair(form) else conjugate_roots(form, atoms)
+        return first, second, ()
+    if isinstance(form, Triangular):
+        second, notes = second_solution(form, atoms)
+        return atoms.product(form.first), second, notes
+    if isinstance(form, OnCurve):
+        return exponentials(form, atoms)
+    raise NotImplementedError

@@ -1,0 +1,71 @@
+"""`solutions`: two independent solutions as SymPy expressions, checked before they are returned."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.structure import ClosedStructure, build
+from kovacic.errors import VerificationFailed
+
+if TYPE_CHECKING:
+    from kovacic.result import Solution
+
+EXACT = "exact"
+NUMERICAL = "numerical, 50 digits"
+
+
+@dataclass(frozen=True)
+class ClosedForm:
+    """y1 and y2, SymPy expressions in `variable`; `structure` is the same as data, without SymPy.
+
+    `checked` is "exact" if the equation was verified in rational functions from the factors, or "numerical, 50 digits";
+    what is shown has been checked at a point in either case.  `notes` say what was left as an integral and why.
+    """
+
+    y1: Any
+    y2: Any
+    variable: Any
+    structure: ClosedStructure
+    gauge: RatFunc
+    checked: str
+    notes: tuple[str, ...] = ()
+
+    def __iter__(self) -> Any:
+        return iter((self.y1, self.y2))
+
+
+def solutions(solution: Solution, *, gauge: RatFunc | None = None) -> ClosedForm:
+    """Two independent solutions of y'' = S y, or of the equation whose solutions are y times a gauge factor.
+
+    `gauge` is the logarithmic derivative of that factor: -b/(2a) for the equation a z'' + b z' + c z = 0.  It is merged into
+    the products of powers and exponentials.  Where S is real and has real solutions of a known form, these are returned.
+
+    Raises `ValueError` if the equation has no Liouvillian solution or is undecided, and `VerificationFailed` if a solution
+    doesn't pass its check, which is a defect of this package.
+
+    >>> import kovacic
+    >>> form = solutions(kovacic.solve("2/x^2 - 1"))
+    >>> form.y1, form.checked
+    ((x*cos(x) - sin(x))/x, 'exact')
+    """
+    from sympy import Symbol
+
+    from kovacic.closed_form.atoms import Atoms
+    from kovacic.closed_form.check import is_exact_solution, is_numerical_solution
+    from kovacic.closed_form.display import expressions
+    from kovacic.closed_form.structure import Primitive3
+
+    if solution.case is None:
+        raise ValueError(solution.reason or "there is no Liouvillian solution")
+    if gauge is None:
+        gauge = RatFunc(solution.S.field.poly([]))
+    structure = build(solution.S, solution.decision, gauge)
+    variable = Symbol(solution.variable)
+    y1, y2, notes = expressions(structure, Atoms(variable))
+    exact = not isinstance(structure, Primitive3)
+    passed = not exact or is_exact_solution(structure, solution.S, gauge)
+    if not passed or not all(is_numerical_solution(y, variable, solution.S, gauge) for y in (y1, y2)):
+        raise VerificationFailed(f"a closed form for S = {solution.S} failed its check; please report the equation")
+    return ClosedForm(y1, y2, variable, structure, gauge, EXACT if exact else NUMERICAL, notes)

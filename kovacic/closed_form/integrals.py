@@ -1,0 +1,133 @@
+"""The integrals of `kovacic.closed_form.primitive` and `kovacic.closed_form.curve` as SymPy expressions."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import gcd, lcm
+
+import sympy
+from sympy import Add, Ei, Mul, Pow, erf, erfi, exp, pi, sqrt
+
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.atoms import Atoms, Expr
+from kovacic.closed_form.curve import CurveIntegral
+from kovacic.closed_form.curve_display import curve_integral
+from kovacic.closed_form.primitive import (
+    CurvePrimitive,
+    ExponentialPrimitive,
+    OpenPrimitive,
+    RationalPrimitive,
+)
+from kovacic.closed_form.product import Power, Product
+from kovacic.closed_form.structure import Triangular
+
+
+def second_solution(form: Triangular, atoms: Atoms) -> tuple[Expr, tuple[str, ...]]:
+    """y1 int y1^-2 up to a constant factor and a multiple of y1, and notes about what was left as an integral."""
+    primitive = form.primitive
+    if isinstance(primitive, OpenPrimitive):
+        bare = atoms.product(form.bare)
+        integral = sympy.Integral(Pow(bare, -2), atoms.x)
+        return atoms.product(form.first) * integral, (f"integral left because {primitive.reason}",)
+    if isinstance(primitive, RationalPrimitive):
+        return _rational(form, primitive, atoms), ()
+    if isinstance(primitive, CurvePrimitive):
+        return _on_curve(form, primitive.integral, atoms), ()
+    return _exponential(form, primitive, atoms), ()
+
+
+Scaled = tuple[Expr, Expr]  # a constant and an expression, to be multiplied
+
+
+def _sum(terms: list[Scaled]) -> Expr:
+    """The sum up to a constant factor: coprime integer coefficients if they are commensurable, the last one positive."""
+    ratios = [c / terms[-1][0] for c, _ in terms]
+    if all(ratio.is_Rational for ratio in ratios):
+        content = sympy.Rational(gcd(*(int(r.p) for r in ratios)), lcm(*(int(r.q) for r in ratios)))
+        ratios = [ratio / content for ratio in ratios]
+    return Add(*(Mul(c, e) for c, e in zip(ratios, (e for _, e in terms), strict=True)))
+
+
+def _scaled(scale: Expr, factors: list[Expr]) -> Scaled:
+    """Rational factors of the product join the constant."""
+    coefficient, rest = Mul(*factors).as_coeff_Mul()
+    return scale * coefficient, rest
+
+
+def _rational(form: Triangular, primitive: RationalPrimitive, atoms: Atoms) -> Expr:
+    parts = primitive.parts
+    exact = _normalised_constant(parts.exact) if not parts.residues else parts.exact
+    terms = []
+    if exact:
+        terms.append(_scaled(*atoms.factors(form.first, exact)))
+    scale, factors = atoms.factors(form.first)
+    terms += [_scaled(scale, [*factors, term]) for term in atoms.logarithms(parts.residues)]
+    return _sum(terms)
+
+
+def _normalised_constant(exact: RatFunc) -> RatFunc:
+    """The antiderivative of least degree in the numerator."""
+    if exact.num.degree != exact.den.degree or exact.den.degree <= 0:
+        return exact
+    return exact - exact.num.lc
+
+
+def _on_curve(form: Triangular, integral: CurveIntegral, atoms: Atoms) -> Expr:
+    first = atoms.product(form.first)
+    return sympy.expand_mul(Mul(first, curve_integral(integral, atoms)))
+
+
+def _exponential(form: Triangular, primitive: ExponentialPrimitive, atoms: Atoms) -> Expr:
+    """first * (W k e^constant + the special functions times e^constant)."""
+    terms = []
+    if primitive.W:
+        terms.append(_algebraic_part(form, primitive, atoms))
+    shift = exp(atoms.constant(primitive.constant))
+    t = atoms.x - atoms.constant(primitive.centre)
+    scale, factors = atoms.factors(form.first)
+    for term in primitive.terms:
+        c, value = _special(primitive.alpha, atoms.constant(primitive.beta), primitive.n, term.power, t)
+        terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*factors, shift, value]))
+    beta, centre = atoms.constant(primitive.beta), atoms.constant(primitive.centre)
+    for residue in primitive.poles.residues:
+        p, rho = residue.factor, residue.value
+        if p.degree == 1:
+            a = -atoms.constant(p[0])
+            value = exp(beta * (a - centre)) * Ei(beta * (atoms.x - a))
+            terms.append(_scaled(scale * atoms.constant(rho), [*factors, shift, value]))
+        else:
+            a = atoms.root
+            body = atoms.in_root(rho, a) * exp(beta * (a - centre)) * Ei(beta * (atoms.x - a))
+            value = sympy.RootSum(sympy.Poly(atoms.poly(p, a), a), sympy.Lambda(a, body), auto=False)
+            terms.append(_scaled(scale, [*factors, shift, value]))
+    return _sum(terms)
+
+
+def _algebraic_part(form: Triangular, primitive: ExponentialPrimitive, atoms: Atoms) -> Scaled:
+    """first * W * k e^constant, as one product."""
+    first, field = form.first, primitive.beta.field
+    t = field.poly([-primitive.centre, 1])
+    inner = first.exponential + RatFunc(t) ** primitive.n * primitive.beta + primitive.constant
+    powers = {power.base: power.exponent for power in first.powers}
+    if primitive.alpha:
+        powers[t] = powers.get(t, field.poly([])) + primitive.alpha
+    merged = tuple(Power(base, exponent) for base, exponent in powers.items() if exponent)
+    return _scaled(*atoms.factors(Product(merged, first.roots, inner), primitive.W))
+
+
+def _special(alpha: Fraction, beta: Expr, n: int, power: int, t: Expr) -> Scaled:
+    """int t^(power + alpha) exp(beta t^n) dt by equation (1) of `kovacic.closed_form.primitive`."""
+    s = (power + alpha + 1) / n
+    if s == 0:
+        return sympy.Rational(1, n), Ei(beta * t**n)
+    if s == Fraction(1, 2):
+        positive = beta.is_positive
+        root = sqrt(beta if positive else -beta)
+        u = root * t ** sympy.Rational(n, 2)
+        return 1 / (root * n), sqrt(pi) * (erfi(u) if positive else erf(u))
+    order = sympy.Rational(s.numerator, s.denominator)
+    z = -beta * t**n
+    if beta.is_positive:
+        exponent = sympy.Rational((power + alpha + 1).numerator, (power + alpha + 1).denominator)
+        return sympy.Rational(1, n), t**exponent * z**-order * sympy.lowergamma(order, z)
+    return -((-beta) ** -order) / n, sympy.uppergamma(order, z)

@@ -1,0 +1,228 @@
+"""int y^-2 dx for a product y: the second solution y int y^-2 of a reducible equation.
+
+With h = y^-2 = r k, r rational and k the part that isn't, the integral is W k plus what no W k can express: logarithms for
+k = 1, the integrals (2) of `kovacic.closed_form.curve` for k = 1/sqrt(g), and for k = x^alpha exp(beta x^n), n any
+integer but 0, combinations of
+
+    G_m = int x^(m + alpha) exp(beta x^n) dx,      s = (m + alpha + 1)/n,  0 <= s < 1,                                     (1)
+
+that is Ei(beta x^n)/n for s = 0, erf or erfi of sqrt(-+beta) x^(n/2) for s = 1/2, else -(-beta)^(-s) Gamma(s, -beta x^n)/n.
+The reduction subtracts L(W) = W' + W k'/k, the derivative of W k over k [Hermite's reduction for hyperexponential
+functions: Bostan, Chen, Chyzak, Li & Xin, ISSAC 2013]; L(x^j) = (j + alpha) x^(j-1) + n beta x^(j+n-1).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
+from kovacic.closed_form.partial_fractions import Decomposition, decompose
+from kovacic.closed_form.product import Product
+
+
+@dataclass(frozen=True)
+class RationalPrimitive:
+    """k = 1: a rational function and logarithms."""
+
+    parts: Decomposition
+
+
+@dataclass(frozen=True)
+class CurvePrimitive:
+    """h = r/sqrt(g): an integral on the curve s^2 = g."""
+
+    integral: CurveIntegral
+
+
+@dataclass(frozen=True)
+class Term:
+    """`coefficient * G_power` of equation (1)."""
+
+    coefficient: Poly
+    power: int
+
+
+@dataclass(frozen=True)
+class ExponentialPrimitive:
+    """h = rational * k, k = (x - centre)^alpha exp(beta (x - centre)^n): W k + sum of `terms` + Ei terms.
+
+    `poles` (only for n = 1, alpha = 0) are the simple poles a with residue rho that remain; each gives
+    rho exp(beta (a - centre)) Ei(beta (x - a)).  The exponential in h itself is exp(beta (x - centre)^n + constant).
+    """
+
+    centre: Poly
+    alpha: Fraction
+    beta: Poly
+    n: int
+    constant: Poly
+    W: RatFunc
+    terms: tuple[Term, ...]
+    poles: Decomposition
+
+    @property
+    def kernel_derivative(self) -> RatFunc:
+        """k'/k."""
+        field = self.beta.field
+        t = RatFunc(field.poly([-self.centre, 1]))
+        return self.alpha / t + t ** (self.n - 1) * (self.beta * self.n)
+
+    @property
+    def integrand(self) -> RatFunc:
+        """h/k, recomputed from the result."""
+        field = self.beta.field
+        t = RatFunc(field.poly([-self.centre, 1]))
+        total = self.W.derivative() + self.W * self.kernel_derivative + self.poles.derivative
+        return sum((t**term.power * term.coefficient for term in self.terms), total)
+
+
+@dataclass(frozen=True)
+class OpenPrimitive:
+    """The integral is left as it is, and `reason` says why."""
+
+    reason: str
+
+
+Primitive = RationalPrimitive | CurvePrimitive | ExponentialPrimitive | OpenPrimitive
+
+
+def integrate_inverse_square(y: Product) -> Primitive:
+    """int y^-2 dx.
+
+    >>> from kovacic.algebra.fields import QQ
+    >>> from kovacic.closed_form.product import product
+    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> done = integrate_inverse_square(product(-x / 2, QQ.poly([0, -3, 0, 1])))  # (x^3 - 3 x) exp(-x^2/4)
+    >>> print(done.W, [(str(term.coefficient), term.power) for term in done.terms])
+    (-x**2 + 2)/(6*x**3 - 18*x) [('1/6', 0)]
+    """
+    field = y.field
+    if y.roots:
+        return OpenPrimitive(f"the exponents at the roots of {y.roots[0].factor} are different algebraic numbers")
+    rational = RatFunc(field.poly([1]))
+    fractional: list[tuple[Poly, Fraction]] = []
+    for power in y.powers:
+        exponent = power.rational_exponent
+        if exponent is None:
+            return OpenPrimitive(f"the exponent at {power.base} is irrational")
+        exponent = -2 * exponent
+        if exponent.denominator == 1:
+            rational = rational * RatFunc(power.base) ** int(exponent)
+        else:
+            fractional.append((power.base, exponent))
+    E = y.exponential * -2
+    if E.is_polynomial and E.num.degree <= 0:
+        return _without_exponential(rational, fractional)
+    return _with_exponential(rational, fractional, E)
+
+
+def _without_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fraction]]) -> Primitive:
+    if not fractional:
+        return RationalPrimitive(decompose(rational))
+    if all(exponent.denominator == 2 for _, exponent in fractional):
+        g = rational.field.poly([1])
+        for p, exponent in fractional:
+            g = g * p
+            rational = rational * RatFunc(p) ** int(exponent + Fraction(1, 2))
+        integral = integrate_on_curve(rational, g)
+        if integral.is_elementary:
+            return CurvePrimitive(integral)
+        return OpenPrimitive(f"it is an integral on the curve s^2 = {g}, whose genus isn't 0")
+    return OpenPrimitive("it is an incomplete beta integral, with fractional powers of several factors")
+
+
+def _with_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fraction]], E: RatFunc) -> Primitive:
+    field = rational.field
+    if len(fractional) > 1 or any(p.degree > 1 for p, _ in fractional):
+        return OpenPrimitive("the integrand has an exponential and fractional powers of several factors")
+    centre = -fractional[0][0][0] if fractional else None
+    alpha = fractional[0][1] if fractional else Fraction(0)
+    shape = _monomial_exponent(E, centre)
+    if shape is None:
+        return OpenPrimitive("the exponent in the integrand isn't a multiple of a power of x - c, up to a constant")
+    centre, beta, n, constant = shape
+    shifted = rational(field.poly([centre, 1])) if centre else rational
+    W, laurent, poles = _reduce(shifted, alpha, beta, n)
+    if poles.residues and (n != 1 or alpha):
+        return OpenPrimitive("a pole with a residue remains beside the exponential")
+    W, terms = _reduce_laurent(W, laurent, alpha, beta, n)
+    if centre:
+        back = field.poly([-centre, 1])
+        W = W(RatFunc(back))
+        poles = decompose(poles.derivative(RatFunc(back)))
+    return ExponentialPrimitive(centre, alpha, beta, n, constant, W, terms, poles)
+
+
+def _monomial_exponent(E: RatFunc, centre: Poly | None) -> tuple[Poly, Poly, int, Poly] | None:
+    """(c, beta, n, constant) with E = beta (x - c)^n + constant, c the given centre if there is one; None if it isn't so."""
+    field = E.field
+    if E.is_polynomial:
+        n, beta = E.num.degree, E.num.lc
+        if centre is None:
+            centre = -E.num[n - 1] / (beta * n) if n > 1 else field.poly([])
+        shifted = E.num(field.poly([centre, 1]))
+        lower = shifted - field.poly([0, 1]) ** n * beta
+        return (centre, beta, n, lower) if lower.degree <= 0 else None
+    polynomial, rest = divmod(E.num, E.den)
+    if polynomial.degree > 0 or rest.degree > 0:
+        return None
+    n = E.den.degree
+    pole = -E.den[n - 1] / field.poly([n])
+    if E.den != field.poly([-pole, 1]) ** n or (centre is not None and centre != pole):
+        return None
+    return pole, rest, -n, polynomial
+
+
+def _reduce(r: RatFunc, alpha: Fraction, beta: Poly, n: int) -> tuple[RatFunc, RatFunc, Decomposition]:
+    """W, a Laurent polynomial and simple poles with r = L(W) + Laurent + poles."""
+    field = r.field
+    x = RatFunc(field.poly([0, 1]))
+    slope = alpha / x + x ** (n - 1) * (beta * n)
+    W = RatFunc(field.poly([]))
+    for p, multiplicity in field.factor(r.den) if r.den.degree > 0 else []:
+        if p == x.num:
+            continue
+        inverse = p.derivative().inverse_modulo(p) if p.degree > 1 else field.poly([1])
+        for k in range(multiplicity, 1, -1):
+            cofactor, count = r.den.remove(p)
+            if count < k:
+                continue
+            leading = r.num * (cofactor.inverse_modulo(p) if p.degree > 1 else (cofactor % p).inverse()) % p
+            part = RatFunc(leading * inverse % p * Fraction(1, 1 - k), p ** (k - 1))
+            W, r = W + part, r - part.derivative() - part * slope
+    residues = tuple(residue for residue in decompose(r).residues if residue.factor != x.num)
+    poles = Decomposition(RatFunc(field.poly([])), residues)
+    return W, r - poles.derivative, poles
+
+
+def _reduce_laurent(
+    W: RatFunc, laurent: RatFunc, alpha: Fraction, beta: Poly, n: int
+) -> tuple[RatFunc, tuple[Term, ...]]:
+    """W and the terms of (1) for the Laurent polynomial; W is in the shifted coordinate."""
+    field = laurent.field
+    x = RatFunc(field.poly([0, 1]))
+    lowest = -laurent.den.degree
+    coefficients = {lowest + i: laurent.num[i] for i in range(laurent.num.degree + 1) if laurent.num[i]}
+    inverse = (beta * n).inverse()
+    pending = sorted(coefficients, key=lambda m: -abs((m + alpha + 1) / n - Fraction(1, 2)))
+    while pending:
+        m = pending.pop(0)
+        s = (m + alpha + 1) / n
+        if 0 <= s < 1 or not coefficients.get(m):
+            continue
+        value = coefficients.pop(m)
+        if s >= 1:
+            j = m - n + 1
+            part, target, change = value * inverse, m - n, -(value * inverse * (j + alpha))
+        else:
+            j = m + 1
+            part = value * (1 / (j + alpha))
+            target, change = m + n, -(part * beta * n)
+        W = W + x**j * part
+        if change:
+            coefficients[target] = coefficients.get(target, field.poly([])) + change
+            pending = sorted({*pending, target}, key=lambda m: -abs((m + alpha + 1) / n - Fraction(1, 2)))
+    terms = tuple(Term(value, m) for m, value in sorted(coefficients.items()) if value)
+    return W, terms

@@ -1,0 +1,102 @@
+"""Products of powers, exponentials and their kin: the functions whose logarithmic derivatives are rational.
+
+A `Product` is exp(int omega) for omega in K(x), K any field of constants, kept as data: what a person would write, what
+the numeric part can evaluate, and what can be checked exactly, since its logarithmic derivative is computed from the
+written form and not from omega.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from kovacic.algebra.fields import Field
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.partial_fractions import Residue, decompose
+
+
+@dataclass(frozen=True)
+class Power:
+    """`base ** exponent`, base a monic polynomial, exponent a constant of the field."""
+
+    base: Poly
+    exponent: Poly
+
+    @property
+    def rational_exponent(self) -> Fraction | None:
+        """The exponent if it is rational, else None."""
+        return self.exponent.field.rational_value(self.exponent)
+
+
+@dataclass(frozen=True)
+class Product:
+    """`prod base^exponent * prod_(roots a) (x - a)^(residue(a)) * exp(exponential)`, up to a constant factor.
+
+    `roots` holds the irreducible factors at whose roots a the exponents differ from one another.
+    """
+
+    powers: tuple[Power, ...]
+    roots: tuple[Residue, ...]
+    exponential: RatFunc
+
+    @property
+    def field(self) -> Field:
+        return self.exponential.field
+
+    @property
+    def logarithmic_derivative(self) -> RatFunc:
+        """y'/y, computed from the factors."""
+        total = self.exponential.derivative()
+        for power in self.powers:
+            total = total + RatFunc(power.base.derivative() * power.exponent, power.base)
+        for residue in self.roots:
+            total = total + residue.logarithmic
+        return total
+
+    @property
+    def is_radical(self) -> bool:
+        """Is this a product of rational powers of polynomials: a root of a rational function?"""
+        return (
+            not self.roots
+            and self.exponential.is_polynomial
+            and self.exponential.num.degree <= 0
+            and all(power.rational_exponent is not None for power in self.powers)
+        )
+
+    def rational_square(self) -> RatFunc | None:
+        """y^2 if that is a rational function, else None."""
+        if not self.is_radical:
+            return None
+        square = RatFunc(self.field.poly([1]))
+        for power in self.powers:
+            exponent = 2 * (power.rational_exponent or Fraction(0))
+            if exponent.denominator != 1:
+                return None
+            square = square * RatFunc(power.base) ** int(exponent)
+        return square
+
+
+def product(logarithmic_derivative: RatFunc, zeros: Poly | None = None) -> Product:
+    """exp(int omega) for omega = `logarithmic_derivative` + zeros'/zeros.
+
+    `zeros` may have many roots, and is kept as one factor unless it shares one with the rest.
+
+    >>> from kovacic.algebra.fields import QQ
+    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> y = product(x + 1 / (3 * x), QQ.poly([-3, 0, 1]))
+    >>> print([(str(f.base), str(f.exponent)) for f in y.powers], y.exponential)
+    [('x', '1/3'), ('x**2 - 3', '1')] x**2/2
+    """
+    parts = decompose(logarithmic_derivative)
+    field = parts.exact.field
+    powers = [Power(residue.factor, residue.value) for residue in parts.residues if residue.is_constant]
+    roots = tuple(residue for residue in parts.residues if not residue.is_constant)
+    if zeros is not None and zeros.degree > 0:
+        rest, one = zeros.over(field).monic(), field.poly([1])
+        for index, power in enumerate(powers):
+            rest, count = rest.remove(power.base)
+            powers[index] = Power(power.base, power.exponent + count)
+        if rest.degree > 0:
+            powers.append(Power(rest, one))
+    return Product(tuple(power for power in powers if power.exponent), roots, parts.exact)

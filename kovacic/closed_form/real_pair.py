@@ -1,0 +1,174 @@
+"""Two real solutions from two that are complex conjugates of one another.
+
+y+- = (A +- i s B) U exp(+-i s V) with s^2 = -delta > 0 and everything else real.  V' = v is rational; a root a = c + i t of a
+quadratic factor p of its denominator contributes the angle phi = arg(x - conj(a)), through
+
+    i s (v(a) log(x - a) + v(conj a) log(x - conj a)) = i s v(c) log p + i q phi,    q = v_1 s 2t,  v(a) = v_0 + v_1 a.   (1)
+
+For an integer q, exp(i q phi) = ((x - c) + i t)^q p^(-q/2); for q in 1/2 + Z a square root is left over,
+
+    exp(i phi/2) = (sqrt(sqrt(p) + x - c) + i sqrt(sqrt(p) - (x - c))) / (sqrt(2) p^(1/4)),                           (2)
+
+which makes the answers for the ball on the sphere algebraic; otherwise phi = pi/2 - atan((x - c)/t).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+import sympy
+from sympy import Add, cos, sin, sqrt
+
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.poly import Poly
+from kovacic.closed_form.atoms import Atoms, Expr
+from kovacic.closed_form.partial_fractions import Residue
+from kovacic.closed_form.product import Power, Product
+from kovacic.closed_form.structure import Conjugate
+from kovacic.places import rational_square_root
+
+
+@dataclass(frozen=True)
+class _Pair:
+    """(A + sqrt(delta) B) * common, times exp(i phi/2) for the quadratic factors in `halves` (sign +1 or -1)."""
+
+    A: Poly
+    B: Poly
+    powers: tuple[Power, ...]
+    halves: tuple[tuple[Poly, int], ...] = ()
+
+    def rotated(self, delta: Poly, re: Poly, im: Poly) -> _Pair:
+        """Multiplied by re + sqrt(delta) im."""
+        return replace(self, A=self.A * re + self.B * im * delta, B=self.A * im + self.B * re)
+
+    def with_power(self, base: Poly, exponent: Fraction) -> _Pair:
+        return replace(self, powers=(*self.powers, Power(base, base.field.poly([exponent]))))
+
+
+def is_real_pair(form: Conjugate) -> bool:
+    """Are the two solutions complex conjugates that this module treats: rational coefficients and delta < 0?"""
+    value = form.delta.field.rational_value(form.delta)
+    return form.delta.field == QQ and value is not None and value < 0
+
+
+def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
+    """The real and the imaginary part of y+, each a solution."""
+    s = sqrt(-atoms.constant(form.delta))
+    pair = _Pair(form.A, form.B, form.common.powers)
+    phase: list[Expr] = []
+    if form.phase.exact:
+        phase.append(s * atoms.sum(form.phase.exact))
+    for residue in form.phase.residues:
+        turned = _half_turns(pair, form.delta, residue, phase, atoms, s)
+        if turned is None:
+            phase.append(s * atoms.log_sum(residue))
+        else:
+            pair = turned
+    common = atoms.product(replace(form.common, powers=_merged(pair.powers)))
+    A, B = pair.A, pair.B
+    content = _content(atoms, A, B)
+    A, B = A * (1 / content), B * (1 / content)
+    first, second = atoms.poly(A), s * atoms.poly(B)
+    for p, sign in pair.halves:
+        # exp(+-i phi/2) = plus +- i minus.
+        distance = atoms.poly(p.derivative() * Fraction(1, 2))
+        scale, radical = atoms.primitive(p)
+        root = sqrt(radical) * sqrt(sympy.Rational(scale.numerator, scale.denominator))
+        plus, minus = sqrt(root + distance), sign * sqrt(root - distance)
+        first, second = first * plus - second * minus, first * minus + second * plus
+    angle = _angle(phase)
+    if angle != 0:
+        c, t = cos(angle), sin(angle)
+        first, second = first * c - second * t, first * t + second * c
+    return _times(common, first), _times(common, second)
+
+
+def _times(common: Expr, factor: Expr) -> Expr:
+    return _without_content(factor) * common
+
+
+def _without_content(expression: Expr) -> Expr:
+    """Without a constant factor, if it is visible."""
+    if not isinstance(expression, Add):
+        return (
+            expression.as_independent(*expression.free_symbols, as_Add=False)[1]
+            if expression.free_symbols
+            else expression
+        )
+    constants = [term.as_coeff_Mul()[0] for term in expression.args]
+    return -expression if all(c.is_negative for c in constants) else expression
+
+
+def _angle(phase: list[Expr]) -> Expr:
+    total = Add(*phase)
+    return -total if total.could_extract_minus_sign() and not isinstance(total, Add) else total
+
+
+def _content(atoms: Atoms, A: Poly, B: Poly) -> Fraction:
+    lead = A if A else B
+    return atoms.primitive(lead)[0]
+
+
+def _half_turns(pair: _Pair, delta: Poly, residue: Residue, phase: list[Expr], atoms: Atoms, s: Expr) -> _Pair | None:
+    """The pair turned by exp(i q phi) of equation (1) if 2q is an integer; the logarithm, if any, joins the phase."""
+    p, value = residue.factor, residue.value
+    if p.degree != 2 or residue.is_constant:
+        return None
+    discriminant = p[1] * p[1] - 4 * p[0]
+    ratio = rational_square_root(discriminant / delta)  # 2t/s, only if the roots are complex
+    if ratio is None:
+        return None
+    slope: Any = value.field.rational_value(value[1])
+    q = slope * ratio * -(delta.field.rational_value(delta) or 0)  # v_1 s 2t = v_1 s^2 (2t/s)
+    if (2 * q).denominator != 1:
+        return None
+    mean = value[0] - value[1] * p[1] * Fraction(1, 2)
+    if mean:
+        phase.append(s * atoms.constant(mean) * sympy.log(atoms.primitive(p)[1]))
+    sign = 1 if q > 0 else -1
+    half = abs(2 * q) % 2 == 1
+    turns = int(abs(q) - Fraction(int(half), 2))
+    re, im = p.derivative() * Fraction(1, 2), p.field.poly([sign * ratio / 2])
+    for _ in range(turns):
+        pair = pair.rotated(delta, re, im)
+    pair = pair.with_power(p, -abs(q) / 2)
+    if half:
+        pair = replace(pair, halves=(*pair.halves, (p, sign)))
+    return pair
+
+
+def _merged(powers: tuple[Power, ...]) -> tuple[Power, ...]:
+    exponents: dict[Poly, Poly] = {}
+    for power in powers:
+        exponents[power.base] = exponents.get(power.base, power.exponent * 0) + power.exponent
+    return tuple(Power(base, exponent) for base, exponent in exponents.items() if exponent)
+
+
+def conjugate_roots(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
+    """y+ and y- for a delta that isn't negative: real where S is."""
+    s = sqrt(atoms.constant(form.delta))
+    solutions = []
+    for sign in (s, -s):
+        A, B = atoms.poly(form.A), atoms.poly(form.B)
+        exponents = [
+            Residue(residue.factor, residue.value) for residue in form.phase.residues if atoms.is_linear_power(residue)
+        ]
+        rest = [atoms.log_sum(residue) for residue in form.phase.residues if not atoms.is_linear_power(residue)]
+        inner = [sign * term for term in rest]
+        if form.phase.exact:
+            inner.append(sign * atoms.sum(form.phase.exact))
+        common = _with_irrational_powers(form.common, exponents, sign, atoms)
+        solutions.append(Add(A, sympy.expand_mul(sign * B)) * common * sympy.exp(Add(*inner)))
+    return solutions[0], solutions[1]
+
+
+def _with_irrational_powers(common: Product, residues: list[Residue], factor: Expr, atoms: Atoms) -> Expr:
+    """The product times base^(factor * residue), the exponents of the same base added."""
+    exponents = {power.base: atoms.constant(power.exponent) for power in common.powers}
+    for residue in residues:
+        extra = factor * atoms.constant(residue.value)
+        exponents[residue.factor] = exponents.get(residue.factor, sympy.Integer(0)) + extra
+    powers = sympy.Mul(*(atoms.primitive(base)[1] ** sympy.expand_mul(e) for base, e in exponents.items()))
+    return powers * atoms.product(replace(common, powers=()))

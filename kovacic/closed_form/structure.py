@@ -1,0 +1,154 @@
+"""Two independent solutions as data, without SymPy: what the views print and what the numeric part evaluates.
+
+y'' = S y; `gauge` is the logarithmic derivative of a factor that every solution is multiplied with (0 for the normal form
+itself), which is merged into the products at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from kovacic.algebra.fields import AlgebraicField
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
+from kovacic.closed_form.partial_fractions import Decomposition, decompose
+from kovacic.closed_form.primitive import Primitive, integrate_inverse_square
+from kovacic.closed_form.product import Product, product
+from kovacic.solution import Decision, SemiInvariant, Structure
+
+
+@dataclass(frozen=True)
+class Diagonal:
+    """Case 1, diagonal group, both logarithmic derivatives over K: y1 and y2 are products."""
+
+    first: Product
+    second: Product
+
+
+@dataclass(frozen=True)
+class Conjugate:
+    """Case 1, diagonal group, omega conjugate over K(sqrt delta): y = (A +- sqrt(delta) B) common exp(+-sqrt(delta) V).
+
+    V is given by its decomposition, V' = `phase.derivative`.
+    """
+
+    common: Product
+    delta: Poly
+    phase: Decomposition
+    A: Poly
+    B: Poly
+
+
+@dataclass(frozen=True)
+class Triangular:
+    """Case 1, omega unique or y1^2 rational: y1 = first, y2 = first * int bare^-2 dx; `bare` is y1 without the gauge."""
+
+    first: Product
+    bare: Product
+    primitive: Primitive
+
+
+@dataclass(frozen=True)
+class OnCurve:
+    """Case 2: y = common * exp(+-kappa int r dx/sqrt(g)), kappa^2 = `kappa_squared`, a constant."""
+
+    common: Product
+    kappa_squared: Poly
+    integral: CurveIntegral
+
+
+@dataclass(frozen=True)
+class Primitive3:
+    """Case 3, all solutions algebraic: what Klein's form is made of.
+
+    `invariant` is the rational form of degree 6, 8 or 12 that the group fixes; `gauge` as in the module's head.
+    """
+
+    structure: Structure
+    S: RatFunc
+    invariant: SemiInvariant
+    gauge: RatFunc
+
+
+ClosedStructure = Diagonal | Conjugate | Triangular | OnCurve | Primitive3
+
+
+def build(S: RatFunc, decision: Decision, gauge: RatFunc) -> ClosedStructure:
+    """The closed forms that belong to a decision with Liouvillian solutions."""
+    semi, structure = decision.semi_invariant, decision.structure
+    if semi is None or structure is None:
+        raise ValueError("there is no Liouvillian solution")
+    if structure is Structure.REDUCIBLE:
+        return _reducible(semi, decision.invariant, gauge)
+    if structure is Structure.IMPRIMITIVE:
+        return _imprimitive(S, semi, gauge)
+    if decision.invariant is None:
+        raise ValueError("the decision was made without its certificate")
+    return Primitive3(structure, S, decision.invariant, gauge)
+
+
+def _reducible(semi: SemiInvariant, invariant: SemiInvariant | None, gauge: RatFunc) -> ClosedStructure:
+    if invariant is not None and semi.theta.field != invariant.theta.field:
+        return _conjugate(semi, gauge)
+    first = product(semi.theta + gauge, semi.P)
+    if invariant is not None:
+        second = invariant.logarithmic_derivative - semi.logarithmic_derivative
+        if second != semi.logarithmic_derivative:
+            zeros = invariant.P.exact_quotient(semi.P)
+            if zeros is None:
+                return Diagonal(first, product(second + gauge))
+            return Diagonal(first, product(invariant.theta - semi.theta + gauge, zeros))
+    bare = product(semi.theta, semi.P) if gauge else first
+    return Triangular(first, bare, integrate_inverse_square(bare))
+
+
+def _conjugate(semi: SemiInvariant, gauge: RatFunc) -> Conjugate:
+    """omega = u + sqrt(delta) v, from omega over K(c), c^2 + b c + e = 0, sqrt(delta) = c + b/2."""
+    field = semi.theta.field
+    if not isinstance(field, AlgebraicField) or field.dimension != 2:
+        raise AssertionError("two conjugate omegas lie over a quadratic extension")
+    half = field.modulus[1] * Fraction(1, 2)
+    delta = half * half - field.modulus[0]
+
+    def split(polynomial: Poly) -> tuple[Poly, Poly]:
+        low, high = polynomial.parts  # type: ignore[attr-defined]
+        return low - high * half, high
+
+    (a, b), (c, d) = split(semi.theta.num), split(semi.theta.den)
+    norm = c * c - d * d * delta
+    u, v = RatFunc(a * c - b * d * delta, norm), RatFunc(b * c - a * d, norm)
+    return Conjugate(product(u + gauge), delta, decompose(v), *split(semi.P))
+
+
+def _imprimitive(S: RatFunc, semi: SemiInvariant, gauge: RatFunc) -> OnCurve:
+    """kappa^2 r^2/g = (4 S - 2 phi' - phi^2)/4 for phi = (y1 y2)'/(y1 y2)."""
+    phi = semi.logarithmic_derivative
+    field = phi.field
+    square = (4 * S - 2 * phi.derivative() - phi * phi) * Fraction(1, 4)
+    # (y1 y2)^2 is rational: a constant times h^2 g with known factors.
+    g, h = field.poly([1]), RatFunc(semi.P)
+    for factor, exponent in _rational_powers(decompose(semi.theta * 2)):
+        h = h * RatFunc(factor) ** (exponent // 2)
+        if exponent % 2:
+            g = g * factor
+    r = 1 / h
+    kappa_squared = square * RatFunc(g) * h * h
+    # r = 1/h has h' numerator and denominator monic, so that kappa alone carries the constant.
+    if not kappa_squared.is_polynomial or kappa_squared.num.degree > 0:
+        raise AssertionError("the squared Wronskian is a constant")
+    common = product((semi.theta + gauge * 2) * Fraction(1, 2))
+    if semi.P.degree > 0:
+        common = product(common.logarithmic_derivative + RatFunc(semi.P.derivative(), semi.P) * Fraction(1, 2))
+    return OnCurve(common, kappa_squared.num, integrate_on_curve(r, g))
+
+
+def _rational_powers(parts: Decomposition) -> list[tuple[Poly, int]]:
+    powers = []
+    for residue in parts.residues:
+        value = residue.value.field.rational_value(residue.value) if residue.is_constant else None
+        if value is None or value.denominator != 1:
+            raise AssertionError("the square of y1 y2 is rational")
+        powers.append((residue.factor, int(value)))
+    return powers
