@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from kovacic.algebra.fields import AlgebraicField
@@ -13,6 +14,8 @@ from kovacic.verify import Verification, verify
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from kovacic.galois import Group
 
 
 @dataclass(frozen=True)
@@ -72,6 +75,18 @@ class Solution:
             return None
         extension = riccati.P.field
         return extension.modulus if isinstance(extension, AlgebraicField) else None
+
+    @cached_property
+    def group(self) -> Group | None:
+        """The differential Galois group of y'' = S y, a subgroup of SL2(C); None if the equation is undecided."""
+        from kovacic.galois import group_of
+
+        return group_of(self.S, self.decision)
+
+    @property
+    def is_algebraic(self) -> bool | None:
+        """Are all solutions of y'' = S y algebraic functions?  None if that wasn't determined."""
+        return None if self.group is None else self.group.finite
 
     @property
     def proof(self) -> tuple[Exclusion, ...]:

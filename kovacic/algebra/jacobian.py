@@ -1,0 +1,95 @@
+"""Divisor classes on a hyperelliptic curve z^2 = h(x) over F_p, deg h odd: Cantor's arithmetic in Mumford's representation.
+
+A class of degree 0 is represented by (u, v): u monic, deg v < deg u <= genus, u | h - v^2; it stands for the points
+(x, v(x)) at the roots x of u, each minus the one point at infinity.  The neutral element is (1, 0).
+
+Reference: D. Cantor, "Computing in the Jacobian of a hyperelliptic curve", Math. Comp. 48 (1987) 95-101.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from flint import nmod_poly
+
+
+@dataclass(frozen=True)
+class DivisorClass:
+    """(u, v) in Mumford's representation; compared by the coefficients."""
+
+    u: Any
+    v: Any
+
+    @property
+    def is_zero(self) -> bool:
+        return bool(self.u.degree() == 0)
+
+
+@dataclass(frozen=True)
+class Jacobian:
+    """The divisor classes of degree 0 of z^2 = h, h squarefree of odd degree over F_p, p odd."""
+
+    h: Any
+
+    def __post_init__(self) -> None:
+        if self.h.degree() % 2 == 0 or self.h.gcd(self.h.derivative()).degree() > 0:
+            raise ValueError("the curve needs a squarefree polynomial of odd degree")
+
+    @property
+    def genus(self) -> int:
+        return int(self.h.degree() - 1) // 2
+
+    @property
+    def zero(self) -> DivisorClass:
+        p = self.h.modulus()
+        return DivisorClass(nmod_poly([1], p), nmod_poly([], p))
+
+    def point(self, u: Any, v: Any) -> DivisorClass:
+        """The class of the points (x, v(x)) at the roots of u.  Raises `ValueError` unless they lie on the curve."""
+        u = _monic(u)
+        v = v % u
+        if (self.h - v * v) % u:
+            raise ValueError("the points don't lie on the curve")
+        return self._reduced(u, v)
+
+    def add(self, first: DivisorClass, second: DivisorClass) -> DivisorClass:
+        """The sum of two classes."""
+        u1, v1, u2, v2 = first.u, first.v, second.u, second.v
+        d, e1, e2 = u1.xgcd(u2)
+        d, c1, c2 = d.xgcd(v1 + v2)
+        u = u1 * u2 // (d * d)
+        v = (c1 * e1 * u1 * v2 + c1 * e2 * u2 * v1 + c2 * (v1 * v2 + self.h)) // d % u
+        return self._reduced(u, v)
+
+    def multiple(self, k: int, value: DivisorClass) -> DivisorClass:
+        """k times a class, for an integer k of either sign."""
+        if k < 0:
+            k, value = -k, DivisorClass(value.u, -value.v)
+        result = self.zero
+        while k:
+            if k & 1:
+                result = self.add(result, value)
+            value = self.add(value, value)
+            k >>= 1
+        return result
+
+    def order(self, value: DivisorClass, bound: int) -> int | None:
+        """The order of a class, or None if it exceeds `bound`."""
+        current = value
+        for k in range(1, bound + 1):
+            if current.is_zero:
+                return k
+            current = self.add(current, value)
+        return None
+
+    def _reduced(self, u: Any, v: Any) -> DivisorClass:
+        genus = self.genus
+        while u.degree() > genus:
+            u = _monic((self.h - v * v) // u)
+            v = -v % u
+        return DivisorClass(u, v)
+
+
+def _monic(u: Any) -> Any:
+    return u * pow(int(u.leading_coefficient()), -1, u.modulus())

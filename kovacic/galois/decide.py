@@ -1,0 +1,105 @@
+"""Which group, for each outcome of Kovacic's algorithm.
+
+Symbols: omega = y1'/y1 = theta + P'/P; F a rational form of degree 2 in the solutions.
+
+- Two rational omegas: the group is diagonal, mu_n or G_m; y1^n is rational exactly when n omega has simple poles with
+  integer residues only.
+- One rational omega: {(c, b; 0, 1/c)} with all b in C, and c^n = 1 or c arbitrary by the same condition.
+- omega of degree 2: see `imprimitive`.
+- Otherwise the structure determines the group.
+
+References: Kovacic 1986, section 1; Hendriks & van der Put, J. Symb. Comp. 19 (1995).
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import lcm
+
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.galois.group import Ground, Group, Kind
+from kovacic.galois.imprimitive import imprimitive_group
+from kovacic.invariants import invariants
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.places import Problem, analyse
+from kovacic.riccati import Form
+from kovacic.solution import Decision, SemiInvariant, Structure
+
+_PRIMITIVE = {
+    Structure.TETRAHEDRAL: Kind.TETRAHEDRAL,
+    Structure.OCTAHEDRAL: Kind.OCTAHEDRAL,
+    Structure.ICOSAHEDRAL: Kind.ICOSAHEDRAL,
+}
+
+
+def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) -> Group | None:
+    """The differential Galois group of y'' = S y; None if the equation is undecided.
+
+    The decision must be certified (with its semi-invariant).  Whatever is claimed is proven: where a limit of the work
+    keeps the order of an imprimitive group from being determined, the kind of the group says so.
+    """
+    if decision.undecided is not None:
+        return None
+    if decision.structure is None:
+        return Group(Kind.SL2, Ground.NO_LIOUVILLIAN)
+    if decision.structure in _PRIMITIVE:
+        return Group(_PRIMITIVE[decision.structure], Ground.PRIMITIVE)
+    if decision.semi_invariant is None:
+        raise ValueError("the group is found from a certified decision")
+    problem = analyse(S, Budget(limits))
+    if decision.structure is Structure.IMPRIMITIVE:
+        return imprimitive_group(problem, decision.semi_invariant)
+    return _reducible(problem, decision.semi_invariant, decision.invariant)
+
+
+def _reducible(problem: Problem, f: SemiInvariant, invariant: SemiInvariant | None) -> Group:
+    residues = rational_residues(f.theta)
+    if invariant is None:  # omega is unique
+        if isinstance(residues, Ground):
+            return Group(Kind.BOREL, residues)
+        return Group(Kind.ADDITIVE, Ground.RESIDUES, _common_denominator(residues))
+    if not isinstance(residues, Ground) and _is_square(problem, invariant):
+        # y1^2 is rational: +-1 on y1; the second solution is y1 int y1^-2, rational over C(x, y1) or not.
+        n = _common_denominator(residues)
+        space = invariants(problem, 2)
+        if isinstance(space, list) and len(space) == 3:
+            return Group(Kind.CYCLIC, Ground.ALL_INVARIANT, n)
+        return Group(Kind.ADDITIVE, Ground.RESIDUES, n)
+    if isinstance(residues, Ground):
+        return Group(Kind.MULTIPLICATIVE, residues)
+    return Group(Kind.CYCLIC, Ground.RESIDUES, _common_denominator(residues))
+
+
+def _is_square(problem: Problem, F: SemiInvariant) -> bool:
+    """Is the quadratic form the square of a solution: F'^2 - 2 F F'' + 4 S F^2 = 0?"""
+    R = (F.theta * problem.D).num
+    A0, A1, A2 = Form(2, R, F.P).numerators(problem)[:3]
+    return A1 * A1 == 4 * A0 * A2
+
+
+def rational_residues(theta: RatFunc) -> list[Fraction] | Ground:
+    """The residues of a rational function that has only simple poles with rational residues, else why that fails.
+
+    A pole at infinity counts: theta must vanish there.  Residues of c p'/p are constant on p; others aren't rational.
+    """
+    if theta.num.degree >= theta.den.degree > 0 or (theta.den.degree == 0 and theta):
+        return Ground.EXPONENTIAL
+    if not theta:
+        return []
+    field = theta.num.field
+    factors = field.factor(theta.den)
+    if any(multiplicity > 1 for _, multiplicity in factors):
+        return Ground.EXPONENTIAL
+    residues = []
+    slope = theta.den.derivative()
+    for factor, _ in factors:
+        value = theta.num * slope.inverse_modulo(factor) % factor
+        rational = field.rational_value(value) if value.degree <= 0 else None
+        if rational is None:
+            return Ground.IRRATIONAL
+        residues.append(rational)
+    return residues
+
+
+def _common_denominator(residues: list[Fraction]) -> int:
+    return lcm(1, *(r.denominator for r in residues))

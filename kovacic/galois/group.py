@@ -1,0 +1,182 @@
+"""The algebraic groups that occur as differential Galois groups of y'' = S y: subgroups of SL2(C), up to conjugation.
+
+Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 1.2 and 4; M. F. Singer and F. Ulmer, J. Symb. Comp. 16 (1993).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+
+class Kind(Enum):
+    """The families of algebraic subgroups of SL2(C)."""
+
+    CYCLIC = "cyclic"
+    MULTIPLICATIVE = "multiplicative"
+    ADDITIVE = "additive"
+    BOREL = "borel"
+    DICYCLIC = "dicyclic"
+    INFINITE_DIHEDRAL = "infinite dihedral"
+    IMPRIMITIVE = "imprimitive"
+    TETRAHEDRAL = "tetrahedral"
+    OCTAHEDRAL = "octahedral"
+    ICOSAHEDRAL = "icosahedral"
+    SL2 = "SL2"
+
+
+class Ground(Enum):
+    """Why the group is this one and no other; the sentence speaks of omega = y'/y and of u = y1/y2."""
+
+    RESIDUES = "omega has simple poles with rational residues only, and n is their common denominator"
+    IRRATIONAL = "omega has a residue that isn't rational, so no power of y1 is a rational function"
+    EXPONENTIAL = (
+        "omega has a pole of order two or more (perhaps at infinity), so no power of y1 is a rational function"
+    )
+    ALL_INVARIANT = "all quadratic forms in the solutions are rational functions"
+    GENUS_ZERO = (
+        "the differential of log u on a curve of genus 0 has rational residues, and n is their common denominator"
+    )
+    IRREGULAR = "an irregular singular point, so the group is infinite"
+    IRRATIONAL_EXPONENT = "an exponent difference that isn't rational, so a local monodromy has infinite order"
+    FIRST_KIND = "the differential of log u has no poles, so u isn't algebraic"
+    NOT_TORSION = "the divisor of the differential of log u has different orders modulo two primes, so it isn't torsion"
+    NO_INVARIANT = (
+        "u would be algebraic only with a rational invariant of the degree that its divisor has modulo a prime"
+    )
+    INVARIANT = "the rational invariants of degree 2n, exactly, with the order of a divisor modulo a prime"
+    UNDETERMINED = "no rational invariant was found up to the bound, and none was excluded beyond it"
+    PRIMITIVE = "the rational invariant of least degree"
+    NO_LIOUVILLIAN = "there is no Liouvillian solution"
+
+
+_FINITE_ORDERS = {Kind.TETRAHEDRAL: 24, Kind.OCTAHEDRAL: 48, Kind.ICOSAHEDRAL: 120}
+_NAMES = {
+    Kind.MULTIPLICATIVE: ("G_m", r"\mathbb{G}_m"),
+    Kind.BOREL: ("Borel", r"\mathbb{G}_a \rtimes \mathbb{G}_m"),
+    Kind.INFINITE_DIHEDRAL: ("N(T)", "N(T)"),
+    Kind.TETRAHEDRAL: ("SL(2,3)", r"\mathrm{SL}(2,3)"),
+    Kind.OCTAHEDRAL: ("binary octahedral", r"2O"),
+    Kind.ICOSAHEDRAL: ("SL(2,5)", r"\mathrm{SL}(2,5)"),
+    Kind.SL2: ("SL2", r"\mathrm{SL}_2(\mathbb{C})"),
+}
+_DESCRIPTIONS = {
+    Kind.MULTIPLICATIVE: "the diagonal matrices of determinant 1",
+    Kind.BOREL: "all upper triangular matrices of determinant 1",
+    Kind.INFINITE_DIHEDRAL: "the normaliser of the diagonal matrices, the infinite dihedral group",
+    Kind.IMPRIMITIVE: "a subgroup of N(T), dicyclic if it is finite; its order wasn't determined",
+    Kind.TETRAHEDRAL: "the binary tetrahedral group",
+    Kind.OCTAHEDRAL: "the binary octahedral group",
+    Kind.ICOSAHEDRAL: "the binary icosahedral group",
+    Kind.SL2: "all matrices of determinant 1",
+}
+
+
+@dataclass(frozen=True)
+class Group:
+    """A subgroup of SL2(C) up to conjugation.
+
+    `n` is the parameter of the family where it has one: the order of the cyclic group or of the component group of
+    {(c, b; 0, 1/c): c^n = 1}, and a quarter of the order of a dicyclic group.  Kind.IMPRIMITIVE says that the order wasn't
+    determined: then n is the least value that wasn't excluded, and the group may be infinite.  `ground` says why.
+    """
+
+    kind: Kind
+    ground: Ground
+    n: int | None = None
+
+    @property
+    def name(self) -> str:
+        """A short name in plain characters: `mu_4`, `G_m`, `G_a extended by mu_3`, `dicyclic of order 12`, `SL(2,3)`."""
+        if self.kind is Kind.CYCLIC:
+            return "trivial" if self.n == 1 else f"mu_{self.n}"
+        if self.kind is Kind.ADDITIVE:
+            return "G_a" if self.n == 1 else f"G_a extended by mu_{self.n}"
+        if self.kind is Kind.DICYCLIC:
+            return f"dicyclic of order {self.order}"
+        if self.kind is Kind.IMPRIMITIVE:
+            return "dicyclic or N(T), order not determined"
+        return _NAMES[self.kind][0]
+
+    @property
+    def latex(self) -> str:
+        """The name for formulas."""
+        if self.kind is Kind.CYCLIC:
+            return r"\{1\}" if self.n == 1 else rf"\mu_{{{self.n}}}"
+        if self.kind is Kind.ADDITIVE:
+            return r"\mathbb{G}_a" if self.n == 1 else rf"\mathbb{{G}}_a \rtimes \mu_{{{self.n}}}"
+        if self.kind is Kind.DICYCLIC:
+            return rf"\mathrm{{Dic}}_{{{self.n}}}"
+        if self.kind is Kind.IMPRIMITIVE:
+            return r"\subseteq N(T)"
+        return _NAMES[self.kind][1]
+
+    @property
+    def description(self) -> str:
+        """One phrase for a reader who doesn't know the name."""
+        if self.kind is Kind.CYCLIC:
+            return "the trivial group" if self.n == 1 else f"the cyclic group of order {self.n}"
+        if self.kind is Kind.ADDITIVE:
+            diagonal = {1: "c = 1", 2: "c = 1 or -1"}.get(self.n or 0, f"c^{self.n} = 1")
+            return f"the upper triangular matrices with c and 1/c on the diagonal, {diagonal}"
+        if self.kind is Kind.DICYCLIC:
+            return f"the {'quaternion' if self.n == 2 else 'dicyclic'} group of order {self.order}"
+        return _DESCRIPTIONS[self.kind]
+
+    @property
+    def order(self) -> int | None:
+        """The number of elements; None if that is infinite or not determined (see `finite`)."""
+        if self.kind is Kind.CYCLIC:
+            return self.n
+        if self.kind is Kind.DICYCLIC and self.n is not None:
+            return 4 * self.n
+        return _FINITE_ORDERS.get(self.kind)
+
+    @property
+    def finite(self) -> bool | None:
+        """Is the group finite, so that all solutions are algebraic functions?  None if that wasn't determined."""
+        return None if self.kind is Kind.IMPRIMITIVE else self.order is not None
+
+    @property
+    def order_at_least(self) -> int | None:
+        """A lower bound for the order where it wasn't determined."""
+        return 4 * self.n if self.kind is Kind.IMPRIMITIVE and self.n is not None else None
+
+    @property
+    def dimension(self) -> int | None:
+        """The dimension as an algebraic group; 0 for a finite one, None if it wasn't determined."""
+        dimensions = {
+            Kind.MULTIPLICATIVE: 1,
+            Kind.ADDITIVE: 1,
+            Kind.INFINITE_DIHEDRAL: 1,
+            Kind.BOREL: 2,
+            Kind.SL2: 3,
+            Kind.IMPRIMITIVE: None,
+        }
+        return dimensions.get(self.kind, 0)
+
+    @property
+    def component_group(self) -> str | None:
+        """The finite group of components: the group itself if it is finite; None if that wasn't determined."""
+        if self.kind is Kind.IMPRIMITIVE:
+            return None
+        if self.kind is Kind.ADDITIVE and self.n != 1:
+            return f"mu_{self.n}"
+        if self.kind is Kind.INFINITE_DIHEDRAL:
+            return "mu_2"
+        return self.name if self.finite else "trivial"
+
+    def generators(self) -> tuple[Any, ...] | None:
+        """SymPy matrices that generate the group, acting on (y1, y2) suitably chosen and scaled.
+
+        For a finite group they generate it; for G_m there is one, with a free parameter t.  None for the other groups.
+        The diagonal ones are diagonal in the basis of the solutions with y'/y rational (cyclic, G_m) or of degree 2
+        (dicyclic); the bases of the primitive groups are those of Klein's forms.
+        """
+        from kovacic.galois.matrices import generators
+
+        return generators(self)
+
+    def __str__(self) -> str:
+        return self.name

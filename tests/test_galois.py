@@ -1,0 +1,264 @@
+"""The differential Galois group: published groups, constructions, matrices, and the local monodromies."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from math import lcm
+
+import published
+import pytest
+import strategies
+import sympy
+from flint import nmod_poly
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+import kovacic
+from kovacic import transform
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.jacobian import Jacobian
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.galois import Ground, Group, Kind
+from kovacic.galois.imprimitive import curve_of, has_order
+from kovacic.limits import Budget
+from kovacic.places import Kind as PlaceKind
+from kovacic.places import analyse
+
+X = RatFunc(QQ.poly([0, 1]))
+
+
+def published_name(group: str) -> str:
+    """The name in `cases.jsonl` in this package's words."""
+    names = {
+        "A4^SL2 (order 24)": "SL(2,3)",
+        "S4^SL2 (order 48)": "binary octahedral",
+        "A5^SL2 (order 120)": "SL(2,5)",
+        "Gm": "G_m",
+        "Dinf": "N(T)",
+        "Q8 (=binary D2)": "dicyclic of order 8",
+        "{a^1=1}xGa": "G_a",
+    }
+    if group in names:
+        return names[group]
+    if match := re.fullmatch(r"binary D\d+ \(order (\d+)\)", group):
+        return f"dicyclic of order {match[1]}"
+    if match := re.fullmatch(r"\{a\^(\d+)=1\}xGa", group):
+        return f"G_a extended by mu_{match[1]}"
+    return group
+
+
+PUBLISHED = [pytest.param(row.S, published_name(row.group), id=row.id) for row in published.load() if row.group]
+
+
+@pytest.mark.parametrize(("S", "name"), PUBLISHED)
+def test_published_groups(S: str, name: str) -> None:
+    assert kovacic.solve(S).group.name == name
+
+
+def test_the_published_groups_are_many() -> None:
+    assert len(PUBLISHED) >= 100
+
+
+@pytest.mark.parametrize(
+    ("S", "name", "ground"),
+    [
+        ("0", "trivial", Ground.ALL_INVARIANT),
+        ("1", "G_m", Ground.EXPONENTIAL),
+        ("2/x^2", "trivial", Ground.ALL_INVARIANT),
+        ("3/(4*x^2)", "mu_2", Ground.ALL_INVARIANT),
+        ("-1/(4*x^2)", "G_a extended by mu_2", Ground.RESIDUES),
+        ("-2/(9*x^2)", "mu_3", Ground.RESIDUES),
+        ("1/x^2", "G_m", Ground.IRRATIONAL),
+        ("x^2 + 3", "Borel", Ground.EXPONENTIAL),
+        ("x", "SL2", Ground.NO_LIOUVILLIAN),
+        ("-3/(16*x^2) + 1/x", "N(T)", Ground.IRREGULAR),
+    ],
+)
+def test_small_equations(S: str, name: str, ground: Ground) -> None:
+    group = kovacic.solve(S).group
+    assert (group.name, group.ground) == (name, ground)
+
+
+@settings(max_examples=25)
+@given(strategies.distinct_irreducibles(1, 3, 3), st.data())
+def test_a_unique_omega_with_rational_residues(factors: list, data: st.DataObject) -> None:
+    """y1 = prod p^r has y1^n rational exactly for the multiples of the common denominator of the exponents r."""
+    exponents = [data.draw(strategies.fractions(5, (1, 2, 3, 4, 5, 6))) for _ in factors]
+    omega = sum((r * RatFunc(p.derivative(), p) for r, p in zip(exponents, factors, strict=True)), X * 0)
+    n = lcm(*(r.denominator for r in exponents))
+    group = kovacic.solve(transform.from_omega(omega)).group
+    assert group.kind in (Kind.CYCLIC, Kind.ADDITIVE)
+    assert group.n == n
+
+
+@settings(max_examples=25)
+@given(strategies.distinct_irreducibles(1, 3, 3), strategies.nonzero(5), st.data())
+def test_an_exponential_omega(factors: list, slope: int, data: st.DataObject) -> None:
+    exponents = [data.draw(strategies.fractions(3)) for _ in factors]
+    omega = sum((r * RatFunc(p.derivative(), p) for r, p in zip(exponents, factors, strict=True)), X * 0) + slope
+    assert kovacic.solve(transform.from_omega(omega)).group.kind in (Kind.BOREL, Kind.MULTIPLICATIVE)
+
+
+@settings(max_examples=25)
+@given(strategies.products((-2, -1, 1, 2)), strategies.nonzero(6))
+def test_a_rational_product_of_solutions_with_irrational_wronskian(F: RatFunc, w: int) -> None:
+    """y1 y2 = F: the group is diagonal, and finite only if the residues of w/F are rational."""
+    group = kovacic.solve(transform.from_product(F, w)).group
+    assert group.kind in (Kind.CYCLIC, Kind.MULTIPLICATIVE)
+    assert group.kind is Kind.MULTIPLICATIVE or group.n is not None
+
+
+@pytest.mark.parametrize("n", [2, 3, 4, 5, 6, 7, 12])
+def test_pull_backs_of_dihedral_equations_on_a_line(n: int) -> None:
+    """The group of the hypergeometric equation with differences 1/2, 1/2, 1/n is dicyclic of order 4n."""
+    S = transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, n))
+    assert kovacic.solve(S).group.n == n
+    assert kovacic.solve(transform.moebius(S, 1, 2, 3, -5)).group.order == 4 * n
+
+
+@pytest.mark.parametrize("n", [2, 3, 5])
+@pytest.mark.parametrize(
+    "f", [X**3 + X + 1, (X**2 + 1) / (X - 3), (X**4 - X + 3) / (X**2 + 2)], ids=["genus 1-2", "genus 1", "genus 2-3"]
+)
+def test_pull_backs_of_dihedral_equations_on_curves_of_positive_genus(n: int, f: RatFunc) -> None:
+    """The order is that of the least invariants, searched from below."""
+    S = transform.pull_back(transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, n)), f)
+    solution = kovacic.solve(S)
+    problem = analyse(S, Budget())
+    assert curve_of(problem, solution.semi_invariant).genus > 0
+    assert solution.group.ground is Ground.INVARIANT
+    assert solution.group.n == next(k for k in range(2, 20) if has_order(problem, k))
+
+
+@pytest.mark.parametrize("m", [3, 4, 5, 6, 12])
+@pytest.mark.parametrize("A", [X**2 + X + 1, X**3 - 3 * X + 5, X**5 + X - 1], ids=str)
+def test_units_of_pell_equations(A: RatFunc, m: int) -> None:
+    """u = (A + z)^(2/m) with z^2 = A^2 - 3, a curve of positive genus on which A + z isn't a power."""
+    S = transform.from_squared_product((A * A - 3) / A.derivative() ** 2, Fraction(4, m * m))
+    assert kovacic.solve(S).group.n == (m if m % 2 else m // 2)
+
+
+@pytest.mark.parametrize("w_squared", [1, 4, 9])
+def test_a_divisor_of_infinite_order(w_squared: int) -> None:
+    group = kovacic.solve(transform.from_squared_product((X**4 + X + 1) / (X + 2) ** 2, w_squared)).group
+    assert (group.name, group.ground) == ("N(T)", Ground.NOT_TORSION)
+
+
+def test_a_differential_of_the_first_kind() -> None:
+    group = kovacic.solve(transform.from_squared_product(X**3 + X + 1, 5)).group
+    assert (group.name, group.ground) == ("N(T)", Ground.FIRST_KIND)
+
+
+def test_an_order_beyond_the_limits_is_not_guessed() -> None:
+    S = transform.from_squared_product(((X**3 + X + 1) ** 2 - 3) / (3 * X**2 + 1) ** 2, Fraction(4, 1009**2))
+    group = kovacic.solve(S).group
+    assert group.kind is Kind.IMPRIMITIVE
+    assert group.finite is None
+    assert group.order is None
+    assert group.order_at_least == 4 * 1009
+
+
+@settings(max_examples=25)
+@given(strategies.examples("case 1", "case 2"))
+def test_local_monodromies_lie_in_the_group(example: strategies.Example) -> None:
+    """In PGL2, a local monodromy has the denominator of Delta as its order, or is infinite."""
+    solution = kovacic.solve(example.S)
+    group = solution.group
+    for place in analyse(example.S, Budget()).places:
+        if place.kind is PlaceKind.ORDINARY:
+            continue
+        if place.logarithm:
+            assert group.kind in (Kind.ADDITIVE, Kind.BOREL)
+        elif place.delta is None:
+            assert not group.finite
+        elif group.kind is Kind.CYCLIC:
+            assert (group.n if group.n % 2 else group.n // 2) % place.delta.denominator == 0
+        elif group.kind is Kind.DICYCLIC:
+            assert place.delta.denominator == 2 or group.n % place.delta.denominator == 0
+
+
+@settings(max_examples=25)
+@given(strategies.examples("case 3"))
+def test_primitive_groups(example: strategies.Example) -> None:
+    group = kovacic.solve(example.S).group
+    assume(example.group is not None)
+    orders = {strategies.TETRAHEDRAL: 24, strategies.OCTAHEDRAL: 48, strategies.ICOSAHEDRAL: 120}
+    assert group.order == orders[example.group]
+
+
+@pytest.mark.parametrize(
+    "group",
+    [Group(Kind.CYCLIC, Ground.RESIDUES, n) for n in (1, 2, 3, 4, 7)]
+    + [Group(Kind.DICYCLIC, Ground.INVARIANT, n) for n in (2, 3, 4, 5)]
+    + [Group(kind, Ground.PRIMITIVE) for kind in (Kind.TETRAHEDRAL, Kind.OCTAHEDRAL, Kind.ICOSAHEDRAL)],
+    ids=lambda group: group.name,
+)
+def test_the_matrices_generate_a_group_of_the_right_order(group: Group) -> None:
+    def key(m: list[complex]) -> tuple[complex, ...]:
+        return tuple(complex(round(z.real, 6) + 0.0, round(z.imag, 6) + 0.0) for z in m)
+
+    def times(a: list[complex], b: list[complex]) -> list[complex]:
+        product = [a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2]]
+        return [*product, a[2] * b[1] + a[3] * b[3]]
+
+    generators = [[complex(sympy.N(entry, 20)) for entry in matrix] for matrix in group.generators()]
+    one = [1 + 0j, 0j, 0j, 1 + 0j]
+    elements, new = {key(one)}, [one]
+    while new:
+        products = {key(p): p for element in new for g in generators if key(p := times(element, g)) not in elements}
+        new = list(products.values())
+        elements.update(products)
+        assert len(elements) <= 200
+    assert len(elements) == group.order
+    assert all(abs(a * d - b * c - 1) < 1e-5 for a, b, c, d in elements)
+
+
+def test_the_diagonal_group_has_a_free_parameter() -> None:
+    (matrix,) = kovacic.solve("1").group.generators()
+    assert matrix.det() == 1
+    assert len(matrix.free_symbols) == 1
+    assert kovacic.solve("x^2 + 3").group.generators() is None
+
+
+@pytest.mark.parametrize(
+    ("S", "order", "finite", "component", "dimension"),
+    [
+        ("-3/(16*x^2)", 4, True, "mu_4", 0),
+        ("1", None, False, "trivial", 1),
+        ("x^2 + 3", None, False, "trivial", 2),
+        ("-3/(16*x^2) + 1/x", None, False, "mu_2", 1),
+        ("x", None, False, "trivial", 3),
+    ],
+)
+def test_properties(S: str, order: int | None, finite: bool, component: str, dimension: int) -> None:
+    solution = kovacic.solve(S)
+    group = solution.group
+    assert (group.order, group.finite, group.component_group) == (order, finite, component)
+    assert group.dimension == dimension
+    assert solution.is_algebraic is finite
+
+
+def test_the_orders_of_points_on_an_elliptic_curve() -> None:
+    """y^2 = x^3 + 1 over F_7 has 12 points; (2, 3) has order 6, (0, 1) order 3, (-1, 0) order 2."""
+    curve = Jacobian(nmod_poly([1, 0, 0, 1], 7))
+
+    def order(x: int, y: int) -> int | None:
+        return curve.order(curve.point(nmod_poly([-x % 7, 1], 7), nmod_poly([y], 7)), 100)
+
+    assert (order(2, 3), order(0, 1), order(6, 0)) == (6, 3, 2)
+    with pytest.raises(ValueError, match="on the curve"):
+        order(2, 1)
+
+
+def test_multiplication_in_a_jacobian_of_genus_two() -> None:
+    curve = Jacobian(nmod_poly([1, 3, 0, 2, 0, 1], 11))
+    points = [(x, y) for x in range(11) for y in range(1, 11) if (x**5 + 2 * x**3 + 3 * x + 1 - y * y) % 11 == 0]
+    classes = [curve.point(nmod_poly([-x % 11, 1], 11), nmod_poly([y], 11)) for x, y in points]
+    for c in classes:
+        n = curve.order(c, 1000)
+        assert n is not None
+        assert curve.multiple(n, c).is_zero
+        assert curve.add(curve.multiple(5, c), curve.multiple(-3, c)) == curve.multiple(2, c)
+    a, b, c = classes[:3]
+    assert curve.add(curve.add(a, b), c) == curve.add(a, curve.add(b, c))
