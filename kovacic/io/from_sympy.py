@@ -155,7 +155,7 @@ class _Walker:
 
     def _refused(self, node: Any, hint: str | None) -> NotRational:
         if node.is_number:
-            return NotRational(f"{_shown(node)} isn't known to be an algebraic number", hint=hint)
+            return NotRational(f"{_shown(node)} isn't a rational number, nor known to be an algebraic one", hint=hint)
         return NotRational(f"{_shown(node)} isn't a rational function of {self.variable}", hint=hint)
 
 

@@ -86,7 +86,6 @@ def to_dict(solution: Solution) -> dict[str, Any]:
         "input": solution.text,
         "variable": solution.variable,
         "S": names.ratfunc(solution.S),
-        "field": _field(solution.S.field),
         "status": decision.status.value,
         "case": decision.case,
         "riccati": None
@@ -99,6 +98,7 @@ def to_dict(solution: Solution) -> dict[str, Any]:
         "constants": None
         if solution.constants is None
         else {"symbol": names.symbol, "minimal_polynomial": solution.constants.to_str(names.symbol)},
+        "field": _field(solution.S.field),
         "verified": solution.verified,
         "proof": {
             "structure": None if decision.structure is None else decision.structure.value,

@@ -321,19 +321,13 @@ class ExpressionBuilder:
             raise _not_rational(f"the variable in the exponent: {_shortened(site.piece_of_all())}", site)
         number = power.field.rational_value(power)
         closed = self.arithmetic.closed(base)
-        if (
-            number is None
-            or number.denominator > _LARGEST_INDEX
-            or not isinstance(closed, Poly)
-            or not closed.is_constant
-        ):
-            kind = "number" if isinstance(closed, Poly) and closed.is_constant else f"function of {self.variable}"
+        if number is None or not isinstance(closed, Poly) or not closed.is_constant:
+            kind = "n algebraic number" if isinstance(closed, Poly) and closed.is_constant else " rational function"
+            what = f"{_shortened(site.piece_of_all())} isn't a{kind}"
+            raise _not_rational(what, site, hint="exponents are integers, and roots those of numbers")
+        if number.denominator > _LARGEST_INDEX:
             raise _not_rational(
-                f"{_shortened(site.piece_of_all())} isn't an algebraic {kind}"
-                if kind == "number"
-                else f"{_shortened(site.piece_of_all())} isn't a rational {kind}",
-                site,
-                hint="exponents are integers",
+                f"{_shortened(site.piece_of_all())} isn't an algebraic number of degree {_LARGEST_INDEX} or less", site
             )
         return self.arithmetic.power(self._radical(base, number.denominator, where), number.numerator)
 
