@@ -4,35 +4,43 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import cache
 
 from kovacic.errors import ParseError
 
 # Superscript digits count as word characters for `re`; they must not become part of a name.
-_LETTER = r"[^\W\d_²³¹⁰⁴-⁹]"
-_NAME = _LETTER + r"[^\W²³¹⁰⁴-⁹]*"
-_PRIME = "['’′″]"
+_SUPERSCRIPT = "²³¹⁰⁴-⁹"
 
-_TERMINALS = re.compile(
-    rf"""
-    (?P<SPACE>\s+)
-  | (?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+(?!\w))?)
-  | (?P<HEAD>{_NAME}{_PRIME}*(?=\s*\())
-  | (?P<PRIMED>{_NAME}{_PRIME}+)
-  | (?P<NAME>{_NAME})
-  | (?P<CIRCUMFLEX>\^|\*\*)
-  | (?P<STAR>[*·×⋅∙])
-  | (?P<SLASH>[/÷∕])
-  | (?P<PLUS>\+)
-  | (?P<MINUS>[-−])
-  | (?P<LPAR>\()
-  | (?P<RPAR>\))
-  | (?P<COMMA>,)
-  | (?P<EQUAL>=)
-  | (?P<SUPERSCRIPT>[⁺⁻]?[⁰¹²³⁴-⁹]+)
-  | (?P<OTHER>.)
-    """,
-    re.VERBOSE | re.DOTALL,
-)
+
+@cache
+def _terminals(ascii_only: bool) -> re.Pattern[str]:
+    """The pattern of all terminals; for ASCII text a short one, which compiles in a tenth of the time."""
+    beyond = "" if ascii_only else _SUPERSCRIPT
+    name = rf"[^\W\d_{beyond}][^\W{beyond}]*"
+    prime = "'" if ascii_only else "['’′″]"
+    superscript = "" if ascii_only else rf"| (?P<SUPERSCRIPT>[⁺⁻]?[{_SUPERSCRIPT}]+)"
+    return re.compile(
+        rf"""
+        (?P<SPACE>\s+)
+      | (?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+(?!\w))?)
+      | (?P<HEAD>{name}{prime}*(?=\s*\())
+      | (?P<PRIMED>{name}{prime}+)
+      | (?P<NAME>{name})
+      | (?P<CIRCUMFLEX>\^|\*\*)
+      | (?P<STAR>{"[*]" if ascii_only else "[*·×⋅∙]"})
+      | (?P<SLASH>{"/" if ascii_only else "[/÷∕]"})
+      | (?P<PLUS>\+)
+      | (?P<MINUS>{"-" if ascii_only else "[-−]"})
+      | (?P<LPAR>\()
+      | (?P<RPAR>\))
+      | (?P<COMMA>,)
+      | (?P<EQUAL>=)
+      {superscript}
+      | (?P<OTHER>.)
+        """,
+        re.VERBOSE | re.DOTALL | (re.ASCII if ascii_only else re.UNICODE),
+    )
+
 
 _HINTS = {
     "[": "use round parentheses ( )",
@@ -80,7 +88,7 @@ def tokenize(text: str) -> Tokens:
     starts: list[int] = []
     ends: list[int] = []
     ascii_only = text.isascii()
-    for match in _TERMINALS.finditer(text):
+    for match in _terminals(ascii_only).finditer(text):
         kind = match.lastgroup
         assert kind is not None
         if kind == "SPACE":
