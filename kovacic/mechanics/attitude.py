@@ -70,7 +70,7 @@ class Track:
         powers = (place - index)[:, None] ** np.arange(1, _STAGES + 1)
         shares = powers @ _gauss()[3].T * (2 * np.pi / steps)
         X = self.poses[index] + np.einsum("ns,nsij->nij", shares, self.slopes[index])
-        M = self.poses[-1] @ _about_axis(np.array([self.gain]))[0]
+        M = _orthonormal(self.poses[-1:])[0] @ _about_axis(np.array([self.gain]))[0]
         distinct, where = np.unique(turns, return_inverse=True)
         gains = np.stack([np.linalg.matrix_power(M, int(k)) for k in distinct])
         result: Array = gains[where] @ X @ _about_axis(-turns * self.gain)
@@ -165,12 +165,20 @@ def _integrate(rates: Callable[[Array], Array], steps: int, gain: float) -> Trac
     stages = np.linalg.solve(system.transpose(0, 2, 1), right.transpose(0, 2, 1)).transpose(0, 2, 1)
     blocks = stages.reshape(steps, 4, _STAGES, 4).transpose(0, 2, 1, 3)
     slopes = blocks @ Xi
-    jumps = np.eye(4) + h * np.einsum("j,njab->nab", b, slopes)
+    jumps = _orthonormal(np.eye(4) + h * np.einsum("j,njab->nab", b, slopes))
     poses = np.empty((steps + 1, 4, 4))
     poses[0] = np.eye(4)
     for k in range(steps):
         poses[k + 1] = poses[k] @ jumps[k]
     return Track(poses, poses[:-1, None] @ slopes, gain)
+
+
+def _orthonormal(X: Array) -> Array:
+    """The same poses with the nearest rotations: takes away what rounding has added, before powers multiply it."""
+    left, _, right = np.linalg.svd(X[:, :3, :3])
+    result = X.copy()
+    result[:, :3, :3] = left @ right
+    return result
 
 
 def _about_axis(angles: Array) -> Array:

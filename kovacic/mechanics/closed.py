@@ -35,8 +35,8 @@ def closed_form(sphere: BallOnSphere) -> ClosedForm:
     Undecided symbolic parameters are taken as generic.
 
     >>> from kovacic.mechanics.ball import Ball
-    >>> closed_form(Ball(m=1, R=1, a=0, A1="1/4", A3="1/4").on_sphere(2)).omega_3
-    2*c1 - 4*c2*x/5
+    >>> closed_form(Ball(m=1, R=1, a=0, A1="1/4", A3="1/4").on_sphere(2)).n
+    4*c2
     """
     m, R, _, A1, _ = sphere.ball.parameters
     D, lead, rho = sphere.D, sphere.leading, sphere.ratio
@@ -62,7 +62,9 @@ def closed_form(sphere: BallOnSphere) -> ClosedForm:
         zeta = scale * (C1 * sp.sin(rho * angle) - C2 * sp.cos(rho * angle))
     else:
         scale = sp.sqrt(lead)
-        E = half + scale * root
+        # For real roots beyond x = 1, D' is negative and so is D'/2 + sqrt(l D): its negative is as good, and positive.
+        beyond = sphere.discriminant.is_number and sphere.discriminant > 0 and half.subs(X, 0) < 0
+        E = -half - scale * root if beyond else half + scale * root
         eta = C1 * E**rho + C2 * E ** (-rho)
         zeta = -scale * (C1 * E**rho - C2 * E ** (-rho))
     omega_3 = eta / root

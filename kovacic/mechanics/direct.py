@@ -146,7 +146,10 @@ def integrate(
     """
     system = equations(body, potential)
     start = [float(value) for value in astuple(state)]
-    result = solve_ivp(system.rates, (0.0, float(times[-1])), start, method=method, t_eval=times, rtol=rtol, atol=atol)
+    # SciPy's own differences overflow in the columns of v and v1, on which nothing depends.
+    extra: dict[str, Any] = {"jac": _jacobian(system)} if method in {"Radau", "BDF"} else {}
+    span = (0.0, float(times[-1]))
+    result = solve_ivp(system.rates, span, start, method=method, t_eval=times, rtol=rtol, atol=atol, **extra)
     if not result.success:
         raise IntegrationFailed(str(result.message))
     columns = list(result.y.T)
@@ -157,6 +160,22 @@ def integrate(
         energy=np.array([system.energy(column) for column in columns]),
         evaluations=int(result.nfev),
     )
+
+
+def _jacobian(system: Equations) -> Callable[[float, Array], Array]:
+    """Central differences of the rates, with steps relative to max(1, |y_i|)."""
+
+    def jacobian(time: float, y: Array) -> Array:
+        columns = []
+        for i, value in enumerate(y):
+            step = 1e-6 * max(1.0, abs(value))
+            shift = np.zeros(len(y))
+            shift[i] = step
+            ahead, behind = system.rates(time, y + shift), system.rates(time, y - shift)
+            columns.append((np.array(ahead, dtype=float) - np.array(behind, dtype=float)) / (2 * step))
+        return np.array(columns).T
+
+    return jacobian
 
 
 def integrate_precisely(body: Body, potential: sp.Expr, state: State, time: Any, *, digits: int = 50) -> list[Any]:

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import astuple, dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -213,11 +214,12 @@ def _distance(
     if at_rest:
         begin -= 1e-5 * min(begin, 1.0)
     ahead = np.sort(sign * roots[sign * roots > 1 - begin - 1e-9])
-    gates = [1 - (a + b) / 2 for a, b in zip(ahead, [*ahead[1:], 1.0], strict=True)]
+    gates = [1 - (a + b) / 2 for a, b in pairwise([*ahead, 1.0])]
     for gate in [g for g in gates if g < begin]:
         if value(gate) < 0:
             return float(brentq(value, gate, begin, xtol=1e-300, rtol=1e-15, maxiter=500))
-    if value(0.0) > -1e-14 * scale:
+    # At the pole itself W is minus a square of (n - omega_3), exact to the square of a rounding error.
+    if value(0.0) >= -1e-30 * scale:
         return 0.0
     return float(brentq(value, 0.0, begin, xtol=1e-300, rtol=1e-15, maxiter=500))
 

@@ -25,7 +25,7 @@ import sympy as sp
 
 from kovacic.errors import InputError
 from kovacic.mechanics.ball import Ball, BallOnSphere, ball_with_roots
-from kovacic.mechanics.field import Quotient, Ring, base_part
+from kovacic.mechanics.field import Extension, Quotient, Ring, Surd, base_part, differentiate
 from kovacic.mechanics.meridian import X
 
 
@@ -64,12 +64,12 @@ def constant_coefficients(sphere: BallOnSphere) -> Proof:
     c = system.meridian
     element = c.ring.element
     m, R, a, A1, A3 = (element(value) for value in sphere.ball.parameters)
-    x, s, D = element(X), -c.rate, element(sphere.D)
+    s: Any = -c.rate
+    D = element(sphere.D)
     rho, lead, half = element(sphere.ratio), element(sphere.leading), D.partial() / 2
     B = (A3 + m * R * R) * (A3 - A1) - A3 * m * a * a
     a1, a2, b1, b2 = (base_part(entry / s) for entry in system.elements)
     weight = m * R * R * A1
-    del x
     return Proof(
         "omega_3 = eta/sqrt(D), zeta = m R^2 A1 n + D' omega_3/2: d eta/d xi = -rho zeta, d zeta/d xi = -rho l eta",
         (
@@ -168,7 +168,7 @@ def rational_solutions(N: int) -> RationalSolutions:
         even, odd = (even + term, odd) if k % 2 == 0 else (even, odd + term)
     # (sqrt(alpha)+sqrt(beta))^N: the power of sqrt(alpha) left over is (N - k) mod 2, of sqrt(beta) k mod 2.
     exponents = ((0 * half, -half), (-half, 0 * half)) if N % 2 else ((-half, -half), (0 * half, 0 * half))
-    S = _normal_form(alpha, beta, ring.element(sp.Rational(N * N, 4)))
+    S = normal_form(alpha, beta, ring.element(sp.Rational(N * N, 4)))
     omegas = tuple(
         P.partial() / P + ring.element(e1 + 3 * half / 2) / alpha + ring.element(e2 + 3 * half / 2) / beta
         for P, (e1, e2) in zip((even, odd), exponents, strict=True)
@@ -184,23 +184,85 @@ def _power(base: Quotient, exponent: int) -> Quotient:
     return result
 
 
-def _normal_form(alpha: Quotient, beta: Quotient, rho_squared: Quotient) -> Quotient:
+def normal_form(alpha: Quotient, beta: Quotient, rho_squared: Quotient) -> Quotient:
     """(13) in alpha = x - x1, beta = x - x2: x1 - x2 = beta - alpha."""
     pole = (rho_squared * 8 + 1) / 8 / (beta - alpha)
     squares = 1 / (alpha * alpha) + 1 / (beta * beta)
     return pole / alpha - pole / beta - squares * 3 / 16
 
 
-def degree_of_omega(sphere: BallOnSphere) -> int | None:
-    """Theorems 1 and 2 with the degenerate balls: 1 or 2, the degree of omega; None if the symbols don't decide it."""
-    if sphere.leading == 0 or sphere.discriminant == 0:
-        return 1
-    if not sphere.ratio.is_number:
-        return None
-    return 1 if (2 * sphere.ratio).is_integer else 2
+def two_exponentials() -> Proof:
+    """Steps (a) and (c): omega_3 = t^(+-rho)/sqrt(alpha beta) with t = (sqrt(alpha) + sqrt(beta))^2, and what t is.
+
+    Over Q(x1, x2, rho)(x) with beta = x - x2, alpha = x - x1 and z = sqrt(alpha beta), exactly.
+    """
+    ring = Ring(("rho", "x1", "x2", X.name))
+    x, rho, x1, x2 = (ring.element(sp.Symbol(name)) for name in (X.name, "rho", "x1", "x2"))
+    alpha, beta, one = x - x1, x - x2, x * 0 + 1
+    z = Surd(Extension(alpha * beta, sp.Symbol("z"), 1), x * 0, one)
+    t, conjugate = alpha + beta + 2 * z, alpha + beta - 2 * z
+    log_t: Any = differentiate(t, one) / t
+    d1 = 3 * (alpha + beta) / (2 * alpha * beta)
+    d2 = (1 - rho * rho) / (alpha * beta)
+    steps = [
+        Step("t' = t/sqrt(alpha beta), so y1/y2 = t^(2 rho) has the derivative that w/sqrt(D) demands", log_t == 1 / z),
+        Step("x = (t + (x1 - x2)^2/t)/4 + (x1 + x2)/2, so C(x, sqrt(D)) = C(t)", _x_from(t, conjugate, x1, x2) == x),
+        Step("t is exchanged with (x1 - x2)^2/t by the other sign of sqrt(D)", t * conjugate == (x1 - x2) * (x1 - x2)),
+    ]
+    for sign in (1, -1):
+        rate: Any = sign * rho * log_t - (1 / alpha + 1 / beta) / 2
+        residue = differentiate(rate, one) + rate * rate + d1 * rate + d2
+        steps.append(Step(f"omega_3 = t^({'+' if sign > 0 else '-'}rho)/sqrt(alpha beta) solves (12)", not residue))
+    S = normal_form(alpha, beta, rho * rho)
+    for sign in (1, -1):
+        omega: Any = sign * rho * log_t + (1 / alpha + 1 / beta) / 4
+        label = "+" if sign > 0 else "-"
+        holds = not (differentiate(omega, one) + omega * omega - S)
+        steps.append(
+            Step(f"omega = (1/alpha + 1/beta)/4 {label} rho/sqrt(alpha beta) solves the Riccati equation", holds)
+        )
+    return Proof("the general solution of (12), for all x1, x2 and rho", tuple(steps))
 
 
-def normalised_S(ratio: sp.Expr) -> sp.Expr:
-    """(13) with x1 = 1, x2 = -1, the general case up to an affine change of x: (4 rho^2 - 1)/(4 (s^2 - 1)) - ... in x."""
-    k = (1 + 8 * ratio**2) / 16
-    return k / (X - 1) - k / (X + 1) - sp.Rational(3, 16) * ((X - 1) ** -2 + (X + 1) ** -2)
+def _x_from(t: Any, conjugate: Any, x1: Quotient, x2: Quotient) -> Any:
+    return (t + conjugate) / 4 + (x1 + x2) / 2
+
+
+def exponents() -> Proof:
+    """The exponent differences of (13), to which Kimura's criterion applies (an independent proof of Theorem 1).
+
+    y'' = S y is reducible if and only if one of the sums +-d1 +- d2 +- d3 of the differences is an odd integer [Kimura 1969].
+    The differences 1/2, 1/2, 2 rho give the sums 1 +- 2 rho and +- 2 rho up to sign: one is odd exactly if 2 rho is an
+    integer.  Two halves make every other equation one of case 2.
+    """
+    ring = Ring(("rho", "x1", "x2", X.name))
+    x, rho, x1, x2 = (ring.element(sp.Symbol(name)) for name in (X.name, "rho", "x1", "x2"))
+    S = normal_form(x - x1, x - x2, rho * rho)
+    # S = q2/(alpha^2 beta^2) with a quadratic q2: values at the roots and the leading coefficient are all there is.
+    rest = S * (x - x1) * (x - x1) * (x - x2) * (x - x2)
+    squared = (x1 - x2) * (x1 - x2)
+    third = ring.element(sp.Rational(-3, 16)) * squared
+    quadratic = rest - (rho * rho - ring.element(sp.Rational(1, 4))) * (x - x1) * (x - x2)
+    return Proof(
+        "the exponent differences of (13) at x1, x2, infinity are 1/2, 1/2, 2R/R1",
+        (
+            Step(
+                "(x-x1)^2 (x-x2)^2 S = (rho^2 - 1/4)(x-x1)(x-x2) - (3/16)(x1-x2)^2:"
+                " 4b + 1 = 1/4 at x1 and x2, 4 rho^2 at infinity",
+                quadratic == third,
+            ),
+        ),
+    )
+
+
+def double_root() -> Proof:
+    """The double root x1 = x2: y = (x - x1)^(1/2 +- rho), reducible for every rho."""
+    ring = Ring(("rho", "x1", X.name))
+    x, rho, x1 = (ring.element(sp.Symbol(name)) for name in (X.name, "rho", "x1"))
+    steps = []
+    for sign in (1, -1):
+        omega = (1 + sign * 2 * rho) / 2 / (x - x1)
+        S = (4 * rho * rho - 1) / 4 / ((x - x1) * (x - x1))
+        holds = omega.partial() + omega * omega == S
+        steps.append(Step(f"omega = (1/2 {'+' if sign > 0 else '-'} rho)/(x - x1) solves the Riccati equation", holds))
+    return Proof("a double root x1 = x2", tuple(steps))

@@ -36,7 +36,7 @@ class Body:
     >>> m, A1, A3, R = sp.symbols("m A1 A3 R")
     >>> disk = Body(Profile(R, sp.Integer(0), edge=True), m, A1, A3, sp.oo)
     >>> disk.linear_system().b1
-    A1*m*R/(A1*A3 + A1*R**2*m)
+    R**2*m/((A3 + R**2*m)*sin(u))
     """
 
     profile: Profile

@@ -1,0 +1,96 @@
+"""The engine's decision for a ball, and the answer that the theorems predict for it.
+
+`decide` runs the engine and the verifying kernel; `degree_of_omega` and `group_of` only read the theorems, which
+`kovacic.mechanics.theorems` proves.  The tests compare the two.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import sympy as sp
+
+from kovacic import engine
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.errors import InputError
+from kovacic.limits import DEFAULT_LIMITS, Budget
+from kovacic.mechanics.ball import BallOnSphere
+from kovacic.mechanics.field import Quotient, Ring
+from kovacic.mechanics.meridian import X
+from kovacic.mechanics.theorems import normal_form
+from kovacic.solution import Decision
+from kovacic.verify import verify
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """The engine's decision for one ball, checked by the verifying kernel."""
+
+    ratio: sp.Expr
+    degree: int | None
+    decision: Decision
+    verified: bool
+
+
+def decide(equation: Quotient, ratio: sp.Expr) -> Verdict:
+    """Run the engine on y'' = S y with a numeric S, and verify its decision.
+
+    Raises `InputError` if S still contains a symbol.
+    """
+    variable = sp.Symbol(equation.ring.names[-1])
+    sides = sp.fraction(equation.expression())
+    if any(side.free_symbols - {variable} for side in sides):
+        raise InputError("the engine decides equations without parameters: every one of them needs a value")
+    num, den = (
+        QQ.poly([Fraction(int(c.p), int(c.q)) for c in reversed(sp.Poly(side, variable).all_coeffs())])
+        for side in sides
+    )
+    S = RatFunc(num, den)
+    decision = engine.decide(S, Budget(DEFAULT_LIMITS))
+    degree = decision.riccati.degree if decision.riccati is not None else None
+    return Verdict(ratio, degree, decision, bool(verify(S, decision)))
+
+
+def normalised(ratio: sp.Rational) -> Quotient:
+    """(13) with x1 = 1, x2 = -1, which is the general case up to an affine change of x."""
+    ring = Ring((X.name,))
+    x = ring.element(X)
+    return normal_form(x - 1, x + 1, ring.element(sp.Rational(ratio) ** 2))
+
+
+def degree_of_omega(sphere: BallOnSphere) -> int | None:
+    """Theorems 1 and 2 with the degenerate balls: 1 or 2, the degree of omega; None if the symbols don't decide it."""
+    if sphere.leading == 0 or sphere.discriminant == 0:
+        return 1
+    if not sphere.ratio.is_number:
+        return None
+    return 1 if (2 * sphere.ratio).is_integer else 2
+
+
+def group_of(sphere: BallOnSphere) -> str | None:
+    """The differential Galois group of (13) by step (d) and its degenerate counterparts; None if symbols leave it open.
+
+    For real rho, D with two simple roots (the constants are C): rho = 0: G_a extended by mu_4; 2 rho an integer: mu_4;
+    2 rho = p/q: dicyclic of order 4q; irrational: N(T).  A1 = A3: mu_4 (a = 0: trivial, y'' = 0).  A double root:
+    y = (x - x1)^(1/2 +- rho), so mu_n with n the denominator of 1/2 + rho, or G_m; on the plane sqrt(x - x1) and a logarithm.
+    """
+    rho = sphere.ratio
+    if sphere.leading == 0:
+        return "trivial" if sphere.ball.a == 0 else "mu_4"
+    if not rho.is_number or not (sphere.discriminant == 0 or sphere.discriminant.is_number):
+        return None
+    if sphere.discriminant == 0:
+        if rho == 0:
+            return "G_a extended by mu_2"
+        if not rho.is_rational:
+            return "G_m"
+        n = int(sp.denom(rho + sp.Rational(1, 2)))
+        return "trivial" if n == 1 else f"mu_{n}"
+    if rho == 0:
+        return "G_a extended by mu_4"
+    if not rho.is_rational:
+        return "N(T)"
+    q = int(sp.denom(2 * rho))
+    return "mu_4" if q == 1 else f"dicyclic of order {4 * q}"

@@ -1,0 +1,341 @@
+"""The motion by quadratures: against direct integration, against Newton and Euler's equations, and against itself."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import mpmath
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.integrate import solve_ivp
+
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.mechanics import Ball, Body, Profile, U
+from kovacic.mechanics.attitude import follow, locate
+from kovacic.mechanics.closed import NumericBall, central_gravity
+from kovacic.mechanics.direct import IntegrationFailed, State, equations, integrate, integrate_precisely
+from kovacic.mechanics.motion import solve_motion
+from kovacic.mechanics.plot import compare, draw
+from kovacic.mechanics.series import Primitive, cosine_series, divide, invert
+
+POTENTIAL = sp.Rational(3, 2) * sp.cos(U)
+START = State(1.0, 0.1, 0.3, 1.2, 0.2, 0.5, 0.3, 2.0)
+BALLS = {
+    "l > 0": Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3"),
+    "l < 0": Ball(m=1, R=1, a="1/5", A1="1/3", A3="1/4"),
+    "A1 = A3": Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/4"),
+}
+
+
+def places(ball):
+    return {
+        "outside": ball.on_sphere(3),
+        "small": ball.on_sphere("2/3"),
+        "inside": ball.on_sphere(-3),
+        "plane": ball.on_plane(),
+    }
+
+
+def wrapped(angle):
+    return np.abs(np.angle(np.exp(1j * angle))).max()
+
+
+@pytest.mark.parametrize("place", ["outside", "small", "inside", "plane"])
+@pytest.mark.parametrize("name", sorted(BALLS))
+def test_all_eight_coordinates_agree_with_direct_integration(name, place):
+    """Through several turning points: u, v, theta, u1, v1, the spins, and the energy."""
+    sphere = places(BALLS[name])[place]
+    start = START if name != "l < 0" else replace(START, du=-0.5)
+    motion = solve_motion(sphere, POTENTIAL, start)
+    times = np.linspace(0, 9, 60)
+    direct = integrate(sphere.body, POTENTIAL, start, times, rtol=1e-11, atol=1e-13)
+    phi = motion.phase(times)
+    assert phi[-1] - phi[0] > 4 * np.pi
+    u, v, theta, u1, v1, du, dv, n = direct.states
+    omega_3, spin = motion.rotation(phi)
+    place_ = locate(motion, phi)
+    rates = motion.rates(phi)
+    errors = {
+        "u": np.abs(motion.band.colatitude(phi) - u).max(),
+        "v": np.abs(motion.v(phi) - v).max(),
+        "omega_3": np.abs(omega_3 - direct.omega_3).max(),
+        "n": np.abs(spin - n).max(),
+        "du": np.abs(rates[0] - du).max(),
+        "dv": np.abs(rates[1] - dv).max(),
+        "theta": wrapped(place_.theta - theta),
+        "u1": np.abs(place_.u1 - u1).max(),
+        "v1": np.abs(place_.v1 - v1).max() if place == "plane" else wrapped(place_.v1 - v1),
+        "energy": np.abs(direct.energy - motion.energy).max(),
+    }
+    assert max(errors.values()) < 3e-9, errors
+
+
+def test_radau_and_dop853_agree_with_the_quadratures():
+    sphere = BALLS["l > 0"].on_sphere(3)
+    times = np.linspace(0, 4, 9)
+    motion = solve_motion(sphere, POTENTIAL, START)
+    radau = integrate(sphere.body, POTENTIAL, START, times, method="Radau", rtol=1e-8, atol=1e-10)
+    assert np.abs(motion.band.colatitude(motion.phase(times)) - radau.states[0]).max() < 1e-6
+
+
+def newton_euler(sphere, g, start, times, axis_v=0.0):
+    """The rigid body in space, without coordinates on the surfaces: normal N, axis k, marked axis e, angular velocity."""
+    m, R, a, A1, A3 = (float(value) for value in sphere.ball.parameters)
+    R1 = float(sphere.R1)
+    kappa = 1 / R1
+    u, v, theta, u1, v1, du, dv, n = (float(getattr(start, field)) for field in start.__dataclass_fields__)
+    c, s = np.cos, np.sin
+    out = np.array([s(u1) * c(v1), s(u1) * s(v1), c(u1)])
+    south = np.array([c(u1) * c(v1), c(u1) * s(v1), -s(u1)])
+    east = np.array([-s(v1), c(v1), 0.0])
+    e_u, e_v, e_n = -s(theta) * south + c(theta) * east, c(theta) * south + s(theta) * east, -out
+    k = -s(u) * e_u + c(u) * e_n
+    radial = c(u) * e_u + s(u) * e_n
+    marked = c(v) * radial - s(v) * e_v
+    tau, sigma = (1 + kappa * R) * s(u), -1 - kappa * R
+    omega = tau * dv * e_u + sigma * du * e_v + n * e_n
+
+    def rates(_, y):
+        N, k, e, w = y[:3], y[3:6], y[6:9], y[9:]
+        rho = -R * N + a * k
+        velocity = -np.cross(w, rho)
+        dN = (velocity + a * np.cross(w, k)) / (R1 + R)
+        drho = -R * dN + a * np.cross(w, k)
+        G = (R1 + R) * N - a * k
+        force = -m * g * G / np.linalg.norm(G)
+        J = A1 * np.eye(3) + (A3 - A1) * np.outer(k, k)
+        whole = J + m * (rho @ rho * np.eye(3) - np.outer(rho, rho))
+        right = -np.cross(w, J @ w) + np.cross(rho, -m * np.cross(w, drho) - force)
+        return np.concatenate([dN, np.cross(w, k), np.cross(w, e), np.linalg.solve(whole, right)])
+
+    first = np.concatenate([out, k, marked, omega])
+    y = solve_ivp(rates, (0, times[-1]), first, method="DOP853", t_eval=times, rtol=1e-11, atol=1e-13).y
+    N, k, e, w = y[:3].T, y[3:6].T, y[6:9].T, y[9:].T
+    return {
+        "contact": R1 * N,
+        "axis": k,
+        "marked": e,
+        "omega_3": (w * k).sum(1),
+        "n": -(w * N).sum(1),
+        "x": -(N * k).sum(1),
+    }
+
+
+@pytest.mark.parametrize("radius", [3, "2/3", -3])
+@pytest.mark.parametrize(
+    ("du", "dv", "n"),
+    [
+        (0.5, 0.3, 2.0),
+        (-0.4, 0.9, -1.0),
+        (3.5, 1e-2, 1e-2),
+        (3.5, 1e-4, 1e-4),
+        (3.5, 1e-8, 1e-8),
+        (3.5, 0.0, 0.0),
+    ],
+    ids=["ordinary", "backwards", "near the poles", "nearer", "nearest", "through the poles"],
+)
+def test_newton_and_euler_agree_also_near_and_through_the_poles(radius, du, dv, n):
+    """An independent derivation: no Woronetz, no spherical coordinates.  The ball turns over with u' = 3.5."""
+    sphere = BALLS["l > 0"].on_sphere(radius)
+    g = sp.Rational(1, 2)
+    start = State(1.0, 0.1, 0.3, 1.2, 0.2, du, dv, n)
+    times = np.linspace(0, 6, 61)
+    motion = solve_motion(sphere, central_gravity(sphere, g), start)
+    if du == 3.5:
+        assert motion.turning_points[0] < 0.02
+        assert motion.turning_points[1] > np.pi - 0.02
+    if dv == 0:
+        assert motion.turning_points == (0.0, np.pi)
+    phi = motion.phase(times)
+    reference = newton_euler(sphere, float(g), start, times)
+    place = locate(motion, phi)
+    omega_3, spin = motion.rotation(phi)
+    found = {
+        "contact": place.contact,
+        "axis": place.attitude[:, :, 2],
+        "marked": place.attitude[:, :, 0],
+        "omega_3": omega_3,
+        "n": spin,
+        "x": motion.band.x(phi),
+    }
+    errors = {name: np.abs(found[name] - reference[name]).max() for name in found}
+    assert max(errors.values()) < 2e-9, errors
+    # The point (u, v) of the ball's surface, carried by the attitude, is where the ball touches.
+    u, v = motion.band.colatitude(phi), motion.v(phi)
+    s = np.stack([np.sin(u) * np.cos(v), np.sin(u) * np.sin(v), np.cos(u)], axis=1)
+    assert np.abs(np.einsum("nij,nj->ni", place.attitude, s) - place.normal).max() < 1e-12
+
+
+def test_ten_thousand_oscillations_are_as_exact_as_one():
+    """Time and longitude by periodicity, the attitude by powers: compared with stepping one oscillation at a time."""
+    sphere = BALLS["l > 0"].on_sphere(3)
+    motion = solve_motion(sphere, POTENTIAL, START)
+    count = 10_000
+    late = motion.phase(np.array([count * motion.period]))
+    assert abs(late[0] - motion.phi_0 - 2 * np.pi * count) < 1e-8
+    track = follow(motion)
+    one = track.pose(np.array([2 * np.pi]))[0]
+    turn = np.eye(4)
+    turn[:2, :2] = [[np.cos(track.gain), -np.sin(track.gain)], [np.sin(track.gain), np.cos(track.gain)]]
+    pose = np.eye(4)
+    for _ in range(count):
+        pose = pose @ (one @ turn)
+    direct = track.pose(np.array([2 * np.pi * count]))[0]
+    expected = pose @ np.linalg.matrix_power(np.linalg.inv(turn), count)
+    assert np.abs(direct[:3, :3] - expected[:3, :3]).max() < 1e-9
+    assert np.abs(direct[:3, :3] @ direct[:3, :3].T - np.eye(3)).max() < 1e-10
+
+
+def test_energy_and_the_linear_integrals_are_conserved():
+    """l eta^2 - zeta^2 is constant along the direct solution: an integral that the integrator knows nothing of."""
+    sphere = BALLS["l > 0"].on_sphere(3)
+    times = np.linspace(0, 10, 41)
+    direct = integrate(sphere.body, POTENTIAL, START, times, rtol=1e-11, atol=1e-13)
+    ball = NumericBall.of(sphere, np)
+    x, n = np.cos(direct.states[0]), direct.states[7]
+    eta = direct.omega_3 * np.sqrt(ball.D(x))
+    zeta = ball.m * ball.R**2 * ball.A1 * n + ball.half_derivative(x) * direct.omega_3
+    quadratic = ball.lead * eta**2 - zeta**2
+    assert np.ptp(quadratic) < 1e-9
+    assert np.ptp(direct.energy) < 1e-9
+    flat = BALLS["l > 0"].on_plane()
+    direct = integrate(flat.body, POTENTIAL, START, times, rtol=1e-11, atol=1e-13)
+    assert np.ptp(direct.omega_3 * np.sqrt(ball.D(np.cos(direct.states[0])))) < 1e-9  # Chaplygin's integral
+
+
+@pytest.mark.parametrize(
+    ("digits", "duration"), [(20, "1/16"), pytest.param(50, "1/4", marks=pytest.mark.slow)], ids=["20", "50"]
+)
+def test_high_precision(digits, duration):
+    """High precision: Taylor steps of the full equations against the closed form at the u that they reach."""
+    sphere = Ball(m=1, R=1, a=0, A1="1/4", A3="1/3").on_sphere(2)
+    start = State(1, 0, 0, 1, 0, mpmath.mpf(1) / 2, mpmath.mpf(1) / 3, 2)
+    with mpmath.workdps(digits + 5):
+        time = mpmath.mpf(sp.Rational(duration).p) / sp.Rational(duration).q
+        end = integrate_precisely(sphere.body, sp.cos(U), start, time, digits=digits)
+        numeric = NumericBall.of(sphere, mpmath)
+        u0 = mpmath.mpf(1)
+        omega_0 = mpmath.cos(u0) * 2 - (1 + numeric.rho) * mpmath.sin(u0) ** 2 * start.dv
+        omega_3, n = numeric.transport(mpmath.cos(end[0]), mpmath.cos(u0), omega_0, mpmath.mpf(2))
+        assert abs(n - end[7]) < mpmath.mpf(10) ** (2 - digits)
+        dv = (mpmath.cos(end[0]) * n - omega_3) / ((1 + numeric.rho) * mpmath.sin(end[0]) ** 2)
+        assert abs(dv - end[6]) < mpmath.mpf(10) ** (3 - digits)
+
+
+def test_direct_integration_knows_other_bodies():
+    """The thin disk on the plane conserves its energy, which includes the height R sin u of its centre."""
+    disk = Body(
+        Profile(sp.Integer(1), sp.Integer(0), edge=True), sp.Integer(1), sp.Rational(1, 4), sp.Rational(1, 2), sp.oo
+    )
+    potential = sp.sin(U)
+    result = integrate(disk, potential, State(1.2, 0, 0, 0, 0, 0.3, 2.0, 0.4), np.linspace(0, 3, 10))
+    assert np.ptp(result.energy) < 1e-8
+    assert np.ptp(result.states[0]) > 0.1
+
+
+def test_start_at_a_turning_point_and_steady_motion():
+    sphere = BALLS["l > 0"].on_sphere(3)
+    at_rest = replace(START, du=0.0)
+    motion = solve_motion(sphere, POTENTIAL, at_rest)
+    assert min(abs(turn - 1.0) for turn in motion.turning_points) < 1e-12
+    times = np.linspace(0, 6, 20)
+    direct = integrate(sphere.body, POTENTIAL, at_rest, times, rtol=1e-11, atol=1e-13)
+    assert np.abs(motion.band.colatitude(motion.phase(times)) - direct.states[0]).max() < 1e-9
+    # A steady rotation: n is chosen so that u'' = 0 at u = 1 (a homogeneous ball without a potential, v' = 0, n = 0).
+    plain = Ball(m=1, R=1, a=0, A1="2/5", A3="2/5").on_plane()
+    with pytest.raises(InputError, match="steady"):
+        solve_motion(plain, sp.Integer(0), State(1.0, 0, 0, 0, 0, 0.0, 0.0, 0.0))
+
+
+def test_what_is_refused():
+    sphere = BALLS["l > 0"].on_sphere(3)
+    with pytest.raises(InputError, match="between the poles"):
+        solve_motion(sphere, POTENTIAL, replace(START, u=0.0))
+    with pytest.raises(InputError, match="depends on u alone"):
+        solve_motion(sphere, sp.Symbol("q") * sp.cos(U), START)
+    with pytest.raises(InputError, match="depends on u alone"):
+        equations(sphere.body, sp.Symbol("q"))
+    symbolic = Ball(m=sp.Symbol("m"), R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
+    with pytest.raises(InputError, match="numbers are needed"):
+        solve_motion(symbolic, POTENTIAL, START)
+    with pytest.raises(InputError, match="numbers are needed"):
+        equations(symbolic.body, POTENTIAL)
+    with pytest.raises(IntegrationFailed):  # the potential pulls u to 1 in a finite time, with infinite speed
+        integrate(sphere.body, -1 / (U - 1) ** 4, replace(START, u=1.2, du=-1), np.array([0.0, 5.0]), rtol=1e-6)
+
+
+def test_series_tools():
+    series = cosine_series(lambda phi: 1 / (2 + np.cos(phi)), 1e-14)
+    whole = Primitive.of(series)
+    assert abs(whole.over_period - 2 * np.pi / np.sqrt(3)) < 1e-13
+    at = np.array([0.3, 3.0, 40.0, -7.0])
+    assert np.abs(invert(whole, whole(at), 1e-14) - at).max() < 1e-12
+    G = np.array([0.5, -1.0, 0.25, 2.0])
+    H, value = divide(G, 1.01)
+    z = np.linspace(-1, 1, 7)
+    chebval = np.polynomial.chebyshev.chebval
+    assert np.abs(chebval(z, G) - value - (z - 1.01) * chebval(z, H)).max() < 1e-14
+    assert abs(value - chebval(1.01, G)) < 1e-14
+    with pytest.raises(LimitExceeded):
+        cosine_series(lambda phi: np.sign(phi - 1), 1e-14)
+
+
+def test_picture_and_comparison(tmp_path):
+    for place in ("outside", "plane"):
+        sphere = places(BALLS["l > 0"])[place]
+        comparison = compare(sphere, POTENTIAL, solve_motion(sphere, POTENTIAL, START), 5.0, samples=100, rtol=1e-10)
+        assert max(error.max() for error in comparison.errors.values()) < 1e-7
+        path = tmp_path / f"{place}.png"
+        draw(comparison, path, title="A ball")
+        assert path.stat().st_size > 20_000
+
+
+@pytest.fixture
+def run(capsys):
+    from kovacic.cli.main import run as command_line
+
+    def call(*arguments):
+        status = command_line(["ball", *arguments])
+        return status, capsys.readouterr()
+
+    return call
+
+
+def test_command_by_ratio(run):
+    status, output = run("--ratio", "3/2", "--json")
+    data = json.loads(output.out)
+    assert (status, data["case"], data["group"], data["verified"]) == (0, 1, "mu_4", True)
+    assert data["omega_3"] == "c1*(4*x - x1 - 3*x2)/sqrt(x - x2) + c2*(4*x - 3*x1 - x2)/sqrt(x - x1)"
+    status, output = run("--ratio", "1/4")
+    assert "dicyclic of order 8" in output.out
+
+
+def test_command_by_parameters_with_a_picture(run, tmp_path):
+    body = ("--mass", "1", "--radius", "2", "--offset", "1/5", "--A1", "1", "--A3", "4/3", "--sphere", "3")
+    picture = tmp_path / "path.png"
+    status, output = run(*body, "--json", "--latex", "--simulate", "--time", "4", "--plot", str(picture))
+    data = json.loads(output.out)
+    assert status == 0
+    assert data["case"] == 2
+    assert data["group"] == "dicyclic of order 12"
+    assert max(data["motion"]["difference"].values()) < 1e-9
+    assert set(data["latex"]) == {"7", "11", "12", "13"}
+    assert picture.stat().st_size > 20_000
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--mass", "1", "--radius", "1", "--offset", "2", "--sphere", "1"), "|a| <= R"),
+        (("--mass", "1", "--radius", "1"), "either --ratio"),
+        (("--ratio", "1", "--mass", "1"), "stands alone"),
+        (("--ratio", "x"), "isn't a number"),
+        (("--ratio", "0"), "neither 0 nor -1"),
+    ],
+)
+def test_command_refuses(run, arguments, message):
+    status, output = run(*arguments)
+    assert status == 2
+    assert message in output.err
