@@ -103,6 +103,17 @@ class Atoms:
         polynomial, rest = divmod(r.num, r.den)
         return self.poly(polynomial) + self.ratio(RatFunc(rest, r.den))
 
+    def factored(self, r: RatFunc) -> Expr:
+        """A rational function as a product of powers of irreducible polynomials."""
+        factors: list[Expr] = [self.constant(r.num.lc)] if r.num else [Integer(0)]
+        content = Fraction(1)
+        for polynomial, sign in ((r.num, 1), (r.den, -1)):
+            for p, k in r.field.factor(polynomial) if polynomial.degree > 0 else []:
+                c, base = self.primitive(p)
+                content *= c ** (sign * k)
+                factors.append(base ** (sign * k))
+        return Mul(rational(content), *factors)
+
     # ---------------------------------------------------------------------------------------------- roots
 
     def quadratic_roots(self, p: Poly) -> tuple[Expr, Expr, Expr]:

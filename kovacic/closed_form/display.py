@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from kovacic.closed_form.atoms import Atoms, Expr
+from sympy import hyper
+
+from kovacic.closed_form.atoms import Atoms, Expr, rational
 from kovacic.closed_form.curve_display import exponentials
 from kovacic.closed_form.integrals import second_solution
+from kovacic.closed_form.klein import Hypergeometric
 from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
 
@@ -21,4 +24,11 @@ def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[
         return atoms.product(form.first), second, notes
     if isinstance(form, OnCurve):
         return exponentials(form, atoms)
-    raise NotImplementedError
+    J = atoms.factored(form.J)
+    first, second = (_hypergeometric(y, J, atoms) for y in (form.first, form.second))
+    return first, second, ()
+
+
+def _hypergeometric(y: Hypergeometric, J: Expr, atoms: Atoms) -> Expr:
+    a, b, c = (rational(value) for value in (y.a, y.b, y.c))
+    return atoms.product(y.factor) * hyper((a, b), (c,), J)

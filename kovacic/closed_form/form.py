@@ -55,7 +55,7 @@ def solutions(solution: Solution, *, gauge: RatFunc | None = None) -> ClosedForm
     from kovacic.closed_form.atoms import Atoms
     from kovacic.closed_form.check import is_exact_solution, is_numerical_solution
     from kovacic.closed_form.display import expressions
-    from kovacic.closed_form.structure import Primitive3
+    from kovacic.closed_form.klein import KleinForm
 
     if solution.case is None:
         raise ValueError(solution.reason or "there is no Liouvillian solution")
@@ -64,7 +64,7 @@ def solutions(solution: Solution, *, gauge: RatFunc | None = None) -> ClosedForm
     structure = build(solution.S, solution.decision, gauge)
     variable = Symbol(solution.variable)
     y1, y2, notes = expressions(structure, Atoms(variable))
-    exact = not isinstance(structure, Primitive3)
+    exact = not isinstance(structure, KleinForm)
     passed = not exact or is_exact_solution(structure, solution.S, gauge)
     if not passed or not all(is_numerical_solution(y, variable, solution.S, gauge) for y in (y1, y2)):
         raise VerificationFailed(f"a closed form for S = {solution.S} failed its check; please report the equation")

@@ -13,6 +13,7 @@ from kovacic.algebra.fields import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
+from kovacic.closed_form.klein import KleinForm, klein_form
 from kovacic.closed_form.partial_fractions import Decomposition, decompose
 from kovacic.closed_form.primitive import Primitive, integrate_inverse_square
 from kovacic.closed_form.product import Product, product
@@ -59,20 +60,7 @@ class OnCurve:
     integral: CurveIntegral
 
 
-@dataclass(frozen=True)
-class Primitive3:
-    """Case 3, all solutions algebraic: what Klein's form is made of.
-
-    `invariant` is the rational form of degree 6, 8 or 12 that the group fixes; `gauge` as in the module's head.
-    """
-
-    structure: Structure
-    S: RatFunc
-    invariant: SemiInvariant
-    gauge: RatFunc
-
-
-ClosedStructure = Diagonal | Conjugate | Triangular | OnCurve | Primitive3
+ClosedStructure = Diagonal | Conjugate | Triangular | OnCurve | KleinForm
 
 
 def build(S: RatFunc, decision: Decision, gauge: RatFunc) -> ClosedStructure:
@@ -86,7 +74,7 @@ def build(S: RatFunc, decision: Decision, gauge: RatFunc) -> ClosedStructure:
         return _imprimitive(S, semi, gauge)
     if decision.invariant is None:
         raise ValueError("the decision was made without its certificate")
-    return Primitive3(structure, S, decision.invariant, gauge)
+    return klein_form(S, structure, decision.invariant, gauge)
 
 
 def _reducible(semi: SemiInvariant, invariant: SemiInvariant | None, gauge: RatFunc) -> ClosedStructure:
