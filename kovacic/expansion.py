@@ -20,13 +20,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
-from operator import mul
 from typing import Any
 
-from flint import fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_poly
+from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_poly
 
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly, RationalPoly
+from kovacic.algebra.recurrence import RationalSeries
 from kovacic.places import Kind, Place, Problem
 
 #: Coefficients beyond the degree that must vanish, besides one for each unknown.
@@ -41,27 +41,30 @@ def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[
     place = _cheapest_place(problem, m, valuations)
     D, R, T, point = _coefficients(problem, place, valuations)
     recurrence = _recurrence(m, D, R, T)
-    solutions, conditions, end = [], [], N + 1
+    solutions: list[tuple[int, RationalSeries]] = []  # with the powers at which they begin
+    conditions, end = [], N + 1
     i = 0
     while i < end:
         if i % 16 == 0:
             problem.budget.check()
         pivot, factors = recurrence.at(i)
-        obstructions = [solution.extend(pivot, factors) for solution in solutions]
+        obstructions = [series.extend(pivot, factors) for _, series in solutions]
         if not pivot:
             if any(obstructions):
                 conditions.append(obstructions)
-            solutions.append(_Series(i, recurrence.width))
+            solutions.append((i, RationalSeries(recurrence.width)))
             end = N + 1 + len(solutions) + _MARGIN
         i += 1
-    conditions += [[s.coefficient(k) for s in solutions] for k in range(N + 1, end)]
+    conditions += [[series.term(k - start) for start, series in solutions] for k in range(N + 1, end)]
     combination = _null_vector(conditions, len(solutions))
     if combination is None:
         return None
-    series = sum((s.polynomial(N) * c for c, s in zip(combination, solutions, strict=True)), fmpq_poly([]))
+    P = fmpq_poly([])
+    for factor, (start, series) in zip(combination, solutions, strict=True):
+        P += series.polynomial(N + 1 - start).rep.left_shift(start) * factor
     if place is not None and place.at_infinity:
-        return RationalPoly(fmpq_poly(series.coeffs()[::-1]).left_shift(N - series.degree())).monic()
-    return RationalPoly(series)(QQ.poly([-point, 1])).monic()
+        return RationalPoly(fmpq_poly(P.coeffs()[::-1]).left_shift(N - P.degree())).monic()
+    return RationalPoly(P)(QQ.poly([-point, 1])).monic()
 
 
 def _cheapest_place(problem: Problem, m: int, valuations: Sequence[int]) -> Place | None:
@@ -159,49 +162,6 @@ def _recurrence(m: int, D: Any, R: Any, T: Any) -> _Recurrence:
             following.pop()
         previous, current = current, following
     return _Recurrence(current)
-
-
-class _Series:
-    """A power series solution t^start + ... with rational coefficients, extended term by term.
-
-    The last terms are kept as integers over a common denominator, which grows only by what a division really needs.
-    """
-
-    __slots__ = ("_denominator", "_terms", "_width", "_window", "start")
-
-    def __init__(self, start: int, width: int) -> None:
-        self.start = start
-        self._width = width
-        self._window = [fmpz(1)]  # the last terms times the denominator, the latest first
-        self._denominator = fmpz(1)
-        self._terms = [(fmpz(1), fmpz(1))]
-
-    def coefficient(self, k: int) -> Any:
-        return fmpq(*self._terms[k - self.start]) if k >= self.start else fmpq(0)
-
-    def polynomial(self, degree: int) -> Any:
-        """The terms up to t^degree."""
-        numerators = [n * (self._denominator // d) for n, d in self._terms[: degree + 1 - self.start]]
-        return fmpq_poly(fmpz_poly(numerators), self._denominator).left_shift(self.start)
-
-    def extend(self, pivot: Any, factors: list[Any]) -> Any:
-        """Append the next term; where the pivot vanishes append 0 and return what ought to vanish, else 0."""
-        total = -sum(map(mul, factors, self._window))
-        if not pivot:
-            value, obstruction = fmpz(0), fmpq(-total, self._denominator)
-        else:
-            obstruction = fmpq(0)
-            common = (total % pivot).gcd(pivot)
-            scale = pivot // common
-            if scale < 0:
-                common, scale = -common, -scale
-            value = total // common
-            if scale != 1:
-                self._window = [scale * w for w in self._window]
-                self._denominator *= scale
-        self._terms.append((value, self._denominator))
-        self._window = [value, *self._window[: self._width - 1]]
-        return obstruction
 
 
 def _null_vector(rows: list[list[Any]], columns: int) -> list[Any] | None:

@@ -1,33 +1,130 @@
-"""Polynomial solutions of linear differential equations of second order with polynomial coefficients, exactly."""
+"""Power series and polynomial solutions of linear differential equations from their recurrences, exactly."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from math import lcm
+from operator import mul
+from typing import Any, Protocol
 
-from kovacic.algebra.poly import Poly
+from flint import fmpq, fmpq_poly, fmpz, fmpz_poly
+
+from kovacic.algebra.fields import QQ, Field
+from kovacic.algebra.poly import Poly, RationalPoly
+
+
+class Series(Protocol):
+    """A sequence u_0 = 1, u_1, u_2, ... that is extended by `pivot u_n = -sum_(h>0) factors_(h-1) u_(n-h)`."""
+
+    def extend(self, pivot: Any, factors: Sequence[Any]) -> Any:
+        """Append the next term; where the pivot is 0, append 0 and return the sum, which ought to vanish; else return 0."""
+
+    def term(self, n: int) -> Any:
+        """u_n as a scalar of the field."""
+
+    def polynomial(self, count: int) -> Poly:
+        """`sum_(n < count) u_n t^n`."""
+
+
+class RationalSeries:
+    """A `Series` of rational numbers from integer pivots and factors.
+
+    The last terms are kept as integers over a common denominator, which grows only by what a division really needs.
+    """
+
+    __slots__ = ("_denominator", "_terms", "_width", "_window")
+
+    def __init__(self, width: int) -> None:
+        self._width = width
+        self._window = [fmpz(1)]  # the last terms times the denominator, the latest first
+        self._denominator = fmpz(1)
+        self._terms = [(fmpz(1), fmpz(1))]
+
+    def term(self, n: int) -> Any:
+        return fmpq(*self._terms[n])
+
+    def polynomial(self, count: int) -> RationalPoly:
+        numerators = [n * (self._denominator // d) for n, d in self._terms[:count]]
+        return RationalPoly(fmpq_poly(fmpz_poly(numerators), self._denominator))
+
+    def extend(self, pivot: Any, factors: Sequence[Any]) -> Any:
+        total = -sum(map(mul, factors, self._window), fmpz(0))
+        if not pivot:
+            value, obstruction = fmpz(0), fmpq(-total, self._denominator)
+        else:
+            obstruction = fmpq(0)
+            common = (total % pivot).gcd(pivot)
+            scale = pivot // common
+            if scale < 0:
+                common, scale = -common, -scale
+            value = total // common
+            if scale != 1:
+                self._window = [scale * w for w in self._window]
+                self._denominator *= scale
+        self._terms.append((value, self._denominator))
+        self._window = [value, *self._window[: self._width - 1]]
+        return obstruction
+
+
+class FieldSeries:
+    """A `Series` over any field, in its scalars."""
+
+    __slots__ = ("_field", "_terms", "_width", "_zero")
+
+    def __init__(self, field: Field, width: int) -> None:
+        self._field, self._width = field, width
+        self._terms = [field.scalar(field.poly([1]), 0)]
+        self._zero = self._terms[0] * 0
+
+    def term(self, n: int) -> Any:
+        return self._terms[n]
+
+    def polynomial(self, count: int) -> Poly:
+        return self._field.from_scalars(self._terms[:count])
+
+    def extend(self, pivot: Any, factors: Sequence[Any]) -> Any:
+        window = self._terms[: -self._width - 1 : -1]
+        total = -sum((factor * value for factor, value in zip(factors, window, strict=False) if value), self._zero)
+        self._terms.append(total / pivot if pivot else self._zero)
+        return self._zero if pivot else -total
 
 
 @dataclass(frozen=True)
 class _Operator:
-    """`second P'' + first P' + zeroth P`, which takes x^k to sum_j L_j(k) x^(k+s-j), L_j(k) = a_j k (k-1) + b_j k + c_j."""
+    """`second P'' + first P' + zeroth P`: it takes x^k to sum_j L_j(k) x^(k+s-j), L_j(k) = a_j k (k-1) + b_j k + c_j."""
 
-    a: list[Any]
-    b: list[Any]
-    c: list[Any]
+    field: Field
+    coefficients: list[tuple[Any, Any, Any]]
 
     def L(self, j: int, k: int) -> Any:
-        return self.a[j] * (k * (k - 1)) + self.b[j] * k + self.c[j]
+        a, b, c = self.coefficients[j]
+        return a * (k * (k - 1)) + b * k + c
+
+    @property
+    def width(self) -> int:
+        return len(self.coefficients) - 1
+
+    def series(self) -> Series:
+        return RationalSeries(self.width) if self.field == QQ else FieldSeries(self.field, self.width)
 
 
-@dataclass(frozen=True)
-class _Descent:
-    """Coefficients p_0, ..., p_start; the power whose coefficient was free, and set to 0; what remains below x^0."""
+def _operator(second: Poly, first: Poly, zeroth: Poly) -> _Operator:
+    field = first.field
+    shift = max(second.degree - 2, first.degree - 1, zeroth.degree)
+    if field == QQ:
+        scale = lcm(*(f.common_denominator() for f in (second, first, zeroth)))
+        second, first, zeroth = second * scale, first * scale, zeroth * scale
 
-    coefficients: list[Any]
-    free: int | None
-    remainder: list[Any]
+    def scalar(f: Poly, power: int) -> Any:
+        value = field.scalar(f, power)
+        return value.p if field == QQ else value
+
+    columns = range(shift + 3)
+    return _Operator(
+        field,
+        [(scalar(second, shift + 2 - j), scalar(first, shift + 1 - j), scalar(zeroth, shift - j)) for j in columns],
+    )
 
 
 def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int, check: Callable[[], None]) -> Poly | None:
@@ -37,59 +134,48 @@ def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int, ch
     more than one other k; if that is a smaller natural number, a multiple of the solution that begins there may have to
     be added.  `check` is called now and then, for a time limit.
     """
-    field = first.field
-    shift = max(second.degree - 2, first.degree - 1, zeroth.degree)
-    a, b, c = (
-        [field.scalar(f, shift + offset - j) for j in range(shift + 3)]
-        for f, offset in ((second, 2), (first, 1), (zeroth, 0))
-    )
-    operator = _Operator(a, b, c)
+    operator = _operator(second, first, zeroth)
     if operator.L(0, degree):
         return None
-    main = _descend(operator, degree, field.scalar(field.poly([1]), 0), check)
+    main = _descend(operator, degree, check)
     if main is None:
         return None
-    coefficients = main.coefficients
+    P = main.polynomial
     if any(main.remainder):
-        if main.free is None:
-            return None
-        other = _descend(operator, main.free, field.scalar(field.poly([1]), 0), check)
+        other = None if main.free is None else _descend(operator, main.free, check)
         if other is None:
             return None
         factor = next((-r / q for r, q in zip(main.remainder, other.remainder, strict=True) if q), None)
         if factor is None or any(r + factor * q for r, q in zip(main.remainder, other.remainder, strict=True)):
             return None
-        for k, value in enumerate(other.coefficients):
-            coefficients[k] = coefficients[k] + factor * value
-    return field.from_scalars(coefficients)
+        P = P + other.polynomial * operator.field.from_scalars([factor])
+    return P
 
 
-def _descend(operator: _Operator, start: int, one: Any, check: Callable[[], None]) -> _Descent | None:
-    """The solution x^start + ... as far as it goes; None if the free coefficient meets an obstruction."""
-    width = len(operator.a)
-    window: list[Any] = [one]  # p_(k+1), p_(k+2), ..., at most width - 1 of them
-    coefficients: list[Any] = [one]
+@dataclass(frozen=True)
+class _Descent:
+    """A solution x^start + ... downwards, the power whose coefficient was free and set to 0, what remains below x^0."""
+
+    polynomial: Poly
+    free: int | None
+    remainder: list[Any]
+
+
+def _descend(operator: _Operator, start: int, check: Callable[[], None]) -> _Descent | None:
+    """The solution from x^start downwards; None if a free coefficient meets an obstruction."""
+    series, width, free = operator.series(), operator.width, None
     remainder: list[Any] = []
-    free: int | None = None
-    for k in range(start - 1, -width, -1):
+    for k in range(start - 1, -width - 1, -1):
         if k % 64 == 0:
             check()
-        total = one * 0
-        for j, value in enumerate(window, start=1):
-            if value:
-                total = total + operator.L(j, k + j) * value
+        pivot = operator.L(0, k) if k >= 0 else 0
+        obstruction = series.extend(pivot, [operator.L(j, k + j) for j in range(1, min(width, start - k) + 1)])
         if k < 0:
-            remainder.append(total)
-            value = one * 0
-        else:
-            pivot = operator.L(0, k)
-            if pivot:
-                value = -total / pivot
-            elif total:
+            remainder.append(obstruction)
+        elif not pivot:
+            if obstruction:
                 return None
-            else:
-                free, value = k, one * 0
-            coefficients.append(value)
-        window.insert(0, value)
-        del window[width - 1 :]
-    return _Descent(coefficients[::-1], free, remainder)
+            free = k
+    downwards = series.polynomial(start + 1)
+    field = operator.field
+    return _Descent(field.from_scalars([field.scalar(downwards, start - k) for k in range(start + 1)]), free, remainder)

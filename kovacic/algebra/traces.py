@@ -2,7 +2,27 @@
 
 from __future__ import annotations
 
+from itertools import islice
+
+from flint import fmpz
+
+from kovacic.algebra.fields import BadPrimeError
 from kovacic.algebra.poly import Poly
+
+#: Primes at which a norm is tested for being a square: a norm that isn't one passes with probability 2^-24.
+_TESTS = 24
+
+
+def is_provably_not_a_square(element: Poly, modulus: Poly) -> bool:
+    """Is the norm of an element of K[x]/p a non-residue modulo some prime?  Then it isn't a square in K[x]/p."""
+    for h in islice(modulus.field.homomorphisms(), _TESTS):
+        try:
+            residue = int(h.keeping_degree(modulus).resultant(h(element)))
+        except BadPrimeError:
+            continue
+        if fmpz(residue).jacobi(h.p) == -1:
+            return True
+    return False
 
 
 def characteristic_polynomial(element: Poly, modulus: Poly) -> Poly:

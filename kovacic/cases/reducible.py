@@ -10,21 +10,21 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
+from itertools import count
 from typing import Any
 
 from kovacic.algebra.fields import BadPrimeError, Homomorphism
-from kovacic.algebra.poly import Poly, to_fraction
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.recurrence import polynomial_solution
-from kovacic.algebra.traces import trace_of_square_root
 from kovacic.cases.constants import square_root
+from kovacic.cases.degree_bound import irrational_exponents, largest_degree
 from kovacic.cases.outcome import Found, Outcome
 from kovacic.cases.singular import singular_factor
 from kovacic.invariants import invariants
 from kovacic.local import chart, exponential_parts, omega_parts, rational_omega
-from kovacic.places import Kind, Place, Problem
+from kovacic.places import Place, Problem
 from kovacic.riccati import Form, normalised, root
-from kovacic.solution import Evidence, Exclusion, NecessaryCondition, NoInvariant, NoRationalOmega, Rule, Structure
+from kovacic.solution import Evidence, Exclusion, NoInvariant, NoRationalOmega, Structure
 
 
 def decide(problem: Problem) -> Outcome:
@@ -40,92 +40,42 @@ def decide(problem: Problem) -> Outcome:
 
 
 def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
-    """omega from F = y1 y2 or y1^2."""
+    """The form y1 of degree 1, from F = y1 y2 or F = y1^2.
+
+    F' = Q0 X / D and sqrt(disc) = Q0 Y / D with F = Q0 P; so D omega = (X + Y) / (2 P), and the zeros of y1 are the common
+    zeros of P and X - Y.  This is done modulo primes, and only R of omega = R/D + P1'/P1 is lifted; P1 has a recurrence.
+    """
     F = normalised(F, problem)
-    D, P, R = problem.D, F.P, F.R
-    # Everything divided by Q0 = F/P: F' = Q0 X / D, and sqrt(disc) = Q0 Y / D.
-    A0, X, A2 = F.numerators(problem)[:3]
-    discriminant = X * X - 4 * A0 * A2
-    if not discriminant:
+    P, X, A2, *_ = F.numerators(problem)
+    point = next(n for n in count() if problem.D(n))
+    value = X(point) ** 2 - 4 * P(point) * A2(point)
+    if not value:
         return root(F, 2, problem)
-    weight = singular_factor(problem, R, 1)
-    square, remainder = divmod(discriminant, weight * weight)
-    if remainder or square.degree > 0:
-        raise AssertionError("the discriminant of an invariant of degree 2 is a constant")
-    w = square_root(problem.field, square)
-    Y = w * weight
-    P = P.over(w.field)
-    zeros = P.gcd(X - Y)  # the zeros of y1 are those zeros of F at which F' = sqrt(disc)
-    omega = (X + Y) // (P // zeros) / 2  # D * zeros * omega
-    return Form(1, (omega - D * zeros.derivative()) // zeros, zeros)
-
-
-def largest_degree(problem: Problem) -> int | NecessaryCondition:
-    """The largest degree that P can have for a unique omega = R/D + P'/P: d = 1 - sum of the exponents over all places.
-
-    The exponents at the roots of a factor are conjugate, (A +- sqrt g)/2 with g in K[x]/p, so their sum is bounded by the
-    trace of sqrt g [sec. 3.2 of Kovacic 1986 for the exponents].  Not rational over K[x]/p: omega doesn't exist.
-    """
-    total = Fraction(1)
-    for place in problem.places:
-        if place.kind is Kind.ORDINARY:
+    weight = singular_factor(problem, F.R, 1)
+    w = square_root(problem.field, value / weight(point) ** 2)
+    field, Y = w.field, w * weight
+    lifter = field.lifter()
+    for bundle in field.bundles():
+        problem.budget.check()
+        try:
+            parts = [_first_factor(h(problem.D), h.keeping_degree(P), h(X), h(Y)) for h in bundle]
+        except BadPrimeError:
             continue
-        if place.logarithm and place.delta is not None:
-            total -= place.degree * (1 + place.delta) / 2
-            continue
-        trace = _trace(place)
-        if trace is None:
-            return NecessaryCondition(Rule.NOT_A_SQUARE, (str(place),))
-        total += (abs(_rational_part(trace)) - place.degree * place.weight) / 2
-    return total.numerator // total.denominator
+        degrees = {degree for _, degree in parts}
+        proposal = lifter.add(bundle, [[R] for R, _ in parts]) if len(degrees) == 1 else None
+        if proposal and (zeros := _polynomial_part(problem, proposal[0], degrees.pop())) is not None:
+            return Form(1, proposal[0], zeros)
+    raise AssertionError("the sequence of primes is infinite")
 
 
-def _rational_part(constant: Poly) -> Fraction:
-    """The first rational coordinate: a Q-linear map of the field onto Q that is the identity on Q."""
-    return to_fraction(constant.rational_coefficients()[0]) if constant else Fraction(0)
-
-
-def _trace(place: Place) -> Poly | None:
-    """The trace of the exponents' difference over the roots of the factor, up to sign; None if it isn't in K[x]/p."""
-    if place.delta is not None:
-        return place.factor.field.poly([place.delta * place.degree])
-    if place.kind is Kind.REGULAR:
-        if place.delta_squared is not None:
-            return trace_of_square_root(place.delta_squared, place.factor)
-        p = place.factor
-        cofactor = p.derivative() ** 2 * (place.den // p**2) % p
-        return trace_of_square_root((1 + 4 * place.num * cofactor.inverse_modulo(p)) % p, p)
-    return trace_of_square_root(_irregular_difference_squared(place), place.factor)
-
-
-def _irregular_difference_squared(place: Place) -> Poly:
-    """(b/a)^2 at an unramified irregular place, in K[x]/p: 4 s_0 rho^2, rho the coefficient of t^(nu-1) in sqrt(s/s_0).
-
-    Here S = s(t)/t^(2 nu) with t = x - c, c the class of x modulo p.
-    """
-    p, nu, field = place.factor, place.order // 2, place.factor.field
-    N = _taylor(place.num, p, nu)
-    E = _taylor(place.den, p, nu + place.order)[place.order :]
-    inverse = E[0].inverse_modulo(p)
-    s: list[Poly] = []
-    for i in range(nu):
-        value = N[i] - sum((E[j] * s[i - j] for j in range(1, i + 1)), field.poly([]))
-        s.append(value * inverse % p)
-    lead = s[0].inverse_modulo(p)
-    rho: list[Poly] = [field.poly([1])]
-    for i in range(1, nu):
-        value = s[i] * lead - sum((rho[j] * rho[i - j] for j in range(1, i)), field.poly([]))
-        rho.append(value * Fraction(1, 2) % p)
-    return 4 * s[0] * rho[nu - 1] ** 2 % p
-
-
-def _taylor(polynomial: Poly, p: Poly, count: int) -> list[Poly]:
-    """The first Taylor coefficients at the class of x in K[x]/p."""
-    coefficients, current = [], polynomial
-    for i in range(count):
-        coefficients.append(current % p)
-        current = current.derivative() * Fraction(1, i + 1)
-    return coefficients
+def _first_factor(D: Any, P: Any, X: Any, Y: Any) -> tuple[Any, int]:
+    """R and deg P1 of omega = R/D + P1'/P1, modulo p."""
+    zeros = P.gcd(X - Y)
+    omega, rest = divmod((X + Y) * pow(2, -1, D.modulus()), P // zeros)  # D P1 omega
+    R, remainder = divmod(omega - D * zeros.derivative(), zeros)
+    if rest or remainder:
+        raise BadPrimeError("zeros of the solutions meet modulo this prime")
+    return R, int(zeros.degree())
 
 
 def distinguishing_places(problem: Problem) -> list[Place]:
@@ -135,27 +85,32 @@ def distinguishing_places(problem: Problem) -> list[Place]:
 
 
 def _unique_omega(problem: Problem) -> Form | Evidence:
-    bound = largest_degree(problem)
-    if isinstance(bound, NecessaryCondition):
-        return bound
-    if bound < 0:
-        return NoRationalOmega(bound)
+    impossible = irrational_exponents(problem)
+    if impossible is not None:
+        return impossible
     place = distinguishing_places(problem)[0]
-    lifter, ladder = problem.field.lifter(), _ladder(bound)
+    lifter, degree, bound = problem.field.lifter(), None, None
     for bundle in problem.field.bundles():
         try:
-            parts = [_omega_modulo(h, problem, place, ladder) for h in bundle]
+            parts = [_omega_modulo(h, problem, place, _FIRST_DEGREES if degree is None else [degree]) for h in bundle]
+            if None in parts:
+                if bound is None:
+                    bound = largest_degree(problem)
+                if not isinstance(bound, int):
+                    return bound
+                if bound < 0:
+                    return NoRationalOmega(bound)
+                parts = [_omega_modulo(h, problem, place, _ladder(bound)) for h in bundle]
         except BadPrimeError:
             continue
         for h, part in zip(bundle, parts, strict=True):
             if part is None:
-                return NoRationalOmega(bound, h.p, str(place))
+                return NoRationalOmega(bound if isinstance(bound, int) else -1, h.p, str(place))
         images = [part for part in parts if part is not None]
         degrees = {d for _, d in images}
         if len(degrees) > 1:
             continue
         degree = degrees.pop()
-        ladder = [degree] if degree == bound else [degree, *_ladder(bound)]
         proposal = lifter.add(bundle, [[R] for R, _ in images])
         if proposal:
             P = _polynomial_part(problem, proposal[0], degree)
@@ -164,9 +119,13 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
     raise AssertionError("the sequence of primes is infinite")
 
 
+#: Degrees of P that are tried before their bound is computed, which can be the more expensive part.
+_FIRST_DEGREES = [8, 32]
+
+
 def _ladder(bound: int) -> list[int]:
     """Degrees to be tried for P: small ones first, for the bound is often far above the degree; the bound last."""
-    return [*(4**k for k in range(2, 32) if 4**k < bound), bound]
+    return [*(4**k for k in range(3, 32) if 4**k < bound), bound]
 
 
 def _omega_modulo(h: Homomorphism, problem: Problem, place: Place, degrees: list[int]) -> tuple[Any, int] | None:
@@ -193,4 +152,4 @@ def _polynomial_part(problem: Problem, R: Poly, degree: int) -> Poly | None:
     """The monic P of this degree with omega = R/D + P'/P: D P'' + 2 R P' + ((R' D - R D' + R^2 - T)/D) P = 0."""
     D = problem.D
     zeroth = (R.derivative() * D - R * D.derivative() + R * R - problem.T).exact_quotient(D)
-    return None if zeroth is None else polynomial_solution(D, 2 * R, zeroth, degree, problem.budget.check)
+    return None if zeroth is None else polynomial_solution(D.over(R.field), 2 * R, zeroth, degree, problem.budget.check)

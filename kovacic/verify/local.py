@@ -17,7 +17,7 @@ from kovacic.algebra.fields import BadPrimeError, Homomorphism
 from kovacic.algebra.modular import simple_roots, translate
 from kovacic.algebra.poly import Poly, to_fraction
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.traces import trace_of_square_root
+from kovacic.algebra.traces import is_provably_not_a_square, trace_of_square_root
 
 
 @dataclass(frozen=True)
@@ -140,12 +140,21 @@ def largest_degree(all_points: list[Point], logarithmic: set[str]) -> int | None
         if difference is not None:
             total -= n * (1 - difference) / 2
             continue
+        if is_provably_not_a_square(_square_class(point), point.factor):
+            return None
         trace = trace_of_square_root(_difference_squared(point), point.factor)
         if trace is None:
             return None
         rational = to_fraction(trace.rational_coefficients()[0]) if trace else Fraction(0)
         total -= (n * Fraction(max(point.order, 2), 2) - abs(rational)) / 2
     return total.numerator // total.denominator
+
+
+def _square_class(point: Point) -> Poly:
+    """Delta^2 at a regular point, a^2 at an irregular one, up to a square in K[x]/p."""
+    p, k = point.factor, point.order
+    lead = point.den // p**k % p * p.derivative() ** k
+    return lead * (point.num if k > 2 else lead + 4 * point.num) % p
 
 
 def _difference_squared(point: Point) -> Poly:

@@ -1,0 +1,100 @@
+"""How many zeros a solution with a unique rational omega can have, exactly, and when there can be no such solution.
+
+The exponents of the solution at the roots of a factor p are conjugate, (A +- sqrt g)/2 with g in K[x]/p, because omega is
+rational over K.  So g must be a square in K[x]/p, and the sum of the exponents over the roots follows from the trace of its
+root.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from kovacic.algebra.poly import Poly, to_fraction
+from kovacic.algebra.traces import is_provably_not_a_square, trace_of_square_root
+from kovacic.places import Kind, Place, Problem
+from kovacic.solution import NecessaryCondition, Rule
+
+
+def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
+    """A place at which the exponents provably aren't rational over the field of its roots, if one is found quickly."""
+    for place in problem.places:
+        if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED) and place.delta is None:
+            p = place.factor
+            bottom = _leading_coefficient(place)
+            top = place.num % p if place.kind is Kind.UNRAMIFIED else bottom + 4 * place.num
+            if is_provably_not_a_square(top * bottom % p, p):
+                return NecessaryCondition(Rule.NOT_A_SQUARE, (str(place),))
+    return None
+
+
+def _leading_coefficient(place: Place) -> Poly:
+    """E with S = num / (t^order E) to leading order at the class of x in K[x]/p."""
+    p = place.factor
+    return p.derivative() ** place.order * (place.den // p**place.order) % p
+
+
+def largest_degree(problem: Problem) -> int | NecessaryCondition:
+    """The largest degree that P can have for a unique omega = R/D + P'/P: d = 1 - sum of the exponents over all places.
+
+    The exponents at the roots of a factor are conjugate, (A +- sqrt g)/2 with g in K[x]/p, so their sum is bounded by the
+    trace of sqrt g [sec. 3.2 of Kovacic 1986 for the exponents].  Not rational over K[x]/p: omega doesn't exist.
+    """
+    total = Fraction(1)
+    for place in problem.places:
+        if place.kind is Kind.ORDINARY:
+            continue
+        if place.logarithm and place.delta is not None:
+            total -= place.degree * (1 + place.delta) / 2
+            continue
+        trace = _trace(place)
+        if trace is None:
+            return NecessaryCondition(Rule.NOT_A_SQUARE, (str(place),))
+        total += (abs(_rational_part(trace)) - place.degree * place.weight) / 2
+    return total.numerator // total.denominator
+
+
+def _rational_part(constant: Poly) -> Fraction:
+    """The first rational coordinate: a Q-linear map of the field onto Q that is the identity on Q."""
+    return to_fraction(constant.rational_coefficients()[0]) if constant else Fraction(0)
+
+
+def _trace(place: Place) -> Poly | None:
+    """The trace of the exponents' difference over the roots of the factor, up to sign; None if it isn't in K[x]/p."""
+    if place.delta is not None:
+        return place.factor.field.poly([place.delta * place.degree])
+    if place.kind is Kind.REGULAR:
+        if place.delta_squared is not None:
+            return trace_of_square_root(place.delta_squared, place.factor)
+        p = place.factor
+        return trace_of_square_root((1 + 4 * place.num * _leading_coefficient(place).inverse_modulo(p)) % p, p)
+    return trace_of_square_root(_irregular_difference_squared(place), place.factor)
+
+
+def _irregular_difference_squared(place: Place) -> Poly:
+    """(b/a)^2 at an unramified irregular place, in K[x]/p: 4 s_0 rho^2, rho the coefficient of t^(nu-1) in sqrt(s/s_0).
+
+    Here S = s(t)/t^(2 nu) with t = x - c, c the class of x modulo p.
+    """
+    p, nu, field = place.factor, place.order // 2, place.factor.field
+    N = _taylor(place.num, p, nu)
+    E = _taylor(place.den, p, nu + place.order)[place.order :]
+    inverse = E[0].inverse_modulo(p)
+    s: list[Poly] = []
+    for i in range(nu):
+        value = N[i] - sum((E[j] * s[i - j] for j in range(1, i + 1)), field.poly([]))
+        s.append(value * inverse % p)
+    lead = s[0].inverse_modulo(p)
+    rho: list[Poly] = [field.poly([1])]
+    for i in range(1, nu):
+        value = s[i] * lead - sum((rho[j] * rho[i - j] for j in range(1, i)), field.poly([]))
+        rho.append(value * Fraction(1, 2) % p)
+    return 4 * s[0] * rho[nu - 1] ** 2 % p
+
+
+def _taylor(polynomial: Poly, p: Poly, count: int) -> list[Poly]:
+    """The first Taylor coefficients at the class of x in K[x]/p."""
+    coefficients, current = [], polynomial
+    for i in range(count):
+        coefficients.append(current % p)
+        current = current.derivative() * Fraction(1, i + 1)
+    return coefficients
