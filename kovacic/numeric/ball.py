@@ -114,7 +114,8 @@ class Ball:
         return _contains_zero(self)
 
     def contains(self, number: object) -> bool:
-        """True if the number (int, Fraction, float, complex, Decimal, decimal text, mpmath or SymPy rational) lies in the ball.
+        """True if the number (int, Fraction, float, complex, Decimal, decimal text, mpmath or SymPy rational) lies in
+        the ball.
 
         A Ball is accepted as well: True if it lies in this one as a whole.
         """
@@ -205,7 +206,8 @@ def _contains_zero(ball: Ball) -> bool:
 
 
 def ball_from_flint(value: acb | arb) -> Ball | None:
-    """The ball around a flint ball (a disc around the rectangle of an acb); None where nothing is known (not finite)."""
+    """The ball around a flint ball (a disc around the rectangle of an acb); None where nothing is known (not
+    finite)."""
     from flint import acb, arb, ctx
 
     if isinstance(value, arb):

@@ -3,7 +3,8 @@
 The guarantee is that of route (b): the matrix of balls contains the exact transition matrix along the leg.
 
 A leg from a to b is carried by the closed form (E = exp int_a^x theta, followed continuously, see `exponential`):
-- case 1, omega = theta + P'/P: y = E P.  A second solution comes from the conjugate omega, or, where omega is unique, from
+- case 1, omega = theta + P'/P: y = E P.  A second solution comes from the conjugate omega, or, where omega is unique,
+from
   y int dx / y^2 (rigorous quadrature).
 - case 2, f = y1 y2 = E P, w^2 = 4 S f^2 - 2 f f'' + f'^2 (a constant):  y = sqrt(f) exp(+- w/2 int dx/f).
 - case 3: three roots of the polynomial of omega.  Two solutions with omega_i, omega_j have the Wronskian
@@ -11,11 +12,14 @@ A leg from a to b is carried by the closed form (E = exp int_a^x theta, followed
 
       y_i(b)^2 = g_ij g_ik / g_jk,    g_ij = (omega_i - omega_j)(a) / (omega_i - omega_j)(b):
 
-  no integral at all.  Which root of the polynomial at b continues which one at a, and the sign of the square root, are discrete
+  no integral at all.  Which root of the polynomial at b continues which one at a, and the sign of the square root,
+  are discrete
   data; they are read off route (b) at 15 to 40 digits.  Every digit of the value comes from the polynomial.
 
-The zeros of P are ordinary points of the equation, where this arrangement is singular in case 2 and for the second solution
-of case 1: the leg goes around them; where an end of the leg is (nearly) such a zero, a short Taylor step leads away from it.
+The zeros of P are ordinary points of the equation, where this arrangement is singular in case 2 and for the second
+solution
+of case 1: the leg goes around them; where an end of the leg is (nearly) such a zero, a short Taylor step leads away
+from it.
 """
 
 from __future__ import annotations
@@ -32,15 +36,17 @@ from kovacic.numeric.exponential import (
     continued_root,
     embed,
     integral,
+    sharp_roots,
     zeros,
 )
 from kovacic.numeric.points import Point, to_acb
 from kovacic.numeric.problem import NumericProblem
-from kovacic.numeric.singular import check_segment, distance_lower
-from kovacic.numeric.transport import Matrix, adjugate, multiply, piece_matrices, product
+from kovacic.numeric.singular import check_segment
+from kovacic.numeric.taylor import Matrix
+from kovacic.numeric.transport import adjugate, multiply, piece_matrices, product
 
 if TYPE_CHECKING:
-    from flint import acb, acb_poly
+    from flint import acb
 
 
 @dataclass(frozen=True)
@@ -168,7 +174,8 @@ def _pair_leg(closed: ClosedForm, a: Point, b: Point) -> Matrix:
 
 
 def _around_zeros(closed: ClosedForm, a: Point, b: Point) -> list[tuple[Point, Point, bool]]:
-    """Legs (start, stop, plain) that replace the segment: plain ones keep away from the zeros of P, the others are for route (b).
+    """Legs (start, stop, plain) that replace the segment: plain ones keep away from the zeros of P, the others are
+    for route (b).
 
     The detour stays in a strip beside the segment that contains no singular point, so it is homotopic to the segment.
     """
@@ -189,13 +196,13 @@ def _around_zeros(closed: ClosedForm, a: Point, b: Point) -> list[tuple[Point, P
             top = (a + side, b + side)
             if _clearance(roots, *top) < 1 / 256:
                 continue
-            legs = [(a, top[0], False), (*top, True), (top[1], b, False)]
-            return legs
+            return [(a, top[0], False), (*top, True), (top[1], b, False)]
     raise LimitExceeded("no way around the zeros of the closed form was found on this leg", limit="unknown_degree")
 
 
 def _clearance(roots: list[acb], a: Point, b: Point) -> float:
-    """A lower bound of the distance from the segment to the nearest root, as a share of the segment's length (0: unknown)."""
+    """A lower bound of the distance from the segment to the nearest root, as a share of the segment's length (0:
+    unknown)."""
     za, step = to_acb(a), to_acb(b - a)
     best = 1e300
     for root in roots:
@@ -226,7 +233,7 @@ def _algebraic_leg(closed: ClosedForm, a: Point, b: Point, prec: int, budget: Bu
     coefficients = closed.riccati.coefficients
     c = conjugates(coefficients[0].field)[0]
     at_a, at_b = (_riccati_roots(coefficients, c, to_acb(p)) for p in (a, b))
-    low = 60
+    low = 40
     while True:
         budget.check()
         with ctx.workprec(low + 40):
@@ -235,11 +242,13 @@ def _algebraic_leg(closed: ClosedForm, a: Point, b: Point, prec: int, budget: Bu
         if len(matched) >= 3:
             break
         low *= 2
-        if low > 8 * prec + 1000:
-            raise LimitExceeded("the roots of the polynomial of omega couldn't be told apart", limit="digits")
+        if low > prec:
+            return _unknown()
     (wa, wb, ya), (xa, xb, yb), (va, vb, _) = matched[:3]
     g12, g13, g23 = (wa - xa) / (wb - xb), (wa - va) / (wb - vb), (xa - va) / (xb - vb)
     y1, y2 = _signed((g12 * g13 / g23).sqrt(), ya), _signed((g12 * g23 / g13).sqrt(), yb)
+    if y1 is None or y2 is None:
+        return _unknown()
     at_start = (_one(), _one(), wa, xa)
     at_end = (y1, y2, y1 * wb, y2 * xb)
     return _quotient(at_end, at_start)
@@ -254,13 +263,15 @@ def _one() -> acb:
 def _riccati_roots(coefficients: tuple[Any, ...], c: acb | None, x: acb) -> list[acb]:
     from flint import acb_poly
 
-    values = [embed(r.num, c)(x) / embed(r.den, c)(x) for r in coefficients]
-    poly: acb_poly = acb_poly(values)
-    try:
-        roots: list[acb] = poly.roots()
-    except ValueError:
-        raise LimitExceeded("the roots of the polynomial of omega couldn't be isolated at this point", limit="digits") from None
-    return roots
+    return sharp_roots(acb_poly([embed(r.num, c)(x) / embed(r.den, c)(x) for r in coefficients]))
+
+
+def _unknown() -> Matrix:
+    """The matrix of which nothing is known: the caller raises the precision."""
+    from flint import acb
+
+    nothing = acb(float("nan"), float("nan"))
+    return nothing, nothing, nothing, nothing
 
 
 def _match(at_a: list[acb], at_b: list[acb], rough: Matrix) -> list[tuple[acb, acb, acb]]:
@@ -277,13 +288,13 @@ def _match(at_a: list[acb], at_b: list[acb], rough: Matrix) -> list[tuple[acb, a
     return found
 
 
-def _signed(root: acb, rough: acb) -> acb:
-    """The square root that is near the rough value."""
+def _signed(root: acb, rough: acb) -> acb | None:
+    """The square root that is near the rough value; None where that can't be told."""
     if root.overlaps(rough) and not (-root).overlaps(rough):
         return root
     if (-root).overlaps(rough) and not root.overlaps(rough):
         return -root
-    raise LimitExceeded("the sign of a square root couldn't be told", limit="digits")
+    return None
 
 
 @dataclass(frozen=True)

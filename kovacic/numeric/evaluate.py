@@ -1,7 +1,9 @@
 """Numerical values of solutions as enclosures: one point, many points, complex paths, any number of digits.
 
-The guarantee: the exact value of the solution (in its homotopy class of paths) lies in the returned ball.  The radius is at most
-10^-digits relative to the value, unless the problem forbids it (a value that is zero or can't be told from zero, initial values
+The guarantee: the exact value of the solution (in its homotopy class of paths) lies in the returned ball.  The radius
+is at most
+10^-digits relative to the value, unless the problem forbids it (a value that is zero or can't be told from zero,
+initial values
 that are balls themselves, a limit that was reached); then the ball is wide and an `AccuracyWarning` says why.
 
 Two independent routes: "taylor" (the equation itself, `kovacic.numeric.transport`; every S) and "closed form"
@@ -13,6 +15,7 @@ precision of flint is set inside `flint.ctx.workprec` only, so an interruption l
 
 from __future__ import annotations
 
+import itertools
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -23,7 +26,8 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.numeric.ball import Ball, ball_from_flint, ball_to_flint
 from kovacic.numeric.points import Point, as_point, to_acb
 from kovacic.numeric.problem import NumericProblem, as_problem
-from kovacic.numeric.transport import Matrix, apply, identity, multiply, piece_matrices
+from kovacic.numeric.taylor import Matrix
+from kovacic.numeric.transport import apply, identity, multiply, piece_matrices
 
 if TYPE_CHECKING:
     from flint import acb
@@ -40,7 +44,8 @@ class AccuracyWarning(UserWarning):
 class Evaluation:
     """The solution at one point: enclosures of y and y', and how they were obtained.
 
-    `reached` says whether the relative radius of y is at most 10^-digits; if not, `note` says why.  `bits` is the working precision of
+    `reached` says whether the relative radius of y is at most 10^-digits; if not, `note` says why.  `bits` is the
+    working precision of
     the run that gave the enclosures, `runs` the number of runs (the precision was raised runs - 1 times).
     """
 
@@ -63,7 +68,8 @@ class Route(Protocol):
 
 @dataclass(frozen=True)
 class Itinerary:
-    """Where to go: the polygon `trunk` from x0, then from its end a straight line to each target, or (`chain`) from target to target."""
+    """Where to go: the polygon `trunk` from x0, then from its end a straight line to each target, or (`chain`) from
+    target to target."""
 
     trunk: tuple[Point, ...]
     targets: tuple[Point, ...]
@@ -84,12 +90,16 @@ def evaluate(
 ) -> Ball | tuple[Ball, ...]:
     """The solution with y(x0) = y0, y'(x0) = dy0 at x: a ball that contains the exact value.
 
-    `equation` is S (text, SymPy expression, rational function, or a pair of coefficient lists from low to high, of y'' = S y), an
-    equation a z'' + b z' + c z = 0, or a solution of this package.  `x` is a number or a sequence of numbers (a tuple of balls is returned, in
-    the same order).  Numbers are exact: int, Fraction, float and complex (their binary values), Decimal and decimal text,
+    `equation` is S (text, SymPy expression, rational function, or a pair of coefficient lists from low to high, of
+    y'' = S y), an
+    equation a z'' + b z' + c z = 0, or a solution of this package.  `x` is a number or a sequence of numbers (a tuple
+    of balls is returned, in
+    the same order).  Numbers are exact: int, Fraction, float and complex (their binary values), Decimal and decimal
+    text,
     mpmath and SymPy numbers; y0 and dy0 may be balls as well.
 
-    The path is the straight line from x0 to each x; `path=[v1, v2, ...]` goes through these vertices first; `path="chain"` visits the
+    The path is the straight line from x0 to each x; `path=[v1, v2, ...]` goes through these vertices first;
+    `path="chain"` visits the
     points of x one after the other.  A path through a singular point is refused.
 
     Raises InputError (a singular point at an end or on the path, with its distance; digits out of range; a number that
@@ -141,7 +151,8 @@ def transition_matrix(
 ) -> tuple[tuple[Ball, Ball], tuple[Ball, Ball]]:
     """Balls around the matrix that carries (y, y') along the polygon through `vertices` (determinant 1), for y'' = S y.
 
-    The radii are at most 10^-digits relative to the largest entry, unless a limit is reached first (then LimitExceeded).
+    The radii are at most 10^-digits relative to the largest entry, unless a limit is reached first (then
+    LimitExceeded).
 
     >>> ((a, b), (c, d)) = transition_matrix(([1], [1]), [0, 1])   # cosh, sinh
     >>> float(a), float(b)
@@ -160,7 +171,7 @@ def transition_matrix(
     while True:
         with ctx.workprec(prec + 40):
             stack = Prefix()
-            for a, b in zip(polygon, polygon[1:], strict=False):
+            for a, b in itertools.pairwise(polygon):
                 for matrix in piece_matrices(problem.system, a, b, prec, budget):
                     stack.push(matrix)
             total = stack.product()
@@ -218,7 +229,8 @@ def initial_ball(value: Point | Ball) -> acb:
 
 
 class Prefix:
-    """Products M_k ... M_1 while k grows: a binary counter of partial products, so that every prefix is O(log k) factors."""
+    """Products M_k ... M_1 while k grows: a binary counter of partial products, so that every prefix is O(log k)
+    factors."""
 
     def __init__(self) -> None:
         self._parts: list[tuple[int, Matrix]] = []  # sizes are falling powers of two, the earliest factors first
@@ -363,17 +375,22 @@ def _missing_bits(y: acb, digits: int, prec: int) -> int:
 def _stalled(previous: tuple[Evaluation, ...], found: tuple[Evaluation, ...]) -> bool:
     """True if the radii of what isn't reached no longer shrink: the initial values are balls."""
     pairs = [(p.y, f.y) for p, f in zip(previous, found, strict=True) if not f.reached]
-    return bool(pairs) and all(f.rad[0] != 0 and 2 * f.digits < p.digits + f.digits + 0.5 for p, f in pairs if not f.contains_zero()) and not any(
-        f.contains_zero() and f.rad[1] + f.rad[0].bit_length() < p.rad[1] + p.rad[0].bit_length() - 2 for p, f in pairs
+    return (
+        bool(pairs)
+        and all(f.rad[0] != 0 and 2 * f.digits < p.digits + f.digits + 0.5 for p, f in pairs if not f.contains_zero())
+        and not any(
+            f.contains_zero() and f.rad[1] + f.rad[0].bit_length() < p.rad[1] + p.rad[0].bit_length() - 2
+            for p, f in pairs
+        )
     )
 
 
 def _reason(result: Evaluation) -> str:
     if result.y.contains_zero():
-        return (
-            f"the value can't be told from zero (|y| < {result.y!s}): no relative accuracy was reached; the ball is right"
-        )
-    return f"only {max(0.0, result.y.digits):.1f} of {result.digits} digits: the initial values or the limits allow no more"
+        return f"the value can't be told from zero (|y| < {result.y!s}): no relative accuracy was reached; the ball is
+        right"
+    return f"only {max(0.0, result.y.digits):.1f} of {result.digits} digits: the initial values or the limits allow no
+    more"
 
 
 def _with_note(result: Evaluation, note: str) -> Evaluation:

@@ -1,9 +1,12 @@
-"""exp(int theta) for rational theta, in balls: partial fractions, with powers and logarithms followed along straight legs.
+"""exp(int theta) for rational theta, in balls: partial fractions, with powers and logarithms followed along straight
+legs.
 
 The guarantee: `growth(a, b)` contains exp(int_a^b theta dx) along the straight segment, if it returns.
 
-The mathematics.  theta = q(x) + sum_zeta sum_k r_(zeta,k) / (x - zeta)^k.  Along a straight segment from a that doesn't meet zeta the quotient
-(x - zeta)/(a - zeta) starts at 1 and never meets the negative real axis (it lies on a line through 1 that misses 0), so its
+The mathematics.  theta = q(x) + sum_zeta sum_k r_(zeta,k) / (x - zeta)^k.  Along a straight segment from a that
+doesn't meet zeta the quotient
+(x - zeta)/(a - zeta) starts at 1 and never meets the negative real axis (it lies on a line through 1 that misses 0),
+so its
 *principal* logarithm is the continuous one: no branch has to be chosen, and none can be chosen wrongly.
 
 Symbols: c, the root of the field's modulus that constants are embedded by.
@@ -31,10 +34,10 @@ def conjugates(field: Any) -> list[acb | None]:
     return [root for root, _ in _integer_polynomial(modulus).complex_roots()]
 
 
-def _integer_polynomial(poly: Poly) -> Any:
+def _integer_polynomial(poly: Any) -> Any:
     from flint import fmpq, fmpq_poly
 
-    values = [Fraction(c) for c in poly.coefficients()]  # type: ignore[attr-defined]
+    values = [Fraction(c) for c in poly.coefficients()]
     return fmpq_poly([fmpq(v.numerator, v.denominator) for v in values]).numer()
 
 
@@ -60,11 +63,27 @@ def zeros(poly: Poly, c: acb | None) -> list[tuple[acb, int]]:
         return [(root, int(k)) for root, k in _integer_polynomial(poly).complex_roots()]
     result = []
     for factor, k in _squarefree(poly):
-        if all(part.degree < 1 for part in factor.monic().parts[1:]) and all(not part for part in factor.monic().parts[1:]):
+        if all(part.degree < 1 for part in factor.monic().parts[1:]) and all(
+            not part for part in factor.monic().parts[1:]
+        ):
             result += [(root, k) for root, _ in _integer_polynomial(factor.monic().parts[0]).complex_roots()]
         else:
-            result += [(root, k) for root in embed(factor, c).roots()]
+            result += [(root, k) for root in sharp_roots(embed(factor, c))]
     return result
+
+
+def sharp_roots(poly: acb_poly) -> list[acb]:
+    """All zeros of a squarefree polynomial, isolated and refined; an empty list where the coefficients don't allow
+    it."""
+    from flint import arb, ctx
+
+    for share in (0.9, 0.6, 0.3):
+        try:
+            roots: list[acb] = poly.roots(tol=arb(2) ** -int(ctx.prec * share), maxprec=4 * ctx.prec)
+        except ValueError:
+            continue
+        return roots
+    return []
 
 
 def _squarefree(poly: Any) -> list[tuple[Any, int]]:

@@ -1,4 +1,5 @@
-"""What is to be evaluated: S as a system with integer coefficients, the gauge of an equation, a decision where there is one."""
+"""What is to be evaluated: S as a system with integer coefficients, the gauge of an equation, a decision where there
+is one."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ class NumericProblem:
 
 
 def as_problem(equation: object) -> NumericProblem:
-    """The numerical problem that `equation` stands for; see `kovacic.numeric.evaluate.evaluate` for what is accepted."""
+    """The numerical problem that `equation` stands for; see `kovacic.numeric.evaluate.evaluate` for what is
+    accepted."""
     if isinstance(equation, NumericProblem):
         return equation
     if isinstance(equation, System):
@@ -57,5 +59,7 @@ def _from_ratfunc(S: Any) -> System:
     try:
         num, den = ([Fraction(c) for c in part.coefficients()] for part in (S.num, S.den))
     except (AttributeError, TypeError):
-        raise InputError("numerical evaluation needs S with rational coefficients (no parameters, no algebraic constants)") from None
+        raise InputError(
+            "numerical evaluation needs S with rational coefficients (no parameters, no algebraic constants)"
+        ) from None
     return System.make(*_integers(num, den))

@@ -1,7 +1,8 @@
 """The equation den y'' = num y with integer coefficients, and rigorous enclosures of its singular points.
 
 Symbols: S = num/den; zeta_i the zeros of den (the singular points), eta_j the zeros of num.  The zeros are enclosed by
-FLINT's certified isolation (`fmpz_poly.complex_roots`: pairwise disjoint rectangles, one zero in each) and refined when a
+FLINT's certified isolation (`fmpz_poly.complex_roots`: pairwise disjoint rectangles, one zero in each) and refined
+when a
 distance cannot be told from zero.  Whether a path meets a singular point is decided exactly, by Sturm-free real root
 isolation of the common factor of two polynomials over Q.
 """
@@ -60,7 +61,8 @@ class System:
         object.__setattr__(self, "_cache", {})
 
     def roots(self, which: str, prec: int) -> tuple[tuple[acb, int], ...]:
-        """Enclosures of the zeros of "num" or "den" at about `prec` bits, with multiplicities (kept for the next call)."""
+        """Enclosures of the zeros of "num" or "den" at about `prec` bits, with multiplicities (kept for the next
+        call)."""
         from flint import ctx, fmpz_poly
 
         level = 64
@@ -148,7 +150,8 @@ def _float(value: object, shift: int) -> float:
 
 
 def distance_lower(system: System, centre: Point) -> tuple[float, int] | None:
-    """A proven lower bound (d, e), d 2^e with d > 0, of the distance to the nearest singular point; None if there is none."""
+    """A proven lower bound (d, e), d 2^e with d > 0, of the distance to the nearest singular point; None if there is
+    none."""
     best: tuple[float, int] | None = None
     for d, error, e, _ in offsets(system, "den", centre) or ():
         lower = (abs(d) - error) * (1 - 2.0**-45)
@@ -173,7 +176,8 @@ def check_segment(system: System, a: Point, b: Point) -> None:
     if hit is not None:
         where, along = hit
         raise InputError(
-            f"the path from {a} to {b} runs through the singular point near {where} (distance 0; {along:.6g} from the start)",
+            f"the path from {a} to {b} runs through the singular point near {where} (distance 0; {along:.6g} from the
+            start)",
             hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
             "the result depends on the side",
         )

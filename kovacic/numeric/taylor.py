@@ -8,19 +8,25 @@ dyadic, so nothing is rounded).  The recurrence for the coefficients,
 
     q_0 (n+2)(n+1) a_(n+2) = sum_j p_j a_(n-j) - sum_(j>=1) q_j (n+2-j)(n+1-j) a_(n+2-j),
 
-runs in fixed point, with integers A_n for a_n 2^w and division with remainder.  So the defect r = q Y'' - p Y of the polynomial
-Y = sum A_n 2^-w u^n is known: its coefficients are those remainders, smaller than the divisors, and a few more at the end that consist
+runs in fixed point, with integers A_n for a_n 2^w and division with remainder.  So the defect r = q Y'' - p Y of the
+polynomial
+Y = sum A_n 2^-w u^n is known: its coefficients are those remainders, smaller than the divisors, and a few more at the
+end that consist
 of the last A_n only.  Nothing is assumed about the stability of the recurrence.  The error e = y - Y satisfies
 
     q e'' = p e - r,   e(0) = e'(0) = 0.
 
-Along the ray from 0 to u, |e''| <= sigma |e| + rho with sigma >= |p/q|, rho >= |r/q|, piecewise constant; so |e| and |e'| stay
-below the solution of z'' = sigma z + rho (a Volterra inequality with a positive kernel, iterated).  This majorant covers the
+Along the ray from 0 to u, |e''| <= sigma |e| + rho with sigma >= |p/q|, rho >= |r/q|, piecewise constant; so |e| and
+|e'| stay
+below the solution of z'' = sigma z + rho (a Volterra inequality with a positive kernel, iterated).  This majorant
+covers the
 truncation of the series and every rounding at once, and is sharp where classical majorant series are not: the
-coefficients of 1/q never enter with absolute values.  The bounds of |p/q| and 1/|q| on the pieces come from the enclosed zeros.
+coefficients of 1/q never enter with absolute values.  The bounds of |p/q| and 1/|q| on the pieces come from the
+enclosed zeros.
 
 Rounding of the bounds themselves: they are computed in double precision on positive quantities, and every one is
-multiplied by 1 + 2^-20, which exceeds the rounding errors of the at most some thousand operations by orders of magnitude.
+multiplied by 1 + 2^-20, which exceeds the rounding errors of the at most some thousand operations by orders of
+magnitude.
 
 Symbols: c centre, H = h 2^e scale, u = (x - c)/H, w bits after the binary point, N the number of terms.
 
@@ -60,7 +66,8 @@ _FAR = 900
 class Frame:
     """The equation seen from a centre: x = c + H u, H = h 2^e with a small integer h.
 
-    `poles` and `zeros` are those of S in the variable u (None: not isolated); `log2_lead` is log2 |H^2 lc(num)/lc(den) H^(dn-dd)|, so
+    `poles` and `zeros` are those of S in the variable u (None: not isolated); `log2_lead` is log2 |H^2
+    lc(num)/lc(den) H^(dn-dd)|, so
     that |H^2 S(c + H u)| = 2^log2_lead prod |u - zero| / (2^far_poles prod |u - pole|).
     """
 
@@ -94,7 +101,9 @@ def _in_scale(items: tuple[tuple[complex, float, int, int], ...], h: int, e: int
     result, far = [], 0
     for d, error, k, multiplicity in items:
         shift = k - e
-        if shift > _FAR:  # brought nearer by a power of two, which is kept apart: seen from |u| <= 1 only the size matters
+        if (
+            shift > _FAR
+        ):  # brought nearer by a power of two, which is kept apart: seen from |u| <= 1 only the size matters
             far += multiplicity * (shift - _FAR)
             shift = _FAR
         if shift < -_FAR:
@@ -111,7 +120,8 @@ def _log2(value: int) -> float:
 
 @dataclass(frozen=True)
 class RayBound:
-    """Bounds along the ray from 0 to u: `growth` bounds |e|, |e'| at u for a defect |r/q| <= 1; `log2_min_q` is relative to lc(q)."""
+    """Bounds along the ray from 0 to u: `growth` bounds |e|, |e'| at u for a defect |r/q| <= 1; `log2_min_q` is
+    relative to lc(q)."""
 
     gain: float
     gain_derivative: float
@@ -122,7 +132,8 @@ class RayBound:
 def ray_bound(frame: Frame, u: complex, log2_norm_p: float | None = None) -> RayBound | None:
     """Bounds of S and 1/q along the ray 0..u; None if a pole can't be excluded from it or the growth exceeds 2^900.
 
-    `log2_norm_p` (log2 of sum |p_j|, relative to |lc(q)|) replaces the zeros of the numerator where they are not isolated.
+    `log2_norm_p` (log2 of sum |p_j|, relative to |lc(q)|) replaces the zeros of the numerator where they are not
+    isolated.
     """
     step = 1.0 / _PIECES
     length = abs(u) * _SLACK
@@ -181,7 +192,8 @@ def _log_error(logs: list[float]) -> float:
 
 @dataclass(frozen=True)
 class Shifted:
-    """q y'' = p y over Z[i] in the variable u: real and imaginary coefficients (imaginary parts None for real centres)."""
+    """q y'' = p y over Z[i] in the variable u: real and imaginary coefficients (imaginary parts None for real
+    centres)."""
 
     p: tuple[list[int], list[int] | None]
     q: tuple[list[int], list[int] | None]
@@ -279,7 +291,8 @@ def log2_lead(parts: Parts) -> float:
 
 
 def expand(system: System, frame: Frame, prec: int, bound: RayBound, budget: Budget) -> Expansion:
-    """Both columns at `frame` so that the error on rays within `bound` should be about 2^-prec (what it is, `transition` says)."""
+    """Both columns at `frame` so that the error on rays within `bound` should be about 2^-prec (what it is,
+    `transition` says)."""
     shifted = shift_system(system, frame)
     lead = log2_lead(shifted.q)
     loss = max(0.0, log2_norm(shifted.q) - lead - bound.log2_min_q)
@@ -385,8 +398,10 @@ def _as_polys(re: list[Any], im: list[Any] | None) -> tuple[fmpz_poly, fmpz_poly
 def _proven_defect(p: Parts, q: Parts, excess: int, re: list[Any], im: list[Any] | None, small: int) -> int:
     """A bound of sum |r_n| 2^w for the column, r = q Y'' - p Y with the untrimmed coefficients.
 
-    With N terms and D_n = q_0 (n+1)(n+2): r_n is the remainder of the n-th division for n <= N - 3, below sqrt(2) D_n, and
-    sum D_n <= q_0 N^3 / 2; for n >= N - 2 it involves the last terms only, all below `small` in both parts when the recurrence
+    With N terms and D_n = q_0 (n+1)(n+2): r_n is the remainder of the n-th division for n <= N - 3, below sqrt(2)
+    D_n, and
+    sum D_n <= q_0 N^3 / 2; for n >= N - 2 it involves the last terms only, all below `small` in both parts when the
+    recurrence
     stopped.  A trimmed coefficient is off by less than 2^excess in both parts.
     """
     n = len(re)

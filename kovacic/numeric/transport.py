@@ -1,20 +1,26 @@
 """Transition matrices of y'' = S y along polygonal paths: discs, junctions, and a product tree.
 
-The guarantee: `transport` returns balls that contain the exact analytic continuation along the path (in its homotopy class
+The guarantee: `transport` returns balls that contain the exact analytic continuation along the path (in its homotopy
+class
 in the plane without the singular points), or raises.
 
-A straight piece from a to b is covered by discs.  Disc i has a dyadic centre c_i beside or on the piece and is free of singular points; it
-contains the junctions s_i and s_(i+1) of the piece, so it contains the part of the piece between them (discs are convex), and
-the matrix from s_i to s_(i+1) is E_i(s_(i+1)) E_i(s_i)^-1 with the expansion E_i at c_i; the inverse is the adjugate, since
+A straight piece from a to b is covered by discs.  Disc i has a dyadic centre c_i beside or on the piece and is free
+of singular points; it
+contains the junctions s_i and s_(i+1) of the piece, so it contains the part of the piece between them (discs are
+convex), and
+the matrix from s_i to s_(i+1) is E_i(s_(i+1)) E_i(s_i)^-1 with the expansion E_i at c_i; the inverse is the adjugate,
+since
 det = 1 exactly.  Products are formed as a balanced tree: with k factors one after the other ball arithmetic would lose
 up to k bits ("wrapping"), the tree loses O(log k).
 
-Step size: half the distance from the centre to the nearest singular point (the terms then fall like 2^-n on both sides), and less
+Step size: half the distance from the centre to the nearest singular point (the terms then fall like 2^-n on both
+sides), and less
 where the solutions grow by more than a fixed share of the working precision.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 from fractions import Fraction
@@ -52,7 +58,8 @@ _MAX_DISCS = 200_000
 
 @dataclass(frozen=True)
 class Disc:
-    """One expansion: its frame, the junctions where it is entered and left, and the parameter t in [0, 1] of the latter.
+    """One expansion: its frame, the junctions where it is entered and left, and the parameter t in [0, 1] of the
+    latter.
 
     A junction is a short dyadic point beside the point a + t (b - a) of the piece; the disc contains both.
     """
@@ -104,17 +111,23 @@ def product(matrices: list[Matrix]) -> Matrix:
 
 
 def piece_matrices(system: System, a: Point, b: Point, prec: int, budget: Budget) -> list[Matrix]:
-    """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about 2^-prec)."""
+    """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about
+    2^-prec)."""
     step = b - a
     if step.norm_squared() == 0:
         return []
     check_segment(system, a, b)
     result: list[Matrix] = []
+    piece = Piece(a, b)
     t, enter = Fraction(0), a
     guess: int | None = None
     while t < 1:
         budget.check()
-        disc = _next_disc(system, Piece(a, b), t, enter, prec, guess)
+        disc = _next_disc(system, piece, t, enter, prec, guess)
+        if disc is None:  # the junction beside the path is too far from it for a disc that fits: back to the path
+            result += piece_matrices(system, enter, piece.at(t), prec, budget)
+            enter = piece.at(t)
+            continue
         guess = disc.frame.e
         frame = disc.frame
         expansion = expand(system, frame, prec, disc.bound, budget)
@@ -160,8 +173,12 @@ class Piece:
         return self.b if t == 1 else self.a + self.step.scaled(t)
 
 
-def _next_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int, guess: int | None) -> Disc:
-    """The disc that is entered at the parameter t: as large as the singular points and the growth of the solutions allow."""
+def _next_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int, guess: int | None) -> Disc | None:
+    """The disc that is entered at the parameter t: as large as the singular points and the growth of the solutions
+    allow.
+
+    None if the junction `enter` lies off the path and no disc down to an eighth of the last one contains both.
+    """
     remaining = (1 - t) ** 2 * piece.step.norm_squared()
     e = _exponent(remaining)
     if guess is not None:
@@ -174,11 +191,14 @@ def _next_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: in
         if disc is not None:
             return disc
         e -= 1
+        if guess is not None and e < guess - 3 and enter != piece.at(t):
+            return None
     raise LimitExceeded("no disc of positive size was found for the next step", limit="unknown_degree")
 
 
 def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int, e: int) -> Disc | None:
-    """The disc of scale 2^e entered at t, its centre ahead by one scale (half way to the end if that's within reach); None if it doesn't fit."""
+    """The disc of scale 2^e entered at t, its centre ahead by one scale (half way to the end if that's within reach);
+    None if it doesn't fit."""
     step, unit = piece.step, Fraction(2) ** e
     size = step.norm_squared()
     last = (1 - t) ** 2 * size <= (2 * unit) ** 2 * Fraction(9, 10)
@@ -210,7 +230,7 @@ def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int
     for point in (enter, leave):
         u = (point - centre).scaled(1 / unit)
         bound = ray_bound(frame, complex(float(u.re), float(u.im)), norm_p)
-        if bound is None or bound.log2_growth > max(6.0, prec * _GROWTH):
+        if bound is None or bound.log2_growth > max(100.0, prec * _GROWTH):
             return None
         bounds.append(bound)
     worst = RayBound(
@@ -225,7 +245,7 @@ def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int
 def _fits(near: tuple[float, int], e: int) -> bool:
     """True if 2^e <= ratio * distance (the ratio may be exceeded by a quarter: powers of two only)."""
     shift = near[1] - e
-    return shift > 1000 or (shift > -1000 and 1 <= _RATIO * 1.25 * math.ldexp(near[0], shift))
+    return shift > 1000 or (shift > -1000 and _RATIO * 1.25 * math.ldexp(near[0], shift) >= 1)
 
 
 def _exponent(square: Fraction) -> int:
@@ -256,6 +276,6 @@ def _rounded(point: Point, e: int) -> Point:
 def transport(system: System, vertices: list[Point], prec: int, budget: Budget) -> Matrix:
     """Enclosure of the transition matrix along the polygon; call it within `flint.ctx.workprec(prec + some)`."""
     matrices: list[Matrix] = []
-    for a, b in zip(vertices, vertices[1:], strict=False):
+    for a, b in itertools.pairwise(vertices):
         matrices.extend(piece_matrices(system, a, b, prec, budget))
     return product(matrices)

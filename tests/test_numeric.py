@@ -1,0 +1,389 @@
+"""Enclosures: every value is computed in two ways, and the ball must be right as well as small."""
+
+from __future__ import annotations
+
+import math
+import pickle
+import random
+from decimal import Decimal
+from fractions import Fraction
+
+import flint
+import mpmath
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import Budget, Limits
+from kovacic.numeric.ball import Ball, ball_from_flint, ball_to_flint
+from kovacic.numeric.evaluate import AccuracyWarning, evaluate, evaluate_states, transition_matrix
+from kovacic.numeric.points import Point, as_point
+from kovacic.numeric.singular import System, check_segment, distance_lower
+from kovacic.numeric.taylor import make_frame, ray_bound, shift_system
+from kovacic.numeric.transport import piece_matrices, product
+
+AIRY = ([0, 1], [1])
+
+
+def as_mp(value: Fraction) -> mpmath.mpf:
+    return mpmath.mpf(value.numerator) / value.denominator
+
+
+def mp_close(ball: Ball, reference: mpmath.mpf, digits: int) -> bool:
+    """The reference (accurate to some 10 digits more than asked) lies in the ball, up to its own error."""
+    with mpmath.workdps(digits + 30):
+        middle = mpmath.mpc(*(as_mp(part) for part in ball.midpoint))
+        return bool(abs(middle - reference) <= ball.radius + abs(reference) * mpmath.mpf(10) ** (-digits - 8))
+
+
+# --- balls -----------------------------------------------------------------------------------------------------------
+
+
+@given(st.integers(), st.integers(-200, 200), st.integers(0), st.integers(-300, 100))
+def test_balls_survive_the_way_through_flint_and_pickle(m: int, e: int, r: int, k: int) -> None:
+    with flint.ctx.workprec(2000):
+        ball = ball_from_flint(flint.arb((m, e), (r, k)))
+        assert ball is not None
+        again = ball_from_flint(ball_to_flint(ball))
+    assert pickle.loads(pickle.dumps(ball)) == ball
+    assert again is not None
+    assert again.contains(ball)
+    assert again.radius <= ball.radius * (1 + 2.0**-20)  # flint's radii have 30 bits and are rounded outwards
+    middle = ball.midpoint[0]
+    assert middle == Fraction(m) * Fraction(2) ** e
+    assert ball.contains(middle)
+    assert Fraction(r) * Fraction(2) ** k <= Fraction(ball.radius)
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_a_float_goes_through_a_ball_unchanged(value: float) -> None:
+    point = as_point(value, "x").re
+    ball = Ball.exact(point.numerator, -(point.denominator.bit_length() - 1))
+    assert float(ball) == value
+    assert ball.to_mpmath() == mpmath.mpf(value)
+
+
+def test_the_nearest_double_is_taken_even_far_below_the_last_bit() -> None:
+    tie_and_a_bit = Ball.exact((1 << 200) + (1 << 147) + 1)  # above the tie between two doubles by one unit
+    assert float(tie_and_a_bit) == float((1 << 200) + (1 << 147) + 1)
+    assert Ball((0, 0), rad=(1, -5000)).radius > 0
+
+
+def test_a_complex_ball_isnt_a_float_and_overlap_is_symmetric() -> None:
+    z = Ball((1, 0), (1, 0), (1, -10), False)
+    with pytest.raises(TypeError):
+        float(z)
+    assert complex(z) == 1 + 1j
+    assert z.overlaps(Ball.exact(1)) is Ball.exact(1).overlaps(z) is False
+    assert Ball((0, 0), rad=(1, 0)).contains(Ball((1, -1), rad=(1, -1)))
+    assert not Ball((0, 0), rad=(1, 0)).contains(Ball((1, -1), rad=(3, -2)))
+
+
+# --- exact points ----------------------------------------------------------------------------------------------------
+
+
+def test_numbers_of_every_kind_are_read_exactly() -> None:
+    import numpy as np
+    import sympy
+
+    third = Fraction(1, 3)
+    same = [third, "1/3", sympy.Rational(1, 3), flint.fmpq(1, 3)]
+    assert {as_point(v, "x") for v in same} == {Point(third)}
+    assert as_point("0.1", "x").re == as_point(Decimal("0.1"), "x").re == Fraction(1, 10)
+    assert as_point(0.1, "x").re == as_point(np.float64(0.1), "x").re == Fraction(0.1) != Fraction(1, 10)
+    assert as_point(mpmath.mpf("0.5"), "x") == as_point(sympy.Float(0.5), "x") == Point(Fraction(1, 2))
+    assert as_point(mpmath.mpc(1, 2), "x") == as_point(1 + 2 * sympy.I, "x") == as_point(1 + 2j, "x")
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        math.nan,
+        math.inf,
+        complex(0, math.inf),
+        "1e999999999",
+        "abc",
+        "__import__('os')",
+        "1/0",
+        None,
+        [],
+        True,
+        Decimal("NaN"),
+        mpmath.mpf("inf"),
+        Ball((1, 0), rad=(1, -3)),
+    ],
+)
+def test_what_isnt_an_exact_finite_number_is_refused(bad: object) -> None:
+    with pytest.raises(InputError):
+        as_point(bad, "x")
+
+
+# --- the kernel ------------------------------------------------------------------------------------------------------
+
+
+@given(
+    st.lists(st.integers(-50, 50), min_size=1, max_size=7),
+    st.fractions(-8, 8, max_denominator=64),
+    st.fractions(-8, 8, max_denominator=64),
+    st.integers(-5, 3),
+)
+def test_the_shifted_equation_is_the_equation(num: list[int], re: Fraction, im: Fraction, e: int) -> None:
+    system = System.make(tuple(num), (7, -2, 0, 3))
+    re, im = Fraction(round(re * 64), 64), Fraction(round(im * 64), 64)
+    centre = Point(re, im)
+    if system.is_singular(centre):
+        return
+    frame = make_frame(system, centre, 3, e)
+    shifted = shift_system(system, frame)
+
+    def at(parts: tuple[list[int], list[int] | None], u: Point) -> Point:
+        total = Point(Fraction(0))
+        imaginary = parts[1] or [0] * len(parts[0])
+        for a, b in zip(reversed(parts[0]), reversed(imaginary), strict=True):
+            total = total * u + Point(Fraction(a), Fraction(b))
+        return total
+
+    def original(coefficients: tuple[int, ...], x: Point) -> Point:
+        total = Point(Fraction(0))
+        for c in reversed(coefficients):
+            total = total * x + Point(Fraction(c))
+        return total
+
+    u = Point(Fraction(2, 5), Fraction(1, 7))
+    x = centre + u.scaled(frame.scale)
+    left = at(shifted.p, u) * original(system.den, x)
+    right = (at(shifted.q, u) * original(system.num, x)).scaled(frame.scale**2)
+    assert left == right
+    assert shifted.q[0][0] > 0
+    assert shifted.q[1] is None or shifted.q[1][0] == 0
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_bounds_along_a_ray_hold_at_its_points(seed: int) -> None:
+    rng = random.Random(seed)
+    system = random_system(rng)
+    centre = Point(Fraction(rng.randint(-16, 16), 8), Fraction(rng.randint(-16, 16), 8))
+    if system.is_singular(centre):
+        return
+    frame = make_frame(system, centre, 1, rng.randint(-6, 0))
+    u = 0.9 * complex(math.cos(seed), math.sin(seed))
+    bound = ray_bound(frame, u)
+    if bound is None:
+        return
+    shifted = shift_system(system, frame)
+    q = [complex(a, b) for a, b in zip(shifted.q[0], shifted.q[1] or [0] * len(shifted.q[0]), strict=True)]
+    p = [complex(a, b) for a, b in zip(shifted.p[0], shifted.p[1] or [0] * len(shifted.p[0]), strict=True)]
+    smallest, rise, slope, step = math.inf, 0.0, 0.0, 0.9 / 200
+    for k in range(200):
+        t = u * k / 200
+        value = abs(sum(c * t**j for j, c in enumerate(q)))
+        s_value = abs(sum(c * t**j for j, c in enumerate(p))) / value
+        smallest = min(smallest, math.log2(value / abs(q[-1])))
+        slope, rise = (
+            slope + step * (1 + s_value * rise),
+            rise + step * slope,
+        )  # Euler's method stays below z'' = |S| z + 1
+    assert bound.log2_min_q <= smallest + 1e-9
+    if all(abs(z) > 2 for z, _, _ in frame.poles):  # |S| doesn't fall much between the sample points
+        assert bound.gain >= 0.95 * rise
+        assert bound.gain_derivative >= 0.95 * slope
+
+
+@pytest.mark.parametrize("digits", [5, 15, 50, 150])
+@pytest.mark.parametrize("x", ["-20", "-1/3", "2.5", "11"])
+def test_airy_functions(digits: int, x: str) -> None:
+    ball = evaluate(AIRY, x, x0=0, y0=1, dy0=0, digits=digits)
+    with mpmath.workdps(digits + 40):
+        point = as_mp(as_point(x, "x").re)
+        reference = mpmath.pi * (
+            mpmath.airybi(0, derivative=1) * mpmath.airyai(point)
+            - mpmath.airyai(0, derivative=1) * mpmath.airybi(point)
+        )
+        assert mp_close(ball, reference, digits)
+    assert ball.digits >= digits
+    assert ball.real
+
+
+def test_a_thousand_digits_of_an_airy_function_against_arb() -> None:
+    ball = evaluate(AIRY, 5, x0=0, y0=1, dy0=0, digits=1000)
+    with flint.ctx.workprec(3500):
+        zero, five = flint.arb(0), flint.arb(5)
+        ai, bi, dai, dbi = five.airy_ai(), five.airy_bi(), zero.airy_ai(derivative=1), zero.airy_bi(derivative=1)
+        reference = flint.arb.pi() * (dbi * ai - dai * bi)
+        assert ball_to_flint(ball).real.overlaps(reference)
+    assert ball.digits >= 1000
+
+
+def test_bessel_functions_of_order_one_third_along_the_axis_and_towards_zero() -> None:
+    # sqrt(x) J_nu(x): S = (nu^2 - 1/4)/x^2 - 1
+    S = ([Fraction(1, 9) - Fraction(1, 4), 0, -1], [0, 0, 1])
+
+    def state(x: object) -> tuple[mpmath.mpf, mpmath.mpf]:
+        f = lambda t: mpmath.sqrt(t) * mpmath.besselj(mpmath.mpf(1) / 3, t)  # noqa: E731
+        t = mpmath.mpf(x)
+        return f(t), f(t) / (2 * t) + mpmath.sqrt(t) * mpmath.besselj(mpmath.mpf(1) / 3, t, derivative=1)
+
+    with mpmath.workdps(60):
+        y0, dy0 = state(1)
+        points = ["1e-30", "1e-5", "0.5", "3", "40", "300"]
+        balls = evaluate(S, points, x0=1, y0=y0, dy0=dy0, digits=20)
+        assert isinstance(balls, tuple)
+        for point, ball in zip(points, balls, strict=True):
+            assert mp_close(ball, state(point)[0], 19), point
+
+
+def test_legendre_of_high_degree_between_its_singular_points() -> None:
+    # y = sqrt(1 - x^2) P_n(x): S = -(n (n+1) (1 - x^2) + 1)/(1 - x^2)^2
+    n = 60
+    S = ([-n * (n + 1) - 1, 0, n * (n + 1)], [1, 0, -2, 0, 1])
+    with mpmath.workdps(60):
+        ball = evaluate(S, "0.99", x0=0, y0=mpmath.legendre(n, 0), dy0=0, digits=30)
+        x = mpmath.mpf(99) / 100
+        start = mpmath.legendre(n, 0)
+        assert mp_close(ball, mpmath.sqrt(1 - x * x) * mpmath.legendre(n, x), 28)
+        assert start != 0
+
+
+def test_a_loop_around_a_logarithm() -> None:
+    # S = -1/(4 x^2): y = sqrt(x) log x; once around 0 from 1: -(sqrt(x) (log x + 2 pi i)), so y(1) = 0 becomes -2 pi i
+    loop = [1j, -1, -1j]
+    ball = evaluate(([-1], [0, 0, 4]), 1, x0=1, y0=0, dy0=1, path=loop, digits=40)
+    with mpmath.workdps(60):
+        assert mp_close(ball, -2j * mpmath.pi, 40)
+    back = evaluate(([-1], [0, 0, 4]), 1, x0=1, y0=0, dy0=1, path=[-1j, -1, 1j], digits=40)
+    with mpmath.workdps(60):
+        assert mp_close(back, 2j * mpmath.pi, 40)
+
+
+def test_the_recessive_solution_gets_the_digits_that_growth_costs() -> None:
+    # exp(-x^2/2) for S = x^2 - 1: the dominant solution has grown by e^100 at x = 10
+    states = evaluate_states(([-1, 0, 1], [1]), [10, 30], x0=0, y0=1, dy0=0, digits=15)
+    for state, x in zip(states, (10, 30), strict=True):
+        with mpmath.workdps(40):
+            assert mp_close(state.y, mpmath.exp(-(mpmath.mpf(x) ** 2) / 2), 15)
+        assert state.y.digits >= 15
+        assert state.reached
+    assert states[1].runs > 1
+
+
+def random_system(rng: random.Random) -> System:
+    degree = rng.randint(0, 4)
+    den = [rng.choice([-3, -1, 0, 1, 2, 7]) for _ in range(degree)] + [rng.choice([1, 2, 5])]
+    num = [rng.choice([-9, -1, 0, 1, 4, 10**3]) for _ in range(rng.randint(0, 4))]
+    return System.make(tuple(num), tuple(den))
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_higher_precision_lies_inside_and_the_determinant_is_one(seed: int) -> None:
+    rng = random.Random(seed)
+    system = random_system(rng)
+    polygon = [Point(Fraction(rng.randint(-30, 30), 7), Fraction(rng.randint(-30, 30), 11)) for _ in range(3)]
+    try:
+        rough, fine = (transition_matrix(system, polygon, digits=digits) for digits in (8, 30))
+    except InputError:
+        pytest.skip("the random path meets a singular point")
+    for row, finer in zip(rough, fine, strict=True):
+        assert all(x.overlaps(y) for x, y in zip(row, finer, strict=True))
+    with flint.ctx.workprec(2000):
+        a, b, c, d = (ball_to_flint(ball) for row in fine for ball in row)
+        assert (a * d - b * c).contains(1)
+    largest = max(abs(entry.mid) for row in fine for entry in row)
+    assert all(entry.radius <= 1e-30 * largest for row in fine for entry in row)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_contractible_loop_is_the_identity(seed: int) -> None:
+    rng = random.Random(1000 + seed)
+    system = random_system(rng)
+    start = Point(Fraction(rng.randint(-30, 30), 7), Fraction(rng.randint(1, 30), 11))
+    near = distance_lower(system, start)
+    size = Fraction(1) if near is None else Fraction(near[0] / 3) * Fraction(2) ** near[1]
+    polygon = [start, start + Point(size), start + Point(Fraction(0), size), start]
+    (a, b), (c, d) = transition_matrix(system, polygon, digits=20)
+    assert a.contains(1)
+    assert d.contains(1)
+    assert b.contains_zero()
+    assert c.contains_zero()
+    assert a.radius < 1e-10
+
+
+def test_large_denominators_dont_cost_precision() -> None:
+    # 40 double poles on the circle |x| = 3: absolute values of the coefficients of 1/den would lose 2^40 in every disc
+    system = System.make((1,), (-(3**40), *[0] * 39, 1))
+    with flint.ctx.workprec(140):
+        m = product(piece_matrices(system, Point(Fraction(0)), Point(Fraction(5, 2)), 100, Budget()))
+        assert min(m[k].rel_accuracy_bits() for k in (0, 1, 3)) > 90
+
+
+# --- what must be refused --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"x": 1, "x0": -1}, "through the singular point near 0"),
+        ({"x": 0, "x0": -1}, "is a singular point"),
+        ({"x": 1, "x0": 0}, "is a singular point"),
+        ({"x": 1j, "x0": -1j}, "through the singular point"),
+        ({"x": math.nan, "x0": 1}, "finite"),
+        ({"x": 2, "x0": 1, "y0": math.inf}, "finite"),
+        ({"x": 2, "x0": 1, "digits": 0}, "at least 1"),
+        ({"x": 2, "x0": 1, "digits": 10**9}, "beyond the limit"),
+        ({"x": 2, "x0": 1, "digits": 15.0}, "integer"),
+        ({"x": 2, "x0": 1, "method": "euler"}, "unknown method"),
+        ({"x": 2, "x0": 1, "method": "closed form"}, "needs a Liouvillian solution"),
+        ({"x": 2, "x0": 1, "path": "zigzag"}, "unknown path"),
+        ({"x": 2, "x0": 1, "path": [-1, 3]}, "through the singular point"),
+    ],
+)
+def test_wrong_input_is_refused(arguments: dict[str, object], words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        evaluate(([2], [0, 0, 1]), **{"y0": 1, "dy0": 0, **arguments})  # type: ignore[arg-type]
+
+
+def test_an_irrational_singular_point_on_the_path_is_found_and_a_near_miss_isnt() -> None:
+    system = System.make((1,), (-2, 0, 1))  # +-sqrt 2
+    with pytest.raises(InputError, match=r"1\.41421356"):
+        check_segment(system, Point(Fraction(0)), Point(Fraction(2)))
+    tiny = Fraction(1, 10**40)
+    check_segment(system, Point(Fraction(0), tiny), Point(Fraction(2), tiny))
+
+
+def test_an_exhausted_limit_is_an_error_when_nothing_is_known() -> None:
+    with pytest.raises(LimitExceeded):
+        evaluate(AIRY, -(10**6), x0=0, y0=1, dy0=0, digits=50, limits=Limits(seconds=0.05))
+
+
+def test_a_value_that_is_zero_is_a_tiny_ball_with_a_warning() -> None:
+    with pytest.warns(AccuracyWarning, match="can't be told from zero"):
+        ball = evaluate(([0], [1]), 1, x0=0, y0=1, dy0=-1)
+    assert ball.contains_zero()
+    assert ball.radius < 1e-300
+
+
+def test_initial_values_that_are_balls_widen_the_result_and_it_says_so() -> None:
+    start = Ball((1, 0), rad=(1, -30))
+    with pytest.warns(AccuracyWarning, match="initial values"):
+        ball = evaluate(([1], [1]), 1, x0=0, y0=start, dy0=1, digits=15)
+    for corner in (1 - Fraction(1, 2**30), 1 + Fraction(1, 2**30)):
+        assert ball.overlaps(evaluate(([1], [1]), 1, x0=0, y0=corner, dy0=1))
+
+
+def test_the_global_precision_is_untouched_even_by_an_interruption() -> None:
+    before = flint.ctx.prec
+    evaluate(AIRY, 3, x0=0, y0=1, dy0=0, digits=200)
+    with pytest.raises(LimitExceeded):
+        evaluate(AIRY, -(10**6), x0=0, y0=1, dy0=0, digits=50, limits=Limits(seconds=0.02))
+    assert flint.ctx.prec == before
+
+
+def test_many_points_come_back_in_the_order_asked_for() -> None:
+    points = [3, -2, Fraction(1, 2), 0, 1j, -7]
+    together = evaluate(AIRY, points, x0=0, y0=1, dy0=0)
+    assert isinstance(together, tuple)
+    alone = [evaluate(AIRY, p, x0=0, y0=1, dy0=0, digits=25) for p in points]
+    assert all(a.overlaps(b) for a, b in zip(together, alone, strict=True))
+    assert together[3] == Ball.exact(1)
+    chain = evaluate(AIRY, points, x0=0, y0=1, dy0=0, path="chain")
+    assert all(a.overlaps(b) for a, b in zip(chain, alone, strict=True))
