@@ -1,0 +1,232 @@
+"""Times, growth and memory of the engine: prints tables, writes benchmarks/results/engine.json and engine.md.
+
+    python benchmarks/engine.py                 # everything: a few minutes
+    python benchmarks/engine.py --quick         # up to 20 poles and 100 digits
+
+Measured inside one process after import: `solve` from coefficient sequences, verification included, the median of
+several runs, in seconds of processor time (the work is done by one thread, so that on an idle machine it's the wall
+clock).  "verify" is the time of the verification alone, the physical limit of any engine whose answers are checked,
+and "ratio" is the total over that.  "memory" is the growth of the peak resident set of a fresh process in which
+nothing else runs, against one that only imports the package and builds the equation.  "exponent" is the slope of
+log(time) over log(parameter) from the second size on; the number of poles is counted, not taken from the name.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import platform
+import resource
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import families
+
+import kovacic
+from kovacic.algebra.ratfunc import RatFunc
+
+HERE = Path(__file__).resolve().parent
+PUBLISHED = HERE.parent / "tests" / "data" / "cases.jsonl"
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """Seconds and MiB for one equation."""
+
+    name: str
+    parameter: int
+    poles: int
+    degree: int
+    digits: int
+    total: float
+    verify: float
+    memory: float | None
+
+    @property
+    def ratio(self) -> float:
+        return self.total / self.verify
+
+
+def coefficients(S: RatFunc) -> tuple[Sequence[Any], Sequence[Any]]:
+    return S.num.coefficients(), S.den.coefficients()  # type: ignore[attr-defined]
+
+
+def timed(run: Any, budget: float = 1.0) -> tuple[float, Any]:
+    """The median time of up to 7 runs, fewer for slow ones; and the last result."""
+    times: list[float] = []
+    result = None
+    while len(times) < 7 and (not times or sum(times) < budget):
+        start = time.process_time()
+        result = run()
+        times.append(time.process_time() - start)
+    return statistics.median(times), result
+
+
+def measure(name: str, parameter: int, *, memory: bool) -> Measurement:
+    """One equation of `families`; raises SystemExit where the answer isn't the expected one."""
+    one = families.sample(name, parameter)
+    pair = coefficients(one.S)
+    total, answer = timed(lambda: kovacic.solve(pair))
+    if answer.case != one.case or answer.status is kovacic.Status.UNDECIDED:
+        raise SystemExit(f"{name}, {parameter}: case {answer.case} instead of {one.case}")
+    verify, _ = timed(answer.verify)
+    peak = None
+    if memory:
+        peak = max(_peak(name, parameter, "solve") - _peak(name, parameter, "build"), 0.0)
+    degree = max(one.S.num.degree, one.S.den.degree)
+    digits = int(max(one.S.num.height_bits(), one.S.den.height_bits()) * math.log10(2)) + 1
+    return Measurement(name, parameter, one.poles, degree, digits, total, verify, peak)
+
+
+def _peak(name: str, parameter: int, what: str) -> float:
+    command = [sys.executable, str(Path(__file__).resolve()), "--child", what, name, str(parameter)]
+    return float(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+
+
+def child(what: str, name: str, parameter: int) -> None:
+    """In a fresh process: build (and solve) one equation, print the peak resident set in MiB."""
+    pair = coefficients(families.sample(name, parameter).S)
+    if what == "solve":
+        kovacic.solve(pair)
+    print(peak_resident_set())
+
+
+def peak_resident_set() -> float:
+    """MiB.  On Linux ru_maxrss survives exec and would show the parent's peak; VmHWM is the process's own."""
+    status = Path("/proc/self/status")
+    if status.exists():
+        line = next(line for line in status.read_text().splitlines() if line.startswith("VmHWM"))
+        return int(line.split()[1]) / 1024
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024**2 if sys.platform == "darwin" else 1024)
+
+
+def exponent(points: Sequence[tuple[int, float]]) -> float | None:
+    """The least-squares slope of log(time) over log(size), from the second size on."""
+    logs = [(math.log(n), math.log(t)) for n, t in points[1:] if n > 0]
+    if len({n for n, _ in logs}) < 2:
+        return None
+    return statistics.linear_regression(*zip(*logs, strict=True)).slope
+
+
+def published() -> dict[str, Any]:
+    """Every entry of cases.jsonl from its text: parsing, decision and verification."""
+    rows = []
+    for line in PUBLISHED.read_text(encoding="utf-8").splitlines():
+        entry = json.loads(line)
+        total, answer = timed(lambda text=entry["S"]: kovacic.solve(text), 0.2)
+        if answer.case != entry["case"]:
+            raise SystemExit(f"{entry['id']}: case {answer.case} instead of {entry['case']}")
+        verify, _ = timed(answer.verify, 0.2)
+        decide, _ = timed(lambda text=entry["S"]: kovacic.decide(text), 0.2)
+        rows.append({"id": entry["id"], "total": total, "verify": verify, "decide": decide})
+    summary = {
+        key: {
+            "median": statistics.median(row[key] for row in rows),
+            "90%": statistics.quantiles((row[key] for row in rows), n=10)[-1],
+            "max": max(row[key] for row in rows),
+        }
+        for key in ("total", "decide", "verify")
+    }
+    return {"count": len(rows), "seconds": summary, "slowest": sorted(rows, key=lambda row: -row["total"])[:5]}
+
+
+def environment() -> dict[str, Any]:
+    import flint
+
+    return {
+        "kovacic": kovacic.__version__,
+        "python": platform.python_version(),
+        "python-flint": flint.__version__,
+        "machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} CPUs",
+        "load at start": round(os.getloadavg()[0], 2),
+    }
+
+
+def markdown(report: dict[str, Any]) -> str:
+    """The report as tables."""
+    lines = [
+        "# The engine, measured",
+        "",
+        "Written by `python benchmarks/engine.py`; see there for what is measured.",
+        "",
+    ]
+    lines += [", ".join(f"{key} {value}" for key, value in report["environment"].items()) + ".", ""]
+    table = report["published"]
+    lines += [f"## {table['count']} published equations, from their text (ms)", ""]
+    lines += ["| | median | 90% | max |", "|---|---:|---:|---:|"]
+    names = {"total": "solve, verified", "decide": "decide", "verify": "verification alone"}
+    for key, row in table["seconds"].items():
+        lines.append(f"| {names[key]} | " + " | ".join(f"{1000 * row[c]:.1f}" for c in ("median", "90%", "max")) + " |")
+    lines += ["", "Slowest: " + ", ".join(f"{r['id']} {1000 * r['total']:.0f} ms" for r in table["slowest"]) + ".", ""]
+    titles = {
+        "poles": "poles",
+        "digits": "digits of the parameters of the construction (digits of the coefficients of S in brackets)",
+        "order": "order of the poles",
+    }
+    for kind, title in titles.items():
+        chosen = [one for one in report["series"] if one["kind"] == kind]
+        if not chosen:
+            continue
+        lines += [f"## By {title} (seconds; total / verification alone; MiB)", ""]
+        parameters = [m["parameter"] for m in chosen[0]["measurements"]]
+        lines += ["| | " + " | ".join(map(str, parameters)) + " | exponent |"]
+        lines += ["|---" + "|---:" * (len(parameters) + 1) + "|"]
+        for one in chosen:
+            slope = "" if one["exponent"] is None else f"{one['exponent']:.1f}"
+            lines.append(
+                f"| {one['name']} | " + " | ".join(_cell(kind, m) for m in one["measurements"]) + f" | {slope} |"
+            )
+        lines.append("")
+    return "\n".join(lines)
+
+
+def _cell(kind: str, m: dict[str, Any]) -> str:
+    memory = "" if m["memory"] is None else f"; {m['memory']:.0f}"
+    digits = f" ({m['digits']})" if kind == "digits" else ""
+    return f"{m['total']:.3f}; {m['total'] / m['verify']:.1f}{memory}{digits}"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quick", action="store_true", help="small sizes, no memory, nothing written")
+    parser.add_argument("--only", default="", help="only the series whose names contain this; nothing written")
+    parser.add_argument("--child", nargs=3, metavar=("WHAT", "NAME", "PARAMETER"), help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.child:
+        child(options.child[0], options.child[1], int(options.child[2]))
+        return
+    report: dict[str, Any] = {"environment": environment(), "published": published(), "series": []}
+    largest = {"poles": 20, "digits": 100, "order": 12} if options.quick else {}
+    for kind, items in families.series():
+        chosen = [(name, k) for name, k in items if options.only in name and k <= largest.get(kind, k)]
+        if not chosen:
+            continue
+        results = []
+        for name, parameter in chosen:
+            results.append(measure(name, parameter, memory=not options.quick))
+            m = results[-1]
+            print(f"{name:32} {parameter:5}  {m.poles:3} poles  {m.total:8.3f} s  verify {m.verify:8.3f} s", flush=True)
+        size = (lambda m: m.poles) if kind == "poles" else (lambda m: m.parameter)
+        slope = exponent([(size(m), m.total) for m in results])
+        report["series"].append(
+            {"kind": kind, "name": chosen[0][0], "exponent": slope, "measurements": [asdict(m) for m in results]}
+        )
+    text = markdown(report)
+    print("\n" + text)
+    if not options.quick and not options.only:
+        target = HERE / "results"
+        target.mkdir(exist_ok=True)
+        (target / "engine.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+        (target / "engine.md").write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
