@@ -387,10 +387,10 @@ def _stalled(previous: tuple[Evaluation, ...], found: tuple[Evaluation, ...]) ->
 
 def _reason(result: Evaluation) -> str:
     if result.y.contains_zero():
-        return f"the value can't be told from zero (|y| < {result.y!s}): no relative accuracy was reached; the ball is
-        right"
-    return f"only {max(0.0, result.y.digits):.1f} of {result.digits} digits: the initial values or the limits allow no
-    more"
+        size = f"|y| is at most about {result.y.radius:.1e}"
+        return f"the value can't be told from zero ({size}): no relative accuracy was reached"
+    known = max(0.0, result.y.digits)
+    return f"only {known:.1f} of {result.digits} digits: the initial values or the limits allow no more"
 
 
 def _with_note(result: Evaluation, note: str) -> Evaluation:

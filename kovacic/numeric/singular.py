@@ -176,8 +176,8 @@ def check_segment(system: System, a: Point, b: Point) -> None:
     if hit is not None:
         where, along = hit
         raise InputError(
-            f"the path from {a} to {b} runs through the singular point near {where} (distance 0; {along:.6g} from the
-            start)",
+            f"the path from {a} to {b} runs through the singular point near {where} "
+            f"(distance 0; {along:.6g} from the start)",
             hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
             "the result depends on the side",
         )
