@@ -11,7 +11,8 @@ from typing import Any
 import sympy
 from sympy import Add, Integer, Mul, Pow, Rational, Symbol, exp, log, sqrt
 
-from kovacic.algebra.fields import AlgebraicField, Field
+from kovacic.algebra.fields import QQ, AlgebraicField, Field
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.partial_fractions import Decomposition, Residue
@@ -34,6 +35,7 @@ class Atoms:
     def __init__(self, variable: Symbol) -> None:
         self.x = variable
         self._generators: dict[tuple[Any, ...], Expr] = {}
+        self.notes: list[str] = []
 
     @cached_property
     def root(self) -> Expr:
@@ -47,9 +49,23 @@ class Atoms:
         fraction = value.field.rational_value(value)
         if fraction is not None:
             return rational(fraction)
+        if isinstance(value, FunctionPoly):
+            names = [Symbol(name) for name in value.field.names]
+            top, bottom = (self._parametric(part, names) for part in (value.num, value.den))
+            return top / bottom
         generator = self.generator(value.field)
         parts = value.parts  # type: ignore[attr-defined]
         return sympy.expand_mul(Add(*(Mul(self.constant(part), generator**i) for i, part in enumerate(parts) if part)))
+
+    @staticmethod
+    def _parametric(polynomial: Any, names: list[Symbol]) -> Expr:
+        """A polynomial in the parameters alone; its first variable, x, doesn't occur."""
+        return Add(
+            *(
+                Mul(Integer(int(c)), *(name ** int(k) for name, k in zip(names, exponents[1:], strict=True)))
+                for exponents, c in polynomial.to_dict().items()
+            )
+        )
 
     def generator(self, field: Field) -> Expr:
         """The generator of an algebraic extension."""
@@ -58,6 +74,8 @@ class Atoms:
         key = (str(field.base), field.modulus.key())
         if key not in self._generators:
             self._generators[key] = self._new_generator(field)
+            if field.modulus.degree > 2:
+                self.notes.append(f"{field.name} stands for {self._generators[key]}")
         return self._generators[key]
 
     def _new_generator(self, field: AlgebraicField) -> Expr:
@@ -69,7 +87,7 @@ class Atoms:
 
     def coefficients(self, polynomial: Poly) -> list[Expr]:
         """The coefficients from low to high."""
-        if isinstance(polynomial.field, AlgebraicField):
+        if polynomial.field != QQ:
             return [self.constant(c) for c in polynomial]
         return [Rational(int(c.p), int(c.q)) for c in polynomial.rational_coefficients()]
 
@@ -82,7 +100,7 @@ class Atoms:
 
     def primitive(self, polynomial: Poly) -> tuple[Fraction, Expr]:
         """(content, expression): the polynomial is content * expression, which has coprime integer coefficients over Q."""
-        if isinstance(polynomial.field, AlgebraicField) or not polynomial:
+        if polynomial.field != QQ or not polynomial:
             return Fraction(1), self.poly(polynomial)
         denominator = polynomial.common_denominator()
         scaled = polynomial * denominator
@@ -131,7 +149,7 @@ class Atoms:
         p, value = residue.factor, residue.value
         if residue.is_constant:
             return self.constant(value) * log(self.primitive(p)[1])
-        if p.degree == 2 and not isinstance(p.field, AlgebraicField):
+        if p.degree == 2 and p.field == QQ:
             centre, discriminant, root = self.quadratic_roots(p)
             if discriminant > 0:
                 roots = [centre - root / 2, centre + root / 2]
@@ -169,12 +187,15 @@ class Atoms:
 
     # ------------------------------------------------------------------------------------------- products
 
-    def product(self, y: Product) -> Expr:
+    def product(self, y: Product, *, around_zero: bool = False) -> Expr:
         """A product, up to a constant factor."""
-        return Mul(*self.factors(y)[1])
+        return Mul(*self.factors(y, around_zero=around_zero)[1])
 
-    def factors(self, y: Product, extra: RatFunc | None = None) -> tuple[Expr, list[Expr]]:
-        """(c, factors): y * extra is c times the product of the factors; common factors of y and extra are merged."""
+    def factors(self, y: Product, extra: RatFunc | None = None, *, around_zero: bool = True) -> tuple[Expr, list[Expr]]:
+        """(c, factors): y * extra is c times the product of the factors; common factors of y and extra are merged.
+
+        With `around_zero` the roots of x^2 - a, a > 0, are written so that they are real around 0.
+        """
         scale: Expr = Integer(1)
         exponents: list[tuple[Expr, Expr]] = []
         rest = extra
@@ -196,7 +217,8 @@ class Atoms:
             (c, num), (d, den) = self.primitive(rest.num), self.primitive(rest.den)
             scale = scale * rational(c / d)
             exponents += [(num, Integer(1)), (den, Integer(-1))]
-        return scale, [*self._grouped(exponents), self.exponential(y)]
+        sign, powers = self._grouped(exponents, around_zero)
+        return scale * sign, [*powers, self.exponential(y)]
 
     def exponential(self, y: Product) -> Expr:
         """The factor exp(rational function) of a product, with the sums over roots that aren't written as powers."""
@@ -212,7 +234,7 @@ class Atoms:
     def _explicit(self, residue: Residue) -> bool:
         """Are there real roots that can be written down?"""
         p = residue.factor
-        if p.degree != 2 or isinstance(p.field, AlgebraicField):
+        if p.degree != 2 or p.field != QQ:
             return False
         return bool(self.quadratic_roots(p)[1] > 0)
 
@@ -225,19 +247,32 @@ class Atoms:
             for a in (centre - root / 2, centre + root / 2)
         ]
 
-    def _grouped(self, exponents: list[tuple[Expr, Expr]]) -> list[Expr]:
-        """Powers; bases with the same fractional exponent under one root, and (x - a)(x + a) multiplied out."""
+    def _grouped(self, exponents: list[tuple[Expr, Expr]], around_zero: bool) -> tuple[Expr, list[Expr]]:
+        """(c, powers) with the product c * powers: bases with the same fractional exponent under one root.
+
+        (x - a)(x + a) is multiplied out; x^2 - a with a > 0 becomes a - x^2 under a root if `around_zero`.
+        """
         groups: dict[Expr, list[Expr]] = {}
         for base, exponent in exponents:
             groups.setdefault(exponent, []).append(base)
+        scale: Expr = Integer(1)
         powers: list[Expr] = []
         for exponent, bases in groups.items():
             bases = self._joined(bases)
             if exponent.is_integer:
                 powers += [Pow(base, exponent) for base in bases]
-            else:
-                powers.append(Pow(Mul(*bases), exponent))
-        return powers
+                continue
+            turned = [-base if around_zero and self._is_negative_around_zero(base) else base for base in bases]
+            flips = sum(base != other for base, other in zip(bases, turned, strict=True))
+            scale = scale * Integer(-1) ** (exponent * flips)
+            powers.append(Pow(Mul(*turned), exponent))
+        return scale, powers
+
+    def _is_negative_around_zero(self, base: Expr) -> bool:
+        """Is this c x^2 - a with c, a > 0?"""
+        return bool(base.is_Add and base.subs(self.x, 0).is_negative and base == base.subs(self.x, -self.x)) and (
+            sympy.degree(base, self.x) == 2
+        )
 
     def _joined(self, bases: list[Expr]) -> list[Expr]:
         """With every pair x - a, x + a multiplied out."""

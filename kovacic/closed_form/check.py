@@ -5,8 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import mpmath
+from sympy import Dummy
 
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import (
     CurvePrimitive,
@@ -98,8 +102,16 @@ def _value(r: RatFunc, point: Any) -> Any:
     return _horner(r.num, point) / _horner(r.den, point)
 
 
-def _horner(polynomial: Any, point: Any) -> Any:
+def _horner(polynomial: Poly, point: Any) -> Any:
     total = mpmath.mpf(0)
-    for c in reversed(polynomial.rational_coefficients()):
-        total = total * point + mpmath.mpf(int(c.p)) / int(c.q)
+    for c in reversed(_coefficients(polynomial)):
+        total = total * point + c
     return total
+
+
+def _coefficients(polynomial: Poly) -> list[Any]:
+    """Numbers; the constants as in what is shown."""
+    if polynomial.field == QQ:
+        return [mpmath.mpf(int(c.p)) / int(c.q) for c in polynomial.rational_coefficients()]
+    variable = Dummy()
+    return [jet(c, variable, mpmath.mpf(0))[0] for c in Atoms(variable).coefficients(polynomial)]

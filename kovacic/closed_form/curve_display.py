@@ -13,6 +13,7 @@ from fractions import Fraction
 import sympy
 from sympy import Add, Integer, Mul, Pow, atan, cos, exp, log, sin, sqrt
 
+from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr
@@ -168,7 +169,7 @@ def _root_sum(integral: CurveIntegral, residue: Residue, root: Expr, atoms: Atom
     slope = atoms.in_root(integral.g.derivative() * Fraction(1, 2) % p, a)
     tangent = gamma + slope * (atoms.x - a)
     body = -atoms.in_root(residue.value, a) / sqrt(gamma) * log((tangent + sqrt(gamma) * root) / (atoms.x - a))
-    if p.degree == 2 and not hasattr(p, "parts"):
+    if p.degree == 2 and p.field == QQ:
         centre, discriminant, width = atoms.quadratic_roots(p)
         if discriminant > 0:
             return Add(*(body.subs(a, value) for value in (centre - width / 2, centre + width / 2)))

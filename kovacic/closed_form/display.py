@@ -15,13 +15,13 @@ from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, 
 def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
     """y1, y2 and notes."""
     if isinstance(form, Diagonal):
-        return atoms.product(form.first), atoms.product(form.second), ()
+        return atoms.product(form.first, around_zero=True), atoms.product(form.second, around_zero=True), ()
     if isinstance(form, Conjugate):
-        first, second = real_pair(form, atoms) if is_real_pair(form) else conjugate_roots(form, atoms)
+        first, second = real_pair(form, atoms) if is_real_pair(form, atoms) else conjugate_roots(form, atoms)
         return first, second, ()
     if isinstance(form, Triangular):
         second, notes = second_solution(form, atoms)
-        return atoms.product(form.first), second, notes
+        return atoms.product(form.first, around_zero=True), second, notes
     if isinstance(form, OnCurve):
         return exponentials(form, atoms)
     J = atoms.factored(form.J)

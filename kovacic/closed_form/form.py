@@ -37,10 +37,11 @@ class ClosedForm:
 
 
 def solutions(solution: Solution, *, gauge: RatFunc | None = None) -> ClosedForm:
-    """Two independent solutions of y'' = S y, or of the equation whose solutions are y times a gauge factor.
+    """Two independent solutions of the equation that was given: those of y'' = S y times its gauge factor.
 
-    `gauge` is the logarithmic derivative of that factor: -b/(2a) for the equation a z'' + b z' + c z = 0.  It is merged into
-    the products of powers and exponentials.  Where S is real and has real solutions of a known form, these are returned.
+    `gauge` is the logarithmic derivative of that factor, by default -b/(2a) for the equation a z'' + b z' + c z = 0 (a rational
+    function equal to 0 gives the normal form's).  It is merged into the products of powers and exponentials.  Where S is
+    real and has real solutions of a known form, these are returned.
 
     Raises `ValueError` if the equation has no Liouvillian solution or is undecided, and `VerificationFailed` if a solution
     doesn't pass its check, which is a defect of this package.
@@ -60,12 +61,13 @@ def solutions(solution: Solution, *, gauge: RatFunc | None = None) -> ClosedForm
     if solution.case is None:
         raise ValueError(solution.reason or "there is no Liouvillian solution")
     if gauge is None:
-        gauge = RatFunc(solution.S.field.poly([]))
+        gauge = solution.gauge
     structure = build(solution.S, solution.decision, gauge)
     variable = Symbol(solution.variable)
-    y1, y2, notes = expressions(structure, Atoms(variable))
+    atoms = Atoms(variable)
+    y1, y2, notes = expressions(structure, atoms)
     exact = not isinstance(structure, KleinForm)
     passed = not exact or is_exact_solution(structure, solution.S, gauge)
     if not passed or not all(is_numerical_solution(y, variable, solution.S, gauge) for y in (y1, y2)):
         raise VerificationFailed(f"a closed form for S = {solution.S} failed its check; please report the equation")
-    return ClosedForm(y1, y2, variable, structure, gauge, EXACT if exact else NUMERICAL, notes)
+    return ClosedForm(y1, y2, variable, structure, gauge, EXACT if exact else NUMERICAL, (*notes, *atoms.notes))

@@ -26,9 +26,9 @@ def second_solution(form: Triangular, atoms: Atoms) -> tuple[Expr, tuple[str, ..
     """y1 int y1^-2 up to a constant factor and a multiple of y1, and notes about what was left as an integral."""
     primitive = form.primitive
     if isinstance(primitive, OpenPrimitive):
-        bare = atoms.product(form.bare)
+        bare = atoms.product(form.bare, around_zero=True)
         integral = sympy.Integral(Pow(bare, -2), atoms.x)
-        return atoms.product(form.first) * integral, (f"integral left because {primitive.reason}",)
+        return atoms.product(form.first, around_zero=True) * integral, (f"integral left because {primitive.reason}",)
     if isinstance(primitive, RationalPrimitive):
         return _rational(form, primitive, atoms), ()
     if isinstance(primitive, CurvePrimitive):
@@ -73,7 +73,7 @@ def _normalised_constant(exact: RatFunc) -> RatFunc:
 
 
 def _on_curve(form: Triangular, integral: CurveIntegral, atoms: Atoms) -> Expr:
-    first = atoms.product(form.first)
+    first = atoms.product(form.first, around_zero=True)
     return sympy.expand_mul(Mul(first, curve_integral(integral, atoms)))
 
 

@@ -25,6 +25,11 @@ def jet(expression: Any, variable: Any, point: Number) -> Jet:
     return _Evaluator(variable, point)(expression)
 
 
+def parameter_value(name: str) -> Number:
+    """The value that a parameter takes in the check: a number that isn't special."""
+    return mpmath.mpf(1) + mpmath.mpf(sum(ord(c) * 31**k for k, c in enumerate(name)) % 9973) / 9967
+
+
 class _Evaluator:
     def __init__(self, variable: Any, point: Number) -> None:
         self.bindings: dict[Any, Jet] = {variable: (mpmath.mpmathify(point), mpmath.mpf(1), mpmath.mpf(0))}
@@ -67,6 +72,8 @@ class _Evaluator:
         function = _UNARY.get(e.func)
         if function is not None:
             return _chain(self(e.args[0]), function)
+        if e.is_Symbol:
+            return _constant(parameter_value(e.name))
         if not e.free_symbols:
             return _constant(mpmath.mpmathify(e._to_mpmath(mpmath.mp.prec)))
         raise NotImplementedError(f"the function {e.func} can't be evaluated")

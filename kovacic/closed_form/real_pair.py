@@ -21,7 +21,7 @@ from typing import Any
 import sympy
 from sympy import Add, cos, sin, sqrt
 
-from kovacic.algebra.fields import QQ
+from kovacic.algebra.fields import QQ, AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.closed_form.atoms import Atoms, Expr
 from kovacic.closed_form.partial_fractions import Residue
@@ -47,10 +47,11 @@ class _Pair:
         return replace(self, powers=(*self.powers, Power(base, base.field.poly([exponent]))))
 
 
-def is_real_pair(form: Conjugate) -> bool:
-    """Are the two solutions complex conjugates that this module treats: rational coefficients and delta < 0?"""
-    value = form.delta.field.rational_value(form.delta)
-    return form.delta.field == QQ and value is not None and value < 0
+def is_real_pair(form: Conjugate, atoms: Atoms) -> bool:
+    """Are the two solutions complex conjugates: real coefficients and delta < 0?"""
+    field = form.delta.field
+    real = field == QQ or (isinstance(field, AlgebraicField) and field.base == QQ and atoms.generator(field).is_real)
+    return bool(real and atoms.constant(form.delta).is_negative)
 
 
 def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
@@ -114,7 +115,7 @@ def _content(atoms: Atoms, A: Poly, B: Poly) -> Fraction:
 def _half_turns(pair: _Pair, delta: Poly, residue: Residue, phase: list[Expr], atoms: Atoms, s: Expr) -> _Pair | None:
     """The pair turned by exp(i q phi) of equation (1) if 2q is an integer; the logarithm, if any, joins the phase."""
     p, value = residue.factor, residue.value
-    if p.degree != 2 or residue.is_constant:
+    if p.degree != 2 or residue.is_constant or p.field != QQ:
         return None
     discriminant = p[1] * p[1] - 4 * p[0]
     ratio = rational_square_root(discriminant / delta)  # 2t/s, only if the roots are complex
