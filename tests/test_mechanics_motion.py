@@ -111,7 +111,7 @@ def newton_euler(sphere, g, start, times, axis_v=0.0):
         return np.concatenate([dN, np.cross(w, k), np.cross(w, e), np.linalg.solve(whole, right)])
 
     first = np.concatenate([out, k, marked, omega])
-    y = solve_ivp(rates, (0, times[-1]), first, method="DOP853", t_eval=times, rtol=1e-11, atol=1e-13).y
+    y = solve_ivp(rates, (0, times[-1]), first, method="DOP853", t_eval=times, rtol=1e-10, atol=1e-12).y
     N, k, e, w = y[:3].T, y[3:6].T, y[6:9].T, y[9:].T
     return {
         "contact": R1 * N,
@@ -141,7 +141,7 @@ def test_newton_and_euler_agree_also_near_and_through_the_poles(radius, du, dv, 
     sphere = BALLS["l > 0"].on_sphere(radius)
     g = sp.Rational(1, 2)
     start = State(1.0, 0.1, 0.3, 1.2, 0.2, du, dv, n)
-    times = np.linspace(0, 6, 61)
+    times = np.linspace(0, 4, 41)
     motion = solve_motion(sphere, central_gravity(sphere, g), start)
     if du == 3.5:
         assert motion.turning_points[0] < 0.02

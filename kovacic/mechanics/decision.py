@@ -39,15 +39,10 @@ def decide(equation: Quotient, ratio: sp.Expr) -> Verdict:
 
     Raises `InputError` if S still contains a symbol.
     """
-    variable = sp.Symbol(equation.ring.names[-1])
-    sides = sp.fraction(equation.expression())
-    if any(side.free_symbols - {variable} for side in sides):
+    sides = equation.coefficients()
+    if sides is None:
         raise InputError("the engine decides equations without parameters: every one of them needs a value")
-    num, den = (
-        QQ.poly([Fraction(int(c.p), int(c.q)) for c in reversed(sp.Poly(side, variable).all_coeffs())])
-        for side in sides
-    )
-    S = RatFunc(num, den)
+    S = RatFunc(*(QQ.poly([Fraction(value) for value in side]) for side in sides))
     decision = engine.decide(S, Budget(DEFAULT_LIMITS))
     degree = decision.riccati.degree if decision.riccati is not None else None
     return Verdict(ratio, degree, decision, bool(verify(S, decision)))

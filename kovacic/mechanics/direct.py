@@ -171,7 +171,7 @@ def _jacobian(system: Equations) -> Callable[[float, Array], Array]:
             step = 1e-6 * max(1.0, abs(value))
             shift = np.zeros(len(y))
             shift[i] = step
-            ahead, behind = system.rates(time, y + shift), system.rates(time, y - shift)
+            ahead, behind = system.rates(time, list(y + shift)), system.rates(time, list(y - shift))
             columns.append((np.array(ahead, dtype=float) - np.array(behind, dtype=float)) / (2 * step))
         return np.array(columns).T
 

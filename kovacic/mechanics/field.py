@@ -161,6 +161,19 @@ class Quotient:
         num, den = (_expression(self.ring, side) for side in (self._num, self._den))
         return num / den
 
+    def coefficients(self) -> tuple[list[int], list[int]] | None:
+        """Numerator and denominator as coefficients of x, low to high; None if a parameter occurs."""
+        sides: list[list[int]] = []
+        for side in (self._num, self._den):
+            degrees = side.degrees()
+            if any(degrees[:-1]):
+                return None
+            values = [0] * (int(degrees[-1]) + 1)
+            for monomial, coefficient in side.to_dict().items():
+                values[int(monomial[-1])] = int(coefficient)
+            sides.append(values)
+        return sides[0], sides[1]
+
     def factors(self) -> list[tuple[sp.Expr, int]]:
         """Irreducible factors over Z with their (possibly negative) exponents, the content first."""
         result: list[tuple[sp.Expr, int]] = []

@@ -18,7 +18,6 @@ A double root x1 = x2 and l = 0 are reducible for every rho.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import comb
 from typing import Any
 
 import sympy as sp
@@ -126,14 +125,21 @@ class RationalSolutions:
     """Theorem 1 for 2R/R1 = N: omega_3 = P (x-x1)^e1 (x-x2)^e2 twice, and the two rational omega = y'/y.
 
     The quotients are over Q(delta)(x) with x1 = 0 and x2 = -delta, the general case up to a translation of x:
-    alpha = x - x1 = x, beta = x - x2 = x + delta.
+    alpha = x - x1 = x, beta = x - x2 = x + delta.  `thetas` are the logarithmic derivatives of the algebraic factors of
+    y = (alpha beta)^(3/4) omega_3.
     """
 
     N: int
     factors: tuple[Quotient, Quotient]
     exponents: tuple[tuple[Any, Any], tuple[Any, Any]]
-    omegas: tuple[Quotient, Quotient]
+    thetas: tuple[Quotient, Quotient]
     verified: bool
+
+    @property
+    def omegas(self) -> tuple[Quotient, Quotient]:
+        """omega = theta + P'/P, for both solutions."""
+        first, second = (theta + P.partial() / P for theta, P in zip(self.thetas, self.factors, strict=True))
+        return first, second
 
     def expressions(self) -> tuple[sp.Expr, sp.Expr]:
         """The two solutions omega_3 with the paper's x1 and x2."""
@@ -147,10 +153,13 @@ class RationalSolutions:
 
 
 def rational_solutions(N: int) -> RationalSolutions:
-    """The two solutions (r^N +- r^(-N))/sqrt(D) for R/R1 = N/2, checked against the Riccati equation of (13).
+    """The two solutions (r^N +- r^(-N))/sqrt(D) for R/R1 = N/2, checked in (13).
 
-    With alpha = x - x1, beta = x - x2 they are, up to constants, the parts of (sqrt(alpha) + sqrt(beta))^N that contain
-    sqrt(beta) to an even and to an odd power, divided by sqrt(alpha beta).
+    With alpha = x - x1, beta = x - x2, z = sqrt(alpha beta), they are up to constants the parts of
+    r^N = (sqrt(alpha) + sqrt(beta))^N that contain sqrt(beta) to an even and to an odd power, divided by z.  From
+    t = r^2 = alpha + beta + 2 z and t^k = e + o z: e/z and o for N = 2k; (e + o beta)/sqrt(beta) and
+    (e + o alpha)/sqrt(alpha) for N = 2k + 1.  `verified` says that P'' + 2 theta P' + (theta' + theta^2 - S) P = 0, which is
+    the Riccati equation for omega = theta + P'/P.
     Raises `InputError` for N < 1 (N and -N give the same equation, N = 0 is the plane and has a logarithm).
 
     >>> rational_solutions(3).expressions()[0]
@@ -162,26 +171,27 @@ def rational_solutions(N: int) -> RationalSolutions:
     alpha = ring.element(X)
     beta = alpha + ring.element(sp.Symbol("delta"))
     zero, half = alpha * 0, sp.Rational(1, 2)
-    even, odd = zero, zero
-    for k in range(N + 1):
-        term = _power(alpha, (N - k) // 2) * _power(beta, k // 2) * comb(N, k)
-        even, odd = (even + term, odd) if k % 2 == 0 else (even, odd + term)
-    # (sqrt(alpha)+sqrt(beta))^N: the power of sqrt(alpha) left over is (N - k) mod 2, of sqrt(beta) k mod 2.
-    exponents = ((0 * half, -half), (-half, 0 * half)) if N % 2 else ((-half, -half), (0 * half, 0 * half))
+    z = Surd(Extension(alpha * beta, sp.Symbol("z"), 1), zero, zero + 1)
+    power: Any = z * 0 + 1
+    for _ in range(N // 2):
+        power = power * (alpha + beta + 2 * z)
+    exponents: tuple[tuple[Any, Any], tuple[Any, Any]]
+    if N % 2:
+        factors = power.a + power.b * beta, power.a + power.b * alpha
+        exponents = (0 * half, -half), (-half, 0 * half)
+    else:
+        factors = power.a, power.b
+        exponents = (-half, -half), (0 * half, 0 * half)
     S = normal_form(alpha, beta, ring.element(sp.Rational(N * N, 4)))
-    omegas = tuple(
-        P.partial() / P + ring.element(e1 + 3 * half / 2) / alpha + ring.element(e2 + 3 * half / 2) / beta
-        for P, (e1, e2) in zip((even, odd), exponents, strict=True)
+    first, second = (
+        ring.element(e1 + 3 * half / 2) / alpha + ring.element(e2 + 3 * half / 2) / beta for e1, e2 in exponents
     )
-    verified = all(omega.partial() + omega * omega == S for omega in omegas)
-    return RationalSolutions(N, (even, odd), exponents, (omegas[0], omegas[1]), verified)
-
-
-def _power(base: Quotient, exponent: int) -> Quotient:
-    result = base * 0 + 1
-    for _ in range(exponent):
-        result = result * base
-    return result
+    verified = True
+    for P, theta in zip(factors, (first, second), strict=True):
+        slope = P.partial()
+        residue = slope.partial() + 2 * theta * slope + (theta.partial() + theta * theta - S) * P
+        verified = verified and bool(P) and not residue
+    return RationalSolutions(N, factors, exponents, (first, second), verified)
 
 
 def normal_form(alpha: Quotient, beta: Quotient, rho_squared: Quotient) -> Quotient:
