@@ -23,7 +23,7 @@ from kovacic.cases.singular import singular_factor
 from kovacic.invariants import invariants
 from kovacic.local import chart, exponential_parts, omega_parts, rational_omega
 from kovacic.places import Place, Problem
-from kovacic.riccati import Form, normalised, root
+from kovacic.riccati import Form, normalised
 from kovacic.solution import Evidence, Exclusion, NoInvariant, NoRationalOmega, Structure
 
 
@@ -49,8 +49,12 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     P, X, A2, *_ = F.numerators(problem)
     point = next(n for n in count() if problem.D(n))
     value = X(point) ** 2 - 4 * P(point) * A2(point)
-    if not value:
-        return root(F, 2, problem)
+    if not value:  # F = y1^2
+        R = F.R / 2
+        y1 = _polynomial_part(problem, R, P.degree // 2)
+        if y1 is None:
+            raise AssertionError("an invariant of degree 2 without discriminant is the square of a solution")
+        return Form(1, R, y1)
     weight = singular_factor(problem, F.R, 1)
     w = square_root(problem.field, value / weight(point) ** 2)
     field, Y = w.field, w * weight
