@@ -15,6 +15,7 @@ from kovacic.verify import Verification, verify
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from kovacic.closed_form import ClosedForm
     from kovacic.galois import Group
 
 
@@ -87,6 +88,18 @@ class Solution:
     def is_algebraic(self) -> bool | None:
         """Are all solutions of y'' = S y algebraic functions?  None if that wasn't determined."""
         return None if self.group is None else self.group.finite
+
+    @cached_property
+    def closed_form(self) -> ClosedForm | None:
+        """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution."""
+        from kovacic.closed_form import solutions
+
+        return None if self.case is None else solutions(self)
+
+    @property
+    def solutions(self) -> tuple[Any, ...]:
+        """y1 and y2, SymPy expressions that solve the equation as it was given; empty without a Liouvillian solution."""
+        return () if self.closed_form is None else (self.closed_form.y1, self.closed_form.y2)
 
     @property
     def proof(self) -> tuple[Exclusion, ...]:
