@@ -57,6 +57,20 @@ def test_a_no_in_words() -> None:
     assert lines[-1] == "  verified: every exclusion was recomputed by independent code"
 
 
+def test_a_polynomial_of_omega_in_words(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main.run(["solve", "1/t - 3/(16*t^2)"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[:6] == [
+        "y'' = ((16*t - 3)/(16*t^2)) y",
+        "  Liouvillian solutions exist: case 2, omega = y'/y is algebraic of degree 2",
+        "  omega is a root w of",
+        "      w^2",
+        "      - (1/(2*t)) w",
+        "      - ((16*t - 1)/(16*t^2)) = 0",
+    ]
+    assert lines[6].startswith("  not case 1: an irregular singular point is ramified")
+
+
 @pytest.mark.parametrize(
     ("S", "words"),
     [
@@ -66,6 +80,8 @@ def test_a_no_in_words() -> None:
         ("0.25*x^2 - 7/2", "note: 0.25 was taken exactly, as 1/4"),
         ("0", "y'' = 0"),
         ("-x^2", "y'' = (-x^2) y"),
+        ("3x", "y'' = (3*x) y"),
+        ("1/(4*c^2)", "where c1 is any root of c1^2 - 2"),
     ],
 )
 def test_texts_of_other_answers(S: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:

@@ -143,7 +143,7 @@ def _function(function: RatFunc, variable: str) -> str:
 def _factor(function: RatFunc, variable: str) -> str:
     """The function as a factor of a product: in parentheses where it needs them."""
     text = _function(function, variable)
-    return f"({text})" if " " in text or "/" in text or text.startswith("-") else text
+    return f"({text})" if any(sign in text for sign in " /*-") else text
 
 
 def _signed(function: RatFunc, variable: str) -> tuple[str, str]:
