@@ -82,7 +82,7 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
     if bound.N is None:
         return NoInvariant(m)
     problem.budget.check_degree(bound.N, f"an invariant of degree {m}")
-    R0 = _singular_part(problem, bound.valuations)
+    R0 = singular_part(problem, bound.valuations)
     lifter, margin, recurrence_tried = problem.field.lifter(), _MARGIN, False
     for bundle in problem.field.bundles():
         problem.budget.check()
@@ -122,7 +122,7 @@ def _recurrence_is_cheaper(problem: Problem, m: int, primes_used: int) -> bool:
     return problem.field == QQ and primes_used * _PRODUCTS_PER_PRIME >= products
 
 
-def _singular_part(problem: Problem, valuations: Sequence[int]) -> Any:
+def singular_part(problem: Problem, valuations: Sequence[int]) -> Any:
     """R0 with Q0'/Q0 = R0/D for Q0 = prod p^(v_p)."""
     R = problem.field.poly([])
     for place, v in zip(problem.finite_places, valuations, strict=True):

@@ -67,10 +67,10 @@ def _trace(place: Place) -> Poly | None:
             return trace_of_square_root(place.delta_squared, place.factor)
         p = place.factor
         return trace_of_square_root((1 + 4 * place.num * _leading_coefficient(place).inverse_modulo(p)) % p, p)
-    return trace_of_square_root(_irregular_difference_squared(place), place.factor)
+    return trace_of_square_root(irregular_difference_squared(place), place.factor)
 
 
-def _irregular_difference_squared(place: Place) -> Poly:
+def irregular_difference_squared(place: Place) -> Poly:
     """(b/a)^2 at an unramified irregular place, in K[x]/p: 4 s_0 rho^2, rho the coefficient of t^(nu-1) in sqrt(s/s_0).
 
     Here S = s(t)/t^(2 nu) with t = x - c, c the class of x modulo p.
