@@ -6,6 +6,7 @@
 """
 
 from kovacic.api import Verdict, decide, solve
+from kovacic.batch import solve_many
 from kovacic.errors import (
     InputError,
     KovacicError,
@@ -36,4 +37,5 @@ __all__ = [
     "VerificationFailed",
     "decide",
     "solve",
+    "solve_many",
 ]

@@ -1,0 +1,109 @@
+"""Many equations: worker processes that can be killed, or other machines; an answer for every input.
+
+    reading   files into items            pool      items into records, with limits that hold
+    feed      items when they are needed  backends  the same through joblib: loky, Dask, Ray
+    worker    the child process           output    the file of records, and taking it up again
+    child     the parent's end of it      summary   what was found, in numbers
+
+>>> import kovacic
+>>> [record.case for record in kovacic.solve_many(["x^2 + 3", "x", "-3/(16*x^2) + 1/x"], jobs=1)]
+[1, None, 2]
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from kovacic.batch.items import Item, Job, Record
+from kovacic.errors import InputError
+from kovacic.limits import DEFAULT_LIMITS, Limits
+
+
+def solve_many(
+    equations: Iterable[Any],
+    *,
+    var: str | None = None,
+    jobs: int | None = None,
+    timeout: float | None = None,
+    memory: int | None = None,
+    group: bool = False,
+    ordered: bool = True,
+    backend: str | None = None,
+    scheduler: str | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+) -> Iterator[Record]:
+    """One `Record` for each equation, lazily, in their order or (`ordered=False`) as they finish.
+
+    An equation is whatever `kovacic.solve` takes, or a mapping with the keys "S", and perhaps "id" and "var".  A bad one
+    gives a record with an `error` and nothing is raised for it.  `Record.number` counts from 1; `label` and `case` are the
+    verdict in short, `solution` is the answer as an object and `json` is its line in schema 1.
+
+    `jobs` worker processes (by default one for each core) take the equations in turn.  `timeout`, in seconds, and `memory`,
+    in MiB, hold for each equation: a process that exceeds one is killed and replaced, and its equation is undecided.
+    With `group` each record has the Galois group as well.
+    `backend` ("loky", "dask", "ray") runs the same on joblib's engines, for Dask on the cluster of the `scheduler`.
+
+    Raises `InputError` for options that don't fit together.  Closing the iterator ends the processes.
+    """
+    from kovacic.batch.reading import item_from
+
+    job = make_job(timeout=timeout, memory=memory, group=group, limits=limits)
+    items = (item_from(number, value, var=var, limits=limits) for number, value in enumerate(equations, start=1))
+    return run_items(items, job, jobs=jobs, ordered=ordered, backend=backend, scheduler=scheduler)
+
+
+def run_items(
+    items: Iterable[Item],
+    job: Job,
+    *,
+    jobs: int | None = None,
+    ordered: bool = True,
+    stream: bool = False,
+    backend: str | None = None,
+    scheduler: str | None = None,
+) -> Iterator[Record]:
+    """The records of items with different numbers, in this machine's processes or on a backend."""
+    if jobs is not None and jobs < 1:
+        raise InputError(f"{jobs} jobs: at least one is needed")
+    if backend is not None:
+        from kovacic.batch.backends import run_on_backend
+
+        return run_on_backend(items, job, backend=backend, jobs=jobs, scheduler=scheduler, ordered=ordered)
+    if scheduler is not None:
+        raise InputError("a scheduler needs a backend", hint="backend='dask' (--backend dask)")
+    return _run_here(items, job, jobs or usable_cores(), ordered, stream)
+
+
+def usable_cores() -> int:
+    """The number of cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _run_here(items: Iterable[Item], job: Job, jobs: int, ordered: bool, stream: bool) -> Iterator[Record]:
+    from kovacic.batch.pool import Pool
+
+    with Pool(jobs, job) as pool:
+        yield from pool.run(items, ordered=ordered, stream=stream)
+
+
+def make_job(
+    *,
+    timeout: float | None = None,
+    memory: int | None = None,
+    group: bool = False,
+    limits: Limits = DEFAULT_LIMITS,
+) -> Job:
+    """The job with these conditions; raises `InputError` for impossible ones."""
+    if timeout is not None and not 0 < timeout < 1e8:
+        raise InputError(f"a timeout of {timeout} s isn't possible", hint="give seconds, above 0")
+    if memory is not None:
+        if memory < 1:
+            raise InputError(f"a memory limit of {memory} MiB isn't possible", hint="give MiB, at least 1")
+        if not os.path.exists("/proc/self/statm"):
+            raise InputError("memory limits need a Linux system", hint="leave the memory limit out")
+    return Job(timeout=timeout, memory=memory, group=group, limits=limits)
+
+
+__all__ = ["Item", "Job", "Record", "make_job", "run_items", "solve_many"]

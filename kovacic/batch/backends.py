@@ -1,0 +1,122 @@
+"""The same batch on another engine, through joblib: loky on this machine, Dask or Ray on many.
+
+The engine distributes chunks of items.  On the machine that gets one, the chunk runs through a worker process that can be
+killed, as on a single machine: limits hold everywhere, an equation that exhausts the memory doesn't take a Dask worker with
+it, and flint, whose precision is global, isn't run in threads.  Each thread of the engine keeps its worker process for the
+next chunk; the process ends with the thread's process, or after a failure.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager
+from itertools import islice
+from typing import Any
+
+from kovacic.batch.items import Item, Job, Record
+from kovacic.batch.pool import Pool
+from kovacic.errors import InputError
+
+BACKENDS = ("loky", "dask", "ray")
+
+# Items that travel together.  At 5 ms each they keep a worker busy for half a second, and a lost worker loses little.
+CHUNK = 100
+
+
+class _Kept(threading.local):
+    """The worker process of this thread, and the job for which it was started."""
+
+    pool: Pool | None = None
+    job: Job | None = None
+
+
+_KEPT = _Kept()  # state of the module, because the engine calls a function and gives it no place to keep anything
+
+
+def run_chunk(job: Job, items: list[Item]) -> list[Record]:
+    """The records of a chunk, in its order, from the worker process of this thread."""
+    if _KEPT.pool is None or job != _KEPT.job:
+        if _KEPT.pool is not None:
+            _KEPT.pool.close()
+        _KEPT.pool, _KEPT.job = Pool(1, job), job
+    try:
+        return list(_KEPT.pool.run(items, ordered=True))
+    except BaseException:
+        _KEPT.pool.close()
+        _KEPT.pool = None
+        raise
+
+
+def run_on_backend(
+    items: Iterable[Item],
+    job: Job,
+    *,
+    backend: str,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    ordered: bool = True,
+) -> Iterator[Record]:
+    """One record for each item, from the joblib backend.
+
+    `jobs` is the number of chunks that are worked on at a time: by default, all that the engine has room for.  `scheduler`
+    is the address of a running Dask scheduler ("tcp://host:8786") or Ray cluster; without it, loky and Ray start on this
+    machine, and Dask uses the client that the program has made.  What a lost Dask worker had is done by another one, and a
+    record is passed on once.  Raises `InputError` where the engine isn't installed or can't be reached.
+    """
+    from joblib import Parallel, delayed
+
+    with _configured(backend, jobs, scheduler):
+        options: dict[str, Any] = {"batch_size": 1, "pre_dispatch": "2*n_jobs"}
+        if backend == "ray":
+            # Its joblib backend returns lists only, so the chunks go in rounds.
+            parallel = Parallel(**options)
+            chunks = _chunks(items)
+            while some := list(islice(chunks, 4 * parallel.n_jobs if parallel.n_jobs > 0 else 64)):
+                for records in parallel(delayed(run_chunk)(job, chunk) for chunk in some):
+                    yield from records
+            return
+        parallel = Parallel(**options, return_as="generator" if ordered else "generator_unordered")
+        for records in parallel(delayed(run_chunk)(job, chunk) for chunk in _chunks(items)):
+            yield from records
+
+
+def _chunks(items: Iterable[Item]) -> Iterator[list[Item]]:
+    iterator = iter(items)
+    while chunk := list(islice(iterator, CHUNK)):
+        yield chunk
+
+
+def _configured(backend: str, jobs: int | None, scheduler: str | None) -> AbstractContextManager[Any]:
+    """joblib's configuration for this backend."""
+    from joblib import parallel_config
+
+    n_jobs = -1 if jobs is None else jobs
+    if backend == "loky":
+        if scheduler is not None:
+            raise InputError("loky has no scheduler", hint="--backend dask --scheduler tcp://host:8786")
+        return parallel_config("loky", n_jobs=n_jobs)  # type: ignore[no-any-return]
+    if backend == "dask":
+        try:
+            import distributed  # noqa: F401 - joblib needs it, and its own message doesn't name the package
+        except ImportError:
+            raise InputError("Dask isn't installed", hint="pip install 'kovacic[dask]'") from None
+        try:
+            return parallel_config("dask", n_jobs=n_jobs, scheduler_host=scheduler)  # type: ignore[no-any-return]
+        except (OSError, ValueError) as error:
+            where = "no client" if scheduler is None else f"the scheduler at {scheduler} can't be reached"
+            raise InputError(f"{where}: {error}", hint="--scheduler tcp://host:8786") from None
+    if backend == "ray":
+        try:
+            import ray
+            from ray.util.joblib import register_ray
+        except ImportError:
+            raise InputError("Ray isn't installed", hint="pip install ray") from None
+        if scheduler is not None:
+            ray.init(address=scheduler, ignore_reinit_error=True)
+        register_ray()
+        return parallel_config("ray", n_jobs=n_jobs)  # type: ignore[no-any-return]
+    raise InputError(f"{backend!r} isn't a backend", hint=f"one of {', '.join(BACKENDS)}")
+
+
+__all__ = ["BACKENDS", "CHUNK", "run_chunk", "run_on_backend"]

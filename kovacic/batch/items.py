@@ -1,0 +1,165 @@
+"""What goes into a batch and what comes out of it: items, records, and the conditions of a job.
+
+The three are plain data that travel between processes and machines as one line of text each.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any
+
+from kovacic.errors import InputError, KovacicError, LimitExceeded
+from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.result import Solution
+
+# What a record says about its equation in one word; the degree of omega is added in case 3.
+CASES = ("case 1", "case 2", "case 3 (4)", "case 3 (6)", "case 3 (12)")
+NONE, UNDECIDED, ERROR, FAILED = "none", "undecided", "bad input", "failed"
+LABELS = (*CASES, NONE, UNDECIDED, ERROR, FAILED)
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """One equation of a batch: `number` counts the lines of the input from 1, `text` is S.
+
+    `extra` is copied to the record (an identifier, the values of parameters).  `error` says why the line isn't an equation;
+    then `text` is the line as it was found.
+    """
+
+    number: int
+    text: str
+    var: str | None = None
+    extra: Mapping[str, Any] = field(default_factory=dict)
+    error: InputError | LimitExceeded | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """The answer to one item: its number, a word for statistics out of `LABELS`, the time, and a line of JSON.
+
+    The JSON is schema 1 with the keys `line` (the number) and those of `Item.extra` before it.  Without an answer, `status`
+    is "error" and `error` has `type` and `message`, and for a bad input `position` and `hint`; the label is then "bad input",
+    or "failed" where an answer didn't pass its check or a process was lost twice.
+    """
+
+    number: int
+    label: str
+    seconds: float
+    json: str
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The JSON as an object."""
+        return json.loads(self.json)  # type: ignore[no-any-return]
+
+    @property
+    def case(self) -> int | None:
+        """Kovacic's case, 1 to 3, or None."""
+        return int(self.label[5]) if self.label in CASES else None
+
+    @property
+    def error(self) -> str | None:
+        """What was wrong; None if there is an answer."""
+        return self.data["error"]["message"] if self.label in (ERROR, FAILED) else None
+
+    @property
+    def solution(self) -> Solution:
+        """The answer as an object.  Raises `KovacicError` with the record's error where there is none."""
+        if self.error is not None:
+            raise KovacicError(f"line {self.number}: {self.error}")
+        return Solution.from_json(self.data)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Job:
+    """What holds for every equation of a batch.
+
+    `timeout`, in seconds, and `memory`, in MiB above what an idle worker has, are hard: the process is killed.  `limits`
+    are those of `kovacic.solve`; their clock is set to `timeout`, so that most equations end by themselves.  With `group`,
+    the record has the differential Galois group: its name, its order (null if infinite) and whether it is finite.
+    """
+
+    timeout: float | None = None
+    memory: int | None = None
+    group: bool = False
+    limits: Limits = DEFAULT_LIMITS
+
+    @property
+    def engine_limits(self) -> Limits:
+        """The limits inside the worker."""
+        times = [t for t in (self.timeout, self.limits.seconds) if t is not None]
+        return replace(self.limits, seconds=min(times, default=None))
+
+    def dumps(self) -> str:
+        return json.dumps(asdict(self))
+
+    @classmethod
+    def loads(cls, text: str) -> Job:
+        data = json.loads(text)
+        return cls(timeout=data["timeout"], memory=data["memory"], group=data["group"], limits=Limits(**data["limits"]))
+
+
+def solved(item: Item, solution: Solution, job: Job) -> Record:
+    """The record of an answer."""
+    decision = solution.decision
+    if decision.undecided is not None:
+        label = UNDECIDED
+    elif solution.case is None:
+        label = NONE
+    elif solution.case == 3 and decision.riccati is not None:
+        label = f"case 3 ({decision.riccati.degree})"
+    else:
+        label = f"case {solution.case}"
+    added = {"line": item.number, **item.extra}
+    if job.group:
+        group = solution.group
+        added["group"] = None if group is None else {"name": group.name, "order": group.order, "finite": group.finite}
+    head = json.dumps(added, ensure_ascii=False)
+    return Record(item.number, label, solution.seconds or 0.0, f"{head[:-1]}, {solution.to_json()[1:]}")
+
+
+def refused(item: Item, error: KovacicError, seconds: float = 0.0) -> Record:
+    """The record of an input that isn't an equation or is too large, or of a failed self-check."""
+    if isinstance(error, LimitExceeded):
+        return stopped(item, str(error), seconds)
+    details: dict[str, Any] = {"type": type(error).__name__}
+    if isinstance(error, InputError):
+        details |= {"message": error.message, "position": error.position, "hint": error.hint}
+        return _without_answer(item, ERROR, details, seconds)
+    return _without_answer(item, FAILED, details | {"message": str(error)}, seconds)
+
+
+def lost(item: Item, message: str, seconds: float) -> Record:
+    """The record of an equation whose process was lost for a reason that isn't a limit."""
+    return _without_answer(item, FAILED, {"type": "ProcessLost", "message": message}, seconds)
+
+
+def stopped(item: Item, reason: str, seconds: float) -> Record:
+    """The record of an equation that is undecided because a limit was reached before the engine could say so; schema 1.
+
+    `S` is the text as it was given, because nothing has been heard from the process that read it.
+    """
+    data = {
+        "line": item.number,
+        **item.extra,
+        "schema": 1,
+        "input": item.text,
+        "variable": item.var or "x",
+        "S": item.text.strip(),
+        "status": "undecided",
+        "case": None,
+        "riccati": None,
+        "constants": None,
+        "verified": False,
+        "proof": {"structure": None, "semi_invariant": None, "invariant": None, "excluded": [], "undecided": reason},
+        "notices": [],
+        "seconds": round(seconds, 6),
+    }
+    return Record(item.number, UNDECIDED, seconds, json.dumps(data))
+
+
+def _without_answer(item: Item, label: str, error: Mapping[str, Any], seconds: float) -> Record:
+    data = {"line": item.number, **item.extra, "schema": 1, "input": item.text, "status": "error", "error": error}
+    return Record(item.number, label, seconds, json.dumps(data))

@@ -1,0 +1,265 @@
+"""A pool of worker processes that can be killed: every item gets exactly one record.
+
+One loop in the caller's thread waits for events (a record, the end of a process, an item from a stream) and for the next
+deadline.  A busy process has one small item waiting in its pipe, so that it needn't wait for the parent; such an item is
+given to another process when that one has nothing to do.  A record counts only if it comes from the item's owner.
+
+A process that is over its time is killed, and so is one that has ended by itself; its item gets a record or, once, another
+process, since it may have been killed by somebody else.  What was waiting behind it goes back to the front.
+"""
+
+from __future__ import annotations
+
+import re
+import signal
+import time
+from collections import deque
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from queue import Empty, SimpleQueue
+from types import TracebackType
+
+from kovacic.batch.child import Child, Event
+from kovacic.batch.feed import DirectFeed, Feed, StreamFeed
+from kovacic.batch.items import Item, Job, Record, lost, refused, stopped
+from kovacic.batch.worker import READY, decode_record
+from kovacic.errors import KovacicError
+
+# A process has so many seconds beyond the timeout to end by itself, with an answer that says what it has excluded.
+GRACE_SECONDS = 0.25
+_START_SECONDS = 120.0
+
+# A process may be killed while it starts; if as many as this in a row end so, something is wrong with all of them.
+_START_ATTEMPTS = 4
+
+# In order of the input, at most so many items are read beyond the first one that has no answer.
+ORDERED_WINDOW = 10_000
+
+# A longer item could fill the pipe of a busy process, and make the parent wait.
+_WAITING_CHARACTERS = 10_000
+
+# The last words of Python, GMP, flint and the C++ library.
+_OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_alloc", re.IGNORECASE)
+
+
+@dataclass(slots=True)
+class _Entry:
+    """An item on its way: its owner, and whether it has been given to a second process after the loss of the first."""
+
+    item: Item
+    owner: Child | None = None
+    retried: bool = False
+
+
+class Pool:
+    """`jobs` worker processes for one job; a context manager, which kills them at the end.
+
+    >>> from kovacic.batch.items import Item, Job
+    >>> with Pool(1, Job(timeout=60)) as pool:
+    ...     [record.label for record in pool.run([Item(1, "x^2 + 3"), Item(2, "x"), Item(3, "x+")])]
+    ['case 1', 'none', 'bad input']
+    """
+
+    def __init__(self, jobs: int, job: Job) -> None:
+        self._job = job
+        self._events: SimpleQueue[Event | None] = SimpleQueue()
+        self._jobs = jobs
+        self._children: list[Child] = []
+        self._entries: dict[int, _Entry] = {}
+        self._again: deque[_Entry] = deque()
+        self._failed_starts = 0
+        self.replaced = 0
+
+    def __enter__(self) -> Pool:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Kill the processes; `run` would start new ones."""
+        for child in self._children:
+            child.kill()
+        self._children.clear()
+        self._entries.clear()
+        self._again.clear()
+
+    def pids(self) -> list[int]:
+        """The identifiers of the worker processes."""
+        return [child.pid for child in self._children]
+
+    def run(self, items: Iterable[Item], *, ordered: bool = True, stream: bool = False) -> Iterator[Record]:
+        """One record for each item, in the order of the items or as they finish.
+
+        The numbers of the items must differ.  `stream` says that the items may be long in coming.
+        """
+        feed: Feed = StreamFeed(items, self._events) if stream else DirectFeed(items)
+        if not ordered:
+            yield from self._records(feed, deque())
+            return
+        order: deque[int] = deque()
+        ready: dict[int, Record] = {}
+        for record in self._records(feed, order, window=ORDERED_WINDOW):
+            ready[record.number] = record
+            while order and order[0] in ready:
+                yield ready.pop(order.popleft())
+
+    def _records(self, feed: Feed, order: deque[int], *, window: int | None = None) -> Iterator[Record]:
+        """The records as they come; the numbers of the items are appended to `order` as they are taken."""
+        while len(self._children) < self._jobs:
+            self._children.append(Child(self._job, self._events))
+        while True:
+            yield from self._hand_out(feed, order, window)
+            if feed.exhausted and not self._entries:
+                return
+            self._share_waiting()
+            yield from self._handle(self._wait())
+
+    def _hand_out(self, feed: Feed, order: deque[int], window: int | None) -> Iterator[Record]:
+        for depth in (1, 2):
+            for child in self._children:
+                if not child.ready or len(child.assigned) != depth - 1:
+                    continue
+                if depth == 2 and len(child.assigned[0].text) > _WAITING_CHARACTERS:
+                    continue
+                while (entry := self._next(feed, order, window)) is not None:
+                    item = entry.item
+                    if item.error is not None:
+                        yield refused(item, item.error)
+                    elif depth == 2 and len(item.text) > _WAITING_CHARACTERS:
+                        self._entries[item.number] = entry
+                        self._again.appendleft(entry)
+                        return
+                    else:
+                        entry.owner = child
+                        self._entries[item.number] = entry
+                        child.give(item)
+                        break
+
+    def _next(self, feed: Feed, order: deque[int], window: int | None) -> _Entry | None:
+        if self._again:
+            return self._again.popleft()
+        if feed.exhausted or (window is not None and len(order) >= window):
+            return None
+        item = feed.take()
+        if item is None:
+            return None
+        if window is not None:
+            order.append(item.number)
+        return _Entry(item)
+
+    def _share_waiting(self) -> None:
+        """Give what waits behind a slow item to a process that has nothing to do."""
+        for idle in self._children:
+            if idle.assigned or not idle.ready:
+                continue
+            for child in self._children:
+                waiting = [item for item in list(child.assigned)[1:] if self._owned(item, child)]
+                if waiting:
+                    self._entries[waiting[0].number].owner = idle
+                    idle.give(waiting[0])
+                    break
+
+    def _owned(self, item: Item, child: Child) -> bool:
+        entry = self._entries.get(item.number)
+        return entry is not None and entry.owner is child
+
+    def _wait(self) -> list[Event | None]:
+        """The events that have arrived, at least one unless a deadline comes first."""
+        deadline = min((self._deadline(child) for child in self._children), default=None)
+        events: list[Event | None] = []
+        try:
+            wait = None if deadline is None or deadline == float("inf") else max(0.0, deadline - time.monotonic())
+            events.append(self._events.get(timeout=wait))
+            while True:
+                events.append(self._events.get_nowait())
+        except Empty:
+            return events
+
+    def _deadline(self, child: Child) -> float:
+        if not child.ready:
+            return child.busy_since + _START_SECONDS
+        if self._job.timeout is None or not child.assigned:
+            return float("inf")
+        return child.busy_since + self._job.timeout + GRACE_SECONDS
+
+    def _handle(self, events: list[Event | None]) -> Iterator[Record]:
+        for event in events:
+            if event is None or event[0] not in self._children:
+                continue
+            child, line = event
+            if line is None:
+                yield from self._died(child)
+            elif not child.ready:
+                assert line.strip() == READY, line
+                child.ready = True
+                self._failed_starts = 0
+            else:
+                record, item = decode_record(line), child.finished_one()
+                assert record.number == item.number, (record, item)
+                if self._owned(item, child):
+                    del self._entries[item.number]
+                    yield record
+        if not events:
+            now = time.monotonic()
+            for child in [child for child in self._children if self._deadline(child) <= now]:
+                yield from self._over_time(child)
+
+    def _over_time(self, child: Child) -> Iterator[Record]:
+        if not child.ready:
+            raise KovacicError(f"a worker process hasn't started within {_START_SECONDS:g} s")
+        item = child.assigned[0]
+        if self._owned(item, child):
+            del self._entries[item.number]
+            seconds = time.monotonic() - child.busy_since
+            assert self._job.timeout is not None
+            yield stopped(item, f"the time limit of {self._job.timeout:g} s is used up (process killed)", seconds)
+        self._replace(child)
+
+    def _died(self, child: Child) -> Iterator[Record]:
+        status, words = child.last_words()
+        if not child.ready:
+            self._failed_starts += 1
+            if self._failed_starts >= _START_ATTEMPTS:
+                raise KovacicError(f"worker processes can't be started: {_cause(status, words)}\n{words}")
+        seconds = time.monotonic() - child.busy_since
+        head = child.assigned[0] if child.assigned else None
+        if head is not None and self._owned(head, child):
+            entry = self._entries[head.number]
+            if self._job.memory is not None and _OUT_OF_MEMORY.search(words):
+                del self._entries[head.number]
+                yield stopped(head, f"the memory limit of {self._job.memory} MiB is used up (process ended)", seconds)
+            elif -status == signal.SIGALRM:
+                del self._entries[head.number]
+                assert self._job.timeout is not None
+                yield stopped(head, f"the time limit of {self._job.timeout:g} s is used up (process ended)", seconds)
+            elif entry.retried:
+                del self._entries[head.number]
+                yield lost(head, _cause(status, words), seconds)
+            else:
+                entry.retried = True
+        self._replace(child)
+
+    def _replace(self, child: Child) -> None:
+        """Kill a process, put what it still owns back to the front, and start another one."""
+        again = []
+        for item in child.assigned:
+            if self._owned(item, child):
+                entry = self._entries[item.number]
+                entry.owner = None
+                again.append(entry)
+        self._again.extendleft(reversed(again))
+        child.kill()
+        self._children[self._children.index(child)] = Child(self._job, self._events)
+        self.replaced += 1
+
+
+def _cause(status: int, words: str) -> str:
+    end = f"signal {signal.Signals(-status).name}" if status < 0 else f"exit status {status}"
+    last_line = words.splitlines()[-1].strip() if words else ""
+    return f"the worker process ended with {end}" + (f": {last_line}" if last_line else "")
+
+
+__all__ = ["GRACE_SECONDS", "ORDERED_WINDOW", "Pool"]

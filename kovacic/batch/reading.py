@@ -1,0 +1,215 @@
+"""Items from files: JSONL, CSV, or an expression a line; compressed with gzip or not; or from standard input.
+
+A line that can't be read becomes an item with its error, never an exception.  Items are numbered by the line on which they
+begin, so that a number names the place in the file.  Empty lines, and lines of plain files that begin with `#`, are no items.
+"""
+
+from __future__ import annotations
+
+import csv
+import gzip
+import io
+import itertools
+import json
+import sys
+import zlib
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from kovacic.batch.items import Item
+from kovacic.errors import InputError, LimitExceeded, ParseError
+from kovacic.limits import DEFAULT_LIMITS, Limits
+
+FORMATS = ("lines", "jsonl", "csv")
+_SUFFIXES = {".jsonl": "jsonl", ".ndjson": "jsonl", ".csv": "csv"}
+
+# Names of the column or key with the expression, in the order in which they are looked for.
+_EXPRESSION_KEYS = ("S", "input", "expression")
+
+# Bytes of a line for each character that an expression may have: UTF-8, and escapes of JSON.
+_BYTES_PER_CHARACTER = 6
+
+
+def guess_format(name: str) -> str | None:
+    """The format that belongs to a file name; None where it says nothing ("-", "data.txt").
+
+    >>> guess_format("cases.jsonl.gz"), guess_format("table.CSV"), guess_format("-")
+    ('jsonl', 'csv', None)
+    """
+    path = Path(name.lower().removesuffix(".gz"))
+    return _SUFFIXES.get(path.suffix)
+
+
+@contextmanager
+def opened(name: str) -> Iterator[BinaryIO]:
+    """The bytes of a file; "-" is standard input.  Raises `InputError` for a file that can't be opened."""
+    if name == "-":
+        yield sys.stdin.buffer
+        return
+    try:
+        stream = open(name, "rb")  # noqa: SIM115 - closed below; errors of the body aren't errors of opening
+    except OSError as error:
+        raise InputError(f"{name}: {error.strerror}") from None
+    with stream:
+        yield stream
+
+
+def read_items(
+    stream: BinaryIO, *, form: str | None = None, var: str | None = None, limits: Limits = DEFAULT_LIMITS
+) -> Iterator[Item]:
+    """The items of a stream in one of `FORMATS`; by default JSONL if its first item begins with `{` or `"`, else lines.
+
+    A line of JSONL is a string, or an object with the key "S" (or "input", "expression"), and perhaps "id" and "var".  A CSV
+    file has such columns, or no header and the expressions in its first column.  `var` names the variable of all items
+    that don't name one.  What begins like a gzip file is decompressed.  Raises `InputError` where that fails, after the
+    items up to there.
+    """
+    lines = _lines(stream, limits.text_length * _BYTES_PER_CHARACTER)
+    if form is None:
+        form, lines = _sniffed(lines)
+    if form == "csv":
+        yield from _csv_items(lines, var)
+        return
+    for number, raw in lines:
+        if isinstance(raw, LimitExceeded):
+            yield Item(number, "", error=raw)
+            continue
+        try:
+            text = raw.decode("utf-8").strip()
+        except UnicodeDecodeError as error:
+            shown = raw.decode("utf-8", errors="backslashreplace").strip()
+            yield Item(
+                number, shown, error=ParseError(f"the line isn't UTF-8 text: byte {error.start} is {error.reason}")
+            )
+            continue
+        if form == "jsonl":
+            if text:
+                yield _json_item(number, text, var)
+        elif text and not text.startswith("#"):
+            yield Item(number, text, var)
+
+
+def count_items(name: str, *, form: str | None = None) -> int:
+    """How many items a file has, for the progress bar."""
+    with opened(name) as stream:
+        return sum(1 for _ in read_items(stream, form=form or guess_format(name)))
+
+
+def item_from(number: int, value: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Item:
+    """The item for whatever `kovacic.solve` takes, or for a mapping with the keys of a line of JSONL."""
+    if isinstance(value, str):
+        return Item(number, value, var)
+    if isinstance(value, Mapping):
+        return _mapping_item(number, value, str(dict(value)), var)
+    from kovacic.io.read import read_input
+
+    try:
+        parsed = read_input(value, var=var, limits=limits)
+    except (InputError, LimitExceeded) as error:
+        return Item(number, str(value), var, error=error)
+    return Item(number, parsed.S.to_str(parsed.variable), parsed.variable)
+
+
+def _decompressed(stream: Any) -> BinaryIO:
+    raw = stream if isinstance(stream, io.BufferedReader) else io.BufferedReader(stream)
+    plain: Any = gzip.GzipFile(fileobj=raw) if raw.peek(2)[:2] == b"\x1f\x8b" else raw
+    return plain  # type: ignore[no-any-return]
+
+
+def _lines(stream: BinaryIO, longest: int) -> Iterator[tuple[int, bytes | LimitExceeded]]:
+    """The lines with their numbers; of a line that is too long, nothing but that is kept."""
+    number = 0
+    try:
+        plain = _decompressed(stream)
+        while line := plain.readline(longest + 1):
+            number += 1
+            if len(line) <= longest:
+                yield number, line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line
+                continue
+            while line and not line.endswith(b"\n"):
+                line = plain.readline(longest)
+            yield number, LimitExceeded(f"the line has more than {longest} bytes, the limit", limit="text_length")
+    except (OSError, EOFError, zlib.error) as error:
+        raise InputError(f"the input can't be read beyond line {number}: {error}") from None
+
+
+def _sniffed(
+    lines: Iterator[tuple[int, bytes | LimitExceeded]],
+) -> tuple[str, Iterator[tuple[int, bytes | LimitExceeded]]]:
+    seen = []
+    for entry in lines:
+        seen.append(entry)
+        if not isinstance(entry[1], bytes) or entry[1].strip():
+            break
+    first = seen[-1][1] if seen else b""
+    form = "jsonl" if isinstance(first, bytes) and first.lstrip()[:1] in (b"{", b'"') else "lines"
+    return form, itertools.chain(seen, lines)
+
+
+def _json_item(number: int, text: str, var: str | None) -> Item:
+    try:
+        value = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        return Item(number, text, var, error=ParseError(f"the line isn't JSON: {error}"))
+    if isinstance(value, str):
+        return Item(number, value, var)
+    if isinstance(value, Mapping):
+        return _mapping_item(number, value, text, var)
+    hint = 'a string, or an object like {"S": "x^2 + 3"}'
+    return Item(number, text, var, error=ParseError("the line is neither a string nor an object", hint=hint))
+
+
+def _mapping_item(number: int, value: Mapping[str, Any], text: str, var: str | None) -> Item:
+    extra = {"id": value["id"]} if "id" in value else {}
+    key = next((key for key in _EXPRESSION_KEYS if key in value), None)
+    if key is None:
+        error = InputError(f"there is no key {_EXPRESSION_KEYS[0]!r} with the expression", hint='{"S": "x^2 + 3"}')
+        return Item(number, text, var, extra, error)
+    own = value.get("var") or var
+    if not isinstance(value[key], str) or not (own is None or isinstance(own, str)):
+        return Item(number, text, None, extra, InputError(f"the values of {key!r} and 'var' are strings"))
+    return Item(number, value[key], own, extra)
+
+
+def _csv_items(lines: Iterable[tuple[int, bytes | LimitExceeded]], var: str | None) -> Iterator[Item]:
+    """Rows of a CSV file.  The reader sees undecodable bytes as surrogates, which the row's item then reports."""
+
+    def texts() -> Iterator[str]:
+        for _, raw in lines:
+            yield str(raw) + "\n" if isinstance(raw, LimitExceeded) else raw.decode("utf-8", errors="surrogateescape")
+
+    reader = csv.reader(texts())
+    header: list[str] | None = None
+    last_line, first = 0, True
+    while True:
+        number = last_line + 1
+        try:
+            row = next(reader, None)
+        except csv.Error as error:
+            yield Item(number, "", var, error=ParseError(f"the row isn't CSV: {error}"))
+            last_line, first = reader.line_num, False
+            continue
+        last_line = reader.line_num
+        if row is None:
+            return
+        if not any(cell.strip() for cell in row):
+            continue
+        if first and any(cell.strip() in _EXPRESSION_KEYS for cell in row):
+            header = [cell.strip() for cell in row]
+        else:
+            yield _csv_item(number, row, header, var)
+        first = False
+
+
+def _csv_item(number: int, row: list[str], header: list[str] | None, var: str | None) -> Item:
+    shown = ",".join(row)
+    if any("\udc80" <= char <= "\udcff" for char in shown):
+        text = shown.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
+        return Item(number, text, var, error=ParseError("the row isn't UTF-8 text"))
+    if header is None:
+        return Item(number, row[0].strip(), var)
+    if len(row) != len(header):
+        return Item(number, shown, var, error=ParseError(f"{len(row)} cells in a table of {len(header)} columns"))
+    return _mapping_item(number, {key: cell.strip() for key, cell in zip(header, row, strict=True)}, shown, var)

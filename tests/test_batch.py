@@ -1,0 +1,462 @@
+"""Batches: every input gets exactly one answer, whatever happens to the processes; limits hold; runs can be resumed."""
+
+from __future__ import annotations
+
+import gzip
+import io
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import kovacic
+from kovacic.batch.items import LABELS, Item, Job, Record
+from kovacic.batch.output import Answers, take_up
+from kovacic.batch.pool import GRACE_SECONDS, Pool
+from kovacic.batch.reading import count_items, guess_format, item_from, opened, read_items
+from kovacic.batch.summary import Summary
+from kovacic.batch.worker import decode_item, decode_record, encode_item, encode_record, solve_item
+from kovacic.errors import InputError, KovacicError
+from kovacic.limits import Limits
+
+CASES = Path(__file__).parent / "data" / "cases.jsonl"
+
+# Its numerator alone takes the engine far longer than any limit below; the time goes into single calls of the C library.
+SLOW = "(x + 1)^15000/(x^3 + 1)"
+QUICK = ("x^2 + 3", "x", "1/x - 3/(16*x^2)", "2", "(2 - x^2)/x^2")
+QUICK_CASES = [1, None, 2, 1, 1]
+
+
+def items(texts: list[str] | tuple[str, ...]) -> list[Item]:
+    return [Item(number, text) for number, text in enumerate(texts, start=1)]
+
+
+def read(data: bytes, form: str | None = None, **options: str) -> list[Item]:
+    return list(read_items(io.BytesIO(data), form=form, **options))
+
+
+def command(*arguments: str, **options: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "kovacic", "batch", *arguments], capture_output=True, text=True, timeout=60, **options
+    )
+
+
+@pytest.fixture(scope="module")
+def pool() -> Iterator[Pool]:
+    with Pool(2, Job()) as running:
+        yield running
+
+
+# Reading
+
+
+def test_plain_lines_are_numbered_by_their_place() -> None:
+    found = read(b"\xef\xbb\xbfx^2+3\n\n# a comment\n  x \r\nlast")
+    assert [(item.number, item.text) for item in found] == [(1, "x^2+3"), (4, "x"), (5, "last")]
+
+
+def test_jsonl_is_recognised_and_bad_lines_keep_their_place() -> None:
+    found = read(b'{"S": "t", "var": "t", "id": "airy"}\n{"id": 3}\n[1]\n{"S": 5}\n"x"\nnot json\n')
+    assert found[0] == Item(1, "t", "t", {"id": "airy"})
+    assert [item.error is not None for item in found] == [False, True, True, True, False, True]
+    assert found[1].extra == {"id": 3}
+
+
+def test_csv_with_and_without_header() -> None:
+    found = read(b'id,S\nfirst,"x^2 +\n 3"\nsecond,x\nthird\n', "csv")
+    assert [(item.number, item.text, item.extra.get("id")) for item in found[:2]] == [
+        (2, "x^2 +\n 3", "first"),
+        (4, "x", "second"),
+    ]
+    assert found[2].error is not None
+    assert found[2].number == 5
+    assert [item.text for item in read(b"x,1\nx^2+3,2\n", "csv")] == ["x", "x^2+3"]
+
+
+@pytest.mark.parametrize("form", ["lines", "jsonl", "csv"])
+def test_bytes_that_are_no_text_are_reported_in_their_line(form: str) -> None:
+    found = read(b"S\nx\xff\n" if form == "csv" else b"\nx\xff\n", form)
+    assert len(found) == 1
+    assert found[0].number == 2
+    assert "UTF-8" in str(found[0].error)
+
+
+def test_a_line_above_the_limit_is_not_kept() -> None:
+    found = list(read_items(io.BytesIO(b"x+" * 5000 + b"x\nx\n"), form="lines", limits=Limits(text_length=100)))
+    assert [(item.number, item.error is None) for item in found] == [(1, False), (2, True)]
+
+
+def test_gzip_is_recognised_by_its_first_bytes(tmp_path: Path) -> None:
+    path = tmp_path / "data"
+    path.write_bytes(gzip.compress(b"x\nx^2\n"))
+    with opened(str(path)) as stream:
+        assert [item.text for item in read_items(stream)] == ["x", "x^2"]
+    assert count_items(str(path)) == 2
+
+
+def test_a_torn_gzip_file_is_an_error_after_its_items() -> None:
+    lines = b"".join(b"x + %d\n" % (k * k) for k in range(20_000))
+    found = read_items(io.BytesIO(gzip.compress(lines)[:-2000]))
+    assert next(found).text == "x + 0"
+    with pytest.raises(InputError, match="can't be read beyond line"):
+        list(found)
+
+
+def test_formats_by_name() -> None:
+    assert [guess_format(name) for name in ("a.jsonl", "b.ndjson.gz", "c.csv", "d.txt", "-")] == [
+        "jsonl",
+        "jsonl",
+        "csv",
+        None,
+        None,
+    ]
+
+
+def test_everything_that_solve_takes_is_an_item() -> None:
+    import sympy
+
+    x = sympy.Symbol("x")
+    assert item_from(1, x**2 + 3).text == "x**2 + 3"
+    assert item_from(2, ([3, 0, 1], [1])).text == "x**2 + 3"
+    assert item_from(3, {"S": "t", "var": "t", "id": 5}) == Item(3, "t", "t", {"id": 5})
+    assert item_from(4, object()).error is not None
+
+
+@given(st.text(), st.none() | st.text(), st.dictionaries(st.text(), st.text()))
+def test_items_survive_the_pipe(text: str, var: str | None, extra: dict[str, str]) -> None:
+    item = Item(3, text, var, extra)
+    line = encode_item(item)
+    assert line.count("\n") == 1
+    assert line.isascii()
+    assert decode_item(line) == item
+
+
+def test_records_survive_the_pipe() -> None:
+    record = solve_item(Item(7, "x^2+3", extra={"id": "tab\tnewline\n"}), Job(group=True))
+    assert decode_record(encode_record(record) + "\n") == Record(7, record.label, round(record.seconds, 6), record.json)
+    assert record.data["group"]["name"] == "Borel"
+    assert Job.loads(Job(timeout=2, memory=3, group=True, limits=Limits(degree=7)).dumps()) == Job(
+        timeout=2, memory=3, group=True, limits=Limits(degree=7)
+    )
+
+
+# Running
+
+
+def test_solve_many_answers_in_order_with_schema_1() -> None:
+    records = list(kovacic.solve_many([*QUICK, "x+", {"S": "x", "id": "a"}], jobs=2, timeout=60))
+    assert [record.number for record in records] == list(range(1, 8))
+    assert [record.case for record in records[:5]] == QUICK_CASES
+    assert records[5].label == "bad input"
+    assert records[5].data["error"]["position"] == 1
+    assert records[6].data["id"] == "a"
+    assert records[0].solution == kovacic.solve("x^2 + 3")
+    assert records[0].solution.verify()
+    with pytest.raises(KovacicError, match="line 6"):
+        _ = records[5].solution
+
+
+def test_answers_validate_against_the_schema(pool: Pool) -> None:
+    import jsonschema
+
+    schema = json.loads((Path(kovacic.__file__).parent / "io" / "solution.schema.json").read_text())
+    with Pool(1, Job(timeout=0.2)) as short:
+        records = [*pool.run(items(QUICK)), *short.run(items([SLOW]))]
+    for record in records:
+        jsonschema.validate(record.data, schema)
+    assert records[-1].label == "undecided"
+
+
+def test_published_equations_have_their_answers(pool: Pool) -> None:
+    expected = [json.loads(line)["case"] for line in CASES.read_text().splitlines()][:60]
+    with opened(str(CASES)) as stream:
+        some = [item for item in read_items(stream, form="jsonl") if item.number <= 60]
+    finished = list(pool.run(some, ordered=False))
+    assert sorted(record.number for record in finished) == list(range(1, 61))
+    assert [record.case for record in sorted(finished, key=lambda record: record.number)] == expected
+
+
+def test_equations_are_taken_lazily(pool: Pool) -> None:
+    taken = 0
+
+    def endless() -> Iterator[Item]:
+        nonlocal taken
+        while True:
+            taken += 1
+            yield Item(1000 + taken, "x")
+
+    records = pool.run(endless())
+    assert [next(records).number for _ in range(20)] == list(range(1001, 1021))
+    records.close()
+    assert taken < 1000
+    pool.close()
+
+
+def test_the_time_limit_holds_and_costs_nobody_else_an_answer() -> None:
+    start = time.monotonic()
+    with Pool(2, Job(timeout=1.0)) as pool:
+        records = list(pool.run(items([SLOW, *QUICK, SLOW, *QUICK])))
+        assert pool.replaced == 2
+    assert time.monotonic() - start < 30
+    assert [record.label for record in records if record.number in (1, 7)] == ["undecided", "undecided"]
+    assert [record.case for record in records if record.number not in (1, 7)] == QUICK_CASES * 2
+    for record in (records[0], records[6]):
+        assert 1.0 <= record.seconds < 1.0 + GRACE_SECONDS + 1.0
+        assert "time limit of 1 s" in record.solution.reason
+
+
+def test_an_equation_never_waits_for_a_slow_one_without_limit() -> None:
+    with Pool(2, Job()) as pool:
+        records = pool.run(items([SLOW, *QUICK]), ordered=False)
+        cases = {}
+        for _ in QUICK:
+            record = next(records)
+            cases[record.number] = record.case
+        assert [cases[number] for number in range(2, 7)] == QUICK_CASES
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="needs Linux's memory limits")
+def test_the_memory_limit_holds() -> None:
+    with Pool(1, Job(memory=30, timeout=60)) as pool:
+        records = list(pool.run(items(["x", SLOW, "x^2 + 3"])))
+    assert [record.label for record in records] == ["none", "undecided", "case 1"]
+    assert "memory limit of 30 MiB" in records[1].data["proof"]["undecided"]
+
+
+def test_killed_processes_lose_nothing_and_repeat_nothing() -> None:
+    texts = [QUICK[k % 5] for k in range(200)]
+    with Pool(2, Job(timeout=60)) as pool:
+        finished = []
+        for record in pool.run(items(texts), ordered=False):
+            finished.append(record)
+            if len(finished) in (20, 21, 60, 100):
+                os.kill(pool.pids()[len(finished) % 2], signal.SIGKILL)
+        assert pool.replaced == 4
+    assert sorted(record.number for record in finished) == list(range(1, 201))
+    assert [record.case for record in sorted(finished, key=lambda r: r.number)] == QUICK_CASES * 40
+
+
+def test_an_item_that_loses_its_process_twice_is_reported() -> None:
+    with Pool(1, Job()) as pool:
+        records = pool.run(items(["x", SLOW, "x"]))
+        assert next(records).label == "none"
+        started = pool.pids()[0]
+        _kill_later(pool, started)
+        record = next(records)
+        assert record.label == "failed"
+        assert "SIGKILL" in (record.error or "")
+        assert next(records).label == "none"
+
+
+def _kill_later(pool: Pool, first: int) -> None:
+    """Kill the process that works on the slow item, and then its successor."""
+    import threading
+
+    def kill() -> None:
+        time.sleep(0.3)
+        os.kill(first, signal.SIGKILL)
+        while pool.pids() in ([], [first]) or not any(child.assigned for child in pool._children):
+            time.sleep(0.05)
+        os.kill(pool.pids()[0], signal.SIGKILL)
+
+    threading.Thread(target=kill, daemon=True).start()
+
+
+def test_a_worker_that_cannot_start_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("kovacic.batch.child._START", "import sys; sys.exit('no such module')")
+    with Pool(1, Job()) as pool, pytest.raises(KovacicError, match="no such module"):
+        list(pool.run(items(["x"])))
+
+
+def test_workers_end_with_their_parent() -> None:
+    program = (
+        "import os, time\n"
+        "from kovacic.batch.items import Item, Job\nfrom kovacic.batch.pool import Pool\n"
+        f"pool = Pool(1, Job())\nrecords = pool.run([Item(1, 'x'), Item(2, {SLOW!r})])\n"
+        "next(records)\nprint(pool.pids()[0], flush=True)\nos.kill(os.getpid(), 9)\n"
+    )
+    ran = subprocess.run([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True, timeout=60)
+    worker = int(ran.stdout)
+    for _ in range(200):
+        if not _alive(worker):
+            return
+        time.sleep(0.1)
+    pytest.fail("the worker process is still there")
+
+
+def _alive(pid: int) -> bool:
+    try:
+        with open(f"/proc/{pid}/stat", encoding="ascii") as stat:
+            return stat.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"jobs": 0}, "at least one"),
+        ({"timeout": 0}, "timeout"),
+        ({"memory": 0}, "memory"),
+        ({"scheduler": "tcp://localhost:1"}, "needs a backend"),
+        ({"backend": "nonsense"}, "isn't a backend"),
+        ({"backend": "loky", "scheduler": "tcp://localhost:1"}, "no scheduler"),
+    ],
+)
+def test_impossible_options_are_refused(options: dict[str, object], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        list(kovacic.solve_many(["x"], **options))
+
+
+def test_loky_gives_the_same_answers() -> None:
+    records = list(kovacic.solve_many([*QUICK, "x+"] * 20, backend="loky", jobs=2, timeout=60))
+    assert [record.number for record in records] == list(range(1, 121))
+    assert [record.case for record in records] == [*QUICK_CASES, None] * 20
+    from joblib.externals.loky import get_reusable_executor
+
+    get_reusable_executor().shutdown(wait=True)
+
+
+# The file of answers
+
+
+def records(numbers: list[int]) -> list[Record]:
+    return [solve_item(Item(number, f"x + {number}"), Job()) for number in numbers]
+
+
+@pytest.mark.parametrize(
+    "rest", [b"", b'{"line": 9, "inp', b"\0" * 4096, b'{"line": 9}\n', b"\n", b"[]\n", b'"\xff"\n']
+)
+def test_what_an_interruption_leaves_is_removed(tmp_path: Path, rest: bytes) -> None:
+    path = tmp_path / "answers.jsonl"
+    with Answers(path) as answers:
+        for record in records([1, 2, 5]):
+            answers.write(record)
+    whole = path.read_bytes()
+    path.write_bytes(whole + rest)
+    done = take_up(path)
+    assert path.read_bytes() == whole
+    assert [Item(k, f"x + {k}") in done for k in (1, 2, 3, 5)] == [True, True, False, True]
+    with pytest.raises(InputError, match="isn't what the answers"):
+        _ = Item(2, "x^2") in done
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_broken_and_repeated_lines_in_the_middle_are_removed(tmp_path: Path) -> None:
+    path = tmp_path / "answers.jsonl"
+    first, second = (record.json.encode() + b"\n" for record in records([1, 2]))
+    path.write_bytes(first + b"\0\0\0\n" + second + first)
+    assert len(take_up(path)) == 2
+    assert path.read_bytes() == first + second
+
+
+@given(st.integers(min_value=0))
+def test_a_run_cut_anywhere_is_completed(tmp_path_factory: pytest.TempPathFactory, cut: int) -> None:
+    path = tmp_path_factory.mktemp("cut") / "answers.jsonl"
+    whole = b"".join(record.json.encode() + b"\n" for record in records([1, 2, 3]))
+    path.write_bytes(whole[: cut % (len(whole) + 1)])
+    done = take_up(path)
+    with Answers(path) as answers:
+        for record in records([1, 2, 3]):
+            if Item(record.number, f"x + {record.number}") not in done:
+                answers.write(record)
+    assert [json.loads(line)["line"] for line in path.read_text().splitlines()] == [1, 2, 3]
+
+
+# The command
+
+
+def test_the_command_answers_every_line(tmp_path: Path) -> None:
+    path = tmp_path / "in.txt"
+    path.write_text("\n".join([*QUICK, "x +"]) + "\n")
+    ran = command(str(path), "--jobs", "2", "--group", "--progress")
+    assert ran.returncode == 2
+    answers = [json.loads(line) for line in ran.stdout.splitlines()]
+    assert [answer["line"] for answer in answers] == list(range(1, 7))
+    assert [answer["status"] for answer in answers] == ["liouvillian", "none", *["liouvillian"] * 3, "error"]
+    assert answers[0]["group"] == {"name": "Borel", "order": None, "finite": False}
+    assert re.search(r"case 1\s+│\s+3", ran.stderr)
+    assert re.search(r"bad input\s+│\s+1", ran.stderr)
+    assert "6/6" in ran.stderr
+
+
+def test_the_command_reads_standard_input_and_answers_at_once() -> None:
+    with subprocess.Popen(
+        [sys.executable, "-m", "kovacic", "batch", "-", "-j", "1", "-q"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        for text, case in (("x^2 + 3", 1), ("x", None)):
+            process.stdin.write(text + "\n")
+            process.stdin.flush()
+            assert json.loads(process.stdout.readline())["case"] == case
+        process.stdin.close()
+        assert process.wait(timeout=60) == 0
+
+
+def test_an_output_file_is_not_overwritten(tmp_path: Path) -> None:
+    path = tmp_path / "answers.jsonl"
+    path.write_text("precious\n")
+    ran = command("-", "-o", str(path), input="x\n")
+    assert ran.returncode == 2
+    assert "--resume" in ran.stderr
+    assert path.read_text() == "precious\n"
+    assert command("-", "--resume", input="x\n").returncode == 2
+    assert command(str(tmp_path / "absent")).returncode == 2
+
+
+@pytest.mark.parametrize("signal_sent", [signal.SIGINT, signal.SIGKILL])
+def test_an_interrupted_run_is_resumed(tmp_path: Path, signal_sent: int) -> None:
+    source, output = tmp_path / "in.txt", tmp_path / "out.jsonl"
+    count = 2000
+    source.write_text("".join(f"x^2 + {k % 20}\n" for k in range(count)))
+    arguments = [str(source), "-o", str(output), "-j", "2", "--as-finished"]
+    with subprocess.Popen(
+        [sys.executable, "-m", "kovacic", "batch", *arguments], stderr=subprocess.PIPE, text=True
+    ) as process:
+        while not output.exists() or output.read_bytes().count(b"\n") < 50:
+            time.sleep(0.01)
+        process.send_signal(signal_sent)
+        _, errors = process.communicate(timeout=60)
+        assert process.returncode == (130 if signal_sent == signal.SIGINT else -signal.SIGKILL), errors
+    before = output.read_bytes().count(b"\n")
+    assert before < count
+    ran = command(*arguments, "--resume")
+    assert ran.returncode == 0, ran.stderr
+    assert "had been answered before" in ran.stderr
+    numbers = [json.loads(line)["line"] for line in output.read_text().splitlines()]
+    assert sorted(numbers) == list(range(1, count + 1))
+
+
+# The summary
+
+
+def test_quantiles_and_exit_status() -> None:
+    summary = Summary()
+    for k in range(1, 1001):
+        summary.add(Record(k, "none", k / 1000, ""))
+    assert summary.quantile(0.5) == pytest.approx(0.5, rel=0.06)
+    assert summary.quantile(0.9) == pytest.approx(0.9, rel=0.06)
+    assert summary.slowest is not None
+    assert summary.slowest.number == 1000
+    assert summary.exit_status == 0
+    for label, status in (("undecided", 3), ("bad input", 2), ("failed", 4)):
+        summary.add(Record(0, label, 0.0, ""))
+        assert summary.exit_status == status
+    assert set(summary.counts) <= set(LABELS)
+
+
+def test_an_empty_summary() -> None:
+    assert Summary().quantile(0.5) == 0.0
