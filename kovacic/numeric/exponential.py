@@ -45,7 +45,7 @@ def embed(poly: Poly, c: acb | None) -> acb_poly:
     """The polynomial with ball coefficients."""
     from flint import acb_poly, fmpq, fmpq_poly
 
-    parts = getattr(poly, "parts", None) or (poly,)
+    parts: tuple[Any, ...] = getattr(poly, "parts", None) or (poly,)
     total, power = acb_poly([]), acb_poly([1])
     for part in parts:
         values = [Fraction(v) for v in part.coefficients()]
