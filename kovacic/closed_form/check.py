@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import mpmath
@@ -11,6 +12,7 @@ from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import (
     CurvePrimitive,
@@ -61,7 +63,18 @@ def _on_curve(form: OnCurve, S: RatFunc, gauge: RatFunc) -> bool:
     """omega = u +- kappa r/sqrt(g): u' + u^2 + kappa^2 r^2/g = S and (r/sqrt(g))' + 2 u r/sqrt(g) = 0."""
     u, r, g = form.common.logarithmic_derivative - gauge, form.integral.integrand, RatFunc(form.integral.g)
     rate = r.derivative() / r - g.derivative() / (2 * g)
+    if not _is_complete(form.integral):
+        return False
     return _riccati(u) + r * r / g * form.kappa_squared == S and not rate + 2 * u
+
+
+def _is_complete(integral: CurveIntegral) -> bool:
+    """If a unit stands for the residues and the rest: is its derivative theirs?"""
+    u, g = integral.unit, integral.g
+    if u is None:
+        return True
+    zero = RatFunc(g.field.poly([]))
+    return u.is_unit(g) and u.integrand(g) == replace(integral, exact=zero).integrand
 
 
 def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
@@ -72,7 +85,7 @@ def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
         return h.derivative() == target * h
     if isinstance(primitive, CurvePrimitive):
         r, g = primitive.integral.integrand, RatFunc(primitive.integral.g)
-        return r.derivative() / r - g.derivative() / (2 * g) == target
+        return r.derivative() / r - g.derivative() / (2 * g) == target and _is_complete(primitive.integral)
     if isinstance(primitive, ExponentialPrimitive):
         r = primitive.integrand
         return r.derivative() / r + primitive.kernel_derivative == target

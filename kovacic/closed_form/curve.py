@@ -20,16 +20,22 @@ from fractions import Fraction
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.partial_fractions import Residue
+from kovacic.closed_form.units import Unit
 
 
 @dataclass(frozen=True)
 class CurveIntegral:
-    """int r dx/sqrt(g) as in (1): `exact` is C, `residues` the simple poles, `rest` the polynomial of degree <= d - 2."""
+    """int r dx/sqrt(g) as in (1): `exact` is C, `residues` the simple poles, `rest` the polynomial of degree <= d - 2.
+
+    For d >= 3 `unit` is the logarithm that everything but the exact part amounts to, or `reason` says why it is left.
+    """
 
     g: Poly
     exact: RatFunc
     residues: tuple[Residue, ...]
     rest: Poly
+    unit: Unit | None = None
+    reason: str | None = None
 
     @property
     def integrand(self) -> RatFunc:

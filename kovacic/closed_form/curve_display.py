@@ -16,11 +16,10 @@ from sympy import Add, Integer, Mul, Pow, atan, cos, exp, log, sin, sqrt
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms, Expr
+from kovacic.closed_form.atoms import Atoms, Expr, rational
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.partial_fractions import Residue
 from kovacic.closed_form.structure import OnCurve
-from kovacic.closed_form.torsion import open_reason, unit_of_divisor
 from kovacic.closed_form.units import Unit, unit
 
 
@@ -33,10 +32,10 @@ class _Terms:
     notes: tuple[str, ...] = ()
 
 
-def curve_integral(integral: CurveIntegral, atoms: Atoms) -> Expr:
-    """int r dx/sqrt(g)."""
+def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, tuple[str, ...]]:
+    """int r dx/sqrt(g), and notes."""
     terms = _terms(integral, atoms)
-    return Add(*terms.others, *(c * log(base) for c, base in terms.logarithms))
+    return Add(*terms.others, *(c * log(base) for c, base in terms.logarithms)), terms.notes
 
 
 def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
@@ -84,12 +83,12 @@ def _radical_product(a: Expr, b: Expr) -> Expr:
 def _oriented(form: OnCurve) -> OnCurve:
     """With -g and -kappa^2 instead of g and kappa^2 if all logarithms are real where g is negative.
 
-    Only for residues at rational points or with rational tau^2, and d = 2 without a logarithm at infinity.
+    Only for rational tau^2, and d = 2 with two real branch points and without a logarithm at infinity.
     """
     integral = form.integral
-    if integral.rest or not integral.residues or integral.g.degree != 2:
+    if integral.rest or not integral.residues or integral.g.degree != 2 or not _has_real_roots(integral.g):
         return form
-    units = [unit(integral, residue) for residue in integral.residues]
+    units = [unit(integral.g, residue) for residue in integral.residues]
     values = [None if u is None else u.tau_squared.field.rational_value(u.tau_squared) for u in units]
     if any(value is None or value > 0 for value in values):
         return form
@@ -105,17 +104,15 @@ def _terms(integral: CurveIntegral, atoms: Atoms) -> _Terms:
     if integral.exact:
         others.append(atoms.ratio(integral.exact) * root)
     if not integral.is_elementary:
-        found = unit_of_divisor(integral)
-        rest = _integrand(integral)
-        if found is None:
-            others.append(sympy.Integral(atoms.ratio(rest) / root, atoms.x))
-            return _Terms((), tuple(others), (f"integral left because {open_reason(integral)}",))
-        _append_unit(found, root, atoms, logarithms, others)
+        if integral.unit is None:
+            others.append(sympy.Integral(atoms.ratio(_integrand(integral)) / root, atoms.x))
+            return _Terms((), tuple(others), (f"integral left because {integral.reason}",))
+        _append_unit(integral.unit, root, atoms, logarithms, others)
         return _Terms(tuple(logarithms), tuple(others))
     if integral.rest:
-        logarithms.append((atoms.constant(integral.rest) * _half_if_split(g), _at_infinity(g, atoms)))
+        logarithms.append((atoms.constant(integral.rest) * (2 if _splits(g) else 1), _at_infinity(g, atoms)))
     for residue in integral.residues:
-        found = unit(integral, residue)
+        found = unit(integral.g, residue)
         if found is not None:
             _append_unit(found, root, atoms, logarithms, others)
         else:
@@ -129,34 +126,35 @@ def _integrand(integral: CurveIntegral) -> RatFunc:
 
 
 def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr, Expr]], others: list[Expr]) -> None:
-    """-log((A + B tau s)/p)/tau, or the arc tangent for tau^2 < 0."""
-    square = atoms.constant(u.tau_squared)
+    """factor * log((A + B tau s)/p)/tau, or the arc tangent for tau^2 < 0."""
+    square, factor = atoms.constant(u.tau_squared), rational(u.factor)
     A, B, p = u.A, u.B, u.p
     content, _ = atoms.primitive(A)
     if content:
         A, B = A * (1 / content), B * (1 / content)
     if square.is_negative:
         eta = sqrt(-square)
-        others.append(atan(sympy.cancel(atoms.poly(A) / atoms.poly(B)) / (eta * root)) / eta)
+        others.append(atan(sympy.cancel(atoms.poly(A) / atoms.poly(B)) / (eta * root)) * -factor / eta)
         return
     tau = sqrt(square)
     top = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root
-    logarithms.append((-1 / tau, top / atoms.primitive(p)[1] if p.degree > 0 else top))
+    logarithms.append((factor / tau, top / atoms.primitive(p)[1] if p.degree > 0 else top))
 
 
 def _has_real_roots(g: Poly) -> bool:
-    """Are there two real roots, not symmetric to 0, of a quadratic polynomial over Q?"""
+    """Has a quadratic polynomial two real roots, as far as that is known?"""
     discriminant = g.field.rational_value(g[1] * g[1] - 4 * g[0] * g[2])
-    return discriminant is not None and discriminant > 0 and bool(g[1])
+    return discriminant is not None and discriminant > 0
 
 
-def _half_if_split(g: Poly) -> Integer:
-    return Integer(2) if _has_real_roots(g) else Integer(1)
+def _splits(g: Poly) -> bool:
+    """Is sqrt(x - x1) + sqrt(x - x2) the better form: real roots, not symmetric to 0?"""
+    return _has_real_roots(g) and bool(g[1])
 
 
 def _at_infinity(g: Poly, atoms: Atoms) -> Expr:
     """x - (x1 + x2)/2 + sqrt(g), or sqrt(x - x1) + sqrt(x - x2), the square root of twice that."""
-    if _has_real_roots(g):
+    if _splits(g):
         centre, _, root = atoms.quadratic_roots(g)
         return sqrt(atoms.x - (centre - root / 2)) + sqrt(atoms.x - (centre + root / 2))
     return atoms.poly(g.derivative() * Fraction(1, 2)) + sqrt(atoms.poly(g))

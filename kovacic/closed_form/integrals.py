@@ -32,7 +32,7 @@ def second_solution(form: Triangular, atoms: Atoms) -> tuple[Expr, tuple[str, ..
     if isinstance(primitive, RationalPrimitive):
         return _rational(form, primitive, atoms), ()
     if isinstance(primitive, CurvePrimitive):
-        return _on_curve(form, primitive.integral, atoms), ()
+        return _on_curve(form, primitive.integral, atoms)
     return _exponential(form, primitive, atoms), ()
 
 
@@ -72,9 +72,10 @@ def _normalised_constant(exact: RatFunc) -> RatFunc:
     return exact - exact.num.lc
 
 
-def _on_curve(form: Triangular, integral: CurveIntegral, atoms: Atoms) -> Expr:
+def _on_curve(form: Triangular, integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, tuple[str, ...]]:
     first = atoms.product(form.first, around_zero=True)
-    return sympy.expand_mul(Mul(first, curve_integral(integral, atoms)))
+    value, notes = curve_integral(integral, atoms)
+    return sympy.expand_mul(Mul(first, value)), notes
 
 
 def _exponential(form: Triangular, primitive: ExponentialPrimitive, atoms: Atoms) -> Expr:

@@ -176,7 +176,7 @@ def _product(problem: Problem, gauge: RatFunc, *powers: tuple[Form, Fraction]) -
 
 def _polynomial(problem: Problem, structure: Structure, F: Form, H: Form, T: Form) -> PowerPolynomial | None:
     """Equation (2)."""
-    scale = _singular_part(problem, F.R)
+    scale = singular_part(problem, F.R)
     D = RatFunc(problem.D)
     if structure is Structure.OCTAHEDRAL:
         # b F^3 H = T^2 + (144/7) H^3, all of them divided by (Q/D)^6, Q^5/D^2 by it is D^4/Q.
@@ -199,7 +199,7 @@ def _polynomial(problem: Problem, structure: Structure, F: Form, H: Form, T: For
     return PowerPolynomial(POWERS[structure], coefficients)
 
 
-def _singular_part(problem: Problem, R: Poly) -> RatFunc:
+def singular_part(problem: Problem, R: Poly) -> RatFunc:
     """Q = prod p^(v_p) with Q'/Q = R/D."""
     result = RatFunc(problem.field.poly([1]))
     for power in product(RatFunc(R, problem.D)).powers:

@@ -21,6 +21,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
 from kovacic.closed_form.partial_fractions import Decomposition, decompose
 from kovacic.closed_form.product import Product
+from kovacic.closed_form.torsion import completed
 
 
 @dataclass(frozen=True)
@@ -126,10 +127,7 @@ def _without_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fractio
         for p, exponent in fractional:
             g = g * p
             rational = rational * RatFunc(p) ** int(exponent + Fraction(1, 2))
-        integral = integrate_on_curve(rational, g)
-        if integral.is_elementary:
-            return CurvePrimitive(integral)
-        return OpenPrimitive(f"it is an integral on the curve s^2 = {g}, whose genus isn't 0")
+        return CurvePrimitive(completed(integrate_on_curve(rational, g)))
     return OpenPrimitive("it is an incomplete beta integral, with fractional powers of several factors")
 
 

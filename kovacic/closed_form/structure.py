@@ -17,6 +17,7 @@ from kovacic.closed_form.klein import KleinForm, klein_form
 from kovacic.closed_form.partial_fractions import Decomposition, decompose
 from kovacic.closed_form.primitive import Primitive, integrate_inverse_square
 from kovacic.closed_form.product import Product, product
+from kovacic.closed_form.torsion import completed
 from kovacic.solution import Decision, SemiInvariant, Structure
 
 
@@ -129,7 +130,7 @@ def _imprimitive(S: RatFunc, semi: SemiInvariant, gauge: RatFunc) -> OnCurve:
     common = product((semi.theta + gauge * 2) * Fraction(1, 2))
     if semi.P.degree > 0:
         common = product(common.logarithmic_derivative + RatFunc(semi.P.derivative(), semi.P) * Fraction(1, 2))
-    return OnCurve(common, kappa_squared.num, integrate_on_curve(r, g))
+    return OnCurve(common, kappa_squared.num, completed(integrate_on_curve(r, g)))
 
 
 def _rational_powers(parts: Decomposition) -> list[tuple[Poly, int]]:

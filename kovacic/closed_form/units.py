@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from kovacic.algebra.poly import Poly
-from kovacic.closed_form.curve import CurveIntegral
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.partial_fractions import Residue
 
 MAX_DEGREE = 12  # the determinant of (1) takes about degree^4 polynomial products
@@ -20,23 +20,35 @@ MAX_DEGREE = 12  # the determinant of (1) takes about degree^4 polynomial produc
 
 @dataclass(frozen=True)
 class Unit:
-    """The contribution -log((A + B tau s)/p)/tau to an integral; tau^2 = `tau_squared`, a constant of K."""
+    """The contribution factor * log((A + B tau s)/p)/tau to an integral; tau^2 = `tau_squared`, a constant of K."""
 
     A: Poly
     B: Poly
     p: Poly
     tau_squared: Poly
+    factor: Fraction = Fraction(-1)
+
+    def integrand(self, g: Poly) -> RatFunc:
+        """r with r dx/s the derivative of the contribution, for A^2 - tau^2 B^2 g a constant times p^2."""
+        A, B = self.A, self.B
+        norm = A * A - B * B * g * self.tau_squared
+        top = (B.derivative() * g + B * g.derivative() * Fraction(1, 2)) * A - A.derivative() * B * g
+        return RatFunc(top, norm) * self.factor
+
+    def is_unit(self, g: Poly) -> bool:
+        """Is A^2 - tau^2 B^2 g a constant times p^2?"""
+        return (self.A * self.A - self.B * self.B * g * self.tau_squared).monic() == (self.p * self.p).monic()
 
 
-def unit(integral: CurveIntegral, residue: Residue) -> Unit | None:
+def unit(g: Poly, residue: Residue) -> Unit | None:
     """The unit of one residue, None if rho(a)^2/g(a) isn't constant or p is too large to be worth writing out."""
     p, rho = residue.factor, residue.value
-    gamma = integral.radicand(residue)
+    gamma = g % p
     inverse = rho.inverse_modulo(p) if rho.degree > 0 else rho.inverse()
     tau_squared = gamma * inverse * inverse % p
     if tau_squared.degree > 0 or p.degree > MAX_DEGREE:
         return None
-    A, B = _norm(integral.g, p, rho, gamma, tau_squared[0])
+    A, B = _norm(g, p, rho, gamma, tau_squared[0])
     return Unit(A, B, p, tau_squared[0])
 
 
