@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from kovacic import engine
-from kovacic.errors import VerificationFailed
+from kovacic.errors import InputError, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.result import Solution
 from kovacic.solution import Status
@@ -25,12 +25,23 @@ class Verdict:
     reason: str | None = None
 
 
-def solve(S: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Solution:
+def solve(
+    S: Any = None,
+    *,
+    a: Any = None,
+    b: Any = 0,
+    c: Any = 0,
+    f: Any = 0,
+    var: str | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+) -> Solution:
     """Decide whether y'' = S(x) y has Liouvillian (closed-form) solutions, with a certificate; verified.
 
     S is a rational function over Q: a string ("x^2 + 3"), a SymPy expression, or a pair of coefficient sequences
-    (numerator, denominator), low to high, of integers or fractions.  `var` names the variable; by default it is the only
-    symbol of S, or x.  `limits` bounds the input and the work.
+    (numerator, denominator), low to high, of integers or fractions.  Or it is a linear equation of second order, whose
+    normal form is decided: a string ("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"), a SymPy `Eq` with a function y(x), or the
+    coefficients of a y'' + b y' + c y = f as keywords.  `var` names the variable; by default it is the only symbol of S, or
+    x.  `limits` bounds the input and the work.
 
     Returns a `Solution`.  Its `status` is UNDECIDED exactly when a limit of the work was reached.  Raises `InputError` for
     what isn't such a function, `LimitExceeded` for an input above the limits, and `VerificationFailed` if the answer
@@ -44,14 +55,27 @@ def solve(S: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS) ->
     (x**2 + 1)/x
     >>> kovacic.solve("x").status
     <Status.NONE_EXISTS: 'none'>
+    >>> bessel = kovacic.solve("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0")
+    >>> print(bessel.S, bessel.gauge)
+    -1 -1/(2*x)
 
     Reference: J. Kovacic, J. Symb. Comp. 2 (1986) 3-43.
     """
     start = time.perf_counter()
-    parsed = _read(S, var, limits)
-    text = S.strip() if isinstance(S, str) else parsed.S.to_str(parsed.variable)
+    if (S is None) == (a is None):
+        raise InputError("one equation is expected: S, or the coefficients a=, b=, c=, f=")
+    if S is None:
+        from kovacic.io.read import read_coefficients
+
+        parsed = read_coefficients(a, b, c, f, var=var, limits=limits)
+    else:
+        parsed = _read(S, var, limits)
+    if isinstance(S, str):
+        text = S.strip()
+    else:
+        text = parsed.S.to_str(parsed.variable) if parsed.equation is None else parsed.equation.text(caret=False)
     decision = engine.decide(parsed.S, Budget(limits))
-    answer = Solution(text, parsed.variable, parsed.S, decision, parsed.notices)
+    answer = Solution(text, parsed.variable, parsed.S, decision, parsed.notices, equation=parsed.equation)
     verification = answer.verify()
     if not verification and (verification.checks or answer.status is not Status.UNDECIDED):
         raise VerificationFailed(

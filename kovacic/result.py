@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from kovacic.algebra.fields import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.equation import Equation
 from kovacic.solution import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Status
 from kovacic.verify import Verification, verify
 
@@ -26,7 +27,8 @@ class Solution:
     `text` is the input as it was given, `variable` the name of x, `S` the coefficient, `decision` the claim with its
     certificates, `notices` what was noticed when the input was read (decimals taken as exact fractions, ...), `verified`
     whether the decision has passed its independent check (always, for what `solve` returns), and `seconds` the wall-clock
-    time of reading, deciding and verifying together (None for an answer that was read from JSON).
+    time of reading, deciding and verifying together (None for an answer that was read from JSON).  `equation` is the
+    equation of which y'' = S y is the normal form, None where S itself was given.
     """
 
     text: str
@@ -36,6 +38,12 @@ class Solution:
     notices: tuple[str, ...] = ()
     verified: bool = False
     seconds: float | None = field(default=None, compare=False)
+    equation: Equation | None = None
+
+    @property
+    def gauge(self) -> RatFunc:
+        """-b/(2a) for an equation a y'' + b y' + c y = f: its solutions are those of y'' = S y times exp(int gauge dx)."""
+        return RatFunc(self.S.field.poly([])) if self.equation is None else self.equation.gauge
 
     @property
     def status(self) -> Status:

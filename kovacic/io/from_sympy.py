@@ -57,14 +57,14 @@ def parse_sympy(expression: Any, *, variable: str | None = None, limits: Limits 
     chosen = variable
 
     def read(constants: Constants) -> Parsed:
-        walker = _Walker(chosen, Arithmetic(limits), constants)
+        walker = Walker(chosen, Arithmetic(limits), constants)
         S = constants.embedded(walker.arithmetic.rational(walker.value(expression)))
         return Parsed(S, chosen, (*walker.notices, *constants.notices()))
 
     return read_with_constants(read, limits)
 
 
-class _Walker:
+class Walker:
     """The post-order walk over one expression."""
 
     def __init__(self, variable: str, arithmetic: Arithmetic, constants: Constants) -> None:

@@ -21,8 +21,10 @@ from kovacic.algebra.fields import QQ, AlgebraicField, Field
 from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.io.arithmetic import VARIABLE, Arithmetic, Value
+from kovacic.io.equation_parser import parse_expression
 from kovacic.io.names import Names, parameters_of
 from kovacic.io.parser import parse_with
 from kovacic.limits import Limits
@@ -52,9 +54,9 @@ _RADICAL = "radical_"
 _DEGREES = (1, 2, 4, 6, 12)
 
 
-def dumps(solution: Solution) -> str:
-    """The answer as one line of JSON."""
-    return json.dumps(to_dict(solution), ensure_ascii=False)
+def dumps(solution: Solution, *, full: bool = False) -> str:
+    """The answer as one line of JSON; `full` adds the group and two solutions in closed form, which have to be computed."""
+    return json.dumps(to_dict(solution, full=full), ensure_ascii=False)
 
 
 def loads(text: str | Mapping[str, Any]) -> Solution:
@@ -76,8 +78,21 @@ def loads(text: str | Mapping[str, Any]) -> Solution:
         raise InputError(f"this isn't an answer in schema {SCHEMA}: {type(error).__name__}: {error}") from error
 
 
-def to_dict(solution: Solution) -> dict[str, Any]:
+def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
     """The answer as a JSON object of plain Python values."""
+    data = _to_dict(solution)
+    if full:
+        data["group"] = _group(solution)
+        data["solutions"] = None if solution.case is None else [str(y) for y in solution.solutions]
+    return data
+
+
+def _group(solution: Solution) -> dict[str, Any] | None:
+    group = solution.group
+    return None if group is None else {"name": group.name, "order": group.order, "finite": group.finite}
+
+
+def _to_dict(solution: Solution) -> dict[str, Any]:
     names = Names(solution.variable, parameters_of(solution.S.field))
     decision = solution.decision
     riccati = decision.riccati
@@ -111,6 +126,8 @@ def to_dict(solution: Solution) -> dict[str, Any]:
         },
         "notices": list(solution.notices),
         "seconds": solution.seconds,
+        "equation": None if solution.equation is None else _equation(solution.equation),
+        "gauge": None if solution.equation is None else names.ratfunc(solution.gauge),
     }
 
 
@@ -138,15 +155,39 @@ def from_dict(data: Mapping[str, Any]) -> Solution:
     )
     if Status(data["status"]) is not decision.status or data["case"] != decision.case:
         raise ValueError("status or case contradict the proof")
+    S, equation = rational.ratfunc(data["S"]), _read_equation(data.get("equation"), variable)
+    if equation is not None and equation.S != S:
+        raise ValueError("S isn't the normal form of the equation")
     return Solution(
         text=data["input"],
         variable=variable,
-        S=rational.ratfunc(data["S"]),
+        S=S,
         decision=decision,
         notices=tuple(data["notices"]),
         verified=data["verified"],
         seconds=data["seconds"],
+        equation=equation,
     )
+
+
+def _equation(equation: Equation) -> dict[str, Any]:
+    x = equation.variable
+    return {
+        "text": equation.text(caret=False),
+        "unknown": equation.unknown,
+        **{name: getattr(equation, name).to_str(x) for name in ("a", "b", "c", "f")},
+        "h": None if equation.h is None else str(equation.h),
+        "field": _field(equation.a.field),
+    }
+
+
+def _read_equation(data: Mapping[str, Any] | None, variable: str) -> Equation | None:
+    if data is None:
+        return None
+    reader = _base_reader(data["field"], variable)
+    a, b, c, f = (reader.over_field(reader.ratfunc(data[name])) for name in ("a", "b", "c", "f"))
+    h = None if data["h"] is None else parse_expression(data["h"], variable)
+    return Equation(a, b, c, f, h, variable, data["unknown"])
 
 
 def _field(field: Field) -> dict[str, Any] | None:
@@ -200,6 +241,10 @@ class _Reader:
             text = text.replace(self._radical, f"({_RADICAL})")
         value = self._arithmetic.rational(parse_with(text, self._names, self._arithmetic))
         return RatFunc(self._embedded(value.num), self._embedded(value.den), reduced=True)
+
+    def over_field(self, value: RatFunc) -> RatFunc:
+        """The function over the whole field."""
+        return RatFunc(value.num.over(self.field), value.den.over(self.field), reduced=True)
 
     def poly(self, text: str) -> Poly:
         value = self.ratfunc(text)

@@ -5,15 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.equation import Equation
 
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """S as a rational function, the name of its variable, and what the user should know about how it was read."""
+    """S as a rational function, the name of its variable, and what the user should know about how it was read.
+
+    `equation` is the equation that was given, None where S itself was.
+    """
 
     S: RatFunc
     variable: str
     notices: tuple[str, ...] = ()
+    equation: Equation | None = None
 
 
 DEFAULT_VARIABLE = "x"

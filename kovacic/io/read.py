@@ -7,6 +7,7 @@ from typing import Any
 
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.io.parsed import DEFAULT_VARIABLE, Parsed
 from kovacic.limits import DEFAULT_LIMITS, Limits
@@ -16,14 +17,20 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> P
     """S as a rational function with the name of its variable, from whatever the user has.
 
     S is a string, a SymPy expression, a pair (numerator, denominator) of coefficient sequences from low to high powers,
-    an integer, a fraction, or a `RatFunc`.  `var` is a name or a SymPy symbol; by default it is the only symbol, else x.
-    SymPy isn't imported unless S comes from it.  Raises `InputError` and `LimitExceeded`.
+    an integer, a fraction, or a `RatFunc`; or it is an equation, as a string with derivatives of an unknown function, as a
+    SymPy `Eq` or expression with a function y(x), or as an `Equation`, and then the result has it.  `var` is a name or a
+    SymPy symbol; by default it is the only symbol, else x.  SymPy isn't imported unless S comes from it.  Raises
+    `InputError` and `LimitExceeded`.
 
     >>> str(read_input("x^2 + 3").S), str(read_input(([3, 0, 1], [1])).S)
     ('x**2 + 3', 'x**2 + 3')
     """
     variable = _variable_name(var)
     if isinstance(S, str):
+        from kovacic.io.equation_parser import is_equation, parse_equation
+
+        if is_equation(S):
+            return _with_equation(*parse_equation(S, variable=variable, limits=limits))
         from kovacic.io.parser import parse_rational
 
         return parse_rational(S, variable=variable, limits=limits)
@@ -31,7 +38,14 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> P
         return Parsed(S, variable or DEFAULT_VARIABLE)
     if isinstance(S, int | Fraction):
         return Parsed(RatFunc(QQ.poly([S])), variable or DEFAULT_VARIABLE)
+    if isinstance(S, Equation):
+        return _with_equation(S, ())
     if _is_sympy(S):
+        from kovacic.io.equation_sympy import is_sympy_equation, parse_sympy_equation
+
+        if is_sympy_equation(S):
+            equation, notices, _ = parse_sympy_equation(S, variable=variable, limits=limits)
+            return _with_equation(equation, notices)
         from kovacic.io.from_sympy import parse_sympy
 
         return parse_sympy(S, variable=variable, limits=limits)
@@ -43,6 +57,33 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> P
         f"{type(S).__name__!r} isn't a form of S that can be read",
         hint='give a string "x^2 + 3", a SymPy expression, or the pair of coefficient sequences ([3, 0, 1], [1])',
     )
+
+
+def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:
+    """The equation a y'' + b y' + c y = f; each coefficient is a string, a number, a `RatFunc` or a SymPy expression.
+
+    Raises `InputError` and `LimitExceeded`; positions refer to the equation as it was put together.
+    """
+    given = (a, b, c, f)
+    if any(_is_sympy(value) for value in given) and not any(isinstance(value, str | RatFunc) for value in given):
+        import sympy
+
+        symbols = sorted({s for value in given if _is_sympy(value) for s in value.free_symbols}, key=str)
+        name = _variable_name(var)
+        chosen = [s for s in symbols if s.name == (name or DEFAULT_VARIABLE)] or (symbols if name is None else [])
+        x = chosen[0] if len(chosen) == 1 else sympy.Symbol(name or DEFAULT_VARIABLE)
+        y = sympy.Function("y" if "y" not in {s.name for s in symbols} else "y_")(x)
+        from kovacic.io.equation_sympy import parse_sympy_equation
+
+        equation, notices, _ = parse_sympy_equation(a * y.diff(x, 2) + b * y.diff(x) + c * y - f, limits=limits)
+        return _with_equation(equation, notices)
+    texts = [value.to_str() if isinstance(value, RatFunc) else str(value) for value in given]
+    line = "({})*y'' + ({})*y' + ({})*y = {}".format(*texts)
+    return read_input(line, var=var, limits=limits)
+
+
+def _with_equation(equation: Equation, notices: tuple[str, ...]) -> Parsed:
+    return Parsed(equation.S, equation.variable, notices, equation)
 
 
 def _is_sympy(value: Any) -> bool:

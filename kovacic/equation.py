@@ -1,0 +1,97 @@
+"""The equation as it was given, a y'' + b y' + c y = f, and its normal form.
+
+With y = v exp(-1/2 int b/a dx) the homogeneous equation becomes
+
+    v'' = S v,        S = (b/a)'/2 + (b/a)^2/4 - c/a,                                                              (1)
+
+so the solutions y are those of the normal form times the gauge factor exp(int gamma dx) with gamma = -b/(2a).
+
+Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 1.1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from kovacic.algebra.fields import ExtensionPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+
+
+@dataclass(frozen=True)
+class Equation:
+    """a y'' + b y' + c y = f + h over one field, a not zero; f is rational, and h a SymPy expression or None.
+
+    >>> from kovacic.algebra.fields import QQ
+    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> bessel = Equation(x**2, x, x**2 - 1, x * 0)
+    >>> print(bessel)
+    x^2*y'' + x*y' + (x^2 - 1)*y = 0
+    >>> print(bessel.S, "|", bessel.gauge)
+    (-4*x**2 + 3)/(4*x**2) | -1/(2*x)
+    """
+
+    a: RatFunc
+    b: RatFunc
+    c: RatFunc
+    f: RatFunc
+    h: Any = None
+    variable: str = "x"
+    unknown: str = "y"
+
+    def __post_init__(self) -> None:
+        if not self.a:
+            raise ValueError("the coefficient of the second derivative is zero")
+
+    @property
+    def S(self) -> RatFunc:
+        """The coefficient of the normal form, equation (1)."""
+        quotient = self.b / self.a
+        return lowered(quotient.derivative() / 2 + quotient * quotient / 4 - self.c / self.a)
+
+    @property
+    def gauge(self) -> RatFunc:
+        """The logarithmic derivative -b/(2a) of the gauge factor."""
+        return lowered(-self.b / (2 * self.a))
+
+    @property
+    def is_homogeneous(self) -> bool:
+        return not self.f and self.h is None
+
+    @property
+    def is_normal_form(self) -> bool:
+        """Is it y'' = S y itself, up to a factor?"""
+        return not self.b and self.is_homogeneous
+
+    def text(self, *, caret: bool = True) -> str:
+        """`x^2*y'' + x*y' + (x^2 - 1)*y = 0`, with ** for powers where `caret` is False."""
+        y = self.unknown
+        terms = [(self.a, y + "''"), (self.b, y + "'"), (self.c, y)]
+        left = " + ".join(_term(coefficient, name, self.variable) for coefficient, name in terms if coefficient)
+        right = [self.f.to_str(self.variable)] if self.f or self.h is None else []
+        if self.h is not None:
+            right.append(str(self.h))
+        line = f"{left} = {' + '.join(right)}".replace("+ -", "- ")
+        return line.replace("**", "^") if caret else line
+
+    def __str__(self) -> str:
+        return self.text()
+
+
+def _term(coefficient: RatFunc, name: str, variable: str) -> str:
+    text = coefficient.to_str(variable)
+    if text in ("1", "-1"):
+        return text[:-1] + name
+    return f"({text})*{name}" if " " in text or "/" in text else f"{text}*{name}"
+
+
+def lowered(function: RatFunc) -> RatFunc:
+    """The same function over the field below, where its coefficients lie there."""
+    num, den = function.num, function.den
+    while isinstance(num, ExtensionPoly) and isinstance(den, ExtensionPoly):
+        if any(num.parts[1:]) or any(den.parts[1:]):
+            break
+        num, den = num.parts[0], den.parts[0]
+    below: tuple[Poly, Poly] = (num, den)
+    return RatFunc(*below, reduced=True)

@@ -1,0 +1,261 @@
+"""Equations as users have them: reading, the normal form and the gauge, refusals."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import pickle
+from fractions import Fraction
+from pathlib import Path
+
+import jsonschema
+import pytest
+import strategies
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import kovacic
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.equation import Equation
+from kovacic.errors import InputError, NotLinear, NotRational, ParseError
+from kovacic.io.equation_parser import is_equation, parse_equation
+from kovacic.io.equation_sympy import parse_sympy_equation
+
+X = RatFunc(QQ.poly([0, 1]))
+ZERO = X * 0
+x = sympy.Symbol("x")
+y = sympy.Function("y")
+
+
+def bessel(order: Fraction) -> Equation:
+    return Equation(X**2, X, X**2 - order**2, ZERO)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x^2*y'' + x*y' + (x^2-1/4)*y = 0",
+        "x^2*y'' + x*y' = -(x^2-1/4)*y",
+        "x^2 y'' + x y' + (x^2 - 1/4) y",
+        "x**2*y''(x) + x*y'(x) + (x**2 - 1/4)*y(x) = 0",
+        "x^2*diff(y,x,2) + x*diff(y,x) + (x^2-1/4)*y = 0",
+        "x^2*diff(y(x),(x,2)) + x*diff(y(x),x) + (x^2-1/4)*y(x) = 0",
+        "x^2*Derivative(y(x), (x, 2)) + x*Derivative(y(x), x) + (x^2-1/4)*y(x) = 0",
+        "x^2*Derivative(y(x), x, x) + x*Derivative(y(x), x) + (x^2-1/4)*y(x)",
+        "x*diff(x*diff(y, x), x) + (x^2 - 1/4)*y = 0",
+        "x²y″ + x y′ + (x² − 1/4)·y = 0",
+    ],
+)
+def test_one_equation_in_many_notations(text: str) -> None:
+    equation, notices = parse_equation(text)
+    assert equation == bessel(Fraction(1, 2))
+    assert notices == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "variable", "unknown"),
+    [
+        ("w'' = t w", "t", "w"),
+        ("u''(s) + u(s) = 0", "s", "u"),
+        ("diff(f(z), z, 2) = z*f(z)", "z", "f"),
+        ("diff(q, t, t) + q = 0", "t", "q"),
+        ("y'' = y", "x", "y"),
+        ("y'' + k^2*y(x) = 0", "x", "y"),
+        ("n*(n+1)*y + diff((1-x^2)*diff(y,x),x) = 0", "x", "y"),
+    ],
+)
+def test_names_are_found(text: str, variable: str, unknown: str) -> None:
+    equation, _ = parse_equation(text)
+    assert (equation.variable, equation.unknown) == (variable, unknown)
+
+
+def test_the_names_can_be_given() -> None:
+    equation, notices = parse_equation("y'' + k^2*y = 0", variable="x")
+    assert (equation.variable, len(notices)) == ("x", 1)
+    equation, notices = parse_equation("y'' + k^2*y = 0", variable="k")
+    assert equation.c == X**2
+    assert not notices
+
+
+@pytest.mark.parametrize(
+    ("right", "f", "h"),
+    [
+        ("x^2 + 1/x", X**2 + 1 / X, None),
+        ("exp(x)", ZERO, sympy.exp(x)),
+        ("x^2 + 3*exp(-x)*sin(2x)", X**2, 3 * sympy.exp(-x) * sympy.sin(2 * x)),
+        ("1/cos(x)", ZERO, 1 / sympy.cos(x)),
+        ("e^x", ZERO, sympy.exp(x)),
+        ("sqrt(x) + x^(1/3)", ZERO, sympy.sqrt(x) + sympy.cbrt(x)),
+        ("ln(x)^2", ZERO, sympy.log(x) ** 2),
+        ("pi*x", ZERO, sympy.pi * x),
+    ],
+)
+def test_right_hand_sides(right: str, f: RatFunc, h: sympy.Expr | None) -> None:
+    for text in (f"y'' + y = {right}", f"y'' + y - ({right})", f"{right} = y + y''"):
+        equation, _ = parse_equation(text)
+        assert equation.f == f
+        assert equation.h == h
+        assert equation.c == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "message", "position"),
+    [
+        ("y''*y = 1", NotLinear, "product", 0),
+        ("x + y'*y'' = 0", NotLinear, "product", 4),
+        ("y'' + y^2 = 0", NotLinear, "power", 6),
+        ("y'' + 1/y = 0", NotLinear, "denominator", 6),
+        ("y'' + sin(y) = 0", NotLinear, "within a function", 6),
+        ("y' = y", NotLinear, "order 1", 0),
+        ("y''' = y", NotLinear, "order 3", 0),
+        ("x = 3", NotLinear, "no derivative", 0),
+        ("y'' - y'' = y", NotLinear, "no derivative", 0),
+        ("exp(x)*y'' = y", NotRational, "coefficient", 0),
+        ("y'' + w' = 0", NotLinear, "derivative of something else", 6),
+        ("y''(t) + y(x) = 0", NotLinear, "function of t alone", 9),
+        ("diff(y, z) + x*y'' + diff(y, x) = 0", NotLinear, "something else", 21),
+        ("diff(y, x, 1/2) = 0", NotLinear, "order of a derivative", 0),
+        ("x(1-x) y'' = y", ParseError, "followed by a parenthesis", 0),
+        ("y'' = y = 0", ParseError, "doesn't belong here", 8),
+        ("y'' + = 0", ParseError, "missing", 4),
+        ("y'' + 2x z y = 0", ParseError, "operator", 7),
+        ("y'' + a*y = b", InputError, "which is the variable", 12),
+        ("y'' + y/0 = 0", NotRational, "zero", 8),
+    ],
+)
+def test_refusals_have_a_place(text: str, kind: type, message: str, position: int) -> None:
+    with pytest.raises(kind) as caught:
+        parse_equation(text)
+    assert message in str(caught.value)
+    assert caught.value.position == position
+
+
+@given(strategies.rational_functions(), strategies.rational_functions(), strategies.rational_functions())
+@settings(max_examples=40)
+def test_text_of_an_equation_reads_back(a: RatFunc, b: RatFunc, c: RatFunc) -> None:
+    equation = Equation(a, b, c, b * c)
+    assert parse_equation(str(equation))[0] == equation
+    assert parse_equation(equation.text(caret=False))[0] == equation
+
+
+@given(strategies.rational_functions(), strategies.rational_functions(), strategies.rational_functions())
+@settings(max_examples=25)
+def test_sympy_equations_read_like_text(a: RatFunc, b: RatFunc, c: RatFunc) -> None:
+    equation = Equation(a, b, c, ZERO)
+    A, B, C = (sympy.sympify(value.to_str()) for value in (a, b, c))
+    expression = A * y(x).diff(x, 2) + B * y(x).diff(x) + C * y(x)
+    for given_form in (expression, sympy.Eq(A * y(x).diff(x, 2), -B * y(x).diff(x) - C * y(x))):
+        assert parse_sympy_equation(given_form)[0] == equation
+
+
+@given(strategies.rational_functions(), strategies.rational_functions())
+@settings(max_examples=25)
+def test_the_normal_form_in_two_ways(p: RatFunc, gamma: RatFunc) -> None:
+    """y = v exp(int gamma) satisfies y'' - 2 gamma y' + (gamma^2 - gamma' - S) y = 0 when v'' = S v."""
+    equation = Equation(p, -2 * gamma * p, (gamma * gamma - gamma.derivative() - gamma) * p, ZERO)
+    assert equation.S == gamma
+    assert equation.gauge == gamma
+
+
+def test_solve_takes_equations_in_every_form() -> None:
+    expected = kovacic.solve("x^2*y'' + x*y' + (x^2-1/4)*y = 0")
+    assert (expected.case, str(expected.S), str(expected.gauge)) == (1, "-1", "-1/(2*x)")
+    quarter = sympy.Rational(1, 4)
+    forms = [
+        x**2 * y(x).diff(x, 2) + x * y(x).diff(x) + (x**2 - quarter) * y(x),
+        sympy.Eq(x**2 * y(x).diff(x, 2) + x * y(x).diff(x), (quarter - x**2) * y(x)),
+        expected.equation,
+    ]
+    for form in forms:
+        assert kovacic.solve(form).equation == expected.equation
+    assert kovacic.solve(a="x^2", b="x", c="x^2 - 1/4").equation == expected.equation
+    assert kovacic.solve(a=x**2, b=x, c=x**2 - quarter).equation == expected.equation
+    assert kovacic.solve(a=X**2, b=X, c=X**2 - Fraction(1, 4)).equation == expected.equation
+    assert kovacic.solve(a=1, c="x").equation.text() == "y'' + x*y = 0"
+
+
+def test_a_symbol_with_assumptions() -> None:
+    t = sympy.Symbol("t", positive=True)
+    assert kovacic.solve(sympy.Eq(y(t).diff(t, 2), t * y(t))).variable == "t"
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        y(x).diff(x) ** 2 + y(x).diff(x, 2),
+        y(x).diff(x, 2) + sympy.exp(y(x)),
+        y(x).diff(x, 2) + sympy.Function("z")(x).diff(x),
+        y(x).diff(x) - y(x),
+        y(x).diff(x, 2) + y(2 * x),
+    ],
+    ids=str,
+)
+def test_sympy_equations_that_are_not_linear(expression: sympy.Expr) -> None:
+    with pytest.raises(NotLinear):
+        kovacic.solve(expression)
+
+
+def test_a_coefficient_of_sympy_that_is_not_rational() -> None:
+    with pytest.raises(NotRational, match="coefficient"):
+        kovacic.solve(sympy.exp(x) * y(x).diff(x, 2) + y(x))
+
+
+def test_an_equation_or_coefficients_but_not_both() -> None:
+    with pytest.raises(InputError, match="one equation"):
+        kovacic.solve("x", a="x")
+    with pytest.raises(InputError, match="one equation"):
+        kovacic.solve()
+
+
+def test_an_answer_with_an_equation_pickles() -> None:
+    answer = kovacic.solve("y'' + y = exp(x)")
+    assert pickle.loads(pickle.dumps(answer)) == answer
+
+
+def test_an_equation_of_lower_order_is_no_equation() -> None:
+    with pytest.raises(ValueError, match="second derivative"):
+        Equation(ZERO, X, X, X)
+
+
+def test_constants_and_parameters_in_equations() -> None:
+    answer = kovacic.solve("y'' = sqrt(2)*y")
+    assert str(answer.S) == "sqrt(2)"
+    normal = kovacic.solve("y'' + 2*sqrt(2)*y' + y = 0")
+    assert str(normal.S) == "1"
+    assert normal.S.field == QQ
+
+
+@given(st.text(alphabet="xy'=+-*/^() 0123diff,", max_size=30))
+@settings(max_examples=200)
+def test_garbage_is_refused_with_an_input_error(text: str) -> None:
+    if not is_equation(text):
+        return
+    with contextlib.suppress(kovacic.InputError, kovacic.LimitExceeded):
+        parse_equation(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x^2*y'' + x*y' + (x^2-1/4)*y = 0",
+        "w'' + w = tan(t)^2 + t",
+        "y'' + 2*sqrt(2)*y' + y = 0",
+        "y'' + n^2*y'/x + y(x) = 0",
+        "y'' = sqrt(2)*x*y",
+    ],
+)
+def test_equations_in_json(text: str) -> None:
+    answer = kovacic.solve(text)
+    assert kovacic.Solution.from_json(answer.to_json()) == answer
+
+
+def test_the_full_json_has_group_and_solutions() -> None:
+    data = json.loads(kovacic.solve("x^2*y'' + x*y' + (x^2-1/4)*y = 0").to_json(full=True))
+    assert data["group"] == {"name": "G_m", "order": None, "finite": False}
+    assert data["gauge"] == "-1/(2*x)"
+    assert [sympy.sympify(s) for s in data["solutions"]] == [sympy.cos(x) / sympy.sqrt(x), sympy.sin(x) / sympy.sqrt(x)]
+    schema = json.loads((Path(kovacic.__file__).parent / "io" / "solution.schema.json").read_text("utf-8"))
+    jsonschema.validate(data, schema)
+    assert json.loads(kovacic.solve("x").to_json(full=True))["solutions"] is None
