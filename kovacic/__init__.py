@@ -5,6 +5,8 @@
 1
 """
 
+from typing import TYPE_CHECKING, Any
+
 from kovacic.api import Verdict, decide, solve
 from kovacic.batch import solve_many
 from kovacic.errors import (
@@ -19,6 +21,9 @@ from kovacic.errors import (
 from kovacic.limits import Limits
 from kovacic.result import Solution
 from kovacic.solution import Status, Structure
+
+if TYPE_CHECKING:
+    from kovacic.parametric.api import conditions
 
 __version__ = "0.1.0"
 
@@ -35,7 +40,17 @@ __all__ = [
     "Structure",
     "Verdict",
     "VerificationFailed",
+    "conditions",
     "decide",
     "solve",
     "solve_many",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """`kovacic.conditions`, imported when it is first used."""
+    if name == "conditions":
+        from kovacic.parametric.api import conditions
+
+        return conditions
+    raise AttributeError(f"module 'kovacic' has no attribute {name!r}")

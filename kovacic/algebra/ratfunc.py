@@ -142,14 +142,14 @@ class RatFunc:
 
     def to_str(self, variable: str = "x") -> str:
         """Python/SymPy syntax with integer coefficients."""
-        num, den = self._cleared()
+        num, den = self.cleared()
         text = num.integer_str(variable)
         if den == 1:
             return text
         below = den.integer_str(variable)
         return f"{_parenthesised(text, ' ')}/{_parenthesised(below, ' *')}"
 
-    def _cleared(self) -> tuple[Poly, Poly]:
+    def cleared(self) -> tuple[Poly, Poly]:
         """Numerator and denominator without denominators and common factors in their coefficients."""
         ground = self.field.ground
         if ground != QQ:

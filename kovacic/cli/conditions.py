@@ -1,0 +1,58 @@
+"""`kovacic conditions`: the values of the parameters for which an equation is solvable."""
+
+from __future__ import annotations
+
+import sys
+
+import click
+
+from kovacic.cli.main import BAD_INPUT, CHECK_FAILED, DECIDED, UNDECIDED
+from kovacic.cli.options import parse_limits, refuse_options
+
+
+@click.command(context_settings={"ignore_unknown_options": True})
+@click.argument("equation", metavar="S")
+@click.option("--json", "as_json", is_flag=True, help="One line of JSON.")
+@click.option("--latex", "as_latex", is_flag=True, help="A LaTeX formula.")
+@click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
+@click.option("--assume", metavar="NAME=integer", multiple=True, help="What is known about a parameter.")
+@click.option("--max-degree", default=12, show_default=True, help="How far to go where no theorem covers all degrees.")
+@click.option("--check", "samples", metavar="N", type=int, help="Solve at N exact points, and compare.")
+@click.option("--limit", "limits", metavar="NAME=VALUE", multiple=True, help="Change a limit, such as seconds.")
+def command(
+    equation: str,
+    as_json: bool,
+    as_latex: bool,
+    var: str | None,
+    assume: tuple[str, ...],
+    max_degree: int,
+    samples: int | None,
+    limits: tuple[str, ...],
+) -> int:
+    """For which values of its parameters does y'' = S(x) y have Liouvillian solutions?
+
+    \b
+    kovacic conditions "(4*n^2 - 1)/(4*x^2) - 1"
+    kovacic conditions --check 200 "x^4 + mu*x"
+    """
+    from kovacic.errors import InputError, LimitExceeded
+    from kovacic.parametric.api import conditions
+
+    refuse_options((equation,))
+    assumptions = dict(item.partition("=")[::2] for item in assume)
+    try:
+        answer = conditions(equation, var=var, assume=assumptions, max_degree=max_degree, limits=parse_limits(limits))
+        report = None if samples is None else answer.check(samples)
+    except (InputError, LimitExceeded) as error:
+        print(f"kovacic: {error}", file=sys.stderr)
+        return BAD_INPUT if isinstance(error, InputError) else UNDECIDED
+    print(answer.to_json() if as_json else answer.latex() if as_latex else answer)
+    if report is not None:
+        print(
+            f"  checked at {report.inside} points inside and {report.outside} outside: "
+            f"{'all agree' if report else f'{len(report.disagreements)} disagree'}",
+            file=sys.stderr if as_json or as_latex else sys.stdout,
+        )
+        if not report:
+            return CHECK_FAILED
+    return DECIDED if answer.complete is True else UNDECIDED

@@ -1,0 +1,109 @@
+"""One irregular singular point and at most one other: equations that x^n = z brings to Whittaker's or to Bessel's.
+
+In a coordinate in which the irregular point is infinity and the other one (or any chosen point) is 0,
+
+    S = b/x^2 + r x^(n-2) + q x^(2n-2),   n >= 1,                                                                  (1)
+
+are the equations treated here.  With z = x^n the exponent differences become Delta/n at 0, Delta^2 = 1 + 4b, and, for q != 0,
+beta/n at infinity, beta^2 = r^2/q: Whittaker's equation with 2 kappa = beta/n and 2 mu = Delta/n.
+
+Theorem [Martinet & Ramis 1989; Duval & Loday-Richaud 1992].  For q != 0 the equation has a Liouvillian solution exactly when
+(beta + Delta)/n or (beta - Delta)/n is an odd integer, and then it is reducible (case 1): over C(z) the group is reducible or
+SL2, for an imprimitive group needs two branch points, and a finite one no irregular point; SL2 has no subgroup of finite
+index, so the group over C(x) is the same.  For q = 0, r != 0: case 1 never (n odd) and case 2 exactly when 2 Delta/n is an odd
+integer, since an imprimitive group becomes reducible over C(sqrt x); n even is the first kind with n/2 and beta = 0.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.parametric.statements import Statement, integer_roots
+from kovacic.places import Kind, Problem
+
+
+@dataclass(frozen=True)
+class Confluent:
+    """Equation (1): the coefficients, n, and the coordinate in words."""
+
+    n: int
+    b: Poly
+    r: Poly
+    q: Poly
+    coordinate: str
+
+    @property
+    def degenerate(self) -> Poly:
+        """What must not vanish for the theorem to hold."""
+        return self.q or self.r
+
+
+def recognise(problem: Problem) -> Confluent | None:
+    """The equation in the form (1), or None."""
+    singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
+    irregular = [place for place in singular if place.kind is not Kind.REGULAR]
+    if len(irregular) != 1 or len(singular) > 2 or any(place.degree > 1 for place in singular):
+        return None
+    S, field = problem.S, problem.field
+    coordinate = "x"
+    x = RatFunc(field.poly([0, 1]))
+    if not irregular[0].at_infinity:
+        # Move the irregular point c to infinity: x = c + 1/z, S -> S(c + 1/z)/z^4.
+        c = -irregular[0].factor[0]
+        S = S(RatFunc(field.poly([1]), field.poly([0, 1])) + c) / x**4
+        coordinate = f"1/(x - ({c}))" if c else "1/x"
+    regular = [-factor[0] for factor, _ in field.factor(S.den)] if S.den.degree else []
+    if not regular:
+        n = S.num.degree
+        center = field.poly([]) if n < 1 else -S.num[n - 1] / (S.num[n] * n)
+    else:
+        center = regular[0]
+    if center:
+        S = S(x + center)
+    terms = _laurent(S)
+    if terms is None:
+        return None
+    zero = field.poly([])
+    b = terms.pop(-2, zero)
+    powers = sorted(terms)
+    if not powers:
+        return None
+    top = powers[-1]
+    if len(powers) == 1:
+        n = top + 2
+        if n % 2 == 0:
+            return Confluent(n // 2, b, zero, terms[top], coordinate)
+        return Confluent(n, b, terms[top], zero, coordinate)
+    n = powers[0] + 2
+    if len(powers) == 2 and n >= 1 and top == 2 * n - 2:
+        return Confluent(n, b, terms[powers[0]], terms[top], coordinate)
+    return None
+
+
+def _laurent(S: RatFunc) -> dict[int, Poly] | None:
+    """The coefficients of a Laurent polynomial with a pole of order at most 2 at 0; None for anything else."""
+    shift = S.den.degree
+    if shift > 2 or S.den != S.field.poly([0] * shift + [1]):
+        return None
+    return {power - shift: c for power, c in enumerate(S.num) if c}
+
+
+def solvable(form: Confluent) -> tuple[int, bool | list[Statement]]:
+    """The case, and when it occurs: True for always, and [] for never."""
+    n, delta_squared = form.n, 1 + 4 * form.b
+    field = form.b.field
+    if form.q:
+        beta_squared = form.r * form.r / form.q
+        z = field.poly([0, 0, 1])
+        equation = (z - beta_squared - delta_squared) ** 2 - 4 * beta_squared * delta_squared
+        assert isinstance(equation, FunctionPoly)
+        return 1, integer_roots(equation, [n], 2 * n)
+    equation = field.poly([-4 * delta_squared, 0, 1])
+    assert isinstance(equation, FunctionPoly)
+    return 2, integer_roots(equation, [n], 2 * n)
+
+
+__all__ = ["Confluent", "recognise", "solvable"]

@@ -1,0 +1,56 @@
+"""Functions of the parameters as formulas: plain and LaTeX."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.ratfunc import RatFunc
+
+_GREEK = frozenset(
+    {"alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu", "xi"}
+    | {"pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega"}
+)
+
+
+def shown(function: FunctionPoly | RatFunc, variable: str = "x") -> str:
+    """In ordinary notation, with ^ for powers."""
+    return function.to_str(variable).replace("**", "^")
+
+
+def as_latex(function: FunctionPoly | RatFunc, variable: str = "x") -> str:
+    """As LaTeX, without dollar signs."""
+    quotient = function if isinstance(function, RatFunc) else RatFunc(function)
+    above, below = quotient.cleared()
+    if not isinstance(above, FunctionPoly) or not isinstance(below, FunctionPoly):
+        raise TypeError("a function over Q(t) is expected")
+    names = (variable, *above.field.names)
+    numerator = _polynomial(above.num, names)
+    if below.num.is_one():
+        return numerator
+    return rf"\frac{{{numerator}}}{{{_polynomial(below.num, names)}}}"
+
+
+def symbol(name: str) -> str:
+    """A name as LaTeX: Greek letters, and digits at the end as an index."""
+    match = re.fullmatch(r"([^\W\d_]+)_?(\d+)", name)
+    base, index = (match[1], match[2]) if match else (name, "")
+    letter = f"\\{base}" if base in _GREEK else base if len(base) == 1 else rf"\mathrm{{{base}}}"
+    return f"{letter}_{{{index}}}" if index else letter
+
+
+def _polynomial(polynomial: Any, names: Sequence[str]) -> str:
+    terms: list[str] = []
+    for exponents, coefficient in polynomial.to_dict().items():
+        powers = [
+            symbol(name) if exponent == 1 else f"{symbol(name)}^{{{exponent}}}"
+            for name, exponent in zip(names, exponents, strict=True)
+            if exponent
+        ]
+        value = int(coefficient)
+        digits = "" if powers and abs(value) == 1 else str(abs(value))
+        terms.append(("- " if value < 0 else "+ ") + " ".join([digits, *powers]).strip())
+    text = " ".join(terms).removeprefix("+ ") if terms else "0"
+    return "-" + text[2:] if text.startswith("- ") else text

@@ -1,0 +1,310 @@
+"""The partition of parameter space: which theory applies, the regions in their order, and the degenerate values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from kovacic import engine
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.errors import LimitExceeded
+from kovacic.limits import Budget
+from kovacic.parametric import confluent, riemann
+from kovacic.parametric.bounded import (
+    degrees_that_decide,
+    form_conditions,
+    has_constant_rational_exponents,
+    irreducible_factors,
+    union,
+)
+from kovacic.parametric.restriction import Restriction, UndefinedError, on_hypersurface
+from kovacic.parametric.search import search
+from kovacic.parametric.statements import Point, Statement, Vanishes, either
+from kovacic.places import Problem, analyse
+from kovacic.solution import Decision, Status, Structure
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The case (None: no Liouvillian solution), the structure, and whether that is known at all."""
+
+    structure: Structure | None
+    known: bool = True
+
+    @property
+    def case(self) -> int | None:
+        return None if self.structure is None else self.structure.case
+
+    @property
+    def group(self) -> str:
+        """The family of the Galois group."""
+        return _GROUPS[self.structure] if self.known else "not determined"
+
+
+_GROUPS = {
+    Structure.REDUCIBLE: "reducible: a subgroup of the triangular group",
+    Structure.IMPRIMITIVE: "imprimitive: dicyclic, or the infinite dihedral group",
+    Structure.TETRAHEDRAL: "binary tetrahedral, order 24",
+    Structure.OCTAHEDRAL: "binary octahedral, order 48",
+    Structure.ICOSAHEDRAL: "binary icosahedral, order 120",
+    None: "SL2(C)",
+}
+
+
+@dataclass(frozen=True)
+class Region:
+    """Where the statement holds, and no earlier region's: one verdict, or a partition of its own.
+
+    `complete` is True where it is proven that the statement describes all such values and nothing else, else a sentence.
+    `defined` is False where S itself isn't defined.  `omega` shows what becomes possible.
+    """
+
+    statement: Statement
+    verdict: Verdict
+    complete: bool | str = True
+    defined: bool = True
+    omega: str | None = None
+    inner: Partition | None = None
+    restriction: Restriction | None = None
+
+
+@dataclass(frozen=True)
+class Partition:
+    """Regions, tried in order; `generic` holds where none of them does, `complete` as for a region."""
+
+    S: RatFunc
+    names: tuple[str, ...]
+    regions: tuple[Region, ...]
+    generic: Verdict
+    complete: bool | str
+    theory: str
+
+    def locate(self, point: Point) -> tuple[Region | None, Verdict]:
+        """The region that contains the point (None: the generic one), and the verdict, `known` or not.
+
+        Raises `UndefinedError` where S isn't defined.
+        """
+        for region in self.regions:
+            if not region.statement.holds(point):
+                continue
+            if not region.defined:
+                raise UndefinedError
+            if region.inner is None:
+                return region, region.verdict
+            inner, verdict = region.inner.locate(point)
+            return (region if inner is None else inner), verdict
+        return None, self.generic if self.complete is True else replace(self.generic, known=False)
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How far to go."""
+
+    max_degree: int
+    budget: Budget
+
+
+def partition(S: RatFunc, settings: Settings) -> Partition:
+    """The partition for S over Q(t), or the single verdict for S over Q or Q(alpha)."""
+    field = S.field
+    decision = engine.decide(S, settings.budget, certify=False)
+    generic = _verdict(decision)
+    if not isinstance(field, FunctionField):
+        return Partition(S, (), (), generic, generic.known or str(decision.undecided), "the engine")
+    problem = analyse(S, settings.budget)
+    if riemann.applies(problem):
+        return _riemann(problem, generic, settings)
+    form = confluent.recognise(problem)
+    if form is not None:
+        return _confluent(problem, form, generic, settings)
+    return _by_candidates(problem, generic, settings)
+
+
+def _verdict(decision: Decision) -> Verdict:
+    return Verdict(decision.structure, decision.status is not Status.UNDECIDED)
+
+
+def _riemann(problem: Problem, generic: Verdict, settings: Settings) -> Partition:
+    theory = "at most three regular singular points: Kimura's theorem"
+    regions = _degenerate(problem, _confluence(problem), settings)
+    reducible = riemann.reducible(problem)
+    if reducible is True:
+        return _closed(problem, regions, Verdict(Structure.REDUCIBLE), theory, generic)
+    assert isinstance(reducible, list)
+    regions.append(Region(either(reducible), Verdict(Structure.REDUCIBLE), omega=_RATIONAL_OMEGA))
+    others = riemann.irreducible_structures(problem)
+    if isinstance(others, Structure):
+        return _closed(problem, regions, Verdict(others), theory, generic)
+    for structure in Structure:
+        statements = [statement for other, statement in others if other is structure]
+        if statements:
+            regions.append(Region(either(statements), Verdict(structure), omega=_SEMI_INVARIANTS[structure]))
+    return _closed(problem, regions, Verdict(None), theory, generic)
+
+
+_RATIONAL_OMEGA = "omega = theta + P'/P, theta = sum of (1 +- Delta_c)/(2 (x - c)) + polynomial part, P a polynomial"
+_SEMI_INVARIANTS = {
+    Structure.IMPRIMITIVE: "y1 y2 = sqrt of a rational function; omega of degree 2",
+    Structure.TETRAHEDRAL: "a rational invariant of degree 6; omega of degree 4",
+    Structure.OCTAHEDRAL: "a rational invariant of degree 8; omega of degree 6",
+    Structure.ICOSAHEDRAL: "a rational invariant of degree 12; omega of degree 12",
+    Structure.REDUCIBLE: _RATIONAL_OMEGA,
+}
+
+
+def _confluent(problem: Problem, form: confluent.Confluent, generic: Verdict, settings: Settings) -> Partition:
+    kind = "Whittaker's equation" if form.q else "Bessel's equation"
+    power = form.coordinate if form.n == 1 else f"({form.coordinate})^{form.n}"
+    theory = f"{kind} in {power}: Martinet & Ramis"
+    functions = [*_undefined(problem), *irreducible_factors(form.degenerate)]
+    regions = _degenerate(problem, functions, settings)
+    case, statements = confluent.solvable(form)
+    structure = Structure.REDUCIBLE if case == 1 else Structure.IMPRIMITIVE
+    if statements is True:
+        return _closed(problem, regions, Verdict(structure), theory, generic)
+    assert isinstance(statements, list)
+    if statements:
+        regions.append(Region(either(statements), Verdict(structure), omega=_SEMI_INVARIANTS[structure]))
+    return _closed(problem, regions, Verdict(None), theory, generic)
+
+
+def _closed(problem: Problem, regions: list[Region], expected: Verdict, theory: str, generic: Verdict) -> Partition:
+    """A partition by a theorem, which the engine's generic answer must confirm."""
+    if generic.known and generic.case != expected.case:
+        raise AssertionError(f"{theory}: case {expected.case} contradicts the generic answer, case {generic.case}")
+    names = problem.field.names  # type: ignore[attr-defined]
+    return Partition(problem.S, names, tuple(regions), expected, _together(regions), theory)
+
+
+def _together(regions: list[Region]) -> bool | str:
+    """True where everything is complete, else the first sentence that says what isn't."""
+    return next((r.complete for r in regions if r.complete is not True), True)
+
+
+def _by_candidates(problem: Problem, generic: Verdict, settings: Settings) -> Partition:
+    names: tuple[str, ...] = problem.field.names  # type: ignore[attr-defined]
+    regions: list[Region] = []
+    complete: bool | str = True
+    theory = "polynomial conditions"
+    reducible: list[Poly] = []
+    try:
+        regions = _degenerate(problem, union([_undefined(problem), _structure_changes(problem)]), settings)
+        known = [r.statement.function for r in regions if isinstance(r.statement, Vanishes)]
+        if has_constant_rational_exponents(problem):
+            candidates = union([form_conditions(problem, m) for m in degrees_that_decide(problem)])
+            candidates = union([candidates, _discriminants(problem, generic, settings)])
+            theory = "exponents that don't depend on the parameters: invariants of bounded degree"
+            if generic.structure not in (None, Structure.REDUCIBLE, Structure.IMPRIMITIVE):
+                complete = "not proven where the generic group is finite and primitive"
+        else:
+            findings = search(problem, settings.max_degree)
+            candidates, reducible = findings.candidates, findings.reducible
+            theory = "candidates from the exponents"
+            if generic.structure is not None and generic.structure is not Structure.REDUCIBLE:
+                findings.unproven.append("smaller groups than the generic one")
+            if findings.unproven:
+                complete = f"up to degree {settings.max_degree} (not proven: {'; '.join(findings.unproven)})"
+        for function in candidates:
+            if function not in known:
+                settings.budget.check()
+                if function in reducible and generic.structure is not Structure.REDUCIBLE:
+                    verdict = Verdict(Structure.REDUCIBLE)
+                    regions.append(Region(Vanishes(function), verdict, omega=_RATIONAL_OMEGA))  # type: ignore[arg-type]
+                    continue
+                region = _region_where_zero(problem, function, generic, settings)
+                if region is not None:
+                    regions.append(region)
+    except LimitExceeded as limit:
+        complete = f"only as far as the limits allowed: {limit}"
+    if complete is True:
+        complete = _together(regions)
+    return Partition(problem.S, names, tuple(regions), generic, complete, theory)
+
+
+def _discriminants(problem: Problem, generic: Verdict, settings: Settings) -> list[Poly]:
+    """Where the two solutions in a generic semi-invariant y1 y2 coincide: w^2 = (P S-term)..., a constant, vanishes."""
+    if generic.structure is not Structure.IMPRIMITIVE:
+        return []
+    decision = engine.decide(problem.S, settings.budget)
+    riccati = decision.riccati
+    if riccati is None or riccati.P.field != problem.field:
+        return []
+    # The discriminant of W^2 - A1/(P D) W + A2/(P D^2) is w^2 / (y1 y2)^2 with a constant w^2.
+    P, _, first, second = riccati.P, riccati.D, riccati.numerators[1], riccati.numerators[2]
+    return union([irreducible_factors((first * first - 4 * P * second).lc), irreducible_factors(P.lc)])
+
+
+def _undefined(problem: Problem) -> list[Poly]:
+    """The irreducible polynomials at whose zeros the leading coefficient of S's denominator vanishes."""
+    _, below = problem.S.cleared()
+    return irreducible_factors(below.lc)
+
+
+def _confluence(problem: Problem) -> list[Poly]:
+    """Where poles merge or go to infinity."""
+    radical = problem.field.poly([1])
+    for place in problem.finite_places:
+        radical = radical * place.factor
+    return union([_undefined(problem), _discriminant(radical)])
+
+
+def _structure_changes(problem: Problem) -> list[Poly]:
+    """Where poles merge, go to infinity, or change their order."""
+    above, below = problem.S.cleared()
+    lists = [_confluence(problem), irreducible_factors(above.lc), _resultant(above, below)]
+    return union(lists)
+
+
+def _discriminant(polynomial: Poly) -> list[Poly]:
+    return _resultant(polynomial, polynomial.derivative()) if polynomial.degree > 1 else []
+
+
+def _resultant(first: Poly, second: Poly) -> list[Poly]:
+    assert isinstance(first, FunctionPoly)
+    assert isinstance(second, FunctionPoly)
+    if first.degree < 1 or second.degree < 1:
+        return []
+    value = first.num.resultant(second.num, 0)
+    field = first.field
+    return irreducible_factors(FunctionPoly(field, value, field.context.constant(1)))
+
+
+def _degenerate(problem: Problem, functions: list[Poly], settings: Settings) -> list[Region]:
+    """Regions for the values at which the generic theory doesn't apply."""
+    regions = []
+    for function in functions:
+        settings.budget.check()
+        regions.append(_inside(problem, function, settings))
+    return regions
+
+
+def _inside(problem: Problem, function: Poly, settings: Settings) -> Region:
+    """The region where a polynomial vanishes, with its own partition."""
+    assert isinstance(function, FunctionPoly)
+    statement = Vanishes(function)
+    unknown = Verdict(None, known=False)
+    try:
+        restriction = on_hypersurface(problem.S, function)
+    except UndefinedError:
+        return Region(statement, unknown, defined=False)
+    if restriction is None:
+        return Region(statement, unknown, complete=f"the values with {statement.text()} aren't examined")
+    inner = partition(restriction.S, settings)
+    complete = inner.complete
+    if not inner.names:
+        return Region(statement, inner.generic, complete, restriction=restriction)
+    return Region(statement, inner.generic, complete, inner=inner, restriction=restriction)
+
+
+def _region_where_zero(problem: Problem, function: Poly, generic: Verdict, settings: Settings) -> Region | None:
+    """The region for a candidate, or None if nothing changes there."""
+    region = _inside(problem, function, settings)
+    same = region.verdict.known and region.verdict.case == generic.case
+    if same and (region.inner is None or not region.inner.regions) and region.complete is True:
+        return None
+    omega = None if region.verdict.structure is None else _SEMI_INVARIANTS[region.verdict.structure]
+    return replace(region, omega=omega)
+
+
+__all__ = ["Partition", "Region", "Settings", "Verdict", "partition"]

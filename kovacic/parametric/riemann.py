@@ -1,0 +1,251 @@
+"""At most three regular singular points: Riemann's P-equation, and Kimura's theorem.
+
+Let l, m, n be the exponent differences (1 at an ordinary point).  With three points S is determined by them, wherever the
+points are, so the theorem needs no Moebius change:
+
+- reducible (case 1) exactly when one of l + m + n, -l + m + n, l - m + n, l + m - n is an odd integer;
+- otherwise imprimitive (case 2) exactly when two of them are half-integers;
+- otherwise case 3 exactly when +-l, +-m, +-n are, in some order, in a row 2-15 of Schwarz's table modulo 1, with an even
+  sum of the integer parts in the rows marked in `_SCHWARZ`;
+- otherwise there is no Liouvillian solution.
+
+The squares N^2 of the four sums are the roots of ((z - s1)^2 - 4 s2)^2 - 64 s3 z, s_i the elementary symmetric functions of
+l^2, m^2, n^2, which are rational in the parameters also when the points are conjugate.
+
+Reference: T. Kimura, Funkcial. Ekvac. 12 (1969) 269-281.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from itertools import product
+from random import Random
+
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.traces import characteristic_polynomial
+from kovacic.parametric.formulas import shown
+from kovacic.parametric.statements import (
+    IntegerRoot,
+    Point,
+    Statement,
+    Vanishes,
+    integer_roots,
+    rational,
+    rational_roots,
+)
+from kovacic.places import Kind, Place, Problem
+from kovacic.solution import Structure
+
+_F = Fraction
+#: Schwarz's rows: the structure, the exponent differences modulo 1, and whether l + m + q must be even.
+_SCHWARZ: dict[int, tuple[Structure, tuple[Fraction, Fraction, Fraction], bool]] = {
+    2: (Structure.TETRAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 3)), False),
+    3: (Structure.TETRAHEDRAL, (_F(2, 3), _F(1, 3), _F(1, 3)), True),
+    4: (Structure.OCTAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 4)), False),
+    5: (Structure.OCTAHEDRAL, (_F(2, 3), _F(1, 4), _F(1, 4)), True),
+    6: (Structure.ICOSAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 5)), False),
+    7: (Structure.ICOSAHEDRAL, (_F(2, 5), _F(1, 3), _F(1, 3)), True),
+    8: (Structure.ICOSAHEDRAL, (_F(2, 3), _F(1, 5), _F(1, 5)), True),
+    9: (Structure.ICOSAHEDRAL, (_F(1, 2), _F(2, 5), _F(1, 5)), True),
+    10: (Structure.ICOSAHEDRAL, (_F(3, 5), _F(1, 3), _F(1, 5)), True),
+    11: (Structure.ICOSAHEDRAL, (_F(2, 5), _F(2, 5), _F(2, 5)), True),
+    12: (Structure.ICOSAHEDRAL, (_F(2, 3), _F(1, 3), _F(1, 5)), True),
+    13: (Structure.ICOSAHEDRAL, (_F(4, 5), _F(1, 5), _F(1, 5)), True),
+    14: (Structure.ICOSAHEDRAL, (_F(1, 2), _F(2, 5), _F(1, 3)), True),
+    15: (Structure.ICOSAHEDRAL, (_F(3, 5), _F(2, 5), _F(1, 3)), True),
+}
+_STRUCTURES = (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL)
+
+
+def kimura(differences: tuple[Fraction | None, Fraction | None, Fraction | None]) -> Structure | None:
+    """The structure for three exponent differences (None: not rational) that aren't reducible.
+
+    >>> kimura((Fraction(1, 2), Fraction(1, 3), Fraction(1, 4)))
+    <Structure.OCTAHEDRAL: 'octahedral'>
+    """
+    if sum(d is not None and d.denominator == 2 for d in differences) >= 2:
+        return Structure.IMPRIMITIVE
+    known = [d for d in differences if d is not None]
+    if len(known) < 3 or any(d.denominator > 5 for d in known):
+        return None
+    first, second, third = sorted(int(60 * d) % 120 for d in known)
+    return _table().get((first, second, third))
+
+
+@lru_cache(maxsize=1)
+def _table() -> dict[tuple[int, ...], Structure]:
+    """Schwarz's rows, for the exponent differences modulo 2 in sixtieths, sorted."""
+    table: dict[tuple[int, ...], Structure] = {}
+    for structure, row, parity in _SCHWARZ.values():
+        for whole in product((0, 1), repeat=3):
+            if parity and sum(whole) % 2:
+                continue
+            values = [60 * (r + q) for r, q in zip(row, whole, strict=True)]
+            for signs in product((1, -1), repeat=3):
+                table[tuple(sorted(int(sign * v) % 120 for sign, v in zip(signs, values, strict=True)))] = structure
+    return table
+
+
+@dataclass(frozen=True)
+class Schwarz(Statement):
+    """The exponent differences, whose squares are the roots of `cubic`, belong to this structure in Schwarz's table."""
+
+    cubic: FunctionPoly
+    structure: Structure
+
+    def holds(self, point: Point) -> bool:
+        value = point.at(self.cubic)
+        differences: list[Fraction | None] = []
+        for factor, multiplicity in value.field.factor(value):
+            square = rational(-factor[0]) if factor.degree == 1 else None
+            difference = None if square is None or square < 0 else _square_root(square)
+            differences += [difference] * (multiplicity * factor.degree)
+        first, second, third = differences
+        return kimura((first, second, third)) is self.structure
+
+    def sample(self, random: Random) -> list[Statement]:
+        """Equations that give the exponent differences values from a row of the table; [] where they aren't rational in t."""
+        field = self.cubic.field
+        roots = [field.sqrt(-factor[0]) for factor, k in field.factor(self.cubic) if factor.degree == 1 and k == 1]
+        if len(roots) != 3:
+            return []
+        rows = [
+            tuple(r + q for r, q in zip(row, whole, strict=True))
+            for structure, row, parity in _SCHWARZ.values()
+            for whole in product((0, 1, -1), repeat=3)
+            if structure is self.structure and not (parity and sum(whole) % 2)
+        ]
+        dihedral = (_F(1, 2), _F(3, 2), _F(random.randint(1, 9), random.randint(2, 9)))
+        values = list(random.choice(rows) if rows else dihedral)
+        random.shuffle(values)
+        return [
+            Vanishes(root - value)  # type: ignore[arg-type]
+            for root, value in zip(roots, values, strict=True)
+            if root is not None and root.degree >= 0
+        ]
+
+    def text(self) -> str:
+        rows = [str(k) for k, row in _SCHWARZ.items() if row[0] is self.structure]
+        which = "1 (two half-integers)" if not rows else f"{rows[0]}-{rows[-1]}"
+        return f"the exponent differences {self._differences()} are in Schwarz's row{'s' * bool(rows)} {which}"
+
+    def _differences(self) -> str:
+        field = self.cubic.field
+        names = []
+        for factor, k in field.factor(self.cubic):
+            if factor.degree > 1:
+                return f"(the square roots of the roots of {shown(self.cubic, 'Z')})"
+            root = field.sqrt(-factor[0])
+            name = f"sqrt({shown(RatFunc(-factor[0]))})" if root is None else shown(RatFunc(root))
+            names += [name] * k
+        return ", ".join(names)
+
+    def latex(self) -> str:
+        return rf"\text{{{self.text().replace('^', chr(92) + '^{}')}}}"
+
+
+def applies(problem: Problem) -> bool:
+    """At most three singular points on the sphere, all of them regular."""
+    singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
+    return sum(place.degree for place in singular) <= 3 and all(place.kind is Kind.REGULAR for place in singular)
+
+
+def squares_of_differences(problem: Problem) -> FunctionPoly:
+    """The monic cubic over Q(t) whose roots are the squares of the exponent differences."""
+    field = problem.field
+    cubic = field.poly([1])
+    for place in problem.places:
+        if place.kind is not Kind.ORDINARY:
+            cubic = cubic * characteristic_polynomial(_difference_squared(place), place.factor)
+    one = field.poly([-1, 1])
+    while cubic.degree < 3:
+        cubic = cubic * one
+    assert isinstance(cubic, FunctionPoly)
+    return cubic
+
+
+def _difference_squared(place: Place) -> Poly:
+    """1 + 4b in K[x]/p."""
+    if place.delta_squared is not None:
+        return place.delta_squared
+    p = place.factor
+    cofactor = p.derivative() ** 2 * (place.den // p**2) % p
+    return (1 + 4 * place.num * cofactor.inverse_modulo(p)) % p
+
+
+def reducible(problem: Problem) -> bool | list[Statement]:
+    """When is the equation reducible?  True: always."""
+    if sum(place.degree for place in problem.places if place.kind is not Kind.ORDINARY) <= 2:
+        return True
+    cubic = squares_of_differences(problem)
+    s1, s2, s3 = -cubic[2], cubic[1], -cubic[0]
+    z = problem.field.poly([0, 0, 1])
+    equation = ((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z
+    assert isinstance(equation, FunctionPoly)
+    return integer_roots(equation, [1], 2)
+
+
+def irreducible_structures(problem: Problem) -> Structure | list[tuple[Structure, Statement]]:
+    """When is the group imprimitive or primitive and finite, if it isn't reducible?  A structure: always this one."""
+    cubic = squares_of_differences(problem)
+    constants, variable = _split(cubic)
+    if sum(d is not None and d.denominator == 2 for d in constants) >= 2:
+        return Structure.IMPRIMITIVE
+    if variable is None:
+        return [(structure, Schwarz(cubic, structure)) for structure in _STRUCTURES]
+    if len(constants) < 2:
+        return []
+    found: list[tuple[Structure, Statement]] = []
+    for structure in _STRUCTURES:
+        for denominator in (2, 3, 4, 5):
+            residues = [
+                a
+                for a in range(2 * denominator)
+                if _F(a, denominator).denominator == denominator
+                and kimura((constants[0], constants[1], _F(a, denominator))) is structure
+            ]
+            if residues:
+                square = denominator**2 * variable
+                equation = problem.field.poly([-square, 0, 1])
+                assert isinstance(equation, FunctionPoly)
+                statements = integer_roots(equation, residues, 2 * denominator)
+                if statements is True:
+                    raise AssertionError("an exponent difference that depends on a parameter isn't constant")
+                found += [(structure, statement) for statement in statements]  # type: ignore[union-attr]
+    return found
+
+
+def _split(cubic: FunctionPoly) -> tuple[list[Fraction | None], Poly | None]:
+    """The constant exponent differences (None: irrational), and the square of the other one if there is exactly one."""
+    field = cubic.field
+    constants: list[Fraction | None] = []
+    variable: list[Poly] = []
+    for factor, multiplicity in field.factor(cubic):
+        coefficients = [field.rational_value(c) for c in factor]
+        if any(c is None for c in coefficients):
+            variable += [-factor[0]] * multiplicity if factor.degree == 1 else [factor] * (2 * multiplicity)
+        elif factor.degree == 1 and coefficients[0] is not None:
+            square = -coefficients[0]
+            constants += [_square_root(square) if square >= 0 else None] * multiplicity
+        else:
+            constants += [None] * (factor.degree * multiplicity)
+    return constants, variable[0] if len(variable) == 1 else None
+
+
+def _square_root(value: Fraction) -> Fraction | None:
+    roots = [root for root in rational_roots_of_square(value) if root >= 0]
+    return roots[0] if roots else None
+
+
+def rational_roots_of_square(value: Fraction) -> list[Fraction]:
+    """The rational r with r^2 = value."""
+    from kovacic.algebra.fields import QQ
+
+    return rational_roots(QQ.poly([-value, 0, 1]))
+
+
+__all__ = ["IntegerRoot", "Schwarz", "applies", "irreducible_structures", "kimura", "reducible"]
