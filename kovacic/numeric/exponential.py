@@ -77,7 +77,7 @@ def sharp_roots(poly: acb_poly) -> list[acb]:
     it."""
     from flint import arb, ctx
 
-    for share in (0.9, 0.6, 0.3):
+    for share in (0.95, 0.85, 0.75, 0.6, 0.45, 0.3):
         try:
             roots: list[acb] = poly.roots(tol=arb(2) ** -int(ctx.prec * share), maxprec=4 * ctx.prec)
         except ValueError:

@@ -14,6 +14,7 @@ neither the backend nor the state of pyplot is touched.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -137,7 +138,7 @@ def plot(
 
     samples = sample(equation, start, stop, x0=x0, y0=y0, dy0=dy0, points=points, digits=digits, limits=limits)
     figure = NewFigure(figsize=(8, 4.8), layout="constrained")
-    FigureCanvasAgg(figure)  # type: ignore[no-untyped-call]
+    FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     is_complex = any(not result.y.real for run in samples.runs for result in run)
     _curves(axes, samples, is_complex)
@@ -159,7 +160,10 @@ def plot(
 
 
 def _curves(axes: Any, samples: Samples, is_complex: bool) -> None:
-    parts = (("Re y", "C0", lambda z: z.real), ("Im y", "C1", lambda z: z.imag))
+    parts: tuple[tuple[str, str, Callable[[complex], float]], ...] = (
+        ("Re y", "C0", lambda z: z.real),
+        ("Im y", "C1", lambda z: z.imag),
+    )
     span = max(max(abs(z.real), abs(z.imag)) for run in samples.runs for z in (result.y.mid for result in run))
     band: str | None = "error band"
     for label, colour, pick in parts if is_complex else parts[:1]:
