@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterable, Iterator
-from contextlib import AbstractContextManager
+from contextlib import contextmanager
 from itertools import islice
 from typing import Any
 
@@ -87,36 +87,60 @@ def _chunks(items: Iterable[Item]) -> Iterator[list[Item]]:
         yield chunk
 
 
-def _configured(backend: str, jobs: int | None, scheduler: str | None) -> AbstractContextManager[Any]:
-    """joblib's configuration for this backend."""
+@contextmanager
+def _configured(backend: str, jobs: int | None, scheduler: str | None) -> Iterator[None]:
+    """joblib's configuration for this backend; connections that are made here are closed here."""
     from joblib import parallel_config
 
     n_jobs = -1 if jobs is None else jobs
     if backend == "loky":
         if scheduler is not None:
             raise InputError("loky has no scheduler", hint="--backend dask --scheduler tcp://host:8786")
-        return parallel_config("loky", n_jobs=n_jobs)  # type: ignore[no-any-return]
-    if backend == "dask":
+        with parallel_config("loky", n_jobs=n_jobs):
+            yield
+    elif backend == "dask":
+        with _dask_client(scheduler) as client, parallel_config("dask", n_jobs=n_jobs, client=client):
+            yield
+    elif backend == "ray":
+        _connect_ray(scheduler)
+        with parallel_config("ray", n_jobs=n_jobs):
+            yield
+    else:
+        raise InputError(f"{backend!r} isn't a backend", hint=f"one of {', '.join(BACKENDS)}")
+
+
+@contextmanager
+def _dask_client(scheduler: str | None) -> Iterator[Any]:
+    """A client of the scheduler, or the one that the program has made."""
+    try:
+        from distributed import Client, get_client
+    except ImportError:
+        raise InputError("Dask isn't installed", hint="pip install 'kovacic[dask]'") from None
+    if scheduler is None:
         try:
-            import distributed  # noqa: F401 - joblib needs it, and its own message doesn't name the package
-        except ImportError:
-            raise InputError("Dask isn't installed", hint="pip install 'kovacic[dask]'") from None
-        try:
-            return parallel_config("dask", n_jobs=n_jobs, scheduler_host=scheduler)  # type: ignore[no-any-return]
-        except (OSError, ValueError) as error:
-            where = "no client" if scheduler is None else f"the scheduler at {scheduler} can't be reached"
-            raise InputError(f"{where}: {error}", hint="--scheduler tcp://host:8786") from None
-    if backend == "ray":
-        try:
-            import ray
-            from ray.util.joblib import register_ray
-        except ImportError:
-            raise InputError("Ray isn't installed", hint="pip install ray") from None
-        if scheduler is not None:
-            ray.init(address=scheduler, ignore_reinit_error=True)
-        register_ray()
-        return parallel_config("ray", n_jobs=n_jobs)  # type: ignore[no-any-return]
-    raise InputError(f"{backend!r} isn't a backend", hint=f"one of {', '.join(BACKENDS)}")
+            existing = get_client()
+        except ValueError:
+            raise InputError("there is no Dask client", hint="--scheduler tcp://host:8786, or make a client") from None
+        yield existing
+        return
+    try:
+        client = Client(scheduler, set_as_default=False)
+    except (OSError, ValueError) as error:
+        hint = "dask scheduler --port 8786, and --scheduler tcp://host:8786"
+        raise InputError(f"the scheduler at {scheduler} can't be reached: {error}", hint=hint) from None
+    with client:
+        yield client
+
+
+def _connect_ray(address: str | None) -> None:
+    try:
+        import ray
+        from ray.util.joblib import register_ray
+    except ImportError:
+        raise InputError("Ray isn't installed", hint="pip install ray") from None
+    if address is not None:
+        ray.init(address=address, ignore_reinit_error=True)
+    register_ray()
 
 
 __all__ = ["BACKENDS", "CHUNK", "run_chunk", "run_on_backend"]

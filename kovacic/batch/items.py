@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
-from kovacic.errors import InputError, KovacicError, LimitExceeded
+from kovacic.errors import InputError, KovacicError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.result import Solution
 
@@ -18,6 +18,10 @@ from kovacic.result import Solution
 CASES = ("case 1", "case 2", "case 3 (4)", "case 3 (6)", "case 3 (12)")
 NONE, UNDECIDED, ERROR, FAILED = "none", "undecided", "bad input", "failed"
 LABELS = (*CASES, NONE, UNDECIDED, ERROR, FAILED)
+
+# Types of errors that aren't the input's.
+_PROCESS_LOST = "ProcessLost"
+_FAILURES = (_PROCESS_LOST, VerificationFailed.__name__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,21 +107,27 @@ class Job:
 
 def solved(item: Item, solution: Solution, job: Job) -> Record:
     """The record of an answer."""
-    decision = solution.decision
-    if decision.undecided is not None:
-        label = UNDECIDED
-    elif solution.case is None:
-        label = NONE
-    elif solution.case == 3 and decision.riccati is not None:
-        label = f"case 3 ({decision.riccati.degree})"
-    else:
-        label = f"case {solution.case}"
     added = {"line": item.number, **item.extra}
     if job.group:
         group = solution.group
         added["group"] = None if group is None else {"name": group.name, "order": group.order, "finite": group.finite}
     head = json.dumps(added, ensure_ascii=False)
+    degree = 0 if solution.riccati is None else solution.riccati.degree
+    label = _label(solution.status.value, solution.case, degree)
     return Record(item.number, label, solution.seconds or 0.0, f"{head[:-1]}, {solution.to_json()[1:]}")
+
+
+def label_of(data: Mapping[str, Any]) -> str:
+    """The label of a record that has been read from a file."""
+    if "error" in data:
+        return FAILED if data["error"]["type"] in _FAILURES else ERROR
+    return _label(data["status"], data["case"], (data["riccati"] or {"degree": 0})["degree"])
+
+
+def _label(status: str, case: int | None, degree: int) -> str:
+    if case is None:
+        return status
+    return f"case 3 ({degree})" if case == 3 else f"case {case}"
 
 
 def refused(item: Item, error: KovacicError, seconds: float = 0.0) -> Record:
@@ -133,7 +143,7 @@ def refused(item: Item, error: KovacicError, seconds: float = 0.0) -> Record:
 
 def lost(item: Item, message: str, seconds: float) -> Record:
     """The record of an equation whose process was lost for a reason that isn't a limit."""
-    return _without_answer(item, FAILED, {"type": "ProcessLost", "message": message}, seconds)
+    return _without_answer(item, FAILED, {"type": _PROCESS_LOST, "message": message}, seconds)
 
 
 def stopped(item: Item, reason: str, seconds: float) -> Record:

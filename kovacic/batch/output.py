@@ -13,7 +13,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
-from typing import IO
+from typing import IO, Any
 from zlib import crc32
 
 from kovacic.batch.items import Item, Record
@@ -94,6 +94,13 @@ def take_up(path: Path) -> Done:
     return Done(checksums)
 
 
+def stored(path: Path) -> Iterator[dict[str, Any]]:
+    """The answers of a file that `take_up` has repaired, if there is one."""
+    if path.exists():
+        with path.open("rb") as stream:
+            yield from map(json.loads, stream)
+
+
 def _answers(path: Path) -> Iterator[tuple[int | None, int, bytes]]:
     """Number, checksum of the input and bytes of each line; the number None for what isn't a whole answer."""
     with path.open("rb") as stream:
@@ -125,4 +132,4 @@ def _checksum(text: str) -> int:
     return crc32(text.encode("utf-8", errors="backslashreplace"))
 
 
-__all__ = ["Answers", "Done", "take_up"]
+__all__ = ["Answers", "Done", "stored", "take_up"]

@@ -1,0 +1,192 @@
+"""Scans: grids are exact, the text of a point means what the text with the parameter meant, tables and maps are right."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import subprocess
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kovacic.batch.items import Record, label_of
+from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
+from kovacic.io.arithmetic import VARIABLE, Arithmetic
+from kovacic.io.parser import parse_rational, parse_with
+from kovacic.scan import parse_grid, scan, scan_items, substitute
+from kovacic.scan.grid import points
+from kovacic.scan.map import draw_map
+
+fractions = st.fractions(min_value=-50, max_value=50, max_denominator=30)
+
+
+def command(*arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "kovacic", "scan", *arguments], capture_output=True, text=True, timeout=60
+    )
+
+
+def values(text: str) -> list[Fraction]:
+    return list(parse_grid(text).values)
+
+
+def test_grids() -> None:
+    assert values("n=0:1:1/4") == [Fraction(k, 4) for k in range(5)]
+    assert values("n=3") == [3]
+    assert values("n=1:3") == [1, 2, 3]
+    assert values("n=1:-1:-.5") == [1, Fraction(1, 2), 0, Fraction(-1, 2), -1]
+    assert values("n=0:1:0.3") == [0, Fraction(3, 10), Fraction(6, 10), Fraction(9, 10)]
+    assert values("n= 1 , -5/2") == [1, Fraction(-5, 2)]
+    assert len(parse_grid("n=0:1:1/100000000").values) == 10**8 + 1
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "n", "n=", "=1", "2=1", "n=1:0", "n=0:1:0", "n=0:1:2:3", "n=1/0", "n=1e9", "n=__import__('os')", "n=a:b"],
+)
+def test_what_is_no_grid_is_refused(text: str) -> None:
+    with pytest.raises(InputError):
+        parse_grid(text)
+
+
+def test_huge_grids_are_refused() -> None:
+    with pytest.raises(LimitExceeded):
+        parse_grid("n=0:1:1/10000000000")
+
+
+def test_the_last_parameter_changes_fastest() -> None:
+    found = [(p["a"], p["b"]) for p in points([parse_grid("a=0:1"), parse_grid("b=5,7")])]
+    assert found == [(0, 5), (0, 7), (1, 5), (1, 7)]
+
+
+@given(
+    fractions,
+    st.sampled_from(
+        ["n*x^2+n^2", "(4*n^2-1)/(4*x^2)-1", "-n/x", "2n + 3", "x - n - n", "(x+1)(n-x)^2", "n²*x", "5-n^2*x"]
+    ),
+)
+def test_the_text_of_a_point_means_what_the_parameter_meant(value: Fraction, text: str) -> None:
+    arithmetic = Arithmetic()
+    direct = parse_with(text, {"x": VARIABLE, "n": arithmetic.constant(value)}, arithmetic)
+    assert parse_rational(substitute(text, {"n": value}), variable="x").S == arithmetic.rational(direct)
+
+
+def test_only_whole_names_are_parameters() -> None:
+    assert substitute("n1*x + n + sin_n", {"n": Fraction(2)}) == "n1*x + (2) + sin_n"
+    with pytest.raises(InputError, match="like a function"):
+        substitute("n(x+1)", {"n": Fraction(2)})
+    with pytest.raises(InputError, match="no parameter m"):
+        substitute("n*x", {"m": Fraction(2)})
+    with pytest.raises(ParseError):
+        parse_rational(substitute("1/2n", {"n": Fraction(2)}))
+    with pytest.raises(NotRational):
+        parse_rational(substitute("x^n", {"n": Fraction(1, 3)}))
+
+
+@pytest.mark.parametrize("ranges", [[], ["n=1", "n=2"], ["x=1", "n=1"]])
+def test_parameters_must_differ(ranges: list[str]) -> None:
+    with pytest.raises(InputError, match=r"needs a parameter|aren't different|no parameter"):
+        list(scan_items("n + t", [parse_grid(text) for text in ranges], var="x"))
+
+
+def test_bessel_is_solvable_at_half_odd_integers() -> None:
+    records = list(scan("(4*n^2-1)/(4*x^2)-1", [parse_grid("n=0:4:1/4")], jobs=1))
+    for record in records:
+        n = Fraction(record.data["parameters"]["n"])
+        assert record.case == (1 if (n - Fraction(1, 2)).denominator == 1 else None)
+        assert record.data["group"]["name"] == ("G_m" if record.case else "SL2")
+        assert label_of(record.data) == record.label
+
+
+def test_sympy_expressions_and_points_where_s_is_not_defined() -> None:
+    import sympy
+
+    x, n = sympy.symbols("x n")
+    records = list(scan(x**2 + 1 / n, [parse_grid("n=-1:1")], jobs=1))
+    assert [record.label for record in records] == ["case 1", "bad input", "case 1"]
+    assert label_of(records[1].data) == "bad input"
+
+
+def test_the_command_writes_csv() -> None:
+    ran = command("x^2 + n/m", "n=1:3", "m=0,1", "--format", "csv", "-j", "1", "-q")
+    assert ran.returncode == 2
+    rows = list(csv.DictReader(io.StringIO(ran.stdout)))
+    assert [(row["n"], row["m"], row["status"], row["case"]) for row in rows] == [
+        ("1", "0", "error", ""),
+        ("1", "1", "liouvillian", "1"),
+        ("2", "0", "error", ""),
+        ("2", "1", "none", ""),
+        ("3", "0", "error", ""),
+        ("3", "1", "liouvillian", "1"),
+    ]
+    assert rows[1]["group"] == "Borel"
+    assert "zero" in rows[0]["remark"]
+
+
+def test_the_command_writes_jsonl_and_a_map_and_resumes(tmp_path: Path) -> None:
+    output, picture = tmp_path / "scan.jsonl", tmp_path / "map.png"
+    arguments = ["-n^2 + m*x", "n=0:2", "m=0:3", "-o", str(output), "--map", str(picture), "-j", "1"]
+    ran = command(*arguments)
+    assert ran.returncode == 0, ran.stderr
+    lines = output.read_bytes().splitlines(keepends=True)
+    assert [json.loads(line)["parameters"] for line in lines][5] == {"n": "1", "m": "1"}
+    whole_map = picture.read_bytes()
+    assert whole_map.startswith(b"\x89PNG")
+    output.write_bytes(b"".join(lines[:4]) + lines[4][:30])
+    picture.unlink()
+    assert command(*arguments).returncode == 2
+    ran = command(*arguments, "--resume")
+    assert ran.returncode == 0, ran.stderr
+    assert [json.loads(line)["line"] for line in output.read_bytes().splitlines()] == list(range(1, 13))
+    assert picture.read_bytes() == whole_map
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["x^2+n", "n=1", "--map", "map.png"],
+        ["x^2+n", "n=1", "--resume"],
+        ["x^2+n", "n"],
+        ["x^2+n", "n=1", "--nonsense"],
+        ["x^2+n"],
+    ],
+)
+def test_wrong_usage(arguments: list[str]) -> None:
+    ran = command(*arguments)
+    assert ran.returncode == 2
+    assert "Traceback" not in ran.stderr
+
+
+def test_maps_show_each_label_in_its_place(tmp_path: Path) -> None:
+    matplotlib = pytest.importorskip("matplotlib.image")
+    grids = (parse_grid("a=0:1"), parse_grid("b=0:2"))
+    labels = {1: "case 1", 2: "case 2", 3: "none", 4: "none", 5: "bad input", 6: "case 1"}
+    path = tmp_path / "map.png"
+    draw_map("a*x + b", grids, labels, path)
+    image = (matplotlib.imread(path)[..., :3] * 255).round().astype(int)
+    found = {}
+    for label, colour in (("case 1", (0, 114, 178)), ("case 2", (230, 159, 0)), ("bad input", (119, 119, 119))):
+        rows, columns = ((image == colour).all(axis=2)).nonzero()
+        inside = columns < 0.7 * image.shape[1]
+        found[label] = (rows[inside], columns[inside])
+    # The first parameter upwards, the second to the right: case 1 lies below on the left and above on the right.
+    rows, columns = found["case 1"]
+    middle_row, middle_column = (rows.min() + rows.max()) / 2, (columns.min() + columns.max()) / 2
+    assert ((rows > middle_row) == (columns < middle_column)).all()
+    assert (found["case 2"][0] > middle_row).all()
+    assert (found["bad input"][0] < middle_row).mean() > 0.99  # a few pixels of the texts have this grey
+
+
+def test_a_map_needs_values_in_order(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="aren't in order"):
+        draw_map("S", (parse_grid("a=1,3,2"), parse_grid("b=1")), {}, tmp_path / "map.png")
+
+
+def test_labels_are_read_back() -> None:
+    record = Record(1, "failed", 0.0, '{"error": {"type": "ProcessLost"}, "status": "error"}')
+    assert label_of(record.data) == record.label
