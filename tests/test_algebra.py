@@ -1,0 +1,244 @@
+"""The exact arithmetic: every operation against another way to compute the same thing."""
+
+from __future__ import annotations
+
+import pickle
+import random
+from fractions import Fraction
+from math import prod
+
+import pytest
+import sympy
+from flint import nmod_poly
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kovacic.algebra import modular
+from kovacic.algebra.fields import QQ, AlgebraicField
+from kovacic.algebra.lifting import RationalLifter, prime, rational_reconstruction
+from kovacic.algebra.norms import norm
+from kovacic.algebra.poly import Poly, RationalPoly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.recurrence import polynomial_solution
+from kovacic.algebra.traces import characteristic_polynomial, is_provably_not_a_square, trace_of_square_root
+
+P = prime(0)
+small = st.integers(-9, 9)
+rationals = st.builds(Fraction, st.integers(-50, 50), st.integers(1, 12))
+polynomials = st.lists(rationals, max_size=6).map(QQ.poly)
+nonzero = polynomials.filter(bool)
+SQRT5 = AlgebraicField(QQ, QQ.poly([-5, 0, 1]))
+CUBIC = AlgebraicField(QQ, QQ.poly([-2, 0, 0, 1]))
+
+
+def over(field: AlgebraicField) -> st.SearchStrategy[Poly]:
+    parts = st.lists(polynomials, min_size=field.dimension, max_size=field.dimension)
+    return parts.map(lambda p: sum((q * field.generator**i for i, q in enumerate(p)), field.poly([])))
+
+
+@given(polynomials, nonzero)
+def test_division_leaves_a_smaller_remainder(a: RationalPoly, b: RationalPoly) -> None:
+    q, r = divmod(a, b)
+    assert a == q * b + r
+    assert r.degree < b.degree
+
+
+@pytest.mark.parametrize("field", [SQRT5, CUBIC], ids=str)
+@given(data=st.data())
+def test_extension_arithmetic_is_a_ring_with_division_and_gcd(field: AlgebraicField, data: st.DataObject) -> None:
+    a, b, c = (data.draw(over(field)) for _ in range(3))
+    assert a * (b + c) == a * b + a * c
+    assert (a * b) * c == a * (b * c)
+    if b:
+        q, r = divmod(a, b)
+        assert a == q * b + r
+        assert r.degree < b.degree
+    if a and b and c:
+        common = (a * c).gcd(b * c)
+        assert not common % c.monic()
+        assert not (a * c) % common
+        assert not (b * c) % common
+
+
+@given(over(CUBIC).filter(lambda p: p.degree >= 0))
+def test_norm_is_the_product_over_the_conjugates(a: Poly) -> None:
+    value = norm(a)
+    for bundle, _ in zip(CUBIC.bundles(), range(2), strict=False):
+        images = [h(a) for h in bundle]
+        assert bundle[0](value) == prod(images, start=nmod_poly([1], bundle[0].p))
+
+
+def test_homomorphisms_and_coordinates_are_inverse_to_each_other() -> None:
+    a = SQRT5.poly([Fraction(3, 7), 2]) + SQRT5.generator * SQRT5.poly([1, Fraction(-5, 11), 4])
+    lifter = SQRT5.lifter()
+    for bundle in SQRT5.bundles():
+        proposal = lifter.add(bundle, [[h(a)] for h in bundle])
+        if proposal is not None:
+            assert proposal == [a]
+            return
+
+
+@given(st.lists(st.fractions(max_denominator=10**12), min_size=1, max_size=5))
+def test_lifting_recovers_rationals_of_any_size(values: list[Fraction]) -> None:
+    vector = QQ.poly([*values, 1])
+    lifter = RationalLifter()
+    for index in range(40):
+        p = prime(index)
+        proposal = lifter.add(p, [next(QQ.bundles())[0].__class__(p)(vector)])
+        if proposal is not None and RationalPoly(proposal[0]) == vector:
+            return
+    raise AssertionError("not recovered from 40 primes")
+
+
+@given(st.integers(-(10**8), 10**8), st.integers(1, 10**8))
+def test_rational_reconstruction_inverts_reduction(n: int, d: int) -> None:
+    value = Fraction(n, d)
+    residue = value.numerator * pow(value.denominator, -1, P) % P
+    assert rational_reconstruction(residue, P, 10**8) == (value.numerator, value.denominator)
+
+
+@given(nonzero, nonzero)
+def test_factoring_multiplies_back(a: RationalPoly, b: RationalPoly) -> None:
+    product = a * b * b
+    assert prod((f**k for f, k in QQ.factor(product)), start=QQ.poly([1])) == product.monic()
+
+
+@pytest.mark.parametrize("field", [SQRT5, CUBIC], ids=str)
+def test_factoring_over_an_extension(field: AlgebraicField) -> None:
+    x, c = field.poly([0, 1]), field.generator
+    for polynomial in (x**4 - 25, x**3 - 2, (x - c) ** 2 * (x + c + 1), x**2 + 1):
+        factors = field.factor(polynomial)
+        assert prod((f**k for f, k in factors), start=field.poly([1])) == polynomial.monic()
+    assert [f.degree for f, _ in SQRT5.factor(SQRT5.poly([-25, 0, 0, 0, 1]))] == [1, 1, 2]
+
+
+@given(nonzero, nonzero, nonzero, nonzero, st.fractions(-20, 20, max_denominator=7))
+def test_rational_functions_agree_with_their_values(a: Poly, b: Poly, c: Poly, d: Poly, point: Fraction) -> None:
+    f, g = RatFunc(a, b), RatFunc(c, d)
+
+    def value(h: RatFunc) -> Fraction:
+        return Fraction(h.num(point).constant()) / h.den(point).constant()  # type: ignore[attr-defined]
+
+    for h in (f + g, f - g, f * g, f / g, f.derivative(), f**-2):
+        assert h.den.lc == 1
+        assert h.num.gcd(h.den).degree <= 0
+    assert f.derivative() == RatFunc(a.derivative() * b - a * b.derivative(), b * b)
+    if all(p(point) for p in (b, c, d)):
+        assert value(f + g) == value(f) + value(g)
+        assert value(f / g) == value(f) / value(g)
+        assert value(f(RatFunc(QQ.poly([point])))) == value(f)
+
+
+def test_printing_uses_integer_coefficients() -> None:
+    x = RatFunc(QQ.poly([0, 1]))
+    c = SQRT5.generator
+    assert str((x**2 - Fraction(1, 4)) / (3 * x**2)) == "(4*x**2 - 1)/(12*x**2)"
+    assert str(-x / 2) == "-x/2"
+    assert str(1 / x**2) == "1/x**2"
+    assert str(c * SQRT5.poly([1, 1]) / 2) == "(c*x + c)/2"
+    assert str(x * 0) == "0"
+
+
+@given(over(SQRT5), nonzero)
+def test_polynomials_and_rational_functions_pickle_and_hash(a: Poly, b: Poly) -> None:
+    f = RatFunc(a, b)
+    copy = pickle.loads(pickle.dumps(f))
+    assert copy == f
+    assert hash(copy) == hash(f)
+
+
+def test_mutation_is_refused() -> None:
+    with pytest.raises(AttributeError):
+        QQ.poly([1]).rep = None  # type: ignore[misc]
+    with pytest.raises(AttributeError):
+        RatFunc(QQ.poly([1])).num = QQ.poly([2])  # type: ignore[misc]
+
+
+@given(st.lists(small, min_size=1, max_size=5), st.lists(small, min_size=1, max_size=5), st.integers(2, 40))
+def test_fundamental_system_satisfies_the_equation(num: list[int], den: list[int], order: int) -> None:
+    n, d = nmod_poly(num, P), nmod_poly([den[0] or 1, *den[1:]], P)
+    y1, y2 = modular.fundamental_system(n, d, order)
+    for y in (y1, y2):
+        assert not (d * y.derivative().derivative() - n * y).truncate(order - 2)
+    assert (y1 * y2.derivative() - y1.derivative() * y2).truncate(order - 1) == 1
+
+
+@given(st.lists(small, min_size=1, max_size=4), st.lists(small, min_size=1, max_size=4))
+def test_rational_functions_come_back_from_their_series(a: list[int], b: list[int]) -> None:
+    A, B = nmod_poly(a, P), nmod_poly([1, *b], P)
+    order = A.length() + B.length() + 3
+    series = A.mul_low(B.inverse_series_trunc(order), order)
+    top, bottom = modular.rational_function_from_series(series, order, max(A.degree(), 0))
+    assert top * B == bottom * A
+
+
+def test_square_root_series() -> None:
+    rng = random.Random(1)
+    series = nmod_poly([9, *(rng.randrange(P) for _ in range(30))], P)
+    root = modular.square_root_series(series, 31, 3)
+    assert (root * root - series).truncate(31) == nmod_poly([], P)
+
+
+@given(st.lists(small, min_size=2, max_size=5), st.lists(small, min_size=1, max_size=4))
+def test_characteristic_polynomial_agrees_with_sympy(modulus: list[int], element: list[int]) -> None:
+    p, g = QQ.poly([*modulus, 1]), QQ.poly(element)
+    x, y = sympy.symbols("x y")
+    resultant = sympy.resultant(
+        sum(int(c) * x**i for i, c in enumerate([*modulus, 1])),
+        y - sum(int(c) * x**i for i, c in enumerate(element)),
+        x,
+    )
+    expected = sympy.Poly(resultant, y).monic()
+    ours = characteristic_polynomial(g % p, p)
+    assert [int(c) for c in expected.all_coeffs()[::-1]] == [int(c) for c in ours.coefficients()]
+
+
+@given(st.lists(small, min_size=1, max_size=4))
+def test_trace_of_a_square_root(element: list[int]) -> None:
+    p = QQ.poly([-3, 1, 0, 0, 1])
+    assert len(QQ.factor(p)) == 1
+    a = QQ.poly(element)
+    square = a * a % p
+    trace = trace_of_square_root(square, p)
+    expected = -characteristic_polynomial(a % p, p)[p.degree - 1]
+    assert trace is not None
+    assert trace in (expected, -expected)
+    assert not is_provably_not_a_square(square, p)
+
+
+def test_a_non_square_is_recognised() -> None:
+    p = QQ.poly([-3, 1, 0, 0, 1])
+    assert is_provably_not_a_square(QQ.poly([0, 1]), p)
+    assert trace_of_square_root(QQ.poly([0, 1]), p) is None
+
+
+@pytest.mark.parametrize("degree", [0, 1, 2, 7, 30])
+def test_hermite_and_legendre_polynomials(degree: int) -> None:
+    x = sympy.Symbol("x")
+    cases = [
+        (QQ.poly([1]), QQ.poly([0, -2]), QQ.poly([2 * degree]), sympy.hermite(degree, x)),
+        (QQ.poly([1, 0, -1]), QQ.poly([0, -2]), QQ.poly([degree * (degree + 1)]), sympy.legendre(degree, x)),
+    ]
+    for second, first, zeroth, expected in cases:
+        found = polynomial_solution(second, first, zeroth, degree, lambda: None)
+        reference = [Fraction(int(c.p), int(c.q)) for c in sympy.Poly(expected, x).monic().all_coeffs()[::-1]]
+        assert found is not None
+        assert list(found.coefficients()) == reference
+        assert polynomial_solution(second, first, zeroth, degree + 1, lambda: None) is None
+
+
+def test_a_resonance_is_resolved() -> None:
+    # x^2 y'' - 3 x y' + 3 y + (y' - y) has exponents 1 and 3 at infinity; demand the solution of degree 3.
+    x = QQ.poly([0, 1])
+    target = QQ.poly([5, -1, 0, 1])
+    other = QQ.poly([2, 1])
+    # The operator with the two polynomial solutions: det(y, target, other; ...).
+    w2 = target * other.derivative() - other * target.derivative()
+    w1 = -(target * other.derivative().derivative() - other * target.derivative().derivative())
+    w0 = target.derivative() * other.derivative().derivative() - other.derivative() * target.derivative().derivative()
+    found = polynomial_solution(w2, w1, w0, 3, lambda: None)
+    assert found is not None
+    assert not w2 * found.derivative().derivative() + w1 * found.derivative() + w0 * found
+    assert polynomial_solution(w2, w1, w0, 1, lambda: None) == other.monic()
+    assert polynomial_solution(w2, w1, w0, 2, lambda: None) is None
+    assert x.degree == 1
