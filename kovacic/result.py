@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from kovacic.closed_form import ClosedForm
     from kovacic.galois import Group
+    from kovacic.parametric.generic import GenericConditions
 
 
 @dataclass(frozen=True)
@@ -113,6 +114,13 @@ class Solution:
     def proof(self) -> tuple[Exclusion, ...]:
         """What was excluded and by which evidence: everything, for a "no"; all smaller structures, for a "yes"."""
         return self.decision.exclusions
+
+    @property
+    def generic_conditions(self) -> GenericConditions:
+        """What must not vanish, and which exponents must not be rational, for the answer to hold; empty without parameters."""
+        from kovacic.parametric.generic import generic_conditions
+
+        return generic_conditions(self)
 
     def verify(self) -> Verification:
         """Recompute every claim by independent code; true exactly when all of them hold."""

@@ -298,11 +298,19 @@ def _flattened(result: Partition) -> list[Condition]:
     flat: list[Condition] = []
     for region in result.regions:
         if region.inner is not None:
-            for inner in _flattened(region.inner):
+            outer = _outer(region)
+            special = _flattened(region.inner)
+            while special and special[-1].defined and _claims(special[-1]) == _claims(outer):
+                special.pop()
+            for inner in special:
                 statement = _both(region.statement, inner.statement)
                 flat.append(Condition(statement, inner.verdict, inner.complete, inner.defined, inner.omega))
         flat.append(_outer(region))
     return flat
+
+
+def _claims(condition: Condition) -> tuple[Verdict, bool | str]:
+    return condition.verdict, condition.complete
 
 
 def _outer(region: Region) -> Condition:

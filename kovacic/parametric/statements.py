@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import lcm
+from math import gcd, lcm
 from typing import Any
 
 from kovacic.algebra.fields import QQ, ExtensionPoly, Field
@@ -85,13 +85,11 @@ class Classes(Statement):
 
     @classmethod
     def make(cls, form: FunctionPoly, residues: Iterable[Fraction], modulus: Fraction) -> Classes:
-        """Normalised: no constant term where the form is a polynomial, coprime coefficients, the least modulus."""
-        shift, scale = Fraction(0), Fraction(1)
-        if form.den.is_constant():
-            shift = _constant(form)
-            coefficients = [int(c) for e, c in form.num.to_dict().items() if any(e)]
-            content = _gcd(coefficients) * (1 if coefficients[0] > 0 else -1)
-            scale = Fraction(int(form.den.leading_coefficient()), content)
+        """Normalised: no constant term (in a Laurent series at 0), coprime coefficients, the least modulus."""
+        shift = _constant(form)
+        numerator = [int(c) for c in (form - shift).num.coeffs()]
+        content = gcd(*numerator) * (1 if numerator[0] > 0 else -1)
+        scale = Fraction(gcd(*(int(c) for c in (form - shift).den.coeffs())), content)
         normal = (form - shift) * scale
         modulus = abs(modulus * scale)
         found = {((residue - shift) * scale) % modulus for residue in residues}
@@ -319,12 +317,6 @@ def _shifted(form: str, residue: Fraction) -> str:
 def _constant(form: FunctionPoly) -> Fraction:
     value = form.rational_coefficients()
     return Fraction(int(value[0].p), int(value[0].q)) if value else Fraction(0)
-
-
-def _gcd(values: Sequence[int]) -> int:
-    from math import gcd
-
-    return gcd(*values) or 1
 
 
 def _common_multiple(a: Fraction, b: Fraction) -> Fraction:
