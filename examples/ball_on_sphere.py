@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import sys
 import time
+from fractions import Fraction
 
 import sympy as sp
 
@@ -26,6 +27,8 @@ from kovacic.mechanics.theorems import (
     symbolic_ball,
     two_exponentials,
 )
+
+GENERAL = "(1+8*r^2)/(8*(p-q)*(x-p)) - (1+8*r^2)/(8*(p-q)*(x-q)) - 3/16/(x-p)^2 - 3/16/(x-q)^2"
 
 
 def main() -> int:
@@ -50,14 +53,18 @@ def main() -> int:
     for N in (1, 2, 3, 4):
         first, second = rational_solutions(N).expressions()
         print(f"  N = {N}: omega_3 = c1 ({first}) + c2 ({second})")
-    print(
-        "  Only if: for other values y1/y2 = t^(2R/R1) isn't in C(t), and a branch point of sqrt(D) exchanges y1 and y2."
-    )
+    statement = kovacic.conditions(GENERAL, var="x")
+    print("  Both directions, by the parametric engine, for (13) with symbolic p = x1, q = x2, r = R/R1:")
+    print("    " + str(statement).partition("\n")[2].strip().replace("\n", "\n  "))
+    samples = ({"p": 1, "q": 2, "r": "5/2"}, {"p": 1, "q": 2, "r": "1/3"})
+    engine_0 = statement.complete is True and statement.generic.case == 2
+    engine_0 = engine_0 and [statement.case_at({k: Fraction(v) for k, v in s.items()}) for s in samples] == [1, 2]
+    print("  Only if, once more by hand: for other values y1/y2 = t^(2R/R1) isn't in C(t), and a branch point of")
+    print("  sqrt(D) exchanges y1 and y2.")
     halves = [decide(normalised(sp.Rational(N, 2)), sp.Rational(N, 2)) for N in range(1, 51)]
     engine_1 = all(verdict.degree == 1 and verdict.verified for verdict in halves)
-    print(
-        f"  The engine, N = 1..50: omega of degree {sorted({verdict.degree for verdict in halves})}, all verified: {engine_1}\n"
-    )
+    degrees = sorted({verdict.degree for verdict in halves})
+    print(f"  The engine, N = 1..50: omega of degree {degrees}, all verified: {engine_1}\n")
 
     print("Theorem 2: omega has degree 2 otherwise, and")
     print("  omega_3 = (c1 (sqrt(x-x1) + sqrt(x-x2))^(2R/R1) + c2 (...)^(-2R/R1)) / sqrt((x-x1)(x-x2))")
@@ -84,7 +91,7 @@ def main() -> int:
     print("One ball: m = R = 1, a = 1/5, A1 = 1/4, A3 = 1/3 on R1 = 3")
     print("  " + example.equation(12).text())
     print(f"  omega_3 = {closed_form(example).omega_3}")
-    holds = all(proofs) and rational and engine_1 and engine_2 and agree
+    holds = all(proofs) and rational and engine_0 and engine_1 and engine_2 and agree
     print(f"\n{'Everything holds' if holds else 'SOMETHING FAILS'}; {time.perf_counter() - started:.2f} s")
     return 0 if holds else 1
 

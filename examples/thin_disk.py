@@ -27,10 +27,13 @@ def main() -> int:
     legendre = sp.cancel(equation.d1 + 2 * X / (1 - X**2)) == 0 and not constant.has(X)
     print(f"(1 - x^2) omega_3'' - 2 x omega_3' - k omega_3 = 0,  k = {constant}: Legendre's equation: {legendre}")
     print("with nu (nu + 1) = -k, so nu = -1/2 +- sqrt(1/4 - k), and k > 0 for every body.\n")
+    print(kovacic.conditions("-1/(1-x^2)^2 + k/(1-x^2)", var="x"), end="\n\n")
     print(
         "Legendre's exponent differences at 1, -1, infinity are 0, 0, 2 nu + 1.  By Kimura's theorem it has a Liouvillian"
     )
-    print("solution exactly if nu is an integer; then nu (nu + 1) >= 0, while here it is -k < 0.  So no disk has one:")
+    print(
+        "solution exactly if nu is an integer, as above; then nu (nu + 1) >= 0, while here it is -k < 0.  So no disk has one:"
+    )
     bodies = [
         ("homogeneous disk, A3 = m R^2/2, A1 = A3/2", {m: 1, R: 1, A1: sp.Rational(1, 4), A3: sp.Rational(1, 2)}),
         ("hoop, A3 = m R^2, A1 = A3/2", {m: 1, R: 1, A1: sp.Rational(1, 2), A3: 1}),

@@ -178,10 +178,10 @@ class Quotient:
         """Irreducible factors over Z with their (possibly negative) exponents, the content first."""
         result: list[tuple[sp.Expr, int]] = []
         for side, sign in ((self._num, 1), (self._den, -1)):
-            content, parts = side.factor()
+            content, parts = _factors(self.ring, side)
             if content != 1:
-                result.append((sp.Integer(int(content)), sign))
-            result += [(_expression(self.ring, part), sign * exponent) for part, exponent in parts]
+                result.append((sp.Integer(content), sign))
+            result += [(part, sign * exponent) for part, exponent in parts]
         return result
 
     def factored(self) -> sp.Expr:
@@ -196,6 +196,18 @@ def _expression(ring: Ring, polynomial: Any) -> sp.Expr:
     symbols = [sp.Symbol(name) for name in ring.names]
     terms = {tuple(monomial): int(c) for monomial, c in polynomial.to_dict().items()}
     return sp.Poly.from_dict(terms or {(0,) * len(symbols): 0}, *symbols).as_expr()
+
+
+def _factors(ring: Ring, polynomial: Any) -> tuple[int, list[tuple[sp.Expr, int]]]:
+    try:
+        content, parts = polynomial.factor()
+    except (
+        OverflowError
+    ):  # python-flint 0.9.0 sorts the factors by machine integers and stumbles over larger coefficients
+        symbols = [sp.Symbol(name) for name in ring.names]
+        content, factors = sp.factor_list(_expression(ring, polynomial), *symbols)
+        return int(content), [(factor, int(exponent)) for factor, exponent in factors]
+    return int(content), [(_expression(ring, part), int(exponent)) for part, exponent in parts]
 
 
 @dataclass(frozen=True, slots=True)
