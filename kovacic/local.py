@@ -79,6 +79,8 @@ def exponential_parts(equation: LocalEquation, place: Place) -> list[Any]:
             return []
         signs = [1] if place.logarithm or difference == 0 else [1, -1]
         return [nmod_poly([(1 + sign * difference) * half % p], p) for sign in signs]
+    if not int(ratio[0]):
+        raise BadPrimeError("the leading coefficient at an irregular place vanishes")
     root = square_root(int(ratio[0]), p)
     if root is None:
         return []

@@ -222,6 +222,8 @@ class Inspector:
                 r = difference.numerator * pow(difference.denominator, -1, p) % p
             signs = [r] if place.name in self.logarithmic else [r, -r]
             starts = [[(1 + value) * half % p] for value in signs]
+        elif not s[0]:
+            raise BadPrimeError("the leading coefficient at an irregular place vanishes")
         else:
             r = square_root(s[0], p)
             if r is None:

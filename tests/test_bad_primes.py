@@ -1,0 +1,62 @@
+"""Primes at which an equation degenerates are recognised and replaced: equations made to degenerate at the first ones."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+import kovacic
+from kovacic import transform
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.lifting import prime
+from kovacic.algebra.ratfunc import RatFunc
+
+X = RatFunc(QQ.poly([0, 1]))
+P0, P1 = prime(0), prime(1)
+
+
+@pytest.mark.parametrize("p", [P0, P0 * P1], ids=["one prime", "two primes"])
+@pytest.mark.parametrize(
+    ("S", "case"),
+    [
+        (X**2 + 3, 1),
+        ((6 - X**2) / X**2, 1),
+        (1 / X - Fraction(3, 16) / X**2, 2),
+        (transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, 3)), 3),
+        (transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, 4)), 3),
+        (transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, 5)), 3),
+        (transform.hypergeometric(Fraction(1, 3), Fraction(1, 4), Fraction(1, 7)), None),
+        (X, None),
+    ],
+    ids=str,
+)
+def test_scalings_and_translations_by_the_first_primes(S: RatFunc, case: int | None, p: int) -> None:
+    variants = (
+        transform.scaling(S, p),
+        transform.scaling(S, Fraction(1, p)),
+        transform.translation(S, p),
+        transform.moebius(S, 1, 0, 1, p),
+    )
+    for variant in variants:
+        answer = kovacic.solve(variant)
+        assert answer.case == case
+        assert answer.verified
+
+
+def test_poles_that_meet_modulo_the_first_prime() -> None:
+    for omega, case in ((1 / (3 * X) + 1 / (5 * (X - P0)) + 1, 1), (2 / X**2 + 1 / (X - P0) ** 2, 1)):
+        assert kovacic.solve(transform.from_omega(omega)).case == case
+    g = X * (X - P0) * (X - 1)
+    assert kovacic.solve(transform.from_squared_product(g, 7)).case == 2
+
+
+def test_an_exponent_difference_that_vanishes_modulo_the_first_prime() -> None:
+    assert kovacic.solve(transform.from_omega(Fraction(P0 + 7, 14) / X + 1 / (X - 1) + 1)).case == 1
+    assert kovacic.solve(Fraction(P0, 7) / X**2 + 1).case is None
+
+
+def test_a_series_far_too_long_is_undecided_and_says_so() -> None:
+    answer = kovacic.solve((P0 * P0 - 1) / (4 * X**2) + 1)
+    assert answer.status is kovacic.Status.UNDECIDED
+    assert "limit" in str(answer.reason)
