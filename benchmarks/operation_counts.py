@@ -1,0 +1,206 @@
+"""How much work the published equations take, counted in operations: the same on every machine.
+
+    python benchmarks/operation_counts.py            compare with the recorded counts; exit status 1 if they differ
+    python benchmarks/operation_counts.py --accept   record the counts of this version
+
+The engine knows nothing of being counted: the functions below are wrapped from outside, wherever they have been imported.
+One that has been renamed or moved stops this program, so that nothing is silently not counted.
+
+    series_terms    terms of power series modulo primes: expansions at points, roots, and products
+    exact_terms     terms of recurrences with exact coefficients
+    primes          primes that were taken
+    systems         sizes (rows x columns) of the linear systems, in the order in which they were solved
+    verifications   forms and polynomials of omega checked, and pieces of evidence recomputed
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+import pkgutil
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field
+from functools import wraps
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+import kovacic
+
+CORPUS = Path(__file__).parent.parent / "tests" / "data" / "cases.jsonl"
+RECORDED = Path(__file__).parent / "operation_counts.json"
+
+
+@dataclass
+class Counts:
+    """The operations of one equation."""
+
+    series_terms: int = 0
+    exact_terms: int = 0
+    primes: int = 0
+    systems: list[str] = field(default_factory=list)
+    verifications: int = 0
+
+
+# Where the function lives, its name, and what a call adds to the counts: (counts, arguments by name or position).
+Rule = Callable[[Counts, tuple[Any, ...], dict[str, Any]], None]
+
+
+def _terms(position: int) -> Rule:
+    def rule(counts: Counts, arguments: tuple[Any, ...], options: dict[str, Any]) -> None:
+        counts.series_terms += arguments[position] if len(arguments) > position else options["order"]
+
+    return rule
+
+
+def _system(counts: Counts, arguments: tuple[Any, ...], options: dict[str, Any]) -> None:
+    counts.systems.append(f"{len(arguments[0])}x{arguments[1]}")
+
+
+def _verification(counts: Counts, arguments: tuple[Any, ...], options: dict[str, Any]) -> None:
+    counts.verifications += 1
+
+
+def _exact_term(counts: Counts, arguments: tuple[Any, ...], options: dict[str, Any]) -> None:
+    counts.exact_terms += 1
+
+
+FUNCTIONS: dict[tuple[str, str], Rule] = {
+    ("kovacic.algebra.modular", "fundamental_system"): _terms(2),
+    ("kovacic.algebra.modular", "power_series"): _terms(1),
+    ("kovacic.algebra.modular", "series_solution"): _terms(3),
+    ("kovacic.algebra.modular", "square_root_series"): _terms(1),
+    ("kovacic.algebra.modular", "null_space"): _system,
+    ("kovacic.expansion", "_null_vector"): _system,
+    ("kovacic.verify.identity", "solves_riccati"): _verification,
+}
+METHODS: dict[tuple[str, str, str], Rule] = {
+    ("kovacic.algebra.recurrence", "RationalSeries", "extend"): _exact_term,
+    ("kovacic.algebra.recurrence", "FieldSeries", "extend"): _exact_term,
+    ("kovacic.riccati", "Form", "numerators"): _verification,
+    ("kovacic.verify.evidence", "Inspector", "_holds"): _verification,
+}
+PRIMES = ("kovacic.algebra.lifting", "primes")
+
+
+@contextmanager
+def counting() -> Iterator[Counts]:
+    """The counts of what is done within."""
+    counts = Counts()
+
+    def wrapped(function: Callable[..., Any], rule: Rule) -> Callable[..., Any]:
+        @wraps(function)
+        def counted(*arguments: Any, **options: Any) -> Any:
+            rule(counts, arguments, options)
+            return function(*arguments, **options)
+
+        return counted
+
+    def counted_primes(original: Callable[[], Iterator[int]]) -> Callable[[], Iterator[int]]:
+        def primes() -> Iterator[int]:
+            for p in original():
+                counts.primes += 1
+                yield p
+
+        return primes
+
+    patches = [
+        mock.patch.object(_class(module, name), method, wrapped(getattr(_class(module, name), method), rule))
+        for (module, name, method), rule in METHODS.items()
+    ]
+    for (module, name), rule in FUNCTIONS.items():
+        patches += _everywhere(getattr(_module(module), name), lambda f, rule=rule: wrapped(f, rule))
+    patches += _everywhere(getattr(_module(PRIMES[0]), PRIMES[1]), counted_primes)
+    for patch in patches:
+        patch.start()
+    try:
+        yield counts
+    finally:
+        for patch in patches:
+            patch.stop()
+
+
+def _module(name: str) -> Any:
+    return importlib.import_module(name)
+
+
+def _class(module: str, name: str) -> Any:
+    return getattr(_module(module), name)
+
+
+def _everywhere(function: Callable[..., Any], replacement: Callable[[Any], Any]) -> list[Any]:
+    """Patches for every module of the engine that has imported the function."""
+    new = replacement(function)
+    return [
+        mock.patch.object(module, name, new)
+        for module in [module for key, module in sys.modules.items() if key.startswith("kovacic")]
+        for name, value in list(vars(module).items())
+        if value is function
+    ]
+
+
+def load_engine() -> None:
+    """Import every module that takes part in a decision, so that all of them are patched."""
+    for package in ("kovacic.algebra", "kovacic.cases", "kovacic.verify"):
+        for found in pkgutil.iter_modules(_module(package).__path__, package + "."):
+            _module(found.name)
+    kovacic.solve("x^2 + 3")
+
+
+def corpus() -> dict[str, str]:
+    """The published equations: their names, and S."""
+    return {row["id"]: row["S"] for row in map(json.loads, CORPUS.read_text().splitlines())}
+
+
+def measure() -> dict[str, dict[str, Any]]:
+    """The counts of each published equation."""
+    load_engine()
+    found = {}
+    for name, S in corpus().items():
+        with counting() as counts:
+            kovacic.solve(S)
+        found[name] = asdict(counts)
+    return found
+
+
+def recorded() -> dict[str, dict[str, Any]]:
+    """The counts that were accepted."""
+    return json.loads(RECORDED.read_text())
+
+
+def differences(old: dict[str, dict[str, Any]], new: dict[str, dict[str, Any]]) -> list[str]:
+    """What has changed, one line for each count, the totals last."""
+    lines = []
+    for name in sorted(old.keys() | new.keys()):
+        for key in ("series_terms", "exact_terms", "primes", "systems", "verifications"):
+            before, after = old.get(name, {}).get(key), new.get(name, {}).get(key)
+            if before != after:
+                lines.append(f"{name}: {key} {before} -> {after}")
+    if lines:
+        lines += [
+            f"all: {key} {sum(c[key] for c in old.values())} -> {sum(c[key] for c in new.values())}"
+            for key in ("series_terms", "exact_terms", "primes", "verifications")
+        ]
+    return lines
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--accept", action="store_true", help="record the counts of this version")
+    accept = parser.parse_args().accept
+    new = measure()
+    if accept:
+        lines = ",\n".join(f"{json.dumps(name)}: {json.dumps(counts)}" for name, counts in new.items())
+        RECORDED.write_text("{\n" + lines + "\n}\n")
+        print(f"{len(new)} equations recorded in {RECORDED.name}")
+        return 0
+    changes = differences(recorded(), new)
+    print("\n".join(changes) or f"{len(new)} equations, the counts are those that were recorded")
+    return 1 if changes else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
