@@ -95,23 +95,23 @@ def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
 def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: Any) -> Any:
     """|y'' - 2 g y' + (g^2 - g' - S) y| relative to its terms, g the logarithmic derivative of the gauge factor."""
     y, first, second = jet(expression, variable, point)
-    S0, g0, slope = _value(S, point), _value(gauge, point), _value(gauge.derivative(), point)
+    S0, g0, slope = value_at(S, point), value_at(gauge, point), value_at(gauge.derivative(), point)
     terms = (second, -2 * g0 * first, (g0 * g0 - slope - S0) * y)
     scale = max(abs(term) for term in terms) + abs(y)
     return abs(sum(terms)) / scale if scale else mpmath.inf
 
 
 def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc) -> bool:
-    """Does the expression satisfy the equation to 50 digits at a complex point away from the real axis?"""
+    """Does the expression satisfy the equation to 50 digits at a point with negative real and imaginary part?"""
     for digits in (DIGITS + 15, 3 * DIGITS):
         with mpmath.workdps(digits):
-            point = mpmath.mpc(mpmath.mpf(137) / 101, mpmath.mpf(71) / 89)
+            point = mpmath.mpc(-mpmath.mpf(137) / 101, -mpmath.mpf(71) / 89)
             if residual(expression, variable, S, gauge, point) < mpmath.mpf(10) ** -DIGITS:
                 return True
     return False
 
 
-def _value(r: RatFunc, point: Any) -> Any:
+def value_at(r: RatFunc, point: Any) -> Any:
     return _horner(r.num, point) / _horner(r.den, point)
 
 

@@ -34,14 +34,14 @@ class _Terms:
 
 def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, tuple[str, ...]]:
     """int r dx/sqrt(g), and notes."""
-    terms = _terms(integral, atoms)
+    terms = _terms(integral, atoms, alone=False)
     return Add(*terms.others, *(c * log(base) for c, base in terms.logarithms)), terms.notes
 
 
 def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
     """common * exp(+-kappa int r dx/sqrt(g)); with cos and sin where kappa is imaginary; and notes."""
     form = _oriented(form)
-    terms = _terms(form.integral, atoms)
+    terms = _terms(form.integral, atoms, alone=True)
     common = atoms.product(form.common)
     square = atoms.constant(form.kappa_squared)
     if square.is_negative:
@@ -96,7 +96,7 @@ def _oriented(form: OnCurve) -> OnCurve:
     return OnCurve(form.common, -form.kappa_squared, turned)
 
 
-def _terms(integral: CurveIntegral, atoms: Atoms) -> _Terms:
+def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
     g = integral.g
     root = sqrt(atoms.poly(g))
     logarithms: list[tuple[Expr, Expr]] = []
@@ -110,7 +110,8 @@ def _terms(integral: CurveIntegral, atoms: Atoms) -> _Terms:
         _append_unit(integral.unit, root, atoms, logarithms, others)
         return _Terms(tuple(logarithms), tuple(others))
     if integral.rest:
-        logarithms.append((atoms.constant(integral.rest) * (2 if _splits(g) else 1), _at_infinity(g, atoms)))
+        split = alone and not integral.exact and not integral.residues and _splits(g)
+        logarithms.append((atoms.constant(integral.rest) * (2 if split else 1), _at_infinity(g, atoms, split)))
     for residue in integral.residues:
         found = unit(integral.g, residue)
         if found is not None:
@@ -152,9 +153,12 @@ def _splits(g: Poly) -> bool:
     return _has_real_roots(g) and bool(g[1])
 
 
-def _at_infinity(g: Poly, atoms: Atoms) -> Expr:
-    """x - (x1 + x2)/2 + sqrt(g), or sqrt(x - x1) + sqrt(x - x2), the square root of twice that."""
-    if _splits(g):
+def _at_infinity(g: Poly, atoms: Atoms, split: bool) -> Expr:
+    """x - (x1 + x2)/2 + sqrt(g), or sqrt(x - x1) + sqrt(x - x2), the square root of twice that.
+
+    The latter has another sign of sqrt(g) in some regions, so that it can't be used together with other terms.
+    """
+    if split:
         centre, _, root = atoms.quadratic_roots(g)
         return sqrt(atoms.x - (centre - root / 2)) + sqrt(atoms.x - (centre + root / 2))
     return atoms.poly(g.derivative() * Fraction(1, 2)) + sqrt(atoms.poly(g))

@@ -9,7 +9,7 @@ import sympy
 from sympy import Add, Ei, Mul, Pow, erf, erfi, exp, pi, sqrt
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms, Expr
+from kovacic.closed_form.atoms import Atoms, Expr, rational
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.curve_display import curve_integral
 from kovacic.closed_form.primitive import (
@@ -75,7 +75,7 @@ def _normalised_constant(exact: RatFunc) -> RatFunc:
 def _on_curve(form: Triangular, integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, tuple[str, ...]]:
     first = atoms.product(form.first, around_zero=True)
     value, notes = curve_integral(integral, atoms)
-    return sympy.expand_mul(Mul(first, value)), notes
+    return Add(*(Mul(first, term) for term in Add.make_args(value))), notes
 
 
 def _exponential(form: Triangular, primitive: ExponentialPrimitive, atoms: Atoms) -> Expr:
@@ -128,7 +128,8 @@ def _special(alpha: Fraction, beta: Expr, n: int, power: int, t: Expr) -> Scaled
         return 1 / (root * n), sqrt(pi) * (erfi(u) if positive else erf(u))
     order = sympy.Rational(s.numerator, s.denominator)
     z = -beta * t**n
-    if beta.is_positive:
-        exponent = sympy.Rational((power + alpha + 1).numerator, (power + alpha + 1).denominator)
-        return sympy.Rational(1, n), t**exponent * z**-order * sympy.lowergamma(order, z)
-    return -((-beta) ** -order) / n, sympy.uppergamma(order, z)
+    if n == 1 and beta.is_negative:
+        return -((-beta) ** -order), sympy.uppergamma(order, z)
+    # z^(-s) gamma(s, z) is entire; with Gamma(s, z) the powers of z and of t would differ in some sectors.
+    exponent = rational(power + alpha + 1)
+    return sympy.Rational(1, n), t**exponent * z**-order * sympy.lowergamma(order, z)

@@ -6,7 +6,8 @@ integer but 0, combinations of
 
     G_m = int x^(m + alpha) exp(beta x^n) dx,      s = (m + alpha + 1)/n,  0 <= s < 1,                                     (1)
 
-that is Ei(beta x^n)/n for s = 0, erf or erfi of sqrt(-+beta) x^(n/2) for s = 1/2, else -(-beta)^(-s) Gamma(s, -beta x^n)/n.
+that is Ei(beta x^n)/n for s = 0, erf or erfi of sqrt(-+beta) x^(n/2) for s = 1/2, else x^(ns) z^(-s) gamma(s, z)/n with
+z = -beta x^n and the lower incomplete gamma function.
 The reduction subtracts L(W) = W' + W k'/k, the derivative of W k over k [Hermite's reduction for hyperexponential
 functions: Bostan, Chen, Chyzak, Li & Xin, ISSAC 2013]; L(x^j) = (j + alpha) x^(j-1) + n beta x^(j+n-1).
 """

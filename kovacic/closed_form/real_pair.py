@@ -7,7 +7,7 @@ quadratic factor p of its denominator contributes the angle phi = arg(x - conj(a
 
 For an integer q, exp(i q phi) = ((x - c) + i t)^q p^(-q/2); for q in 1/2 + Z a square root is left over,
 
-    exp(i phi/2) = (sqrt(sqrt(p) + x - c) + i sqrt(sqrt(p) - (x - c))) / (sqrt(2) p^(1/4)),                           (2)
+    exp(i phi/2) = (u + i t/u) / (sqrt(2) p^(1/4)),      u = sqrt(sqrt(p) + x - c),                                    (2)
 
 which makes the answers for the ball on the sphere algebraic; otherwise phi = pi/2 - atan((x - c)/t).
 """
@@ -73,11 +73,12 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
     A, B = A * (1 / content), B * (1 / content)
     first, second = atoms.poly(A), s * atoms.poly(B)
     for p, sign in pair.halves:
-        # exp(+-i phi/2) = plus +- i minus.
+        # exp(+-i phi/2) is a multiple of plus +- i minus, plus * minus = t.
         distance = atoms.poly(p.derivative() * Fraction(1, 2))
         scale, radical = atoms.primitive(p)
         root = sqrt(radical) * sqrt(sympy.Rational(scale.numerator, scale.denominator))
-        plus, minus = sqrt(root + distance), sign * sqrt(root - distance)
+        plus = sqrt(root + distance)
+        minus = sign * atoms.quadratic_roots(p)[2] / (2 * plus)
         first, second = first * plus - second * minus, first * minus + second * plus
     angle = _angle(phase)
     if angle != 0:

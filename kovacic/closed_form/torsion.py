@@ -129,11 +129,21 @@ def _unit(problem: Problem, integral: CurveIntegral, phi: RatFunc, n: int, kappa
     divisor = A.gcd(B)
     A, B = A // divisor, B // divisor
     norm = (A * A - B * B * g * kappa_squared).monic()
-    root = norm.root(2)
+    root = _square_root(norm)
     if root is None:
         return UNDECIDED
     found = Unit(A, B, root, kappa_squared, Fraction(1, 2 * n))
     return found if found.integrand(g) == r else UNDECIDED
+
+
+def _square_root(square: Poly) -> Poly | None:
+    """The monic square root of a monic polynomial; None if it isn't a square."""
+    root = square.field.poly([1])
+    for factor, multiplicity in square.field.factor(square) if square.degree > 0 else []:
+        if multiplicity % 2:
+            return None
+        root = root * factor ** (multiplicity // 2)
+    return root
 
 
 def _rational(problem: Problem, form: Form) -> RatFunc:

@@ -1,0 +1,247 @@
+"""Closed forms as they are shown: textbook equations, the published ones, and random ones built from their answers."""
+
+from __future__ import annotations
+
+import mpmath
+import published
+import pytest
+import strategies
+import sympy
+from hypothesis import given, settings
+from sympy.abc import x
+
+import kovacic
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form import solutions
+from kovacic.closed_form.check import is_exact_solution, is_numerical_solution, residual
+from kovacic.closed_form.jets import jet
+from kovacic.closed_form.klein import KleinForm
+from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve, Triangular
+
+TEXTBOOK = [
+    # Constant coefficients.
+    ("y'' + y = 0", "cos(x)", "sin(x)"),
+    ("y'' - y' - 6*y = 0", "exp(3*x)", "exp(-2*x)"),
+    ("y'' + 2*y' + 5*y = 0", "exp(-x)*cos(2*x)", "exp(-x)*sin(2*x)"),
+    ("y'' + 2*y' + y = 0", "exp(-x)", "x*exp(-x)"),
+    ("y'' = 2*y", "exp(sqrt(2)*x)", "exp(-sqrt(2)*x)"),
+    ("y'' = 0", "1", "x"),
+    ("y'' + y' = 0", "1", "exp(-x)"),
+    # Euler.
+    ("x^2*y'' - 3*x*y' + 4*y = 0", "x**2", "x**2*log(x)"),
+    ("x^2*y'' + x*y' + y = 0", "cos(log(x))", "sin(log(x))"),
+    ("x^2*y'' + 3*x*y' + 2*y = 0", "cos(log(x))/x", "sin(log(x))/x"),
+    ("x^2*y'' + x*y' - 2*y = 0", "x**(sqrt(2))", "x**(-sqrt(2))"),
+    ("4*x^2*y'' + y = 0", "sqrt(x)", "sqrt(x)*log(x)"),
+    ("6*x^2*y'' + x*y' + y = 0", "sqrt(x)", "x**(1/3)"),
+    # Bessel, half-integer order, and the spherical functions.
+    ("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0", "cos(x)/sqrt(x)", "sin(x)/sqrt(x)"),
+    ("x^2*y'' + x*y' + (x^2 - 9/4)*y = 0", "(x*cos(x) - sin(x))/x**(3/2)", "(x*sin(x) + cos(x))/x**(3/2)"),
+    ("x^2*y'' + x*y' - (x^2 + 1/4)*y = 0", "exp(x)/sqrt(x)", "exp(-x)/sqrt(x)"),
+    ("x*y'' + 2*y' + x*y = 0", "cos(x)/x", "sin(x)/x"),
+    # Orthogonal polynomials.
+    ("(1-x^2)*y'' - 2*x*y' + 2*y = 0", "x", "x*log((x + 1)/(1 - x)) - 2"),
+    ("(1-x^2)*y'' - 2*x*y' + 6*y = 0", "3*x**2 - 1", "(3*x**2 - 1)*log((x + 1)/(1 - x)) - 6*x"),
+    (
+        "(1-x^2)*y'' - 2*x*y' + (2 - 1/(1-x^2))*y = 0",
+        "sqrt(1 - x**2)",
+        "sqrt(1 - x**2)*log((x + 1)/(1 - x)) + 2*x/sqrt(1 - x**2)",
+    ),
+    ("(1-x^2)*y'' - x*y' + 9*y = 0", "sqrt(1 - x**2)*(4*x**2 - 1)", "4*x**3 - 3*x"),
+    ("(1-x^2)*y'' - x*y' + y/9 = 0", "(x + sqrt(x**2 - 1))**(1/3)", "(x + sqrt(x**2 - 1))**(-1/3)"),
+    ("(1-x^2)*y'' - x*y' + 2*y = 0", "(x + sqrt(x**2 - 1))**sqrt(2)", "(x + sqrt(x**2 - 1))**(-sqrt(2))"),
+    ("(1-x^2)*y'' - 5*x*y' + 5*y = 0", "(8*x**4 - 12*x**2 + 3)/(1 - x**2)**(3/2)", "x"),
+    ("y'' - 2*x*y' + 4*y = 0", "2*x**2 - 1", "sqrt(pi)*(2*x**2 - 1)*erfi(x) - 2*x*exp(x**2)"),
+    ("x*y'' + (1-x)*y' + 2*y = 0", "x**2 - 4*x + 2", "(x**2 - 4*x + 2)*Ei(x) - (x - 3)*exp(x)"),
+    ("x*y'' + (2-x)*y' + y = 0", "x - 2", "(x - 2)*Ei(x) - (x - 1)*exp(x)/x"),
+    # Others.
+    ("y'' = (x^2 + 3)*y", "x*exp(x**2/2)", "sqrt(pi)*x*exp(x**2/2)*erf(x) + exp(-x**2/2)"),
+    ("y'' = (x^2/4 - 1/2)*y", "exp(-x**2/4)", "sqrt(pi)*exp(-x**2/4)*erfi(sqrt(2)*x/2)"),
+    ("y'' = (x-4)/(4*x)*y", "x*exp(-x/2)", "x*exp(-x/2)*Ei(x) - exp(x/2)"),
+    ("y'' = (1/x - 3/(16*x^2))*y", "x**(1/4)*exp(2*sqrt(x))", "x**(1/4)*exp(-2*sqrt(x))"),
+    ("y'' = (-1/x - 3/(16*x^2))*y", "x**(1/4)*cos(2*sqrt(x))", "x**(1/4)*sin(2*sqrt(x))"),
+    ("(1 + x^2)*y'' + x*y' - y = 0", "x", "sqrt(x**2 + 1)"),
+    ("(1 + x^2)^2*y'' + 2*x*(1 + x^2)*y' + y = 0", "cos(atan(x))", "sin(atan(x))"),
+    ("x^4*y'' + y = 0", "x*cos(1/x)", "x*sin(1/x)"),
+    ("y'' = y/(x^2+1)^2", "sqrt(x**2 + 1)", "sqrt(x**2 + 1)*atan(x)"),
+    ("y'' = (a^2-1)/(4*x^2)*y", "x**(a/2 + 1/2)", "x**(1/2 - a/2)"),
+    ("y'' = sqrt(2)*y", "exp(2**(1/4)*x)", "exp(-2**(1/4)*x)"),
+    ("y'' = -sqrt(2)*y", "cos(2**(1/4)*x)", "sin(2**(1/4)*x)"),
+]
+
+
+@pytest.mark.parametrize(("equation", "first", "second"), TEXTBOOK, ids=[row[0] for row in TEXTBOOK])
+def test_textbook_equations_look_like_the_textbook(equation: str, first: str, second: str) -> None:
+    form = kovacic.solve(equation).closed_form
+    assert form is not None
+    for found, expected in ((form.y1, first), (form.y2, second)):
+        wanted = sympy.sympify(expected)
+        assert found == wanted or sympy.expand(found - wanted) == 0, f"{found} instead of {wanted}"
+    assert form.checked == "exact"
+    assert form.notes == ()
+
+
+@pytest.mark.parametrize("entry", [entry for entry in published.load() if entry.case], ids=lambda entry: entry.id)
+def test_published_equations_have_two_independent_checked_solutions(entry: published.Published) -> None:
+    texts = [entry.S]
+    if entry.coefficients:
+        texts.append("({})*y'' + ({})*y' + ({})*y = 0".format(*entry.coefficients))
+    for text in texts:
+        answer = kovacic.solve(text)
+        form = answer.closed_form
+        assert form is not None
+        assert len(answer.solutions) == 2
+        assert form.checked == ("numerical, 50 digits" if entry.case == 3 else "exact")
+        if answer.S.num.height_bits() < 200:
+            for real, imaginary in (("0.31", "0.83"), ("-1.7", "0.41"), ("-0.6", "-0.37"), ("2.9", "-0.2")):
+                check_at(answer, mpmath.mpc(real, imaginary))
+
+
+def check_at(answer: kovacic.Solution, point: mpmath.mpc) -> None:
+    """Residuals and the Wronskian at another point than the one where the package checks itself."""
+    form = answer.closed_form
+    assert form is not None
+    with mpmath.workdps(60):
+        for y in answer.solutions:
+            assert residual(y, form.variable, answer.S, answer.gauge, point) < mpmath.mpf(10) ** -45
+        (y1, d1, _), (y2, d2, _) = (jet(y, form.variable, point) for y in answer.solutions)
+        assert abs(y1 * d2 - y2 * d1) > mpmath.mpf(10) ** -20 * max(abs(y1 * d2), abs(y2 * d1))
+
+
+CASES = [
+    strategies.case_1_omega(),
+    strategies.case_1_diagonal(),
+    strategies.case_1_scalar(),
+    strategies.case_1_apparent(),
+    strategies.case_2_semi_invariant(),
+    strategies.case_2_quaternion(),
+    strategies.case_2_dihedral(),
+]
+
+
+@pytest.mark.parametrize("strategy", CASES, ids=["omega", "diagonal", "scalar", "apparent", "curve", "Q8", "dihedral"])
+def test_random_equations_of_cases_1_and_2_have_exact_solutions(strategy: object) -> None:
+    @settings(max_examples=12)
+    @given(strategy)  # type: ignore[arg-type]
+    def check(example: strategies.Example) -> None:
+        if example.size > 40:
+            return
+        answer = kovacic.solve((example.S.num.coefficients(), example.S.den.coefficients()))  # type: ignore[attr-defined]
+        assert answer.closed_form is not None
+        assert answer.closed_form.checked == "exact"
+
+    check()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("strategy", CASES, ids=["omega", "diagonal", "scalar", "apparent", "curve", "Q8", "dihedral"])
+def test_many_random_equations(strategy: object) -> None:
+    @settings(max_examples=300)
+    @given(strategy)  # type: ignore[arg-type]
+    def check(example: strategies.Example) -> None:
+        if example.size <= 80:
+            answer = kovacic.solve((example.S.num.coefficients(), example.S.den.coefficients()))  # type: ignore[attr-defined]
+            assert answer.closed_form is not None
+
+    check()
+
+
+@settings(max_examples=8)
+@given(strategies.case_2_dihedral())
+def test_dihedral_groups_never_leave_an_integral(example: strategies.Example) -> None:
+    """All solutions are algebraic, so nothing may be left."""
+    answer = kovacic.solve((example.S.num.coefficients(), example.S.den.coefficients()))  # type: ignore[attr-defined]
+    assert answer.closed_form is not None
+    assert not any(y.has(sympy.Integral) for y in answer.solutions)
+
+
+def test_solutions_are_real_where_the_coefficient_is() -> None:
+    for text in ("-1", "6/x^2 - 1", "-3/(x^2+x+1)^2", "9/(4*x**4 + 24*x**2 + 36)", "-1/x^2", "2", "-x^2*0 - 5/x^4"):
+        for y in kovacic.solve(text).solutions:
+            value = y.subs(x, sympy.Rational(7, 5)).evalf(30)
+            assert value.is_real, (text, y)
+
+
+def test_ball_on_the_sphere_has_the_algebraic_form() -> None:
+    """(sqrt(x - x1) + sqrt(x - x2))^(+-2k) ((x - x1)(x - x2))^(1/4), and neither an integral nor an arc tangent."""
+    real = kovacic.solve("(-5*x**2 + 10*x - 170)/(36*x**4 - 144*x**3 - 324*x**2 + 936*x + 1521)")
+    r = sympy.sqrt(30) / 2
+    k = sympy.Rational(1, 3)
+    expected = (2 * x**2 - 4 * x - 13) ** sympy.Rational(1, 4) * (sympy.sqrt(x - 1 + r) + sympy.sqrt(x - 1 - r)) ** (
+        2 * k
+    )
+    assert real.solutions[0] == expected
+    conjugate = kovacic.solve("9/(4*x**4 + 24*x**2 + 36)")
+    assert conjugate.solutions[0] == sympy.sqrt(x + sympy.sqrt(x**2 + 3)) * (x**2 + 3) ** sympy.Rational(1, 4)
+
+
+def test_third_kind_residues_are_written_as_powers() -> None:
+    S = "(-5907*x**2 + 4290*x - 3675)/(784*x**6 + 6272*x**5 + 4704*x**4 - 31360*x**3 + 19600*x**2)"
+    y1, _ = kovacic.solve(S).solutions
+    root = sympy.sqrt(30) * sympy.sqrt(x**2 - x)
+    expected = (x * (x - 1)) ** sympy.Rational(1, 4) * sympy.sqrt(x + 5)
+    expected *= ((11 * x - 2 * root - 5) / (x + 5)) ** sympy.Rational(-1, 14)
+    assert y1 == expected
+
+
+def test_elementary_integrals_on_curves_of_positive_genus_are_done() -> None:
+    pull_back = "(-45*x**8+510*x**6+4140*x**4+8820*x**2+5292)/(196*x**10+1960*x**8+7252*x**6+11760*x**4+7056*x**2)"
+    y1, _ = kovacic.solve(pull_back).solutions
+    power = (2 * x**2 + 2 * sympy.sqrt(x**4 + 5 * x**2 + 6) + 5) ** sympy.Rational(1, 14)
+    assert y1 == ((x**2 + 2) * (x**2 + 3)) ** sympy.Rational(1, 4) * power / sympy.sqrt(x)
+
+
+@pytest.mark.parametrize(
+    ("S", "reason"),
+    [
+        ("(-3*x**4 + 4*x**3 + 24*x + 4)/(16*x**6 + 32*x**3 + 16)", "no logarithmic part"),
+        ("(5*x**4 + 8*x**3 - 14*x**2 - 8*x - 3)/(16*x**6 - 32*x**4 + 16*x**2)", "torsion divisor, so it isn't"),
+        ("(4*x**6 - 8*x**5 + 12*x**4 + 4*x**3 + 7*x**2 - 20*x + 4)/(4*x**4)", "multiple of a power"),
+    ],
+)
+def test_an_integral_is_left_with_its_reason(S: str, reason: str) -> None:
+    answer = kovacic.solve(S)
+    assert answer.closed_form is not None
+    assert answer.solutions[1].has(sympy.Integral)
+    assert len(answer.closed_form.notes) == 1
+    assert answer.closed_form.notes[0].startswith("integral left because")
+    assert reason in answer.closed_form.notes[0]
+
+
+def test_without_a_solution_there_is_no_closed_form() -> None:
+    airy = kovacic.solve("x")
+    assert airy.closed_form is None
+    assert airy.solutions == ()
+    with pytest.raises(ValueError, match="no Liouvillian solution"):
+        solutions(airy)
+
+
+def test_the_gauge_can_be_given() -> None:
+    answer = kovacic.solve("-1")
+    gauge = RatFunc(answer.S.field.poly([-1]), answer.S.field.poly([0, 2]))
+    assert [str(y) for y in solutions(answer, gauge=gauge)] == ["cos(x)/sqrt(x)", "sin(x)/sqrt(x)"]
+
+
+def test_wrong_answers_do_not_pass_the_checks() -> None:
+    answer, other = kovacic.solve("2/x^2 - 1"), kovacic.solve("6/x^2 - 1")
+    zero = answer.gauge
+    form, wrong = solutions(answer), solutions(other)
+    assert is_exact_solution(form.structure, answer.S, zero)
+    assert not is_exact_solution(wrong.structure, answer.S, zero)
+    assert is_numerical_solution(form.y1, x, answer.S, zero)
+    assert not is_numerical_solution(wrong.y1, x, answer.S, zero)
+    assert not is_numerical_solution(form.y1 + sympy.Rational(1, 10**40), x, answer.S, zero)
+
+
+@pytest.mark.parametrize(
+    ("S", "kind"),
+    [
+        ("1", Diagonal),
+        ("-1", Conjugate),
+        ("x^2 + 3", Triangular),
+        ("1/x - 3/(16*x^2)", OnCurve),
+        ("(-32*x**2 + 27*x - 27)/(144*x**4 - 288*x**3 + 144*x**2)", KleinForm),
+    ],
+)
+def test_structure_needs_no_sympy(S: str, kind: type) -> None:
+    assert isinstance(solutions(kovacic.solve(S)).structure, kind)

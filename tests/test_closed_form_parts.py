@@ -1,0 +1,220 @@
+"""The parts of closed forms: partial fractions, integrals, units on curves, Klein's constants; each computed in two ways."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import mpmath
+import pytest
+import strategies
+import sympy
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from sympy.abc import t, x
+
+import kovacic
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form import solutions
+from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.check import is_exact_solution, value_at
+from kovacic.closed_form.curve import integrate_on_curve
+from kovacic.closed_form.curve_display import curve_integral
+from kovacic.closed_form.jets import jet
+from kovacic.closed_form.klein import OCTAHEDRAL_B, POLYNOMIALS, RATIOS, KleinForm
+from kovacic.closed_form.partial_fractions import decompose
+from kovacic.closed_form.primitive import ExponentialPrimitive, integrate_inverse_square
+from kovacic.closed_form.product import product
+from kovacic.closed_form.torsion import completed
+from kovacic.closed_form.units import unit
+from kovacic.solution import Structure
+
+X = RatFunc(QQ.poly([0, 1]))
+ZERO = RatFunc(QQ.poly([]))
+squarefree = strategies.polynomials(1, 4).filter(lambda g: g.gcd(g.derivative()).degree == 0).map(Poly.monic)
+
+
+def value(r: RatFunc, point: mpmath.mpc) -> mpmath.mpc:
+    return Atoms(x).ratio(r).subs(x, sympy.sympify(point)).evalf(30)
+
+
+@given(strategies.rational_functions(5))
+def test_partial_fractions_add_up(r: RatFunc) -> None:
+    parts = decompose(r)
+    assert parts.derivative == r
+    assert all(residue.value.degree < residue.factor.degree for residue in parts.residues)
+
+
+@given(strategies.omegas())
+def test_products_have_the_logarithmic_derivative_that_they_were_made_of(omega: RatFunc) -> None:
+    assert product(omega).logarithmic_derivative == omega
+
+
+@given(st.data())
+def test_logarithms_of_partial_fractions(data: st.DataObject) -> None:
+    """The SymPy integral differentiates back to r, at a point, with jets."""
+    r = data.draw(strategies.rational_functions(3))
+    expression = Atoms(x).integral(decompose(r))
+    with mpmath.workdps(40):
+        point = mpmath.mpc("0.37", "-0.59")
+        assert abs(jet(expression, x, point)[1] - jet(Atoms(x).ratio(r), x, point)[0]) < 1e-25
+
+
+@settings(max_examples=60)
+@given(strategies.rational_functions(4), squarefree)
+def test_integrals_on_curves(r: RatFunc, g: Poly) -> None:
+    integral = integrate_on_curve(r, g)
+    assert integral.integrand == r
+    assert integral.rest.degree <= g.degree - 2 or not integral.rest
+    for residue in integral.residues:
+        found = unit(g, residue)
+        if found is not None and g.degree <= 2:
+            assert found.is_unit(g)
+            assert found.integrand(g) == residue.logarithmic
+
+
+@settings(max_examples=40)
+@given(strategies.rational_functions(3), squarefree.filter(lambda g: g.degree <= 2))
+def test_integrals_of_genus_0_differentiate_back(r: RatFunc, g: Poly) -> None:
+    expression, notes = curve_integral(integrate_on_curve(r, g), Atoms(x))
+    assert notes == ()
+    with mpmath.workdps(40):
+        for point in (mpmath.mpc("0.37", "-0.59"), mpmath.mpc("-2.1", "0.3"), mpmath.mpc("1.9", "0.7")):
+            expected = jet(Atoms(x).ratio(r) / sympy.sqrt(Atoms(x).poly(g)), x, point)[0]
+            assert abs(jet(expression, x, point)[1] - expected) < 1e-20 * (1 + abs(expected))
+
+
+def test_torsion_of_a_known_order() -> None:
+    """d log(A + tau s), with A^2 - tau^2 g = x^n, has residues at 0 only."""
+    for A, n in ((QQ.poly([1, 1, 2]), 5), (QQ.poly([2, -1, 0, 3]), 7)):
+        # g = A^2 - x^n has odd degree n: a curve of genus (n - 1)/2 with a point of order n (or a divisor of it).
+        g = A * A - QQ.poly([0, 1]) ** n
+        lead = g.lc
+        g = g * lead.inverse()
+        half_slope = g.derivative() * Fraction(1, 2)
+        # d log((A + tau s)/(A - tau s))/2 = (tau/s) (A g'/2 - A' g)/(A^2 - tau^2 g).
+        r = RatFunc(half_slope * A - A.derivative() * g, A * A - g * lead)
+        integral = completed(integrate_on_curve(r, g))
+        assert integral.unit is not None
+        assert integral.unit.integrand(g) == r
+        assert integral.reason is None
+        changed = completed(integrate_on_curve(r + 1, g))
+        assert changed.unit is None
+        assert changed.reason is not None
+
+
+@pytest.mark.parametrize("exponent", [X**2 / 2, -(X**2) + 3 * X, -X, X**3, 1 / X**2, -2 / (X - 1), 5 * X**4])
+@pytest.mark.parametrize("zeros", [(1,), (-1, 1), (-3, 1, 2)])
+def test_exponential_integrals(exponent: RatFunc, zeros: tuple[int, ...]) -> None:
+    """int y^-2 for y = P exp(exponent) x^k: the identity in rational functions."""
+    for k in (Fraction(0), Fraction(-1, 2), Fraction(-1)):
+        y = product(exponent.derivative() + k / X, QQ.poly(zeros))
+        primitive = integrate_inverse_square(y)
+        if isinstance(primitive, ExponentialPrimitive):
+            r = primitive.integrand
+            assert r.derivative() / r + primitive.kernel_derivative == y.logarithmic_derivative * -2
+
+
+def hessian(F: sympy.Expr, m: int) -> sympy.Expr:
+    return sympy.expand(m * F * F.diff(t, 2) - (m - 1) * F.diff(t) ** 2)
+
+
+def jacobian(F: sympy.Expr, m: int, G: sympy.Expr, n: int) -> sympy.Expr:
+    return sympy.expand(m * F * G.diff(t) - n * F.diff(t) * G)
+
+
+@pytest.mark.parametrize(
+    ("structure", "F", "m", "syzygy"),
+    [
+        (Structure.TETRAHEDRAL, t - t**5, 6, lambda F, H: -172800 * F**4),
+        (Structure.OCTAHEDRAL, 1 + 14 * t**4 + t**8, 8, lambda F, H: int(OCTAHEDRAL_B) * F**3 * H),
+        (Structure.ICOSAHEDRAL, t + 11 * t**6 - t**11, 12, lambda F, H: 83635200 * F**5),
+    ],
+)
+def test_syzygies_of_the_klein_invariants(structure: Structure, F: sympy.Expr, m: int, syzygy: object) -> None:
+    """On y'' = 0 with the solutions 1 and t."""
+    H = hessian(F, m)
+    T = jacobian(F, m, H, 2 * m - 4)
+    ratio = sympy.Rational(RATIOS[structure].numerator, RATIOS[structure].denominator)
+    assert sympy.expand(T**2 + ratio * H**3 - syzygy(F, H)) == 0  # type: ignore[operator]
+
+
+def test_polynomial_of_the_tetrahedral_vertices() -> None:
+    """prod (Z - l^4) over the six vertices, on y'' = 0."""
+    F = t - t**5
+    H = hessian(F, 6)
+    T = jacobian(F, 6, H, 8)
+    Z = sympy.Symbol("Z")
+    lines = [1 + t, 1 - t, 1 + sympy.I * t, 1 - sympy.I * t]
+    wanted = sympy.expand((Z - 1) * (Z - t**4) * sympy.prod(Z + line**4 / 4 for line in lines))
+    found = Z**6 + sum(
+        sympy.Rational(c.numerator, c.denominator) * H**i * T**j * Z ** (6 - k)
+        for k, monomials in POLYNOMIALS[Structure.TETRAHEDRAL].items()
+        for (i, j), c in monomials.items()
+    )
+    assert sympy.expand(wanted - found) == 0
+
+
+KLEIN = {
+    "tetrahedral": "(-8*x**2 + 5*x - 5)/(36*x**4 - 72*x**3 + 36*x**2)",
+    "tetrahedral, shifted": "(-32*x**2 + 27*x - 27)/(144*x**4 - 288*x**3 + 144*x**2)",
+    "octahedral": "(-135*x**2 + 80*x - 80)/(576*x**4 - 1152*x**3 + 576*x**2)",
+    "icosahedral": "(-864*x**2 + 739*x - 675)/(3600*x**4 - 7200*x**3 + 3600*x**2)",
+}
+
+
+@pytest.mark.parametrize("S", KLEIN.values(), ids=KLEIN.keys())
+def test_klein_form_and_polynomial_agree_along_a_path(S: str) -> None:
+    """A constant multiple of y^k is a root of the polynomial, at every point of a path, to 50 digits."""
+    form = solutions(kovacic.solve(S))
+    assert isinstance(form.structure, KleinForm)
+    polynomial = form.structure.polynomial
+    assert polynomial is not None
+    with mpmath.workdps(75):
+        path = [mpmath.mpc(2) + mpmath.mpc("0.05", "0.11") * k for k in range(1, 6)]
+        values = [[1, *(value_at(c, point) for c in polynomial.coefficients)] for point in path]
+        roots = mpmath.polyroots(values[0], maxsteps=500, extraprec=300)
+        for y in form:
+            powers = [jet(y, x, point)[0] ** polynomial.power for point in path]
+            # The scale is a root of unity times a positive number: the ratio with a real 6th power.
+            scale = min((root / powers[0] for root in roots), key=lambda q: abs(mpmath.im(q**6)) / abs(q**6))
+            for coefficients, power in zip(values, powers, strict=True):
+                terms = [c * (scale * power) ** (len(coefficients) - 1 - i) for i, c in enumerate(coefficients)]
+                assert abs(mpmath.fsum(terms)) < mpmath.mpf(10) ** -50 * max(abs(term) for term in terms)
+
+
+def test_pull_backs_give_their_function_back() -> None:
+    form = solutions(kovacic.solve("(-189*x**2 - 611)/(900*x**4 - 1800*x**2 + 900)"))  # by x^2
+    assert isinstance(form.structure, KleinForm)
+    assert form.structure.J == 1 / X**2
+    assert str(form.y1) == "x**(1/30)*(x**2 - 1)**(1/3)*hyper((-1/60, 29/60), (4/5,), x**(-2))"
+
+
+def test_exact_check_notices_every_changed_part() -> None:
+    from dataclasses import replace
+
+    answer = kovacic.solve("6/x^2 - 1")
+    form = solutions(answer).structure
+    assert not is_exact_solution(replace(form, A=form.A + 1), answer.S, ZERO)  # type: ignore[union-attr, arg-type, call-arg]
+    assert not is_exact_solution(replace(form, delta=form.delta * 2), answer.S, ZERO)  # type: ignore[union-attr, arg-type, call-arg]
+    hermite = kovacic.solve("x^2 - 7")
+    triangular = solutions(hermite).structure
+    primitive = triangular.primitive  # type: ignore[union-attr]
+    wrong = replace(triangular, primitive=replace(primitive, W=primitive.W + 1))  # type: ignore[arg-type, call-arg]
+    assert is_exact_solution(triangular, hermite.S, ZERO)
+    assert not is_exact_solution(wrong, hermite.S, ZERO)
+    ball = kovacic.solve("(-5907*x**2 + 4290*x - 3675)/(784*x**6 + 6272*x**5 + 4704*x**4 - 31360*x**3 + 19600*x**2)")
+    curve = solutions(ball).structure
+    assert is_exact_solution(curve, ball.S, ZERO)
+    twice = replace(curve, kappa_squared=curve.kappa_squared * 4)  # type: ignore[union-attr, arg-type, call-arg]
+    assert not is_exact_solution(twice, ball.S, ZERO)
+
+
+@settings(max_examples=15)
+@given(strategies.case_1_diagonal())
+def test_gauge_and_normal_form_agree(example: strategies.Example) -> None:
+    """y times the gauge factor solves the equation with that gauge; the check inside `solutions` fails otherwise."""
+    assume(example.size <= 20)
+    answer = kovacic.solve((example.S.num.coefficients(), example.S.den.coefficients()))  # type: ignore[attr-defined]
+    assert solutions(answer, gauge=1 / (2 * X) - X).checked == "exact"
