@@ -55,13 +55,15 @@ def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[
             solutions.append((i, RationalSeries(recurrence.width)))
             end = N + 1 + len(solutions) + _MARGIN
         i += 1
-    conditions += [[series.term(k - start) for start, series in solutions] for k in range(N + 1, end)]
+    conditions += [
+        [series.term(k - start) if k >= start else fmpq(0) for start, series in solutions] for k in range(N + 1, end)
+    ]
     combination = _null_vector(conditions, len(solutions))
     if combination is None:
         return None
     P = fmpq_poly([])
     for factor, (start, series) in zip(combination, solutions, strict=True):
-        P += series.polynomial(N + 1 - start).rep.left_shift(start) * factor
+        P += series.polynomial(max(N + 1 - start, 0)).rep.left_shift(start) * factor
     if place is not None and place.at_infinity:
         return RationalPoly(fmpq_poly(P.coeffs()[::-1]).left_shift(N - P.degree())).monic()
     return RationalPoly(P)(QQ.poly([-point, 1])).monic()

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from fractions import Fraction
 from itertools import islice
+from math import floor
 
 from flint import fmpz
 
@@ -11,6 +14,31 @@ from kovacic.algebra.poly import Poly
 
 #: Primes at which a norm is tested for being a square: a norm that isn't one passes with probability 2^-24.
 _TESTS = 24
+
+
+#: Fractional parts that `largest_integer_total` keeps apart before it stops looking at them.
+_RESIDUES = 4096
+
+
+def largest_integer_total(base: Fraction, choices: Iterable[Fraction]) -> int:
+    """The largest integer `base + sum +-c` over all signs; -1 if no choice of signs gives an integer.
+
+    Only the largest total with each fractional part is kept.  With too many fractional parts the rounded-down largest
+    total of all, which is an upper bound, is returned.
+    """
+    sizes = [abs(c) for c in choices if c]
+    best = {base % 1: base}
+    for size in sizes:
+        totals: dict[Fraction, Fraction] = {}
+        for total in best.values():
+            for value in (total + size, total - size):
+                residue = value % 1
+                if residue not in totals or totals[residue] < value:
+                    totals[residue] = value
+        best = totals
+        if len(best) > _RESIDUES:
+            return floor(base + sum(sizes))
+    return int(best.get(Fraction(0), Fraction(-1)))
 
 
 def is_provably_not_a_square(element: Poly, modulus: Poly) -> bool:

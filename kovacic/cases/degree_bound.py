@@ -10,7 +10,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from kovacic.algebra.poly import Poly, to_fraction
-from kovacic.algebra.traces import is_provably_not_a_square, trace_of_square_root
+from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
 from kovacic.places import Kind, Place, Problem
 from kovacic.solution import NecessaryCondition, Rule
 
@@ -37,9 +37,10 @@ def largest_degree(problem: Problem) -> int | NecessaryCondition:
     """The largest degree that P can have for a unique omega = R/D + P'/P: d = 1 - sum of the exponents over all places.
 
     The exponents at the roots of a factor are conjugate, (A +- sqrt g)/2 with g in K[x]/p, so their sum is bounded by the
-    trace of sqrt g [sec. 3.2 of Kovacic 1986 for the exponents].  Not rational over K[x]/p: omega doesn't exist.
+    trace of sqrt g [sec. 3.2 of Kovacic 1986 for the exponents], one sign for each factor.  -1 if no choice of signs gives
+    a natural number; a condition if the exponents at a place aren't rational over K[x]/p.
     """
-    total = Fraction(1)
+    total, choices = Fraction(1), []
     for place in problem.places:
         if place.kind is Kind.ORDINARY:
             continue
@@ -49,8 +50,16 @@ def largest_degree(problem: Problem) -> int | NecessaryCondition:
         trace = _trace(place)
         if trace is None:
             return NecessaryCondition(Rule.NOT_A_SQUARE, (str(place),))
-        total += (abs(_rational_part(trace)) - place.degree * place.weight) / 2
-    return total.numerator // total.denominator
+        total -= Fraction(place.degree * place.weight, 2)
+        choices.append(_rational_part(trace) / 2)
+    return largest_integer_total(total, choices)
+
+
+def is_cheap(problem: Problem) -> bool:
+    """Does `largest_degree` need no traces of square roots in extensions?"""
+    return all(
+        place.kind is Kind.ORDINARY or place.delta_squared is not None or place.degree == 1 for place in problem.places
+    )
 
 
 def _rational_part(constant: Poly) -> Fraction:

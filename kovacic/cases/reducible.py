@@ -17,7 +17,7 @@ from kovacic.algebra.fields import BadPrimeError, Homomorphism
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.cases.constants import square_root
-from kovacic.cases.degree_bound import irrational_exponents, largest_degree
+from kovacic.cases.degree_bound import irrational_exponents, is_cheap, largest_degree
 from kovacic.cases.outcome import Found, Outcome
 from kovacic.cases.singular import singular_factor
 from kovacic.invariants import invariants
@@ -92,8 +92,11 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
     impossible = irrational_exponents(problem)
     if impossible is not None:
         return impossible
+    bound = largest_degree(problem) if is_cheap(problem) else None
+    if bound is not None and (not isinstance(bound, int) or bound < 0):
+        return NoRationalOmega(-1) if isinstance(bound, int) else bound
     place = distinguishing_places(problem)[0]
-    lifter, degree, bound = problem.field.lifter(), None, None
+    lifter, degree = problem.field.lifter(), None
     for bundle in problem.field.bundles():
         try:
             parts = [_omega_modulo(h, problem, place, _FIRST_DEGREES if degree is None else [degree]) for h in bundle]
@@ -103,7 +106,7 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
                 if not isinstance(bound, int):
                     return bound
                 if bound < 0:
-                    return NoRationalOmega(bound)
+                    return NoRationalOmega(-1)
                 parts = [_omega_modulo(h, problem, place, _ladder(bound)) for h in bundle]
         except BadPrimeError:
             continue
@@ -129,7 +132,7 @@ _FIRST_DEGREES = [8, 32]
 
 def _ladder(bound: int) -> list[int]:
     """Degrees to be tried for P: small ones first, for the bound is often far above the degree; the bound last."""
-    return [*(4**k for k in range(3, 32) if 4**k < bound), bound]
+    return [*(n for n in (64, 256, 1024) if n < bound), bound]
 
 
 def _omega_modulo(h: Homomorphism, problem: Problem, place: Place, degrees: list[int]) -> tuple[Any, int] | None:

@@ -17,7 +17,7 @@ from kovacic.algebra.fields import BadPrimeError, Homomorphism
 from kovacic.algebra.modular import simple_roots, translate
 from kovacic.algebra.poly import Poly, to_fraction
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.traces import is_provably_not_a_square, trace_of_square_root
+from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
 
 
 @dataclass(frozen=True)
@@ -128,26 +128,25 @@ def largest_degree(all_points: list[Point], logarithmic: set[str]) -> int | None
     1 minus the sum of its exponents, which at a point of order k are (1 +- Delta)/2 or, for even k >= 4,
     (k/2 +- b/a)/2.  None if they can't be conjugate over K at some point, so that omega isn't rational over K.
     """
-    total = Fraction(1)
+    total, choices = Fraction(1), []
     for point in all_points:
         if point.order == 0:
             continue
-        difference = point.difference
-        n = point.factor.degree
+        difference, n = point.difference, point.factor.degree
         if point.name in logarithmic and difference is not None:
             total -= n * (1 + difference) / 2
             continue
+        total -= Fraction(n * max(point.order // 2, 1), 2)
         if difference is not None:
-            total -= n * (1 - difference) / 2
+            choices.append(n * difference / 2)
             continue
         if is_provably_not_a_square(_square_class(point), point.factor):
             return None
         trace = trace_of_square_root(_difference_squared(point), point.factor)
         if trace is None:
             return None
-        rational = to_fraction(trace.rational_coefficients()[0]) if trace else Fraction(0)
-        total -= (n * Fraction(max(point.order, 2), 2) - abs(rational)) / 2
-    return total.numerator // total.denominator
+        choices.append((to_fraction(trace.rational_coefficients()[0]) if trace else Fraction(0)) / 2)
+    return max(largest_integer_total(total, choices), -1)
 
 
 def _square_class(point: Point) -> Poly:
