@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from kovacic.api import Verdict, decide, solve
 from kovacic.batch import solve_many
+from kovacic.dsolve import dsolve, solve_riccati
+from kovacic.equation import Equation
 from kovacic.errors import (
     InputError,
     KovacicError,
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "Equation",
     "InputError",
     "KovacicError",
     "LimitExceeded",
@@ -42,8 +45,10 @@ __all__ = [
     "VerificationFailed",
     "conditions",
     "decide",
+    "dsolve",
     "solve",
     "solve_many",
+    "solve_riccati",
 ]
 
 
