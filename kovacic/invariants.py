@@ -48,13 +48,12 @@ def least_valuation(place: Place, m: int) -> int | None:
     if place.kind is not Kind.REGULAR:
         exact = Fraction(m * place.order, 4)
         return int(exact) if exact.denominator == 1 else None
-    if place.logarithm:
-        exact = m * (1 + place.delta) / 2 if place.delta is not None else Fraction(m, 2)
-        return int(exact) if exact.denominator == 1 else None
     if place.delta is None:
         return m // 2 if m % 2 == 0 else None
-    candidates = (Fraction(m, 2) + Fraction(2 * k - m, 2) * place.delta for k in range(m + 1))
-    return min((int(v) for v in candidates if v.denominator == 1), default=None)
+    # With Delta = a/b the valuations are (m b + 2 j a) / (2 b).
+    a, b = place.delta.numerator, place.delta.denominator
+    multiples = [m * a] if place.logarithm else range(-m * a, m * a + 1, 2 * a or 1)
+    return min(((m * b + k) // (2 * b) for k in multiples if (m * b + k) % (2 * b) == 0), default=None)
 
 
 @dataclass(frozen=True)

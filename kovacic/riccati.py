@@ -42,7 +42,7 @@ class Form:
             following = D * current.derivative() + (self.R - k * slope) * current
             if previous is not None:
                 following = following - (m - k + 1) * (T * previous)
-            sequence.append(following * self.P.field.poly([k + 1]).inverse())
+            sequence.append(following / (k + 1))
             previous = current
             problem.budget.check()
         return sequence
@@ -75,7 +75,7 @@ def root(form: Form, n: int, problem: Problem) -> Form:
     P = form.P.root(n)
     if P is None or form.degree % n:
         raise AssertionError("the form isn't a perfect power")
-    return Form(form.degree // n, form.R * form.R.field.poly([n]).inverse(), P)
+    return Form(form.degree // n, form.R / n, P)
 
 
 def hessian(form: Form, problem: Problem) -> Form:

@@ -287,7 +287,7 @@ class RationalPoly(Poly):
     rep: Any  # fmpq_poly, never changed after construction
 
     def __init__(self, rep: Any) -> None:
-        object.__setattr__(self, "rep", rep)
+        _set_rep(self, rep)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("polynomials are immutable")
@@ -332,6 +332,26 @@ class RationalPoly(Poly):
         if isinstance(other, Fraction):
             return RationalPoly(fmpq_poly([to_fmpq(other)]))
         return None
+
+    # The operators of `Poly` with a short way for the common cases.
+    def __add__(self, other: Poly | Scalar) -> RationalPoly:
+        return RationalPoly(self.rep + other.rep) if type(other) is RationalPoly else super().__add__(other)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Poly | Scalar) -> RationalPoly:
+        return RationalPoly(self.rep - other.rep) if type(other) is RationalPoly else super().__sub__(other)
+
+    def __mul__(self, other: Poly | Scalar) -> RationalPoly:
+        kind = type(other)
+        if kind is RationalPoly:
+            return RationalPoly(self.rep * other.rep)  # type: ignore[union-attr]
+        return RationalPoly(self.rep * other) if kind is int else super().__mul__(other)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Poly | Scalar) -> RationalPoly:
+        return RationalPoly(self.rep / other) if type(other) is int and other else super().__truediv__(other)
 
     def _add(self, other: RationalPoly) -> RationalPoly:
         return RationalPoly(self.rep + other.rep)
@@ -388,6 +408,9 @@ class RationalPoly(Poly):
     def constant(self) -> Fraction:
         """The constant coefficient."""
         return to_fraction(self.rep[0])
+
+
+_set_rep = RationalPoly.__dict__["rep"].__set__
 
 
 def _rational_poly_from_key(numerators: tuple[int, ...], denominator: int) -> RationalPoly:

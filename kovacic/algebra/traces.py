@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 from itertools import islice
-from math import floor
+from math import lcm
 
 from flint import fmpz
 
@@ -26,19 +26,20 @@ def largest_integer_total(base: Fraction, choices: Iterable[Fraction]) -> int:
     Only the largest total with each fractional part is kept.  With too many fractional parts the rounded-down largest
     total of all, which is an upper bound, is returned.
     """
-    sizes = [abs(c) for c in choices if c]
-    best = {base % 1: base}
+    fractions = [abs(c) for c in choices if c]
+    unit = lcm(base.denominator, *(c.denominator for c in fractions))
+    start, *sizes = (c.numerator * (unit // c.denominator) for c in (base, *fractions))
+    best = {start % unit: start}
     for size in sizes:
-        totals: dict[Fraction, Fraction] = {}
+        totals: dict[int, int] = {}
         for total in best.values():
             for value in (total + size, total - size):
-                residue = value % 1
-                if residue not in totals or totals[residue] < value:
-                    totals[residue] = value
+                residue = value % unit
+                totals[residue] = max(totals.get(residue, value), value)
         best = totals
         if len(best) > _RESIDUES:
-            return floor(base + sum(sizes))
-    return int(best.get(Fraction(0), Fraction(-1)))
+            return (start + sum(sizes)) // unit
+    return best.get(0, -unit) // unit
 
 
 def is_provably_not_a_square(element: Poly, modulus: Poly) -> bool:

@@ -75,14 +75,13 @@ def least_valuation(point: Point, m: int, logarithm: bool) -> int | None:
     m k/4 at an irregular point of order k; m (1 + Delta)/2 with a logarithm; m/2 + (i - m/2) Delta, i = 0, ..., m, else,
     with 0 for an irrational Delta.
     """
-    difference = point.difference
     if point.order > 2:
-        possible = [Fraction(m * point.order, 4)]
-    elif logarithm and difference is not None:
-        possible = [m * (1 + difference) / 2]
-    else:
-        possible = [Fraction(m, 2) + (i - Fraction(m, 2)) * (difference or 0) for i in range(m + 1)]
-    return min((int(v) for v in possible if v.denominator == 1), default=None)
+        return None if m * point.order % 4 else m * point.order // 4
+    difference = point.difference or Fraction(0)
+    n, d = difference.numerator, difference.denominator
+    steps = [m] if logarithm else range(-m, m + 1, 2)
+    possible = [m * d + i * n for i in steps]  # in units of 1/(2 d)
+    return min((value // (2 * d) for value in possible if value % (2 * d) == 0), default=None)
 
 
 def logarithm_at(point: Point, homomorphisms: Iterator[Homomorphism]) -> bool:
