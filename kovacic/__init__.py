@@ -5,10 +5,10 @@
 1
 """
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from kovacic.api import Verdict, decide, solve
-from kovacic.batch import solve_many
 from kovacic.dsolve import dsolve, solve_riccati
 from kovacic.equation import Equation
 from kovacic.errors import (
@@ -25,6 +25,8 @@ from kovacic.result import Solution
 from kovacic.solution import Status, Structure
 
 if TYPE_CHECKING:
+    from kovacic.batch import solve_many
+    from kovacic.numeric.evaluate import evaluate
     from kovacic.parametric.api import conditions
 
 __version__ = "0.1.0"
@@ -46,16 +48,22 @@ __all__ = [
     "conditions",
     "decide",
     "dsolve",
+    "evaluate",
     "solve",
     "solve_many",
     "solve_riccati",
 ]
 
 
-def __getattr__(name: str) -> Any:
-    """`kovacic.conditions`, imported when it is first used."""
-    if name == "conditions":
-        from kovacic.parametric.api import conditions
+#: Names that are imported when they are first used, so that `import kovacic` stays light.
+_LAZY = {
+    "conditions": "kovacic.parametric.api",
+    "evaluate": "kovacic.numeric.evaluate",
+    "solve_many": "kovacic.batch",
+}
 
-        return conditions
-    raise AttributeError(f"module 'kovacic' has no attribute {name!r}")
+
+def __getattr__(name: str) -> Any:
+    if name not in _LAZY:
+        raise AttributeError(f"module 'kovacic' has no attribute {name!r}")
+    return getattr(import_module(_LAZY[name]), name)

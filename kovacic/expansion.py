@@ -89,6 +89,7 @@ def _coefficients(
     """D, R, T as integer polynomials in the coordinate of the place, t = x - point or t = 1/x; and the point."""
     t = QQ.poly([0, 1])
     point: Fraction | int = 0
+    pairs: list[tuple[Poly, int, int]]
     if place is not None and place.at_infinity:
         pairs = [(QQ.poly(list(p.factor)[::-1]), v, p.weight) for p, v in zip(problem.places, valuations, strict=False)]
         pairs[-1] = (t, valuations[-1], place.weight)
