@@ -100,7 +100,7 @@ def _draw_sphere(axes: Any, comparison: Comparison) -> None:
     points = comparison.place.contact
     middle = points.mean(axis=0)
     azimuth = float(np.degrees(np.arctan2(middle[1], middle[0]))) if np.hypot(*middle[:2]) > 1e-9 * radius else -60.0
-    elevation = float(np.clip(np.degrees(np.arctan2(middle[2], np.hypot(*middle[:2]))), -30, 40))
+    elevation = float(np.clip(np.degrees(np.arctan2(middle[2], np.hypot(*middle[:2]))), -12, 40))
     eye = _direction(elevation, azimuth)
     axes.view_init(elevation, azimuth)
     axes.computed_zorder = False
@@ -118,7 +118,7 @@ def _draw_sphere(axes: Any, comparison: Comparison) -> None:
     axes.scatter(*points[0], color=_GREEN, s=40, label="start", depthshade=False, zorder=4)
     axes.scatter(*points[-1], color=_ORANGE, s=40, label="end", depthshade=False, zorder=4)
     axes.set(xlabel="X", ylabel="Y", zlabel="Z")
-    axes.set_title("path of the contact point on the sphere (faint: far side)", fontsize=10)
+    axes.set_title("path of the contact point on the sphere (faint: far side)", fontsize=10, pad=30)
     axes.set_box_aspect((1, 1, 1), zoom=1.05)
     axes.locator_params(nbins=5)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
