@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import mpmath
 import published
 import pytest
@@ -11,12 +13,16 @@ from hypothesis import given, settings
 from sympy.abc import x
 
 import kovacic
+from kovacic import transform
+from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form import solutions
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution, residual
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import KleinForm
 from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve, Triangular
+
+X = RatFunc(QQ.poly([0, 1]))
 
 TEXTBOOK = [
     # Constant coefficients.
@@ -144,6 +150,31 @@ def test_many_random_equations(strategy: object) -> None:
             assert answer.closed_form is not None
 
     check()
+
+
+POWERS = [
+    Fraction(1, 3) / X + Fraction(1, 2) / (X - 1),
+    Fraction(1, 3) / X + 1 / (X - 1),
+    Fraction(1, 3) / X + Fraction(4, 3) / (X - 2) + Fraction(1, 2) / (X + 2),
+    Fraction(-1, 6) / X + Fraction(1, 6) / (X - 1) + Fraction(1, 2) / (X + 2),
+    Fraction(1, 8) / X + Fraction(-1, 8) / (X + 3) + X / (X * X + 1),
+    Fraction(1, 3) / X + X / (X * X + 1),
+    Fraction(1, 2) / (X - 1) + Fraction(-3, 2) / (X + 1) + 1 / (X - 3),
+    Fraction(1, 4) / (X - 1) + Fraction(1, 4) / (X - 2) + 1 / (X - 3),
+    Fraction(1, 4) / (X - 1) - Fraction(3, 4) / (X - 2) + 1 / (X + 3),
+    Fraction(1, 2) / X - 2 * X + 3 / (X - 2) + 1,
+    Fraction(2, 3) / X + 1 + 1 / (X - 2),
+    Fraction(1, 2) / X + Fraction(1, 2) / X**2 + 1 / (X + 1),
+    1 - 3 / X - 2 * X / (X**2 - 2) + 1 / (X - 3),
+]
+
+
+@pytest.mark.parametrize("omega", POWERS, ids=str)
+def test_second_solutions_with_fractional_powers_hold_in_every_quadrant(omega: RatFunc) -> None:
+    """Roots of products and products of roots differ by constants that depend on the region."""
+    answer = kovacic.solve(transform.from_omega(omega).to_str())
+    for real, imaginary in (("0.31", "0.83"), ("-1.7", "0.41"), ("-0.6", "-0.37"), ("2.9", "-0.2"), ("1.2", "0.1")):
+        check_at(answer, mpmath.mpc(real, imaginary))
 
 
 @settings(max_examples=8)

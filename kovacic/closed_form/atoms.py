@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import gcd
@@ -24,6 +25,15 @@ Expr = Any  # SymPy publishes no types
 def rational(value: Fraction | int) -> Expr:
     """A SymPy rational number."""
     return Rational(value.numerator, value.denominator)
+
+
+@dataclass(frozen=True)
+class _Factor:
+    """base^exponent; factors with the same fractional `key` share a root."""
+
+    base: Expr
+    exponent: Expr
+    key: Expr
 
 
 class Atoms:
@@ -191,13 +201,18 @@ class Atoms:
         """A product, up to a constant factor."""
         return Mul(*self.factors(y, around_zero=around_zero)[1])
 
-    def factors(self, y: Product, extra: RatFunc | None = None, *, around_zero: bool = True) -> tuple[Expr, list[Expr]]:
+    def factors(
+        self, y: Product, extra: RatFunc | None = None, *, like: Product | None = None, around_zero: bool = True
+    ) -> tuple[Expr, list[Expr]]:
         """(c, factors): y * extra is c times the product of the factors; common factors of y and extra are merged.
 
-        With `around_zero` the roots of x^2 - a, a > 0, are written so that they are real around 0.
+        Bases with the same fractional exponent come under one root.  (p q)^e and p^e q^e differ by a constant that isn't the
+        same everywhere; in a sum, all terms must use the same roots: those of the product `like`, from which the exponents
+        differ by integers.  With `around_zero` the roots of x^2 - a, a > 0, are written so that they are real around 0.
         """
         scale: Expr = Integer(1)
-        exponents: list[tuple[Expr, Expr]] = []
+        keys = {power.base: power.exponent for power in (like or y).powers}
+        exponents: list[_Factor] = []
         rest = extra
         for power in y.powers:
             exponent = power.exponent
@@ -210,13 +225,13 @@ class Atoms:
                 content, base = self.primitive(power.base)
                 index = self.constant(exponent)
                 scale = scale * rational(content) ** index
-                exponents.append((base, index))
+                exponents.append(_Factor(base, index, self.constant(keys.get(power.base, exponent))))
         for residue in y.roots:
-            exponents += self._root_powers(residue)
+            exponents += [_Factor(base, index, index) for base, index in self._root_powers(residue)]
         if rest is not None:
             (c, num), (d, den) = self.primitive(rest.num), self.primitive(rest.den)
             scale = scale * rational(c / d)
-            exponents += [(num, Integer(1)), (den, Integer(-1))]
+            exponents += [_Factor(num, Integer(1), Integer(1)), _Factor(den, Integer(-1), Integer(-1))]
         sign, powers = self._grouped(exponents, around_zero)
         return scale * sign, [*powers, self.exponential(y)]
 
@@ -247,25 +262,28 @@ class Atoms:
             for a in (centre - root / 2, centre + root / 2)
         ]
 
-    def _grouped(self, exponents: list[tuple[Expr, Expr]], around_zero: bool) -> tuple[Expr, list[Expr]]:
-        """(c, powers) with the product c * powers: bases with the same fractional exponent under one root.
-
-        (x - a)(x + a) is multiplied out; x^2 - a with a > 0 becomes a - x^2 under a root if `around_zero`.
-        """
-        groups: dict[Expr, list[Expr]] = {}
-        for base, exponent in exponents:
-            groups.setdefault(exponent, []).append(base)
+    def _grouped(self, factors: list[_Factor], around_zero: bool) -> tuple[Expr, list[Expr]]:
+        """(c, powers) with the product c * powers; (x - a)(x + a) is multiplied out."""
+        roots: dict[Expr, list[_Factor]] = {}
+        integers: dict[Expr, list[Expr]] = {}
+        for factor in factors:
+            if factor.exponent.is_integer:
+                integers.setdefault(factor.exponent, []).append(factor.base)
+            else:
+                roots.setdefault(factor.key, []).append(factor)
         scale: Expr = Integer(1)
         powers: list[Expr] = []
-        for exponent, bases in groups.items():
-            bases = self._joined(bases)
-            if exponent.is_integer:
-                powers += [Pow(base, exponent) for base in bases]
-                continue
+        for group in roots.values():
+            exponent = group[0].exponent
+            for factor in group[1:]:
+                if factor.exponent != exponent:
+                    integers.setdefault(factor.exponent - exponent, []).append(factor.base)
+            bases = self._joined([factor.base for factor in group])
             turned = [-base if around_zero and self._is_negative_around_zero(base) else base for base in bases]
             flips = sum(base != other for base, other in zip(bases, turned, strict=True))
             scale = scale * Integer(-1) ** (exponent * flips)
             powers.append(Pow(Mul(*turned), exponent))
+        powers += [Pow(base, k) for k, bases in integers.items() for base in self._joined(bases)]
         return scale, powers
 
     def _is_negative_around_zero(self, base: Expr) -> bool:

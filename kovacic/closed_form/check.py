@@ -17,6 +17,7 @@ from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import (
     CurvePrimitive,
     ExponentialPrimitive,
+    PowerPrimitive,
     Primitive,
     RationalPrimitive,
 )
@@ -89,6 +90,8 @@ def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
     if isinstance(primitive, ExponentialPrimitive):
         r = primitive.integrand
         return r.derivative() / r + primitive.kernel_derivative == target
+    if isinstance(primitive, PowerPrimitive):
+        return primitive.logarithmic_derivative == target
     return True  # the integral is left as it is
 
 

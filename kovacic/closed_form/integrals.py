@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from math import gcd, lcm
 
 import sympy
 from sympy import Add, Ei, Mul, Pow, erf, erfi, exp, pi, sqrt
 
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr, rational
 from kovacic.closed_form.curve import CurveIntegral
@@ -16,6 +18,7 @@ from kovacic.closed_form.primitive import (
     CurvePrimitive,
     ExponentialPrimitive,
     OpenPrimitive,
+    PowerPrimitive,
     RationalPrimitive,
 )
 from kovacic.closed_form.product import Power, Product
@@ -33,6 +36,8 @@ def second_solution(form: Triangular, atoms: Atoms) -> tuple[Expr, tuple[str, ..
         return _rational(form, primitive, atoms), ()
     if isinstance(primitive, CurvePrimitive):
         return _on_curve(form, primitive.integral, atoms)
+    if isinstance(primitive, PowerPrimitive):
+        return _power(form, primitive, atoms), ()
     return _exponential(form, primitive, atoms), ()
 
 
@@ -66,7 +71,12 @@ def _rational(form: Triangular, primitive: RationalPrimitive, atoms: Atoms) -> E
 
 
 def _normalised_constant(exact: RatFunc) -> RatFunc:
-    """The antiderivative of least degree in the numerator."""
+    """The antiderivative that vanishes at a multiple zero of the integrand, or has the least degree in the numerator."""
+    slope = exact.derivative()
+    zeros = exact.field.factor(slope.num) if slope.num.degree > 1 else []
+    at_zeros = [(k, exact.num * exact.den.inverse_modulo(p) % p) for p, k in zeros if p.degree == 1 and k > 1]
+    if at_zeros:
+        return exact - max(at_zeros, key=lambda pair: pair[0])[1]
     if exact.num.degree != exact.den.degree or exact.den.degree <= 0:
         return exact
     return exact - exact.num.lc
@@ -104,16 +114,40 @@ def _exponential(form: Triangular, primitive: ExponentialPrimitive, atoms: Atoms
     return _sum(terms)
 
 
+def _power(form: Triangular, primitive: PowerPrimitive, atoms: Atoms) -> Expr:
+    """first * (W t^alpha + the logarithms of t^(1/n) - z)."""
+    terms = []
+    t, alpha = primitive.t, primitive.alpha
+    if primitive.W:
+        powers = _with_exponents(form.first, (t.num, alpha), (t.den, -alpha))
+        terms.append(_scaled(*atoms.factors(replace(form.first, powers=powers), primitive.W(t), like=form.first)))
+    scale, factors = atoms.factors(form.first)
+    n = alpha.denominator
+    v = Mul(*(atoms.poly(p) ** e for p, e in ((t.num, rational(Fraction(1, n))), (t.den, rational(Fraction(-1, n))))))
+    z = atoms.root
+    for residue in primitive.poles.residues:
+        body = atoms.in_root(residue.value, z**n) * z ** int(alpha * n) * sympy.log(v - z)
+        value = sympy.RootSum(sympy.Poly(atoms.poly(residue.factor, z**n), z), sympy.Lambda(z, body), auto=False)
+        terms.append(_scaled(scale, [*factors, value]))
+    return _sum(terms)
+
+
+def _with_exponents(y: Product, *changes: tuple[Poly, Fraction]) -> tuple[Power, ...]:
+    """The powers of a product times others."""
+    powers = {power.base: power.exponent for power in y.powers}
+    for base, exponent in changes:
+        if base.degree > 0:
+            powers[base] = powers.get(base, y.field.poly([])) + exponent
+    return tuple(Power(base, exponent) for base, exponent in powers.items() if exponent)
+
+
 def _algebraic_part(form: Triangular, primitive: ExponentialPrimitive, atoms: Atoms) -> Scaled:
     """first * W * k e^constant, as one product."""
     first, field = form.first, primitive.beta.field
     t = field.poly([-primitive.centre, 1])
     inner = first.exponential + RatFunc(t) ** primitive.n * primitive.beta + primitive.constant
-    powers = {power.base: power.exponent for power in first.powers}
-    if primitive.alpha:
-        powers[t] = powers.get(t, field.poly([])) + primitive.alpha
-    merged = tuple(Power(base, exponent) for base, exponent in powers.items() if exponent)
-    return _scaled(*atoms.factors(Product(merged, first.roots, inner), primitive.W))
+    merged = _with_exponents(first, (t, primitive.alpha))
+    return _scaled(*atoms.factors(Product(merged, first.roots, inner), primitive.W, like=first))
 
 
 def _special(alpha: Fraction, beta: Expr, n: int, power: int, t: Expr) -> Scaled:

@@ -81,13 +81,39 @@ class ExponentialPrimitive:
 
 
 @dataclass(frozen=True)
+class PowerPrimitive:
+    """h dx = r(t) t^alpha dt, -1 < alpha < 0, for t = x - c or (x - c)/(x - d): W t^alpha and logarithms of z = t^(1/n).
+
+    A simple pole a with residue rho leaves rho int t^alpha dt/(t - a) = rho * sum of z^(n alpha) log(t^(1/n) - z) over the
+    n-th roots z of a, n the denominator of alpha.  W and `poles` are functions of t.
+    """
+
+    t: RatFunc
+    alpha: Fraction
+    W: RatFunc
+    poles: Decomposition
+
+    @property
+    def integrand(self) -> RatFunc:
+        """r, recomputed from the result, as a function of t."""
+        t = RatFunc(self.W.field.poly([0, 1]))
+        return self.W.derivative() + self.W * self.alpha / t + self.poles.derivative
+
+    @property
+    def logarithmic_derivative(self) -> RatFunc:
+        """That of r(t) t^alpha dt/dx with respect to x."""
+        r, slope = self.integrand, self.t.derivative()
+        return r.derivative()(self.t) * slope / r(self.t) + slope * self.alpha / self.t + slope.derivative() / slope
+
+
+@dataclass(frozen=True)
 class OpenPrimitive:
     """The integral is left as it is, and `reason` says why."""
 
     reason: str
 
 
-Primitive = RationalPrimitive | CurvePrimitive | ExponentialPrimitive | OpenPrimitive
+Primitive = RationalPrimitive | CurvePrimitive | ExponentialPrimitive | PowerPrimitive | OpenPrimitive
 
 
 def integrate_inverse_square(y: Product) -> Primitive:
@@ -129,7 +155,33 @@ def _without_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fractio
             g = g * p
             rational = rational * RatFunc(p) ** int(exponent + Fraction(1, 2))
         return CurvePrimitive(completed(integrate_on_curve(rational, g)))
+    linear = all(p.degree == 1 for p, _ in fractional)
+    if linear and len(fractional) == 1:
+        (p, alpha), t = fractional[0], RatFunc(fractional[0][0])
+        return _with_power(rational(rational.field.poly([-p[0], 1])), alpha, t)
+    if linear and len(fractional) == 2 and sum(exponent for _, exponent in fractional).denominator == 1:
+        (p, alpha), (q, beta) = fractional
+        # x = (d t - c)/(t - 1), x - d = (d - c)/(t - 1), dx = (c - d) dt/(t - 1)^2.
+        c, d = -p[0], -q[0]
+        below = RatFunc(p.field.poly([-1, 1]))
+        x = RatFunc(p.field.poly([-c, d])) / below
+        r = rational(x) * (RatFunc(d - c) / below) ** int(alpha + beta) * (c - d) / (below * below)
+        return _with_power(r, alpha, RatFunc(p, q))
     return OpenPrimitive("it is an incomplete beta integral, with fractional powers of several factors")
+
+
+def _with_power(r: RatFunc, alpha: Fraction, t: RatFunc) -> PowerPrimitive:
+    """int r(t) t^alpha dt."""
+    field = r.field
+    shift = alpha.numerator // alpha.denominator + 1
+    x = RatFunc(field.poly([0, 1]))
+    alpha, r = alpha - shift, r * x**shift
+    W, laurent, poles = _reduce(r, alpha, field.poly([]), 1)
+    lowest = -laurent.den.degree
+    for i in range(laurent.num.degree + 1):
+        if laurent.num[i]:
+            W = W + x ** (lowest + i + 1) * laurent.num[i] * (1 / (lowest + i + 1 + alpha))
+    return PowerPrimitive(t, alpha, W, poles)
 
 
 def _with_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fraction]], E: RatFunc) -> Primitive:
