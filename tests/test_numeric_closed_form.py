@@ -16,7 +16,8 @@ import kovacic
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.cli.plot import plot_command
-from kovacic.errors import InputError
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import Limits
 from kovacic.numeric.double_double import horner, two_product, two_sum
 from kovacic.numeric.evaluate import AccuracyWarning, evaluate, evaluate_states
 from kovacic.numeric.lambdify import lambdify, measure
@@ -120,6 +121,12 @@ def test_an_equation_without_closed_form_says_so() -> None:
     with pytest.raises(InputError, match="needs a Liouvillian solution"):
         evaluate(kovacic.solve("x"), 1, x0=0, y0=1, dy0=0, method="closed form")
     assert evaluate(kovacic.solve("x"), 1, x0=0, y0=1, dy0=0).digits > 15
+
+
+def test_a_quadrature_stops_at_the_time_limit() -> None:
+    solution = kovacic.solve("-(10100*(1-x^2) + 1)/(1-x^2)^2")  # P has 100 zeros beside the path
+    with pytest.raises(LimitExceeded, match="time limit"):
+        evaluate(solution, "9/10", x0=0, y0=1, dy0=0, method="closed form", limits=Limits(seconds=0.5))
 
 
 # --- monodromy -------------------------------------------------------------------------------------------------------

@@ -89,7 +89,8 @@ def leg_matrix(closed: ClosedForm, a: Point, b: Point, prec: int, budget: Budget
     result = []
     for start, stop, plain in _around_zeros(closed, a, b):
         if plain:
-            result.append(_pair_leg(closed, start, stop) if closed.case == 2 else _integral_leg(closed, start, stop))
+            leg = _pair_leg if closed.case == 2 else _integral_leg
+            result.append(leg(closed, start, stop, budget))
         else:
             result += piece_matrices(closed.problem.system, start, stop, prec, budget)
     return result
@@ -120,7 +121,7 @@ def _two_exponentials(closed: ClosedForm, embeddings: list[acb | None], a: Point
     return _quotient(_fundamental(at_b), _fundamental(at_a))
 
 
-def _integral_leg(closed: ClosedForm, a: Point, b: Point) -> Matrix:
+def _integral_leg(closed: ClosedForm, a: Point, b: Point, budget: Budget) -> Matrix:
     """Case 1 with a unique omega, P without zeros on the segment: y1 = E P and y2 = y1 int_a dx/y1^2."""
     from flint import acb
 
@@ -132,7 +133,7 @@ def _integral_leg(closed: ClosedForm, a: Point, b: Point) -> Matrix:
         value = theta.growth(za, z, analytic=analytic) * P(z)
         return 1 / (value * value)
 
-    area = integral(inverse_square, za, zb)
+    area = integral(inverse_square, za, zb, budget)
     growth = theta.growth(za, zb)
     y1a, d1a = P(za), theta.value(za) * P(za) + slope(za)
     y1b, d1b = growth * P(zb), growth * (theta.value(zb) * P(zb) + slope(zb))
@@ -141,7 +142,7 @@ def _integral_leg(closed: ClosedForm, a: Point, b: Point) -> Matrix:
     return _quotient(at_b, at_a)
 
 
-def _pair_leg(closed: ClosedForm, a: Point, b: Point) -> Matrix:
+def _pair_leg(closed: ClosedForm, a: Point, b: Point, budget: Budget) -> Matrix:
     """Case 2, P without zeros on the segment: y = sqrt(f/f(a)) exp(+- w/2 int dx/f)."""
     from flint import acb
 
@@ -161,7 +162,7 @@ def _pair_leg(closed: ClosedForm, a: Point, b: Point) -> Matrix:
     def inverse(z: acb, analytic: bool) -> acb:
         return 1 / (theta.growth(za, z, analytic=analytic) * P(z))
 
-    phase = integral(inverse, za, zb) * w / 2
+    phase = integral(inverse, za, zb, budget) * w / 2
     exponent = theta.exponent(za, zb)
     root = (exponent / 2).exp() * continued_root(roots, za, zb)
     g = exponent.exp() * P(zb)

@@ -322,7 +322,17 @@ def _route(
     start: tuple[Point | Ball, Point | Ball],
     method: Method | None,
 ) -> tuple[Route, Method]:
-    """The route asked for; by itself the Taylor steps, which cost no more than a quadrature and need no decision."""
+    """The route asked for; by itself the cheaper one: the closed form only where it needs neither detours nor
+    quadrature.
+
+    That's two conjugate exponentials without a polynomial factor, whose cost doesn't depend on the distance.
+    Measured at 15 to 50
+    digits, everything else costs more than the Taylor steps.
+    """
+    if method is None:
+        form = getattr(problem.source, "semi_invariant", None)
+        cheap = form is not None and form.degree == 1 and form.P.degree == 0 and hasattr(form.P.field, "modulus")
+        method = "closed form" if cheap else "taylor"
     if method == "closed form":
         from kovacic.numeric.closed_form import closed_form_route
 

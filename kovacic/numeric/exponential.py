@@ -19,6 +19,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from kovacic.errors import LimitExceeded
+from kovacic.limits import Budget
+
 if TYPE_CHECKING:
     from flint import acb, acb_poly
 
@@ -176,9 +179,28 @@ def continued_root(values: list[tuple[acb, int]], a: acb, b: acb, *, analytic: b
     return total
 
 
-def integral(function: Callable[[acb, bool], acb], a: acb, b: acb) -> acb:
-    """int_a^b, by flint's rigorous adaptive quadrature; a non-finite ball where it gave up."""
+def integral(function: Callable[[acb, bool], acb], a: acb, b: acb, budget: Budget) -> acb:
+    """int_a^b, by flint's rigorous adaptive quadrature; a non-finite ball where it gave up.
+
+    Raises LimitExceeded when the budget is used up.  An exception can't cross flint's C code (python-flint 0.9.0
+    turns it into a
+    SystemError), so the integrand answers "unknown" from then on, which ends the quadrature quickly, and the check
+    comes after.
+    """
     from flint import acb
 
-    result: acb = acb.integral(function, a, b)
+    unknown = acb(float("nan"), float("nan"))
+    over = False
+
+    def guarded(z: acb, analytic: bool) -> acb:
+        nonlocal over
+        if not over:
+            try:
+                budget.check()
+            except LimitExceeded:
+                over = True
+        return unknown if over else function(z, analytic)
+
+    result: acb = acb.integral(guarded, a, b)
+    budget.check()
     return result
