@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from kovacic.algebra.fields import ExtensionPoly
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Poly, RationalPoly
 from kovacic.algebra.ratfunc import RatFunc
 
 
@@ -69,7 +69,7 @@ class Equation:
         y = self.unknown
         terms = [(self.a, y + "''"), (self.b, y + "'"), (self.c, y)]
         left = " + ".join(_term(coefficient, name, self.variable) for coefficient, name in terms if coefficient)
-        right = [self.f.to_str(self.variable)] if self.f or self.h is None else []
+        right = [_coefficient(self.f, self.variable)] if self.f or self.h is None else []
         if self.h is not None:
             right.append(str(self.h))
         line = f"{left} = {' + '.join(right)}".replace("+ -", "- ")
@@ -80,10 +80,25 @@ class Equation:
 
 
 def _term(coefficient: RatFunc, name: str, variable: str) -> str:
-    text = coefficient.to_str(variable)
+    text = _coefficient(coefficient, variable)
     if text in ("1", "-1"):
         return text[:-1] + name
     return f"({text})*{name}" if " " in text or "/" in text else f"{text}*{name}"
+
+
+def _coefficient(function: RatFunc, variable: str) -> str:
+    """As `to_str`, but a polynomial over Q keeps its fractions: x**2 - 1/4."""
+    num = function.num
+    if not function.is_polynomial or not isinstance(num, RationalPoly):
+        return function.to_str(variable)
+    terms = []
+    for power in range(num.degree, -1, -1):
+        number = num.coefficients()[power]
+        if number:
+            factor = {0: "", 1: variable}.get(power, f"{variable}**{power}")
+            sign, size = ("-" if number < 0 else ""), str(abs(number))
+            terms.append(sign + (factor if size == "1" and factor else f"{size}*{factor}" if factor else size))
+    return " + ".join(terms).replace("+ -", "- ") or "0"
 
 
 def lowered(function: RatFunc) -> RatFunc:

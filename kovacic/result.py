@@ -139,6 +139,31 @@ class Solution:
 
         return loads(text)
 
+    def explain(self, *, format: str = "text", solutions: bool = True) -> str:
+        """The derivation as a reader of Kovacic's paper follows it: "text", "markdown" or "latex".
+
+        With `solutions=False` the closed forms are left out.
+        """
+        from kovacic.io.explain import explain
+
+        return explain(self, format=format, solutions=solutions)
+
+    def citation(self, *, style: str = "text") -> str:
+        """What the answer rests on in the literature, as text or as BibTeX (`style="bibtex"`)."""
+        from kovacic.io.bibliography import citation
+
+        return citation(self, style=style)
+
+    def _repr_latex_(self) -> str:
+        from kovacic.io.notebook import latex_view
+
+        return latex_view(self)
+
+    def _repr_html_(self) -> str:
+        from kovacic.io.notebook import html_view
+
+        return html_view(self)
+
     def __bool__(self) -> bool:
         raise TypeError("ask for .status or .case: an answer is neither true nor false")
 

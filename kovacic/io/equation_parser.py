@@ -2,7 +2,7 @@
 
 >>> equation, notices = parse_equation("x^2 y'' + x y' + (x^2 - 1/4) y = 0")
 >>> print(equation)
-x^2*y'' + x*y' + ((4*x^2 - 1)/4)*y = 0
+x^2*y'' + x*y' + (x^2 - 1/4)*y = 0
 >>> print(parse_equation("diff((1-t^2)*diff(y(t),t),t) + 6*y(t) = exp(t)")[0])
 (-t^2 + 1)*y'' - 2*t*y' + 6*y = exp(t)
 

@@ -43,6 +43,8 @@ def one_line(solution: Solution) -> str:
 def render(solution: Solution, *, style: Style = plain) -> str:
     """The equation, the verdict in words, omega or its polynomial, and how it was verified."""
     lines = [style(_equation(solution), "title")]
+    if solution.equation is not None and not solution.equation.is_normal_form:
+        lines.append(f"  normal form: {_normal_form(solution)}, of which the following speaks")
     lines += [style(f"  note: {notice}", "faint") for notice in solution.notices]
     if solution.status is Status.UNDECIDED:
         lines.append(f"  {style('undecided', 'unsure')}: {solution.reason}")
@@ -133,6 +135,10 @@ def _place(place: str, variable: str) -> str:
 
 
 def _equation(solution: Solution) -> str:
+    return _normal_form(solution) if solution.equation is None else str(solution.equation)
+
+
+def _normal_form(solution: Solution) -> str:
     return f"y'' = {_factor(solution.S, solution.variable)} y" if solution.S else "y'' = 0"
 
 
