@@ -376,6 +376,11 @@ class AlgebraicField(Field):
         parts, n = self.base.assemble(coordinates), self.dimension
         return [ExtensionPoly.make(self, parts[i : i + n]) for i in range(0, len(parts), n)]
 
+    def rational_value(self, constant: Poly) -> Fraction | None:
+        if not isinstance(constant, ExtensionPoly) or constant.field != self:
+            return self.base.rational_value(constant)
+        return None if any(constant.parts[1:]) else self.base.rational_value(constant.parts[0])
+
     def sqrt(self, constant: Poly) -> Poly | None:
         value = constant if isinstance(constant, ExtensionPoly) and constant.field == self else self.poly([constant])
         if not any(value.parts[1:]):

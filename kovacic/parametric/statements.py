@@ -164,6 +164,9 @@ class IntegerRoot(Statement):
             root.denominator == 1 and int(root) % self.modulus in self.residues for root in rational_roots(value)
         )
 
+    def _numerator(self) -> FunctionPoly:
+        return FunctionPoly(self.equation.field, self.equation.num, self.equation.field.context.constant(1))
+
     def _classes(self) -> str:
         if self.modulus == 1:
             return "an integer N"
@@ -175,12 +178,14 @@ class IntegerRoot(Statement):
         family = self.family()
         if family is not None:
             return f"{family[0]} = {shown(family[1], 'N')} for {self._classes()}"
-        return f"{self.equation.to_str('N').replace('**', '^')} = 0 for {self._classes()}"
+        return f"{shown(self._numerator(), 'N')} = 0 for {self._classes()}"
 
     def latex(self) -> str:
         family = self.family()
         formula = (
-            f"{family[0]} = {as_latex(family[1], 'N')}" if family is not None else f"{as_latex(self.equation, 'N')} = 0"
+            f"{family[0]} = {as_latex(family[1], 'N')}"
+            if family is not None
+            else f"{as_latex(self._numerator(), 'N')} = 0"
         )
         return rf"{formula} \text{{ for {self._classes()}}}"
 

@@ -1,0 +1,142 @@
+"""Coefficients from number fields: reading, deciding, verifying, printing."""
+
+from __future__ import annotations
+
+import pickle
+import time
+from fractions import Fraction
+from statistics import median
+
+import pytest
+import sympy
+
+import kovacic
+from kovacic.algebra.embedding import RATIONAL_NUMBERS
+from kovacic.algebra.fields import QQ, AlgebraicField, Field
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.limits import Limits
+from kovacic.transform import hypergeometric
+
+ENTRIES = [
+    ("x^6 - 7*x^2 + 2*sqrt(2)", 1),
+    ("x^2 + sqrt(2)", None),
+    ("x^2 + 1 + (sqrt(2) - sqrt(2))", 1),
+    ("sqrt(2)", 1),
+    ("I", 1),
+    ("-(1+I)/x^2", 1),
+    ("I*x", None),
+    ("sqrt(2)^2*x^2 + 3*sqrt(2)", 1),
+    ("-x^2 + I", 1),
+    ("-x^2 + 3*I", 1),
+    ("-x^2 + 2*I", None),
+    ("-3/16/x^2 + sqrt(3)/x", 2),
+    ("x^2 + cbrt(2)", None),
+    ("cbrt(2)^2*x^2 + 5*cbrt(2)", 1),
+    ("(sqrt(2)+sqrt(3))^2*x^2 + sqrt(2) + sqrt(3)", 1),
+    ("2/(x-sqrt(2))^2", 1),
+    ("-3/(16*(x-sqrt(2))^2) - 3/(16*(x+I)^2) + 1/((x-sqrt(2))*(x+I))", 2),
+    ("1/(x^3-sqrt(2))", None),
+    ("x^2 + root(3,5)", None),
+    ("sqrt(1+sqrt(2))/x^2", 1),
+]
+
+
+@pytest.mark.parametrize(("S", "case"), ENTRIES)
+def test_decided_and_verified(S: str, case: int | None) -> None:
+    answer = kovacic.solve(S, var="x")
+    assert answer.case == case
+    assert answer.verified
+    again = kovacic.Solution.from_json(answer.to_json())
+    assert again == answer
+    assert again.verify()
+    assert pickle.loads(pickle.dumps(answer)) == answer
+
+
+def test_speed_class() -> None:
+    """The median over the entries, after a first run that finds the primes; the benchmark has the exact figure."""
+    times = []
+    for S, _ in ENTRIES:
+        kovacic.solve(S, var="x")
+        start = time.perf_counter()
+        kovacic.solve(S, var="x")
+        times.append(time.perf_counter() - start)
+    assert median(times) < 0.2
+
+
+def test_the_sextic_oscillator_of_the_literature() -> None:
+    x = sympy.Symbol("x")
+    answer = kovacic.solve(x**6 - 7 * x**2 + 2 * sympy.sqrt(2))
+    assert str(answer.omega) == "(-2*x**5 - sqrt(2)*x**3 + 4*x)/(2*x**2 + sqrt(2))"
+    omega = sympy.sympify(str(answer.omega))
+    assert sympy.simplify(sympy.diff(omega, x) + omega**2 - (x**6 - 7 * x**2 + 2 * sympy.sqrt(2))) == 0
+
+
+@pytest.mark.parametrize(
+    ("exponents", "case"),
+    [((2, 3, 3), 3), ((2, 3, 4), 3), ((2, 3, 5), 3), ((2, 2, 5), 2), ((3, 5, 7), None)],
+)
+@pytest.mark.parametrize("modulus", [[-2, 0, 1], [1, 0, 1], [-2, 0, 0, 1]])
+def test_moved_by_an_algebraic_number(exponents: tuple[int, int, int], case: int | None, modulus: list[int]) -> None:
+    """x -> x + alpha keeps the case; the poles aren't rational any more."""
+    K = AlgebraicField(QQ, QQ.poly(modulus), "a")
+    S = hypergeometric(*(Fraction(1, n) for n in exponents))
+    moved = RatFunc(K.embed(S.num), K.embed(S.den))(RatFunc(K.poly([K.generator, 1])))
+    answer = kovacic.solve(moved)
+    assert answer.case == case
+    assert answer.verified
+
+
+def test_constants_of_the_answer_over_the_field() -> None:
+    answer = kovacic.solve("sqrt(2)", var="x")
+    assert answer.constants is not None
+    assert str(answer.constants) == "x**2 - sqrt(2)" or "sqrt(2)" in str(answer.constants)
+    assert answer.constants.field == answer.S.field
+
+
+def test_principal_values_are_told_apart() -> None:
+    assert kovacic.solve("(sqrt(2) + sqrt(8) - 3*sqrt(2))*x + 1", var="x").S == 1
+    assert kovacic.solve("(sqrt(6) - sqrt(2)*sqrt(3))*x + 1", var="x").S == 1
+    assert kovacic.solve("((-8)^(1/3) - 1 - sqrt(-3))*x + 1", var="x").S == 1
+    assert kovacic.solve("(sqrt(3 + 2*sqrt(2)) - 1 - sqrt(2))*x + 1", var="x").S == 1
+    assert kovacic.solve("(sqrt(2) + sqrt(3)*I - I*sqrt(3))*x^0 + x", var="x").case is None
+
+
+def test_sympy_numbers() -> None:
+    x, y = sympy.symbols("x y")
+    assert kovacic.solve(sympy.cos(sympy.pi / 5) - (1 + sympy.sqrt(5)) / 4 + x**2 + 1).S.field == QQ
+    assert kovacic.solve(x**2 + sympy.GoldenRatio).case is None
+    root = sympy.CRootOf(y**3 - y - 1, 0)
+    assert kovacic.solve(root**3 - root + x**2).case == 1
+    assert kovacic.solve(sympy.AlgebraicNumber(sympy.sqrt(5), [1, 1]) * x**2).case is None
+    with pytest.raises(kovacic.InputError):
+        kovacic.solve(sympy.pi * x)
+
+
+def test_conjugate_poles_stay_together() -> None:
+    from kovacic.limits import Budget
+    from kovacic.places import analyse
+
+    answer = kovacic.solve("1/(x^3-sqrt(2)) + 2/(x^2+1)", var="x")
+    places = analyse(answer.S, Budget()).finite_places
+    assert sorted(place.degree for place in places) == [2, 3]
+
+
+def test_limits_on_the_field() -> None:
+    with pytest.raises(kovacic.LimitExceeded, match="field of degree"):
+        kovacic.solve("sqrt(2)*x + sqrt(3)", limits=Limits(constants=3))
+
+
+@pytest.mark.parametrize("radicals", [(2,), (2, 3), (-1, 2, 3), (5, -7)])
+def test_primitive_elements(radicals: tuple[int, ...]) -> None:
+    numbers, roots = RATIONAL_NUMBERS, []
+    for radicand in radicals:
+        numbers, _ = numbers.radical(numbers.field.poly([radicand]), 2, "", 24)
+    field: Field = numbers.field
+    assert field.absolute_degree == 2 ** len(radicals)
+    for radicand in radicals:
+        same, root = numbers.radical(field.poly([radicand]), 2, "", 24)
+        assert same.field == field
+        assert root * root == radicand
+        roots.append(numbers.approximation(root))
+    for root, radicand in zip(roots, radicals, strict=True):
+        assert abs(complex(root) - complex(radicand) ** 0.5) < 1e-12

@@ -1,0 +1,191 @@
+"""Generic parameters: the field Q(t), its lift, and the generic answers."""
+
+from __future__ import annotations
+
+import pickle
+from fractions import Fraction
+
+import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import kovacic
+from kovacic.algebra.fields import QQ, AlgebraicField
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.solution import Status
+from tests.parametric_cases import BALL
+
+K = FunctionField(("s", "t"))
+s, t = K.generator("s"), K.generator("t")
+x = K.poly([0, 1])
+
+small = st.integers(-3, 3)
+monomials = st.tuples(st.integers(0, 3), st.integers(0, 2), st.integers(0, 2))
+
+
+@st.composite
+def polynomials(draw: st.DrawFn) -> Poly:
+    """Over Q(s, t), with denominators."""
+    total: Poly = K.poly([])
+    for (i, j, k), c in draw(st.dictionaries(monomials, small, max_size=4)).items():
+        total = total + c * x**i * s**j * t**k
+    below = draw(small) + draw(small) * s + draw(small) * t
+    return total / below if below else total
+
+
+@settings(max_examples=60)
+@given(polynomials(), polynomials(), st.integers(-5, 5), st.integers(-5, 5))
+def test_arithmetic_commutes_with_evaluation(f: Poly, g: Poly, a: int, b: int) -> None:
+    def at(h: Poly) -> Poly:
+        assert isinstance(h, FunctionPoly)
+        return h.value_at([Fraction(a, 7), Fraction(b, 11)], QQ)
+
+    try:
+        images = at(f), at(g)
+    except ZeroDivisionError:
+        return
+    assert at(f + g) == images[0] + images[1]
+    assert at(f * g) == images[0] * images[1]
+    assert at(f.derivative()) == images[0].derivative()
+
+
+@settings(max_examples=60)
+@given(polynomials(), polynomials())
+def test_division_and_common_divisors(f: Poly, g: Poly) -> None:
+    if not g:
+        return
+    quotient, remainder = divmod(f, g)
+    assert quotient * g + remainder == f
+    assert remainder.degree < max(g.degree, 0) or not remainder
+    assert (f * g).exact_quotient(g) == f
+    common = (f * (x + s)).gcd(g * (x + s))
+    assert not common % (x + s)
+    assert not (f * (x + s)) % common
+    assert pickle.loads(pickle.dumps(f)) == f
+    assert hash(f + g) == hash(g + f)
+
+
+@settings(max_examples=25)
+@given(st.lists(polynomials(), min_size=1, max_size=3))
+def test_the_lift_recovers_polynomials_from_their_values(given_polynomials: list[Poly]) -> None:
+    lifter = K.lifter()
+    for bundle in K.bundles():
+        proposal = lifter.add(bundle, [[h(f) for f in given_polynomials] for h in bundle])
+        if proposal == given_polynomials:
+            return
+        assert lifter.primes_used < 400
+    raise AssertionError("the sequence of homomorphisms is infinite")
+
+
+def test_large_coefficients_take_several_primes() -> None:
+    f = K.poly([s * 10**40 + Fraction(1, 3**50), t / (s + 10**25)])
+    lifter = K.lifter()
+    for bundle in K.bundles():
+        if lifter.add(bundle, [[h(f)] for h in bundle]) == [f]:
+            return
+        assert lifter.primes_used < 400
+
+
+def test_a_linear_functional_that_is_the_identity_on_rational_numbers() -> None:
+    def functional(f: Poly) -> Fraction:
+        value = f.rational_coefficients()[0] if f else 0
+        return Fraction(int(value.p), int(value.q)) if f else Fraction(0)
+
+    f, g = 1 / (1 + s) if False else (1 + s).inverse(), (t + 5) * (s * t + s * s).inverse()
+    assert functional(K.poly([Fraction(3, 7)])) == Fraction(3, 7)
+    assert functional(f + g) == functional(f) + functional(g)
+    assert functional(f) == 1
+
+
+def test_factors_and_square_roots() -> None:
+    f = (x**2 - s) * (x - t) ** 2 * (s + 1)
+    assert K.factor(f) == [(x - t, 2), (x**2 - s, 1)]
+    assert K.sqrt(4 * s * s * (t - 1) ** 2) in (2 * s * (t - 1), 2 * s * (1 - t))
+    assert K.sqrt(s) is None
+    assert K.sqrt(-(s**2)) is None
+
+
+def test_a_tower_over_parameters() -> None:
+    L = AlgebraicField(K, K.poly([-s, 0, 1]), "r")
+    r = L.generator
+    assert r * r == s
+    assert (r + 1) * (r + 1).inverse() == 1
+    f, g = (L.poly([0, 1]) - r) * (L.poly([0, 1]) + t), (L.poly([0, 1]) - r) * (L.poly([0, 1]) - 3)
+    assert f.gcd(g) == L.poly([0, 1]) - r
+
+
+GENERIC = [
+    ("(4*n^2-1)/(4*x^2) - 1", None),
+    ("n", 1),
+    ("n^2", 1),
+    ("x^2 + mu", None),
+    ("a*x + b", None),
+    ("(m^2*x^4 + (2*n+1)*m*x^2 + n^2 - n)/x^2", 1),
+    ("n*(n-1)/x^2 + 2*n*m + m^2*x^2 + m", 1),
+    ("-3/(16*x^2) + q/x", 2),
+    (BALL, 2),
+    ("(2*n*x + x^2 + n^2 + 1)*t^2", None),
+    ("x^2 + I*n", None),
+    ("sqrt(2)*n/x^2", 1),
+    ("-1/4/x^2 + n/x^3", None),
+]
+
+
+@pytest.mark.parametrize(("S", "case"), GENERIC)
+def test_generic_answers_are_verified(S: str, case: int | None) -> None:
+    answer = kovacic.solve(S, var="x")
+    assert answer.case == case
+    assert answer.verified
+    assert any("parameter" in notice for notice in answer.notices)
+    again = kovacic.Solution.from_json(answer.to_json())
+    assert again == answer
+    assert again.verify()
+
+
+def test_the_ball_with_symbols() -> None:
+    answer = kovacic.solve(BALL, var="x")
+    assert answer.case == 2
+    assert answer.riccati is not None
+    k, x1, x2, X = sympy.symbols("k x1 x2 x")
+    total = sympy.sympify(str(answer.riccati.coefficients[1]))
+    expected = -sympy.Rational(1, 2) * (1 / (X - x1) + 1 / (X - x2))
+    assert sympy.cancel(total - expected) == 0
+    del k
+
+
+def test_generic_answers_specialise_where_nothing_vanishes() -> None:
+    """omega at random values of the parameters solves the Riccati equation of S at these values."""
+    answer = kovacic.solve("(m^2*x^4 + (2*n+1)*m*x^2 + n^2 - n)/x^2", var="x")
+    assert answer.omega is not None
+    X = sympy.Symbol("x")
+    for values in ({"m": 2, "n": 3}, {"m": -1, "n": Fraction(1, 2)}, {"m": Fraction(5, 3), "n": 7}):
+        chosen = {sympy.Symbol(name): sympy.Rational(str(value)) for name, value in values.items()}
+        omega, S = (sympy.sympify(str(f)).subs(chosen) for f in (answer.omega, answer.S))
+        assert sympy.cancel(sympy.diff(omega, X) + omega**2 - S) == 0
+
+
+def test_the_conditions_of_a_generic_answer() -> None:
+    conditions = kovacic.solve("(m^2*x^4 + (2*n+1)*m*x^2 + n^2 - n)/x^2", var="x").generic_conditions
+    assert {str(f) for f in conditions.nonzero} == {"m", "n", "n - 1"}
+    assert [str(f) for f in conditions.irrational_squares] == ["4*n**2 - 4*n + 1"]
+    ball = kovacic.solve(BALL, var="x").generic_conditions
+    assert any(str(f) == "x1 - x2" for f in ball.nonzero)
+    assert not kovacic.solve("x^2 + 3").generic_conditions
+
+
+def test_sympy_input_with_parameters() -> None:
+    X, n = sympy.symbols("x n")
+    assert kovacic.solve((4 * n**2 - 1) / (4 * X**2) - 1).status is Status.NONE_EXISTS
+    assert kovacic.solve(n**2 + 0 * X, var=X).case == 1
+
+
+def test_many_equations_whose_omega_is_chosen() -> None:
+    """omega first: S = omega' + omega^2 must give case 1, with a verified omega."""
+    one = RatFunc(K.poly([1]))
+    for omega in (one * s / x + t, one * (s - t) / (x - s) + one * t / x, one * s * x + one / (x * x - t)):
+        answer = kovacic.solve(omega.derivative() + omega * omega)
+        assert answer.case == 1
+        assert answer.verified
