@@ -111,7 +111,7 @@ def check_at(answer: kovacic.Solution, point: mpmath.mpc) -> None:
         for y in answer.solutions:
             assert residual(y, form.variable, answer.S, answer.gauge, point) < mpmath.mpf(10) ** -45
         (y1, d1, _), (y2, d2, _) = (jet(y, form.variable, point) for y in answer.solutions)
-        assert abs(y1 * d2 - y2 * d1) > mpmath.mpf(10) ** -20 * max(abs(y1 * d2), abs(y2 * d1))
+        assert abs(y1 * d2 - y2 * d1) > mpmath.mpf(10) ** -50 * max(abs(y1 * d2), abs(y2 * d1))
 
 
 CASES = [

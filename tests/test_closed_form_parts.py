@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from fractions import Fraction
 
 import mpmath
@@ -182,6 +183,23 @@ def test_klein_form_and_polynomial_agree_along_a_path(S: str) -> None:
             for coefficients, power in zip(values, powers, strict=True):
                 terms = [c * (scale * power) ** (len(coefficients) - 1 - i) for i, c in enumerate(coefficients)]
                 assert abs(mpmath.fsum(terms)) < mpmath.mpf(10) ** -50 * max(abs(term) for term in terms)
+
+
+def test_polynomial_is_shown_in_factored_form() -> None:
+    found = solutions(kovacic.solve(KLEIN["tetrahedral, shifted"])).power_polynomial
+    assert found is not None
+    power, polynomial = found
+    assert power == 4
+    assert sympy.degree(polynomial, sympy.Symbol("Z")) == 6
+    assert solutions(kovacic.solve("1")).power_polynomial is None
+
+
+def test_closed_forms_can_be_pickled() -> None:
+    for text in ("-1", "x^2 + 3", "1/x - 3/(16*x^2)", KLEIN["octahedral"], "1/(x^3-2) - 5"):
+        answer = kovacic.solve(text)
+        if answer.closed_form is not None:
+            copy = pickle.loads(pickle.dumps(answer))
+            assert copy.closed_form.y2 == answer.closed_form.y2
 
 
 def test_pull_backs_give_their_function_back() -> None:

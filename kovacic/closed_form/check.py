@@ -100,7 +100,7 @@ def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: 
     y, first, second = jet(expression, variable, point)
     S0, g0, slope = value_at(S, point), value_at(gauge, point), value_at(gauge.derivative(), point)
     terms = (second, -2 * g0 * first, (g0 * g0 - slope - S0) * y)
-    scale = max(abs(term) for term in terms) + abs(y)
+    scale = max(abs(term) for term in terms) + abs(y) + abs(first)
     return abs(sum(terms)) / scale if scale else mpmath.inf
 
 

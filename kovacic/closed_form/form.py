@@ -10,6 +10,8 @@ from kovacic.closed_form.structure import ClosedStructure, build
 from kovacic.errors import VerificationFailed
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from kovacic.result import Solution
 
 EXACT = "exact"
@@ -32,8 +34,27 @@ class ClosedForm:
     checked: str
     notes: tuple[str, ...] = ()
 
-    def __iter__(self) -> Any:
+    def __iter__(self) -> Iterator[Any]:
         return iter((self.y1, self.y2))
+
+    @property
+    def power_polynomial(self) -> tuple[int, Any] | None:
+        """(k, P) for case 3: P, an expression in x and Z, vanishes at Z = c y1^k and Z = c' y2^k for some constants.
+
+        All its roots are k-th powers of solutions.  None in the other cases, with a gauge factor, and where P is too long to
+        be written out.
+        """
+        from sympy import Add, Symbol
+
+        from kovacic.closed_form.atoms import Atoms
+        from kovacic.closed_form.klein import KleinForm
+
+        if not isinstance(self.structure, KleinForm) or self.structure.polynomial is None:
+            return None
+        polynomial, atoms, Z = self.structure.polynomial, Atoms(self.variable), Symbol("Z")
+        n = len(polynomial.coefficients)
+        terms = (atoms.factored(c) * Z ** (n - 1 - k) for k, c in enumerate(polynomial.coefficients) if c)
+        return polynomial.power, Add(Z**n, *terms)
 
 
 def solutions(solution: Solution, *, gauge: RatFunc | None = None) -> ClosedForm:
