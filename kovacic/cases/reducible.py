@@ -26,6 +26,9 @@ from kovacic.places import Place, Problem
 from kovacic.riccati import Form, normalised
 from kovacic.solution import Evidence, Exclusion, NoInvariant, NoRationalOmega, Structure
 
+#: Up to this degree P1 is lifted with R; above, its recurrence is faster.
+_LIFTED_DEGREE = 200
+
 
 def decide(problem: Problem) -> Outcome:
     """Find omega in C(x), or prove that there is none."""
@@ -43,7 +46,8 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     """The form y1 of degree 1, from F = y1 y2 or F = y1^2.
 
     F' = Q0 X / D and sqrt(disc) = Q0 Y / D with F = Q0 P; so D omega = (X + Y) / (2 P), and the zeros of y1 are the common
-    zeros of P and X - Y.  This is done modulo primes, and only R of omega = R/D + P1'/P1 is lifted; P1 has a recurrence.
+    zeros of P and X - Y.  This is done modulo primes; R of omega = R/D + P1'/P1 is lifted, and P1 if its degree is moderate
+    (else it has a recurrence).
     """
     F = normalised(F, problem)
     P, X, A2, *_ = F.numerators(problem)
@@ -65,21 +69,28 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
             parts = [_first_factor(h(problem.D), h.keeping_degree(P), h(X), h(Y)) for h in bundle]
         except BadPrimeError:
             continue
-        degrees = {degree for _, degree in parts}
-        proposal = lifter.add(bundle, [[R] for R, _ in parts]) if len(degrees) == 1 else None
-        if proposal and (zeros := _polynomial_part(problem, proposal[0], degrees.pop())) is not None:
-            return Form(1, proposal[0], zeros)
+        degrees = {zeros.degree() for _, zeros in parts}
+        if len(degrees) > 1:
+            continue
+        degree = degrees.pop()
+        directly = degree <= _LIFTED_DEGREE
+        proposal = lifter.add(bundle, [[R, zeros] if directly else [R] for R, zeros in parts])
+        if proposal:
+            R = proposal[0]
+            form = Form(1, R, proposal[1] if directly else _polynomial_part(problem, R, degree) or field.poly([]))
+            if form.P and form.is_form(problem):
+                return form
     raise AssertionError("the sequence of primes is infinite")
 
 
-def _first_factor(D: Any, P: Any, X: Any, Y: Any) -> tuple[Any, int]:
-    """R and deg P1 of omega = R/D + P1'/P1, modulo p."""
+def _first_factor(D: Any, P: Any, X: Any, Y: Any) -> tuple[Any, Any]:
+    """R and the monic P1 of omega = R/D + P1'/P1, modulo p."""
     zeros = P.gcd(X - Y)
     omega, rest = divmod((X + Y) * pow(2, -1, D.modulus()), P // zeros)  # D P1 omega
     R, remainder = divmod(omega - D * zeros.derivative(), zeros)
     if rest or remainder:
         raise BadPrimeError("zeros of the solutions meet modulo this prime")
-    return R, int(zeros.degree())
+    return R, zeros
 
 
 def distinguishing_places(problem: Problem) -> list[Place]:
