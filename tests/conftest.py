@@ -11,7 +11,9 @@ from hypothesis import HealthCheck, settings
 
 SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large, HealthCheck.large_base_example]
 
-settings.register_profile("ci", deadline=None, derandomize=True, database=None, suppress_health_check=SLOW)
+settings.register_profile(
+    "ci", max_examples=50, deadline=None, derandomize=True, database=None, suppress_health_check=SLOW
+)
 settings.register_profile("dev", deadline=None, suppress_health_check=SLOW)
 settings.register_profile("fuzz", deadline=None, database=None, suppress_health_check=SLOW, print_blob=True)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
