@@ -276,3 +276,11 @@ def test_wrong_answers_do_not_pass_the_checks() -> None:
 )
 def test_structure_needs_no_sympy(S: str, kind: type) -> None:
     assert isinstance(solutions(kovacic.solve(S)).structure, kind)
+
+
+def test_cancellation_is_no_reason_to_fail() -> None:
+    """The second solution for Legendre's n = 60 is a tiny difference of two large terms."""
+    form = kovacic.solve("(1-x^2)*y'' - 2*x*y' + 3660*y = 0").closed_form
+    assert form is not None
+    assert form.checked == "exact"
+    assert sympy.degree(form.y1, x) == 60

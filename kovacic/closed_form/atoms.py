@@ -189,10 +189,11 @@ class Atoms:
                 continue
             pending.remove(partner)
             top, bottom = self.primitive(first.factor)[1], self.primitive(partner.factor)[1]
-            fraction = top / bottom
-            if fraction.subs(self.x, 0).is_negative:
-                bottom = sympy.expand_mul(-bottom)
-            terms.append(self.constant(first.value) * log(top / bottom))
+            at_zero = first.factor.field.rational_value(first.factor[0] * partner.factor[0])
+            if at_zero is not None and at_zero < 0:
+                bottom = Add(*(-term for term in bottom.args))
+            # SymPy would search the argument for special values.
+            terms.append(self.constant(first.value) * log(top / bottom, evaluate=False))
         return terms[::-1]
 
     # ------------------------------------------------------------------------------------------- products
