@@ -140,3 +140,28 @@ def test_primitive_elements(radicals: tuple[int, ...]) -> None:
         roots.append(numbers.approximation(root))
     for root, radicand in zip(roots, radicals, strict=True):
         assert abs(complex(root) - complex(radicand) ** 0.5) < 1e-12
+
+
+@pytest.mark.parametrize("modulus", [[-1, -1, 0, 0, 0, 1], [-1, -1, 0, 0, 0, 0, 0, 1], [1, -1, *[0] * 8, 1]])
+def test_fields_in_which_hardly_any_prime_splits(modulus: list[int]) -> None:
+    """Groups S5, S7, S10: one prime in 120, 5040 or 3628800 splits, so elements are found by lattice reduction."""
+    K = AlgebraicField(QQ, QQ.poly(modulus), "a")
+    a = K.generator
+    omega = RatFunc(K.poly([1, a]), K.poly([0, 1])) + RatFunc(K.poly([1]), K.poly([a * a - 1, 1]))
+    answer = kovacic.solve(omega.derivative() + omega * omega)
+    assert (answer.case, answer.omega, answer.verified) == (1, omega, True)
+    assert kovacic.solve(RatFunc(K.poly([a]))).constants is not None
+    S = hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, 3))
+    moved = kovacic.solve(RatFunc(K.embed(S.num), K.embed(S.den))(RatFunc(K.poly([a, 1]))))
+    assert (moved.case, moved.verified) == (3, True)
+    f, g = (K.poly([a, 1]) * K.poly([1, a]), K.poly([a, 1]) * K.poly([a * a, 0, 3]))
+    assert f.gcd(g) == K.poly([a, 1])
+
+
+def test_a_root_of_a_quintic_without_radicals() -> None:
+    x, y = sympy.symbols("x y")
+    root = sympy.CRootOf(y**5 - y - 1, 0)
+    answer = kovacic.solve(root**2 * x**2 + 3 * root)
+    assert answer.case == 1
+    assert answer.verified
+    assert any("alpha**5 - alpha - 1" in notice for notice in answer.notices)

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, lru_cache
+from itertools import islice
 from typing import Any
 
 from flint import fmpq, fmpq_poly, nmod_poly
@@ -117,6 +118,11 @@ class Field(ABC):
         return self
 
     @property
+    def lifting_field(self) -> Field:
+        """The field whose elements `coordinate_lifter` finds: the ground field, or a number field with few split primes."""
+        return self
+
+    @property
     def absolute_degree(self) -> int:
         """The degree over the ground field."""
         return 1
@@ -153,7 +159,7 @@ class Field(ABC):
         """The polynomials that have these rational coordinates (`fmpq_poly`), in the order of `coordinates`."""
 
     def coordinate_lifter(self) -> CoordinateLifter:
-        """A fresh way back for elements of the ground field."""
+        """A fresh way back for elements of this field, which is its own `lifting_field`."""
         return RationalLifter()
 
     def lifter(self) -> Lifter:
@@ -203,11 +209,12 @@ class RationalLifter(CoordinateLifter):
 class Lifter:
     """Collects images under bundles of homomorphisms and proposes the polynomials over the field."""
 
-    __slots__ = ("_coordinates", "_field")
+    __slots__ = ("_coordinates", "_field", "_lifts_points")
 
     def __init__(self, field: Field) -> None:
         self._field = field
-        self._coordinates = field.ground.coordinate_lifter()
+        self._coordinates = field.lifting_field.coordinate_lifter()
+        self._lifts_points = field.ground != QQ
 
     @property
     def primes_used(self) -> int:
@@ -215,7 +222,8 @@ class Lifter:
 
     def add(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Poly] | None:
         """Images of the same polynomials under each homomorphism of the bundle; a proposal when one is due, else None."""
-        proposal = self._coordinates.add(bundle[0].ground, self._field.coordinates(bundle, images))
+        homomorphism = bundle[0].ground if self._lifts_points else bundle[0]
+        proposal = self._coordinates.add(homomorphism, self._field.coordinates(bundle, images))
         return None if proposal is None else self._field.assemble(proposal)
 
 
@@ -282,6 +290,15 @@ class AlgebraicField(Field):
         return self.base.ground
 
     @property
+    def lifting_field(self) -> Field:
+        return self if _splits_rarely(self) else self.base.lifting_field
+
+    def coordinate_lifter(self) -> CoordinateLifter:
+        from kovacic.algebra.lattice import LatticeLifter
+
+        return LatticeLifter(self)
+
+    @property
     def absolute_degree(self) -> int:
         return self.dimension * self.base.absolute_degree
 
@@ -321,14 +338,18 @@ class AlgebraicField(Field):
         return iter(_splitting_bundles(self)) if allowed is None else self.splitting_bundles(allowed)
 
     def splitting_bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
-        """The bundles over primes that split completely, found one after the other."""
+        """The bundles over primes that split completely, or one root for each prime that has any, one after the other."""
+        complete = not _splits_rarely(self)
         base_bundles = self.base.bundles(self._splitting(allowed) if self._is_numerical else allowed)
         for base_bundle in base_bundles:
             homomorphisms: list[Homomorphism] = []
             try:
                 for base in base_bundle:
                     roots = base.keeping_degree(self.modulus).roots()
-                    if len(roots) < self.dimension:
+                    if not complete:
+                        roots = [pair for pair in roots if pair[1] == 1]
+                        roots = sorted(roots, key=lambda pair: int(pair[0]))[:1]
+                    if len(roots) < (self.dimension if complete else 1):
                         break
                     homomorphisms += [ExtensionHomomorphism(base, root) for root in sorted(int(r) for r, _ in roots)]
                 else:
@@ -356,6 +377,8 @@ class AlgebraicField(Field):
         return splits
 
     def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
+        if _splits_rarely(self):
+            return list(images[0])
         n, p = self.dimension, bundle[0].p
         base_bundle: list[Homomorphism] = []
         base_images: list[list[Any]] = []
@@ -373,6 +396,8 @@ class AlgebraicField(Field):
         return self.base.coordinates(base_bundle, base_images)
 
     def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
+        if _splits_rarely(self):
+            return list(coordinates)
         parts, n = self.base.assemble(coordinates), self.dimension
         return [ExtensionPoly.make(self, parts[i : i + n]) for i in range(0, len(parts), n)]
 
@@ -416,6 +441,24 @@ class _Remembered:
                 self._known.append(next(self._source))
             yield self._known[position]
             position += 1
+
+
+#: From this degree on a number field may have too few primes that split completely; so many primes are tried.
+_LARGE_DEGREE, _TRIED_PRIMES = 4, 12
+
+
+@lru_cache(maxsize=64)
+def _splits_rarely(field: AlgebraicField) -> bool:
+    """Does none of the first primes split completely in a number field of a large degree?"""
+    if field.base != QQ or field.dimension < _LARGE_DEGREE:
+        return False
+    for p in islice(primes(), _TRIED_PRIMES):
+        try:
+            if len(RationalHomomorphism(p).keeping_degree(field.modulus).roots()) == field.dimension:
+                return False
+        except BadPrimeError:
+            continue
+    return True
 
 
 @lru_cache(maxsize=64)
