@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from kovacic.closed_form import ClosedForm
-    from kovacic.galois import Group
+    from kovacic.galois import EquationGroup, Group
     from kovacic.parametric.generic import GenericConditions
 
 
@@ -93,10 +93,17 @@ class Solution:
 
         return group_of(self.S, self.decision)
 
+    @cached_property
+    def equation_group(self) -> EquationGroup | None:
+        """The group of the equation as it was given, in GL2(C); None if undecided, or with a gauge and parameters."""
+        from kovacic.galois import equation_group
+
+        return None if self.group is None else equation_group(self.S, self.decision, self.group, self.gauge)
+
     @property
     def is_algebraic(self) -> bool | None:
-        """Are all solutions of y'' = S y algebraic functions?  None if that wasn't determined."""
-        return None if self.group is None else self.group.finite
+        """Are all solutions of the equation as given algebraic functions?  None if that wasn't determined."""
+        return None if self.equation_group is None else self.equation_group.finite
 
     @cached_property
     def closed_form(self) -> ClosedForm | None:

@@ -19,7 +19,9 @@ from kovacic import transform
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.jacobian import Jacobian
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.equation import Equation
 from kovacic.galois import Ground, Group, Kind
+from kovacic.galois.gauged import _residues_on_curve, _torus
 from kovacic.galois.imprimitive import curve_of, has_order
 from kovacic.limits import Budget
 from kovacic.places import Kind as PlaceKind
@@ -262,3 +264,94 @@ def test_multiplication_in_a_jacobian_of_genus_two() -> None:
         assert curve.add(curve.multiple(5, c), curve.multiple(-3, c)) == curve.multiple(2, c)
     a, b, c = classes[:3]
     assert curve.add(curve.add(a, b), c) == curve.add(a, curve.add(b, c))
+
+
+# ------------------------------------------------------------------------------------- the group with the gauge
+
+
+@settings(max_examples=30)
+@given(st.lists(strategies.fractions(4, (1, 2, 3, 4, 6)), min_size=4, max_size=4))
+def test_two_products_of_powers_have_the_group_of_their_exponents(exponents: list[Fraction]) -> None:
+    """z1 = x^p (x-1)^q and z2 = x^r (x-1)^s: the characters are the classes of a(p, q) + b(r, s) modulo Z^2."""
+    p, q, r, s = exponents
+    omegas = [p / X + q / (X - 1), r / X + s / (X - 1)]
+    if omegas[0] == omegas[1]:
+        return
+    # z'' + b z' + c z = 0 with both: b = -(w1' + w1^2 - w2' - w2^2)/(w1 - w2), c = -(w1' + w1^2 + b w1).
+    images = [w.derivative() + w * w for w in omegas]
+    b = -(images[0] - images[1]) / (omegas[0] - omegas[1])
+    c = -(images[0] + b * omegas[0])
+    answer = kovacic.solve(Equation(X * 0 + 1, b, c, X * 0))
+    n = lcm(*(e.denominator for e in exponents))
+    classes = {((i * p + j * r) % 1, (i * q + j * s) % 1) for i in range(n) for j in range(n)}
+    assert answer.equation_group.order == len(classes)
+    assert answer.is_algebraic
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "finite"),
+    [
+        ("x^2*y'' + x*y' + (x^2-1/4)*y = 0", "G_m", False),
+        ("y'' + 2*y' + y = 0", "G_m", False),
+        ("y'' + y' = 0", "G_m", False),
+        ("y'' - 3*y' + 2*y = 0", "G_m", False),
+        ("y'' - (1 + sqrt(2))*y' + sqrt(2)*y = 0", "G_m x G_m", False),
+        ("(1-x^2)*y'' - 2*x*y' + 6*y = 0", "G_a", False),
+        ("(1-x^2)*y'' - x*y' + y/4 = 0", "mu_2 x mu_2", True),
+        ("x^2*y'' - x*y'/3 + y/3 = 0", "mu_3", True),
+        ("x*y'' + y' + x*y = 0", "SL2", False),
+        ("y'' + y'/(3*x) + x*y = 0", "SL2 with the scalars mu_6", False),
+        ("y'' + 2*y' - x*y = 0", "GL2", False),
+        ("y'' = 0", "trivial", True),
+    ],
+)
+def test_groups_of_equations(text: str, name: str, finite: bool) -> None:
+    answer = kovacic.solve(text)
+    assert answer.equation_group.name == name
+    assert answer.is_algebraic is finite
+
+
+def with_gauge(S: RatFunc, rho: RatFunc) -> Equation:
+    return Equation(X * 0 + 1, -2 * rho, rho * rho - rho.derivative() - S, X * 0)
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 6, 10])
+@pytest.mark.parametrize("third", [3, 4, 5])
+def test_primitive_groups_with_scalars(third: int, n: int) -> None:
+    """The gauge (x - 2)^(1/n) has nothing to do with the group: its scalars are those of mu_n and -1."""
+    S = transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, third))
+    answer = kovacic.solve(with_gauge(S, Fraction(1, n) / (X - 2)))
+    group = answer.equation_group
+    assert group.order == group.normal_form.order // 2 * lcm(2, n)
+
+
+def test_gauges_that_are_semi_invariants() -> None:
+    """A factor that G multiplies by a character of order 3 (SL(2,3)) or 2 (the binary octahedral group) adds nothing."""
+    for third, e in ((3, 3), (4, 2)):
+        S = transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, third))
+        theta = kovacic.solve(S).semi_invariant.theta
+        if theta.num.field != QQ:
+            continue
+        group = kovacic.solve(with_gauge(S, theta)).equation_group
+        assert (group.scalars, group.order) == (e, group.normal_form.order)
+
+
+@pytest.mark.parametrize("n", [2, 3, 4, 5])
+@pytest.mark.parametrize("m", [2, 3, 4, 5, 8])
+def test_dicyclic_groups_with_scalars(n: int, m: int) -> None:
+    S = transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, n))
+    group = kovacic.solve(with_gauge(S, Fraction(1, m) / (X - 2))).equation_group
+    assert group.order == 2 * n * lcm(2, m)
+
+
+def test_the_order_of_a_twist_by_signs_in_two_ways() -> None:
+    S = transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, 6))
+    solution = kovacic.solve(S)
+    curve = curve_of(analyse(S, Budget()), solution.semi_invariant)
+    for rho in (Fraction(1, 2) / X, Fraction(1, 2) / (X - 1), Fraction(1, 2) / (X + 3)):
+        assert 2 * _torus([], _residues_on_curve(curve, rho)).order == solution.group.order
+
+
+def test_a_group_of_an_undecided_equation() -> None:
+    answer = kovacic.solve("x^2 + 41", limits=kovacic.Limits(unknown_degree=5))
+    assert (answer.group, answer.equation_group, answer.is_algebraic) == (None, None, None)

@@ -6,6 +6,7 @@
 """
 
 from kovacic.galois.decide import group_of
+from kovacic.galois.gauged import EquationGroup, equation_group
 from kovacic.galois.group import Ground, Group, Kind
 
-__all__ = ["Ground", "Group", "Kind", "group_of"]
+__all__ = ["EquationGroup", "Ground", "Group", "Kind", "equation_group", "group_of"]

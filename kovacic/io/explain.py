@@ -337,8 +337,11 @@ class _Writer:
             sentence.append(f", of order at least {group.order_at_least} if it is finite")
         sentence.append(f": {group.ground.value}.")
         blocks: list[Block] = [Heading("The Galois group"), Paragraph(tuple(sentence))]
-        if group.finite:
-            blocks.append(Paragraph(("All solutions of the normal form are algebraic functions.",)))
+        given = self.solution.equation_group if self.solution.gauge else None
+        if given is not None:
+            blocks.append(Paragraph((f"The group of the equation as given, in GL2: {given.name}.",)))
+        if self.solution.is_algebraic:
+            blocks.append(Paragraph(("All solutions are algebraic functions.",)))
         return blocks
 
     def check(self) -> list[Block]:

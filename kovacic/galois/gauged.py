@@ -1,0 +1,232 @@
+"""The differential Galois group of the equation as it was given: solutions z = gamma y with y'' = S y, gamma'/gamma = rho.
+
+The group lies in GL2.  It consists of the products chi g of the elements (g, chi) of the joint group H of the y and of
+gamma, a subgroup of G x Gamma, where G is the group of the normal form and Gamma = mu_N or G_m that of gamma.
+
+- Reducible: the diagonal characters belong to lambda_1 = rho + omega and lambda_2 = rho - omega.  With the lattice
+  L = {(a, b) : a lambda_1 + b lambda_2 is the logarithmic derivative of a rational function} they form the diagonalisable
+  group with the characters Z^2/L; a unipotent part stays as it is.
+- Imprimitive and finite on a curve of genus 0: the same with the residues on the curve z^2 = g of `imprimitive`, where every
+  divisor of degree 0 is principal; the diagonal part has index 2.
+- Primitive: |group| = |G| N/(e k), e the degree of the largest common quotient of G and Gamma (at most 3, 2, 1 for SL(2,3),
+  the binary octahedral group, SL(2,5): the semi-invariant of Kovacic's degree decides it), and k = 2 if (-1, -1) lies in H.
+- SL2: with scalars mu_N, or GL2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd, lcm
+from typing import Any
+
+from kovacic.algebra.fields import AlgebraicField, Field, RationalField
+from kovacic.algebra.poly import Poly, to_fraction
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.galois.decide import rational_residues
+from kovacic.galois.group import Ground, Group, Kind
+from kovacic.galois.imprimitive import Curve, curve_of
+from kovacic.limits import Budget
+from kovacic.places import analyse
+from kovacic.solution import Decision, SemiInvariant
+
+_COMMON_QUOTIENT = {Kind.TETRAHEDRAL: 3, Kind.OCTAHEDRAL: 2, Kind.ICOSAHEDRAL: 1}
+
+
+@dataclass(frozen=True)
+class Torus:
+    """A diagonalisable group G_m^rank x mu_n1 x mu_n2 with n1 | n2."""
+
+    rank: int
+    orders: tuple[int, ...]
+
+    @property
+    def name(self) -> str:
+        parts = ["G_m"] * self.rank + [f"mu_{n}" for n in self.orders if n > 1]
+        return " x ".join(parts) or "trivial"
+
+    @property
+    def order(self) -> int | None:
+        result = 1
+        for n in self.orders:
+            result *= n
+        return None if self.rank else result
+
+
+@dataclass(frozen=True)
+class EquationGroup:
+    """The group of the given equation, in GL2(C): `normal_form` is that of the normal form.
+
+    `scalars` is N for a gauge factor whose N-th power is the first rational one, None if there is none.  `order` is None if
+    the group is infinite (`finite` False) or its order wasn't determined (`finite` True or None).
+    """
+
+    normal_form: Group
+    scalars: int | None
+    name: str
+    finite: bool | None
+    order: int | None = None
+
+
+def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatFunc) -> EquationGroup | None:
+    """The group of the equation with the gauge rho; None over a field with parameters if rho isn't zero."""
+    if not _is_number_field(S.field) or not _is_number_field(rho.field):
+        return (
+            EquationGroup(normal_form, 1, normal_form.name, normal_form.finite, normal_form.order) if not rho else None
+        )
+    residues = rational_residues(rho)
+    N = None if isinstance(residues, Ground) else lcm(1, *(r.denominator for r in residues))
+    if N == 1:
+        return EquationGroup(normal_form, 1, normal_form.name, normal_form.finite, normal_form.order)
+    f, kind = decision.semi_invariant, normal_form.kind
+    if kind is Kind.SL2:
+        name = "GL2" if N is None else "SL2" if N == 2 else f"SL2 with the scalars mu_{lcm(2, N)}"
+        return EquationGroup(normal_form, N, name, False)
+    assert f is not None
+    if kind in (Kind.CYCLIC, Kind.MULTIPLICATIVE, Kind.ADDITIVE, Kind.BOREL):
+        torus = _torus(*_forms(f.theta, rho))
+        unipotent = kind in (Kind.ADDITIVE, Kind.BOREL)
+        name = torus.name
+        if unipotent:
+            name = "G_a" if torus.order == 1 else f"G_a extended by {torus.name}"
+        return EquationGroup(
+            normal_form, N, name, not unipotent and torus.rank == 0, None if unipotent else torus.order
+        )
+    if N is None or normal_form.finite is False:
+        with_scalars = "with the scalars " + (
+            "G_m" if N is None else f"mu_{lcm(2, N)} up to a subgroup of index 1, 2 or 4"
+        )
+        return EquationGroup(normal_form, N, f"{normal_form.name} {with_scalars}", False)
+    order = _finite_order(S, normal_form, f, rho, N)
+    name = f"{normal_form.name} with scalars" if order is None else f"{normal_form.name} with scalars, order {order}"
+    if order == normal_form.order and N <= 2:
+        name = f"{normal_form.name}, twisted by signs" if order is not None else name
+    return EquationGroup(normal_form, N, name, normal_form.finite, order)
+
+
+def _is_number_field(field: Field) -> bool:
+    while isinstance(field, AlgebraicField):
+        field = field.base
+    return isinstance(field, RationalField)
+
+
+def _finite_order(S: RatFunc, group: Group, f: SemiInvariant, rho: RatFunc, N: int) -> int | None:
+    """The order of the group for a finite gauge of order N > 1 and a finite irreducible normal form."""
+    if group.order is None:
+        return None
+    if group.kind in _COMMON_QUOTIENT:
+        e = _COMMON_QUOTIENT[group.kind]
+        if N % e or not any(_is_integral(j * (N // e) * rho - f.theta) for j in range(1, e + 1) if gcd(j, e) == 1):
+            e = 1
+        return group.order * N // (e * (2 if (N // e) % 2 == 0 else 1))
+    if N == 2:  # the sign is a character of G that is trivial at -1, or independent of it
+        return group.order
+    if N % 2:
+        return group.order * N
+    if f.P.field != S.field:
+        return None
+    problem = analyse(S, Budget())
+    curve = curve_of(problem, f)
+    if curve.genus > 0:
+        return None
+    diagonal = _torus([], _residues_on_curve(curve, rho)).order
+    return None if diagonal is None else 2 * diagonal
+
+
+def _is_integral(theta: RatFunc) -> bool:
+    residues = rational_residues(theta)
+    return not isinstance(residues, Ground) and all(r.denominator == 1 for r in residues)
+
+
+def _residues_on_curve(curve: Curve, rho: RatFunc) -> list[tuple[Fraction, Fraction]]:
+    """The residues of lambda_1 and lambda_2 at the points of the curve, up to integers."""
+    field = rho.field
+    rest, rows, total = rho.den, [], Fraction(0)
+    quarter, half = Fraction(1, 4), Fraction(1, 2)
+
+    def row(e: int, delta: Fraction, r: Fraction) -> list[tuple[Fraction, Fraction]]:
+        if e % 2:
+            return [(half * e + 2 * r, half * e + 2 * r)]
+        if e == 2:
+            return [
+                (half + half * delta + r, half - half * delta + r),
+                (half - half * delta + r, half + half * delta + r),
+            ]
+        return [(quarter * e + r, quarter * e + r)]
+
+    for point in curve.points:
+        for factor, _ in field.factor(point.factor.over(field)):
+            r = _residue(rho, factor)
+            rest = rest // factor if not rest % factor else rest
+            total += r * factor.degree
+            rows += row(point.e, point.residue, r)
+    for factor, _ in field.factor(rest) if rest.degree > 0 else []:
+        r = _residue(rho, factor)
+        total += r * factor.degree
+        rows.append((r, r))
+    return [*rows, *row(curve.infinity.e, curve.infinity.residue, -total)]
+
+
+def _residue(rho: RatFunc, factor: Poly) -> Fraction:
+    """The rational residue of rho at the roots of a factor; its poles are simple."""
+    if rho.den % factor:
+        return Fraction(0)
+    value = rho.num * rho.den.derivative().inverse_modulo(factor) % factor
+    rational = rho.field.rational_value(value)
+    assert rational is not None
+    return rational
+
+
+def _forms(theta: RatFunc, rho: RatFunc) -> tuple[list[tuple[Fraction, Fraction]], list[tuple[Fraction, Fraction]]]:
+    """Linear forms in (a, b) that must vanish, and those that must be integers, for a lambda_1 + b lambda_2 to be in L."""
+    zero = theta * 0 + rho * 0
+    first, second = zero + rho + theta, zero + rho - theta
+    field = first.num.field
+    den = first.den * second.den // first.den.gcd(second.den)
+    vanishing: list[tuple[Fraction, Fraction]] = []
+    integral: list[tuple[Fraction, Fraction]] = []
+    numerators = [value.num * (den // value.den) for value in (first, second)]
+    vanishing += _coordinates([divmod(num, den)[0] for num in numerators])
+    for factor, multiplicity in field.factor(den) if den.degree > 0 else []:
+        cofactor = den // factor**multiplicity
+        power = factor**multiplicity
+        inverse = cofactor.inverse_modulo(power)
+        parts = [num * inverse % power for num in numerators]
+        for _ in range(multiplicity - 1):
+            pairs = [divmod(part, factor) for part in parts]
+            vanishing += _coordinates([low for _, low in pairs])
+            parts = [high for high, _ in pairs]
+        slope = factor.derivative().inverse_modulo(factor)
+        constant, *rest = _coordinates([part * slope % factor for part in parts]) or [(Fraction(0), Fraction(0))]
+        integral.append(constant)
+        vanishing += rest
+    return vanishing, integral
+
+
+def _coordinates(pair: Sequence[Any]) -> list[tuple[Fraction, Fraction]]:
+    """The rational coordinates of two polynomials, side by side; that of the constant 1 comes first."""
+    columns = [[to_fraction(c) for c in part.rational_coefficients()] for part in pair]
+    length = max(map(len, columns))
+    first, second = ([*column, *[Fraction(0)] * (length - len(column))] for column in columns)
+    return list(zip(first, second, strict=True))
+
+
+def _torus(vanishing: Iterable[tuple[Fraction, Fraction]], integral: Sequence[tuple[Fraction, Fraction]]) -> Torus:
+    """The diagonalisable group with the characters Z^2/L, L = {(a, b) : the first forms vanish, the others are integers}."""
+    rows = [row for row in vanishing if any(row)]
+    if rows:
+        (p, q) = rows[0]
+        if any(p * s != q * r for r, s in rows):
+            return Torus(2, ())
+        common = lcm(p.denominator, q.denominator)
+        a, b = int(q * common), int(-p * common)
+        shared = gcd(a, b)
+        a, b = a // shared, b // shared
+        return Torus(1, (lcm(1, *((r * a + s * b).denominator for r, s in integral)),))
+    n = lcm(1, *(value.denominator for row in integral for value in row))
+    matrix = [(int(r * n), int(s * n)) for r, s in integral] + [(n, 0), (0, n)]
+    first = gcd(*(value for row in matrix for value in row))
+    minors = gcd(*(r[0] * s[1] - r[1] * s[0] for k, r in enumerate(matrix) for s in matrix[:k]))
+    second = minors // first
+    return Torus(0, tuple(sorted((n // first, n // second))))
