@@ -1,0 +1,84 @@
+"""Times of `kovacic.conditions`, of generic answers, and of answers over number fields.
+
+    python benchmarks/conditions.py               # under a minute
+    python benchmarks/conditions.py --samples 200 # also the agreement with the engine at exact points
+
+Processor time inside one process, in milliseconds: the first call for conditions (nothing is cached), the median of several
+calls for answers.  Writes benchmarks/results/conditions.json.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import platform
+import statistics
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import kovacic
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from tests.parametric_cases import BALL, FAMILIES, hypergeometric  # noqa: E402
+from tests.test_algebraic_constants import ENTRIES  # noqa: E402
+
+RUNS = 5
+
+#: Beside the families of the tests: the largest parts of parameter space.
+LARGE = {
+    "riemann, three exponents": hypergeometric(("l", "m", "n")),
+    "yoshida, degree 3": "((24*lam-35)*x^2 + (40-24*lam)*x - 32)/(144*x^2*(x-1)^2)",
+    "quadratic potential": "a*x^2 + b*x + c",
+    "sextic oscillator, degree 4": "x^6 + a*x^2 + b",
+}
+GENERIC = {
+    "bessel": "(4*n^2-1)/(4*x^2) - 1",
+    "case 1": "(m^2*x^4 + (2*n+1)*m*x^2 + n^2 - n)/x^2",
+    "ball on the sphere": BALL,
+}
+
+
+def seconds(call: Any) -> float:
+    start = time.process_time()
+    call()
+    return time.process_time() - start
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--samples", type=int, default=0)
+    options = parser.parse_args()
+    results: dict[str, Any] = {"python": platform.python_version(), "machine": platform.machine()}
+    conditions: dict[str, Any] = {}
+    print(f"{'conditions':30} {'ms':>8}  complete  samples")
+    for name, S in {**{family.name: family.S for family in FAMILIES}, **LARGE}.items():
+        degree = 4 if "sextic" in name else 12
+        spent = seconds(lambda S=S, degree=degree: kovacic.conditions(S, var="x", max_degree=degree))
+        answer = kovacic.conditions(S, var="x", max_degree=degree)
+        row: dict[str, Any] = {"milliseconds": 1000 * spent, "complete": answer.complete}
+        agreement = ""
+        if options.samples:
+            report = answer.check(options.samples)
+            row |= {"inside": report.inside, "outside": report.outside, "agree": bool(report)}
+            agreement = f"{report.inside} + {report.outside} {'agree' if report else 'DISAGREE'}"
+        conditions[name] = row
+        print(f"{name:30} {1000 * spent:8.1f}  {answer.complete is True!s:8}  {agreement}")
+    results["conditions"] = conditions
+    for title, entries in (("generic", GENERIC), ("algebraic", {S: S for S, _ in ENTRIES})):
+        times = {}
+        for name, S in entries.items():
+            kovacic.solve(S, var="x")
+            times[name] = 1000 * statistics.median(seconds(lambda S=S: kovacic.solve(S, var="x")) for _ in range(RUNS))
+        results[title] = {"milliseconds": times, "median": statistics.median(times.values())}
+        print(f"\n{title} answers: median {results[title]['median']:.1f} ms, largest {max(times.values()):.1f} ms")
+    target = HERE / "results"
+    target.mkdir(exist_ok=True)
+    (target / "conditions.json").write_text(json.dumps(results, indent=1) + "\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
