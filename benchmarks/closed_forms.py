@@ -102,6 +102,7 @@ class Row:
     closed_form: float
     checked: str
     notes: tuple[str, ...]
+    solutions: tuple[str, str]
 
 
 def measure(equation: str, runs: int = RUNS) -> Row | None:
@@ -120,7 +121,14 @@ def measure(equation: str, runs: int = RUNS) -> Row | None:
         full.append(1e3 * (end - start))
         part.append(1e3 * (end - middle))
     assert form is not None
-    return Row(equation, statistics.median(full), statistics.median(part), form.checked, form.notes)
+    return Row(
+        equation[:100],
+        statistics.median(full),
+        statistics.median(part),
+        form.checked,
+        form.notes,
+        (str(form.y1)[:300], str(form.y2)[:300]),
+    )
 
 
 def published() -> dict[str, str]:
@@ -153,7 +161,7 @@ def main() -> None:
         print(summary(name, results[name]))
         if options.show:
             for row in results[name]:
-                y1, y2 = kovacic.solve(row.equation).solutions
+                y1, y2 = row.solutions
                 print(f"  {row.full:7.1f}  {row.equation[:60]}\n           {y1}\n           {y2}")
     report = {
         "python": sys.version.split()[0],
