@@ -220,3 +220,15 @@ def test_exponents_at_irregular_places() -> None:
     (data,) = trace_of(kovacic.solve("x^2 + 3")).places
     assert data.exponents == (Fraction(-2), Fraction(1))
     assert sympy.Rational(data.order) == -2
+
+
+def test_the_command_solves_equations_in_every_view(capsys: pytest.CaptureFixture[str]) -> None:
+    bessel = EQUATIONS[0]
+    assert run(["solve", bessel]) == 0
+    assert "normal form: y'' = (-1) y" in capsys.readouterr().out
+    assert run(["solve", "--latex", bessel]) == 0
+    assert r"\frac{\cos{\left(x \right)}}{\sqrt{x}}" in capsys.readouterr().out
+    assert run(["solve", "--explain", bessel, "x"]) == 0
+    assert capsys.readouterr().out.count("The equation\n===") == 2
+    assert run(["solve", "--json", "--full", bessel]) == 0
+    assert '"group": {"name": "G_m"' in capsys.readouterr().out

@@ -17,6 +17,9 @@ _SEVERITY = (DECIDED, UNDECIDED, BAD_INPUT, CHECK_FAILED)
 @click.command(context_settings={"ignore_unknown_options": True})
 @click.argument("equations", metavar="S...", nargs=-1, required=True)
 @click.option("--json", "as_json", is_flag=True, help="One JSON object (schema 1) a line for each equation.")
+@click.option("--full", is_flag=True, help="With --json: the group and two solutions in closed form as well.")
+@click.option("--latex", is_flag=True, help="The equation and its solutions in LaTeX.")
+@click.option("--explain", is_flag=True, help="The derivation, step by step (see `kovacic explain`).")
 @click.option("--var", metavar="NAME", help="The name of the variable; by default the only symbol of S, or x.")
 @click.option(
     "--limit",
@@ -25,11 +28,20 @@ _SEVERITY = (DECIDED, UNDECIDED, BAD_INPUT, CHECK_FAILED)
     multiple=True,
     help="Change a limit: seconds, degree, bits, digits, exponent, text_length, unknown_degree.",
 )
-def command(equations: tuple[str, ...], as_json: bool, var: str | None, limits: tuple[str, ...]) -> int:
-    """Decide y'' = S(x) y for every S; "-" reads one S a line from standard input.
+def command(
+    equations: tuple[str, ...],
+    as_json: bool,
+    full: bool,
+    latex: bool,
+    explain: bool,
+    var: str | None,
+    limits: tuple[str, ...],
+) -> int:
+    """Decide y'' = S(x) y for every S, or an equation with y'' in it; "-" reads one a line from standard input.
 
     \b
     kovacic solve "x^2 + 3"
+    kovacic solve "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"
     kovacic solve --json "x" "1/x - 3/(16*x^2)"
     """
     from kovacic.api import solve
@@ -55,7 +67,11 @@ def command(equations: tuple[str, ...], as_json: bool, var: str | None, limits: 
             continue
         outcomes.append(UNDECIDED if answer.status is Status.UNDECIDED else DECIDED)
         if as_json:
-            print(answer.to_json(), flush=True)
+            print(answer.to_json(full=full), flush=True)
+        elif latex:
+            print(answer._repr_latex_(), flush=True)
+        elif explain:
+            print(("" if first else "\n") + answer.explain(), end="", flush=True)
         else:
             from kovacic.io.text import render
 
