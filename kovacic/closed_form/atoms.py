@@ -84,7 +84,7 @@ class Atoms:
         key = (str(field.base), field.modulus.key())
         if key not in self._generators:
             self._generators[key] = self._new_generator(field)
-            if field.modulus.degree > 2:
+            if self._generators[key].has(sympy.CRootOf):
                 self.notes.append(f"{field.name} stands for {self._generators[key]}")
         return self._generators[key]
 
@@ -93,6 +93,9 @@ class Atoms:
         if modulus.degree == 2:
             half = self.constant(modulus[1]) / 2
             return -half + sqrt(half**2 - self.constant(modulus[0]))
+        pure = modulus.field.rational_value(-modulus[0])
+        if pure is not None and pure > 0 and not any(modulus[k] for k in range(1, modulus.degree)):
+            return Pow(rational(pure), rational(Fraction(1, modulus.degree)))
         return sympy.CRootOf(sympy.Poly.from_list(self.coefficients(modulus)[::-1], self.x), 0)
 
     def coefficients(self, polynomial: Poly) -> list[Expr]:
