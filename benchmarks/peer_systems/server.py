@@ -1,0 +1,92 @@
+"""Serve a Python package to `process.System`: a line of JSON with S in, a line with the answer and the end marker out."""
+
+from __future__ import annotations
+
+import json
+import sys
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+Answer = dict[str, Any]
+
+
+def answer(kind: str, form: str = "y", expressions: list[str] | None = None) -> Answer:
+    return {"kind": kind, "form": form, "expressions": expressions or []}
+
+
+def by_kovacic(S: str) -> Answer:
+    import kovacic
+
+    found = kovacic.solve(S)
+    if found.riccati is None:
+        return answer("undecided" if found.reason else "none")
+    data = json.loads(found.to_json())
+    constants = data["constants"]
+    polynomial = "" if constants is None else constants["minimal_polynomial"]
+    return answer("solved", "riccati", [" + ".join(_terms(data["riccati"])), polynomial])
+
+
+def _terms(riccati: dict[str, Any]) -> list[str]:
+    return [f"({c})*omega_**{k}" for k, c in enumerate(riccati["coefficients"])]
+
+
+def by_kovacic_full(S: str) -> Answer:
+    import sympy
+
+    import kovacic
+
+    found = kovacic.solve(S)
+    if found.case is None:
+        return answer("undecided" if found.reason else "none")
+    return answer("solved", "y", [sympy.srepr(y) for y in found.solutions])
+
+
+def by_dsolve(S: str) -> Answer:
+    import sympy
+    from sympy.parsing.sympy_parser import parse_expr
+
+    x, y = sympy.Symbol("x"), sympy.Function("y")
+    try:
+        found = sympy.dsolve(y(x).diff(x, 2) - parse_expr(S.replace("^", "**"), {"x": x}) * y(x), y(x))
+    except NotImplementedError:
+        return answer("undecided")
+    if found.has(sympy.Order):
+        return answer("undecided")
+    return answer("solved", "y", [sympy.srepr(found.rhs)])
+
+
+def by_solve_riccati(S: str) -> Answer:
+    import sympy
+    from sympy.parsing.sympy_parser import parse_expr
+    from sympy.solvers.ode.riccati import solve_riccati
+
+    x = sympy.Symbol("x")
+    found = solve_riccati(
+        sympy.Function("w")(x), x, parse_expr(S.replace("^", "**"), {"x": x}), sympy.S(0), sympy.S(-1)
+    )
+    return answer("solved", "omega", [sympy.srepr(w.rhs) for w in found]) if found else answer("none", "omega")
+
+
+METHODS: dict[str, Callable[[str], Answer]] = {
+    "kovacic": by_kovacic,
+    "kovacic-full": by_kovacic_full,
+    "dsolve": by_dsolve,
+    "riccati": by_solve_riccati,
+}
+
+
+def main() -> None:
+    warnings.simplefilter("ignore")
+    method = METHODS[sys.argv[1]]
+    for line in sys.stdin:
+        try:
+            found = method(json.loads(line))
+        except Exception as error:  # whatever another package raises is an answer of the kind "error"
+            found = answer("error", expressions=[f"{type(error).__name__}: {error}"[:300]])
+        print(json.dumps(found))
+        print("<<<end>>>", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,316 @@
+"""The same equations through kovacic, Maxima, FriCAS, giac and SymPy, each as one long-lived process.
+
+    python benchmarks/peers.py                      everything that is installed, 20 s for an equation (hours)
+    python benchmarks/peers.py --limit 5 --sizes 1,2,3,5,10,20,40 --every 4
+
+Every positive answer of every system is substituted into the equation with 30 digits (`peer_systems/check.py`); a "none" is
+wrong where a solution is known: by the corpus, or because another system's solution was checked right.  Written are
+benchmarks/results/peers.json and peers.md, and a figure for each system with the time against the number of poles.
+Debian's packages: maxima, maxima-share, fricas, xcas (giac).  A system that isn't installed is skipped, and the table says so.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import platform
+import statistics
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import families
+import textbook
+from peer_systems.process import Answer, System
+from peer_systems.systems import ALL, Dsolve, SolveRiccati
+
+HERE = Path(__file__).parent
+RESULTS = HERE / "results"
+CASES = HERE.parent / "tests" / "data" / "cases.jsonl"
+SIZES = (1, 2, 3, 4, 5, 7, 10, 15, 20, 30, 40, 60, 80, 100)
+_CHECK_SECONDS = 30.0
+_TITLES = (
+    "solved", "none", "undecided", "error", "time-out", "right", "on a branch", "wrong", "unchecked", "wrong none",
+    "median", "90%", "max", "MiB",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Equation:
+    """One equation; `case` is None if no Liouvillian solution exists, and "unknown" where nothing is known."""
+
+    corpus: str
+    name: str
+    S: str
+    case: int | str | None
+    family: str = ""
+    poles: int = 0
+
+
+@dataclass
+class Row:
+    """What a system said about an equation."""
+
+    system: str
+    corpus: str
+    name: str
+    family: str
+    poles: int
+    outcome: str
+    check: str
+    seconds: float
+
+
+class Checker(System):
+    """The independent check, as a process that can be killed."""
+
+    name = "check"
+    command = (sys.executable, str(HERE / "peer_systems" / "check.py"))
+
+    def request(self, S: str) -> str:
+        return json.dumps(["x^2+3", "y", "python", ["x*exp(x**2/2)"]] if S == "x^2+3" else json.loads(S)) + "\n"
+
+    def check(self, S: str, answer: Answer) -> str:
+        reply = self.solve(json.dumps([S, answer.form, answer.syntax, list(answer.expressions)]), _CHECK_SECONDS)
+        return json.loads(reply.text.splitlines()[-1]) if reply.outcome == "text" else f"unchecked: {reply.outcome}"
+
+
+def corpora(sizes: tuple[int, ...], every: int) -> Iterator[Equation]:
+    """The published, the textbook and the generated equations; of the first two each `every`-th."""
+    published = [json.loads(line) for line in CASES.read_text().splitlines()]
+    for row in published[::every]:
+        yield Equation("published", row["id"], row["S"].replace("**", "^"), row["case"])
+    for entry in textbook.equations()[::every]:
+        yield Equation("textbook", entry.name, entry.S, entry.case)
+    for family in families.FAMILIES:
+        for n in sizes:
+            one = _generated(family, n)
+            if one is not None:
+                S = one.S.to_str("x").replace("**", "^")
+                yield Equation("generated", f"{family}, {n} poles", S, one.case, family, one.poles)
+
+
+def _generated(family: str, n: int) -> families.Sample | None:
+    """The equation of a family, or None for a size that the construction doesn't have."""
+    if n < _SMALLEST[family]:
+        return None
+    return families.by_size(family, n)
+
+
+# The least number of poles of each construction.
+_SMALLEST = {
+    "case 1, unique, rational poles": 1,
+    "case 1, unique, quintics": 5,
+    "case 1, diagonal": 2,
+    "case 2": 2,
+    "case 3, tetrahedral": 4,
+    "case 3, octahedral": 4,
+    "case 3, icosahedral": 4,
+    "none, pull-back": 4,
+    "none, accessory parameters": 4,
+}
+
+
+def run(system: System, checker: Checker, equations: list[Equation], limit: float, patience: int) -> list[Row]:
+    """The rows of one system; after `patience` time-outs in a row within a family, its larger sizes are time-outs as well."""
+    rows: list[Row] = []
+    given_up: Counter[str] = Counter()
+    for equation in equations:
+        if equation.family and given_up[equation.family] >= patience:
+            rows.append(_row(system, equation, "time-out", "not tried", limit))
+            continue
+        reply = system.solve(equation.S, limit)
+        if reply.outcome == "text":
+            answer = system.understand(reply.text)
+            outcome = answer.kind
+            check = checker.check(equation.S, answer) if outcome == "solved" else ""
+        else:
+            outcome, check = ("time-out" if reply.outcome == "time-out" else "error"), ""
+        given_up[equation.family] = given_up[equation.family] + 1 if outcome == "time-out" else 0
+        rows.append(_row(system, equation, outcome, check, reply.seconds))
+    system.close()
+    return rows
+
+
+def _row(system: System, equation: Equation, outcome: str, check: str, seconds: float) -> Row:
+    return Row(system.name, equation.corpus, equation.name, equation.family, equation.poles, outcome, check, seconds)
+
+
+def judge_negatives(rows: list[Row], equations: list[Equation]) -> None:
+    """Mark each "none" that is wrong: a solution is known by the corpus, or another system's was checked right."""
+    solvable = {e.name for e in equations if isinstance(e.case, int)}
+    # SymPy's dsolve also answers with Bessel and Airy functions, which aren't Liouvillian.
+    solvable |= {
+        row.name
+        for row in rows
+        if row.outcome == "solved" and row.check.startswith("right") and row.system != Dsolve.name
+    }
+    rational = {e.name for e in equations if e.case == 1}
+    for row in rows:
+        if row.outcome == "none":
+            known = rational if row.system == SolveRiccati.name else solvable
+            row.check = "wrong" if row.name in known else "right" if row.name not in solvable else ""
+
+
+def table(rows: list[Row], memory: dict[str, float]) -> list[str]:
+    """A Markdown table: a line for each system."""
+    lines = ["| | " + " | ".join(_TITLES) + " |", "|---|" + "---:|" * len(_TITLES)]
+    for name in dict.fromkeys(row.system for row in rows):
+        own = [row for row in rows if row.system == name]
+        outcomes = Counter(row.outcome for row in own)
+        checks = Counter(row.check.partition(":")[0] for row in own if row.outcome == "solved")
+        times = sorted(row.seconds for row in own)
+        cells = [
+            *(str(outcomes[k]) for k in ("solved", "none", "undecided", "error", "time-out")),
+            *(str(checks[k]) for k in ("right", "right on a branch", "wrong", "unchecked")),
+            str(sum(row.outcome == "none" and row.check == "wrong" for row in own)),
+            _seconds(statistics.median(times)),
+            _seconds(times[int(0.9 * (len(times) - 1))]),
+            _seconds(times[-1]),
+            f"{memory[name]:.0f}" if name in memory else "",
+        ]
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def _seconds(value: float) -> str:
+    return f"{value:.3f}" if value < 1 else f"{value:.1f}"
+
+
+def speed(rows: list[Row]) -> list[str]:
+    """Medians of ours and of each system's, over the equations that the system answered right."""
+    ours = {(row.corpus, row.name): row.seconds for row in rows if row.system == "kovacic"}
+    full = {(row.corpus, row.name): row.seconds for row in rows if row.system == "kovacic, closed forms"}
+    lines = ["| answered right by | equations | its median | kovacic | ratio | kovacic, closed forms | ratio | slower on |",
+             "|---|---:|---:|---:|---:|---:|---:|---:|"]  # fmt: skip
+    for name in dict.fromkeys(row.system for row in rows):
+        right = [row for row in rows if row.system == name and row.check.startswith("right")]
+        if name.startswith("kovacic") or not right:
+            continue
+        keys = [(row.corpus, row.name) for row in right]
+        theirs = statistics.median(row.seconds for row in right)
+        mine, complete = (statistics.median(times[key] for key in keys) for times in (ours, full))
+        slower = sum(full[key] > row.seconds for key, row in zip(keys, right, strict=True))
+        lines.append(
+            f"| {name} | {len(right)} | {_seconds(theirs)} | {_seconds(mine)} | {theirs / mine:.1f} | "
+            f"{_seconds(complete)} | {theirs / complete:.1f} | {slower} |"
+        )
+    return lines
+
+
+def figures(rows: list[Row], limit: float) -> list[Path]:
+    """For each family, the time of every system against the number of poles."""
+    from matplotlib.figure import Figure
+
+    names = list(dict.fromkeys(row.system for row in rows))
+    groups = [family for family in families.FAMILIES if any(row.family == family for row in rows)]
+    columns = 3
+    figure = Figure(figsize=(13, 3.6 * -(-len(groups) // columns)), layout="constrained")
+    panels = figure.subplots(-(-len(groups) // columns), columns, squeeze=False, sharex=True, sharey=True)
+    colours = ("#0072b2", "#56b4e9", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#999999")
+    for k, family in enumerate(groups):
+        panel = panels[k // columns][k % columns]
+        for name, colour in zip(names, colours, strict=False):
+            own = sorted((r for r in rows if r.system == name and r.family == family), key=lambda r: r.poles)
+            panel.plot([r.poles for r in own], [r.seconds for r in own], color=colour, lw=1.2)
+            for marker, wanted in (("o", "right"), ("v", "time-out"), ("x", "wrong"), (".", "other")):
+                chosen = [r for r in own if _mark(r) == wanted]
+                panel.plot([r.poles for r in chosen], [r.seconds for r in chosen], marker, color=colour, ms=6)
+        panel.axhline(limit, color="#444444", lw=0.7, ls=":")
+        panel.set_xscale("log")
+        panel.set_yscale("log")
+        panel.set_title(family, fontsize=10)
+        panel.grid(True, which="major", alpha=0.25)
+        panel.tick_params(labelbottom=True)
+    for k in range(len(groups), panels.size):
+        panels[k // columns][k % columns].set_visible(False)
+    figure.supxlabel("finite poles of S")
+    figure.supylabel("seconds")
+    from matplotlib.lines import Line2D
+
+    handles = [Line2D([], [], color=c, label=n) for n, c in zip(names, colours, strict=False)]
+    handles += [
+        Line2D([], [], color="black", ls="", marker=m, label=t)
+        for m, t in (("o", "right"), ("v", "time-out"), ("x", "wrong"), (".", "error, undecided, unchecked"))
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9, frameon=False)
+    path = RESULTS / "peers.png"
+    figure.savefig(path, dpi=110)
+    return [path]
+
+
+def _mark(row: Row) -> str:
+    if row.outcome == "time-out":
+        return "time-out"
+    return "wrong" if row.check == "wrong" else "right" if row.check.startswith("right") else "other"
+
+
+def report(rows: list[Row], memory: dict[str, float], about: dict[str, Any]) -> str:
+    """The results as Markdown."""
+    lines = ["# Side by side", "", "Written by `python benchmarks/peers.py`; see there for what is measured.", ""]
+    lines += [f"{about['machine']}; {about['limit']:g} s for an equation. " + "; ".join(about["versions"]) + "."]
+    if about["absent"]:
+        lines += ["", f"Not installed here, and skipped: {', '.join(about['absent'])}."]
+    for corpus in dict.fromkeys(row.corpus for row in rows):
+        own = [row for row in rows if row.corpus == corpus]
+        count = len({row.name for row in own})
+        lines += ["", f"## {corpus.capitalize()} equations ({count}); times in seconds", "", *table(own, memory)]
+    lines += ["", "## Speed where the other system is right; medians in seconds", "", *speed(rows)]
+    lines += ["", "## Time against the number of poles", "", "![time against the number of poles](peers.png)", ""]
+    wrong = [row for row in rows if row.check == "wrong"]
+    lines += [f"## Wrong answers ({len(wrong)})", ""]
+    lines += [f"- {row.system}: {row.name} ({row.corpus}), {row.outcome}" for row in wrong]
+    return "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--limit", type=float, default=20.0, help="seconds for an equation")
+    parser.add_argument(
+        "--sizes", default=",".join(map(str, SIZES)), help="numbers of poles of the generated equations"
+    )
+    parser.add_argument("--every", type=int, default=1, help="take each k-th of the published and textbook equations")
+    parser.add_argument("--patience", type=int, default=2, help="time-outs in a row after which a family is given up")
+    parser.add_argument("--only", default="", help="names of systems that contain one of these, comma-separated")
+    options = parser.parse_args()
+    equations = list(corpora(tuple(map(int, options.sizes.split(","))), options.every))
+    wanted = [part for part in options.only.split(",") if part]
+    chosen = [s for s in ALL if not wanted or any(part in s.name for part in wanted)]
+    checker = Checker()
+    rows: list[Row] = []
+    memory: dict[str, float] = {}
+    versions: dict[str, str] = {}
+    for kind in (s for s in chosen if s.is_installed()):
+        start = time.perf_counter()
+        system = kind()
+        versions[kind.name] = system.version()
+        rows += run(system, checker, equations, options.limit, options.patience)
+        memory[kind.name] = system.peak_mib
+        print(f"{kind.name}: {time.perf_counter() - start:.0f} s", file=sys.stderr, flush=True)
+    checker.close()
+    judge_negatives(rows, equations)
+    about = {
+        "machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} CPUs, python {platform.python_version()}, "
+        f"load {os.getloadavg()[0]:.1f}",
+        "limit": options.limit,
+        "versions": list(dict.fromkeys(versions.values())),
+        "absent": [s.name for s in chosen if not s.is_installed()],
+    }
+    RESULTS.mkdir(exist_ok=True)
+    text = report(rows, memory, about)
+    (RESULTS / "peers.md").write_text(text)
+    data = {"about": about, "memory_mib": memory, "rows": [asdict(row) for row in rows]}
+    (RESULTS / "peers.json").write_text(json.dumps(data, indent=0) + "\n")
+    figures(rows, options.limit)
+    print(text)
+
+
+if __name__ == "__main__":
+    main()
