@@ -202,3 +202,49 @@ def test_wrong_input_and_limits() -> None:
     partial = kovacic.conditions("x^6 + a*x^2 + b", var="x", limits=Limits(seconds=0.3))
     assert isinstance(partial.complete, str)
     assert "limits" in partial.complete
+
+
+MORE = [
+    "-3/(16*x^2)-3/(16*(x-1)^2)-3/(16*(x-2)^2)+(3*x/8+B)/(x*(x-1)*(x-2))",
+    "2/x^2 + a/x + b",
+    "a/x^4 + b/x^3 + c/x^2",
+    "a/x^4 + 2/x^2 + x",
+    "x^2 + a/x^2 + b",
+    "-3/16/x^2 + a*x + b",
+    "x^3 + a*x",
+    "n*(n+1)/x^2 + m*(m+1)/(x-1)^2",
+    "a/(x^2+1)^2 + b/(x^2+1)",
+    "1/(x^2-t)^2",
+    "(x^2+a)^2 + b*x",
+]
+
+
+@pytest.mark.parametrize("S", MORE)
+def test_other_families_agree_with_the_engine(S: str) -> None:
+    answer = kovacic.conditions(S, var="x", max_degree=2)
+    report = answer.check(40)
+    assert report, report.disagreements
+    assert answer.complete is True or "not proven" in str(answer.complete)
+
+
+def test_the_answer_at_a_point_has_its_omega(answers: dict[str, Conditions]) -> None:
+    answer = answers["quartic"].solve_at({"mu": 2})
+    assert answer.verified
+    assert str(answer.omega) in {"-x**2", "x**2", "(x**3 + 1)/x", "(-x**3 + 1)/x"}
+    assert "deg P" in str(answers["quartic"].regions[0].omega)
+
+
+def test_integer_symbols_of_sympy() -> None:
+    n, x = sympy.Symbol("n", integer=True), sympy.Symbol("x")
+    assert not kovacic.conditions((4 * n**2 - 1) / (4 * x**2) - 1).regions
+
+
+def test_command(capsys: pytest.CaptureFixture[str]) -> None:
+    from kovacic.cli.main import run
+
+    assert run(["conditions", "--check", "20", "x^4 + mu*x"]) == 0
+    assert "mu = 2, 4 mod 6: case 1" in capsys.readouterr().out
+    assert run(["conditions", "--json", "--var", "x", "(4*n^2-1)/(4*x^2) - 1"]) == 0
+    assert json.loads(capsys.readouterr().out)["regions"][0]["condition"] == "n - 1/2 in Z"
+    assert run(["conditions", "x^2 + 3"]) == 2
+    assert "no parameters" in capsys.readouterr().err

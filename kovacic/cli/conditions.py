@@ -55,4 +55,4 @@ def command(
         )
         if not report:
             return CHECK_FAILED
-    return DECIDED if answer.complete is True else UNDECIDED
+    return DECIDED if answer.within_limits else UNDECIDED

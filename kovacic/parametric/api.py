@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from random import Random
 from typing import Any
 
@@ -19,7 +19,11 @@ from kovacic.parametric.formulas import as_latex, shown
 from kovacic.parametric.partition import Partition, Region, Settings, Verdict, partition
 from kovacic.parametric.restriction import UndefinedError, at_point
 from kovacic.parametric.statements import Both, Point, Statement
+from kovacic.result import Solution
 from kovacic.solution import Status
+
+#: Seconds for the search where the limits don't say.
+DEFAULT_SECONDS = 30.0
 
 
 @dataclass(frozen=True)
@@ -95,6 +99,11 @@ class Conditions:
     limits: Limits
     notices: tuple[str, ...] = ()
 
+    @property
+    def within_limits(self) -> bool:
+        """Was everything examined up to `max_degree`, without reaching a limit of time?"""
+        return self.complete is True or not str(self.complete).startswith("only as far")
+
     def region_at(self, values: Mapping[Any, Any]) -> Condition | None:
         """The region that contains a point; None for the generic one."""
         point = self.point(values)
@@ -118,6 +127,16 @@ class Conditions:
         if decision.status is Status.UNDECIDED:
             raise LimitExceeded(str(decision.undecided), limit="seconds")
         return decision.case
+
+    def solve_at(self, values: Mapping[Any, Any]) -> Solution:
+        """The verified answer at a point: the omega that the region makes possible."""
+        from kovacic.api import solve
+
+        point = self.point(values)
+        try:
+            return solve(at_point(self.S, point), var=self.variable, limits=self.limits)
+        except UndefinedError:
+            raise InputError(f"S isn't defined at {point}") from None
 
     def predicted(self, point: Point) -> Verdict | None:
         """What the regions claim; None where S isn't defined."""
@@ -238,8 +257,9 @@ def conditions(
     """The exact values of the parameters for which y'' = S(x) y has Liouvillian solutions.
 
     Every symbol besides the variable is a parameter.  `assume={"n": "integer"}` leaves out what then can't happen.
-    `max_degree` bounds the degree of P where no theorem covers all degrees; `complete` then says so.  A budget that is
-    used up (`limits.seconds`) gives a partial list, and `complete` says that as well.
+    SymPy symbols that are assumed to be integers are used in the same way.  `max_degree` bounds the degree of P where no
+    theorem covers all degrees; `complete` then says so.  A budget that is used up (`limits.seconds`, 30 s where there is
+    none) gives a partial list, and `complete` says that as well.
 
     Raises `InputError` for what isn't a rational function with parameters, and `LimitExceeded` for an input above the limits.
 
@@ -262,9 +282,13 @@ def conditions(
                 hint="make the constant a parameter, and evaluate with case_at",
             )
         raise InputError("S has no parameters", hint="solve decides equations without parameters")
-    integers = _integers(assume, field)
-    result = partition(parsed.S, Settings(max_degree, Budget(limits)))
-    regions = [region for region in _flattened(result) if region.statement.decided(integers) is not False]
+    integers = _integers(assume, field) | _integer_symbols(S, field)
+    bounded = limits if limits.seconds is not None else replace(limits, seconds=DEFAULT_SECONDS)
+    result = partition(parsed.S, Settings(max_degree, Budget(bounded)))
+    different: dict[str, Condition] = {}
+    for region in _flattened(result):
+        different.setdefault(region.statement.text(), region)
+    regions = [region for region in different.values() if region.statement.decided(integers) is not False]
     always = next((k for k, r in enumerate(regions) if r.statement.decided(integers) is True), None)
     generic, complete = result.generic, result.complete
     if always is not None:
@@ -291,6 +315,12 @@ def _integers(assume: Mapping[Any, str] | None, field: FunctionField) -> frozens
             raise InputError(f"{what!r} isn't an assumption that is known", hint='assume={"n": "integer"}')
         found.add(str(name))
     return frozenset(found)
+
+
+def _integer_symbols(S: Any, field: FunctionField) -> frozenset[str]:
+    """The parameters that are SymPy symbols with integer=True."""
+    symbols = getattr(S, "free_symbols", ())
+    return frozenset(s.name for s in symbols if getattr(s, "is_integer", None) and s.name in field.names)
 
 
 def _flattened(result: Partition) -> list[Condition]:

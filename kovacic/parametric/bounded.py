@@ -9,6 +9,7 @@ common factors contain every such value; which of these values really are specia
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from math import lcm
@@ -63,15 +64,29 @@ def least_valuation(place: Place, m: int) -> int | None:
     return min((int(v) for v in candidates if v.denominator == 1), default=None)
 
 
-def form_conditions(problem: Problem, m: int) -> list[Poly]:
-    """Irreducible polynomials in the parameters: where there are more rational forms of degree m than generically."""
+@dataclass(frozen=True)
+class RankConditions:
+    """Irreducible polynomials that vanish where a rank drops; `complete` False where it may drop elsewhere too.
+
+    With several parameters the minors may have common zeros where their common divisor doesn't vanish.
+    """
+
+    polynomials: list[Poly]
+    complete: bool = True
+
+
+_NEVER = RankConditions([])
+
+
+def form_conditions(problem: Problem, m: int) -> RankConditions:
+    """Where there are more rational forms of degree m than generically."""
     valuations = [least_valuation(place, m) for place in problem.places]
     known = [v for v in valuations if v is not None]
     if len(known) < len(valuations):
-        return []
+        return _NEVER
     N = m - known[-1] - sum(v * place.degree for v, place in zip(known, problem.finite_places, strict=False))
     if N < 0:
-        return []
+        return _NEVER
     R0 = singular_part(problem, known[:-1])
     x = problem.field.poly([0, 1])
     images = []
@@ -81,8 +96,8 @@ def form_conditions(problem: Problem, m: int) -> list[Poly]:
     return rank_conditions(images, problem)
 
 
-def rank_conditions(images: list[Poly], problem: Problem) -> list[Poly]:
-    """Irreducible polynomials in the parameters that vanish wherever the polynomials span less than generically."""
+def rank_conditions(images: list[Poly], problem: Problem) -> RankConditions:
+    """Where do the polynomials span less than generically?"""
     field = problem.field
     assert isinstance(field, FunctionField)
     columns = [_integral(image) for image in images]
@@ -92,15 +107,17 @@ def rank_conditions(images: list[Poly], problem: Problem) -> list[Poly]:
     rows = [[zero if entry is None else entry for entry in row] for row in matrix]
     rank = _generic_rank(images, field)
     if rank == 0:
-        return []
+        return _NEVER
     random = Random(20240229)
     common = zero
     for _ in range(_DETERMINANTS):
         problem.budget.check()
-        common = common.gcd(_determinant(_mixed(rows, rank, random, zero), field))
-        if common.is_constant() and not common.is_zero():
-            return []
-    return irreducible_factors(FunctionPoly(field, common, field.context.constant(1)))
+        determinant = _determinant(_mixed(rows, rank, random, zero), field)
+        if determinant.is_constant() and not determinant.is_zero():
+            return _NEVER
+        common = common.gcd(determinant)
+    factors = irreducible_factors(FunctionPoly(field, common, field.context.constant(1)))
+    return RankConditions(factors, complete=len(field.names) == 1)
 
 
 def rank_drops(images: list[Poly], function: Poly) -> bool | None:
@@ -210,6 +227,12 @@ def _determinant(matrix: list[list[Any]], field: FunctionField) -> Any:
                 rows[i][j] = (rows[k][k] * rows[i][j] - rows[i][k] * rows[k][j]) // previous
         previous = rows[k][k]
     return rows[-1][-1]
+
+
+def denominators(polynomial: Poly) -> list[Poly]:
+    """The denominators of the coordinates of a polynomial over an extension of Q(t), as elements of Q(t)."""
+    leaves = [leaf for leaf in polynomial.leaves() if isinstance(leaf, FunctionPoly) and not leaf.den.is_one()]
+    return [FunctionPoly(leaf.field, leaf.den, leaf.field.context.constant(1)) for leaf in leaves]
 
 
 def union(lists: list[list[Poly]]) -> list[Poly]:

@@ -21,6 +21,7 @@ from dataclasses import dataclass
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.parametric.formulas import shown
 from kovacic.parametric.statements import Statement, integer_roots
 from kovacic.places import Kind, Problem
 
@@ -39,6 +40,26 @@ class Confluent:
     def degenerate(self) -> Poly:
         """What must not vanish for the theorem to hold."""
         return self.q or self.r
+
+
+def omega(form: Confluent) -> str:
+    """What the solutions look like in the coordinate z of the form (1)."""
+    field = form.b.field
+    difference = _root(1 + 4 * form.b)
+    if not form.q:
+        return f"omega of degree 2: rational in sqrt(z), z = {form.coordinate}; Delta = {difference}"
+    leading = field.sqrt(form.q)
+    shown_leading = f"sqrt({shown(RatFunc(form.q))})" if leading is None else f"({shown(RatFunc(leading))})"
+    beta = _root(form.r * form.r / form.q)
+    return (
+        f"omega = +-{shown_leading} z^{form.n - 1} + (1 +- ({difference}))/(2 z) + P'/P, z = {form.coordinate}, with signs for "
+        f"which deg P = (-{form.n} +- ({beta}) +- ({difference}))/2 is a natural multiple of {form.n}"
+    )
+
+
+def _root(square: Poly) -> str:
+    root = square.field.sqrt(square)
+    return f"sqrt({shown(RatFunc(square))})" if root is None else shown(RatFunc(root))
 
 
 def recognise(problem: Problem) -> Confluent | None:

@@ -15,7 +15,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.norms import norm
 from kovacic.algebra.poly import Poly
 from kovacic.limits import Budget
-from kovacic.parametric.bounded import irreducible_factors, union
+from kovacic.parametric.bounded import denominators, irreducible_factors, union
 from kovacic.parametric.formulas import shown
 from kovacic.places import Kind, analyse
 from kovacic.result import Solution
@@ -56,7 +56,7 @@ def generic_conditions(solution: Solution) -> GenericConditions:
     decision = solution.decision
     if decision.riccati is not None:
         for polynomial in (decision.riccati.P, decision.riccati.D, *decision.riccati.numerators):
-            elements += _denominators(polynomial)
+            elements += denominators(polynomial)
     if solution.constants is not None:
         elements.append(_resultant(solution.constants, solution.constants.derivative()))
     nonzero = union([irreducible_factors(_down(element)) for element in elements if element])
@@ -68,11 +68,6 @@ def generic_conditions(solution: Solution) -> GenericConditions:
             if value not in squares:
                 squares.append(value)
     return GenericConditions(tuple(f for f in nonzero if isinstance(f, FunctionPoly)), tuple(squares))
-
-
-def _denominators(polynomial: Poly) -> list[Poly]:
-    leaves = [leaf for leaf in polynomial.leaves() if isinstance(leaf, FunctionPoly) and not leaf.den.is_one()]
-    return [FunctionPoly(leaf.field, leaf.den, leaf.field.context.constant(1)) for leaf in leaves]
 
 
 def _resultant(first: Poly, second: Poly) -> Poly:

@@ -13,6 +13,7 @@ from kovacic.limits import Budget
 from kovacic.parametric import confluent, riemann
 from kovacic.parametric.bounded import (
     degrees_that_decide,
+    denominators,
     form_conditions,
     has_constant_rational_exponents,
     irreducible_factors,
@@ -112,7 +113,19 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
     generic = _verdict(decision)
     if not isinstance(field, FunctionField):
         return Partition(S, (), (), generic, generic.known or str(decision.undecided), "the engine")
+    try:
+        return _by_theory(S, generic, settings)
+    except LimitExceeded as limit:
+        complete = f"only as far as the limits allowed: {limit}"
+        return Partition(S, field.names, (), generic, complete, "nothing but the generic answer")
+
+
+def _by_theory(S: RatFunc, generic: Verdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
+    if generic.known and generic.structure is Structure.REDUCIBLE:
+        # Solutions with a rational omega of bounded degree have limits of the same kind, everywhere where S is defined.
+        regions = [region for region in _degenerate(problem, _undefined(problem), settings) if not region.defined]
+        return _closed(problem, regions, generic, "a rational omega for generic values, and so for all", generic)
     if riemann.applies(problem):
         return _riemann(problem, generic, settings)
     form = confluent.recognise(problem)
@@ -132,7 +145,7 @@ def _riemann(problem: Problem, generic: Verdict, settings: Settings) -> Partitio
     if reducible is True:
         return _closed(problem, regions, Verdict(Structure.REDUCIBLE), theory, generic)
     assert isinstance(reducible, list)
-    regions.append(Region(either(reducible), Verdict(Structure.REDUCIBLE), omega=_RATIONAL_OMEGA))
+    regions.append(Region(either(reducible), Verdict(Structure.REDUCIBLE), omega=riemann.omega(problem)))
     others = riemann.irreducible_structures(problem)
     if isinstance(others, Structure):
         return _closed(problem, regions, Verdict(others), theory, generic)
@@ -165,7 +178,7 @@ def _confluent(problem: Problem, form: confluent.Confluent, generic: Verdict, se
         return _closed(problem, regions, Verdict(structure), theory, generic)
     assert isinstance(statements, list)
     if statements:
-        regions.append(Region(either(statements), Verdict(structure), omega=_SEMI_INVARIANTS[structure]))
+        regions.append(Region(either(statements), Verdict(structure), omega=confluent.omega(form)))
     return _closed(problem, regions, Verdict(None), theory, generic)
 
 
@@ -192,8 +205,10 @@ def _by_candidates(problem: Problem, generic: Verdict, settings: Settings) -> Pa
         regions = _degenerate(problem, union([_undefined(problem), _structure_changes(problem)]), settings)
         known = [r.statement.function for r in regions if isinstance(r.statement, Vanishes)]
         if has_constant_rational_exponents(problem):
-            candidates = union([form_conditions(problem, m) for m in degrees_that_decide(problem)])
-            candidates = union([candidates, _discriminants(problem, generic, settings)])
+            found = [form_conditions(problem, m) for m in degrees_that_decide(problem)]
+            candidates = union([*(c.polynomials for c in found), _discriminants(problem, generic, settings)])
+            if not all(c.complete for c in found):
+                complete = "except for values that are special in two or more parameters at once"
             theory = "exponents that don't depend on the parameters: invariants of bounded degree"
             if generic.structure not in (None, Structure.REDUCIBLE, Structure.IMPRIMITIVE):
                 complete = "not proven where the generic group is finite and primitive"
@@ -223,7 +238,7 @@ def _by_candidates(problem: Problem, generic: Verdict, settings: Settings) -> Pa
 
 
 def _discriminants(problem: Problem, generic: Verdict, settings: Settings) -> list[Poly]:
-    """Where the two solutions in a generic semi-invariant y1 y2 coincide: w^2 = (P S-term)..., a constant, vanishes."""
+    """Where the two solutions in a generic semi-invariant y1 y2 can coincide: where a constant, w^2, vanishes."""
     if generic.structure is not Structure.IMPRIMITIVE:
         return []
     decision = engine.decide(problem.S, settings.budget)
@@ -232,7 +247,8 @@ def _discriminants(problem: Problem, generic: Verdict, settings: Settings) -> li
         return []
     # The discriminant of W^2 - A1/(P D) W + A2/(P D^2) is w^2 / (y1 y2)^2 with a constant w^2.
     P, _, first, second = riccati.P, riccati.D, riccati.numerators[1], riccati.numerators[2]
-    return union([irreducible_factors((first * first - 4 * P * second).lc), irreducible_factors(P.lc)])
+    elements = [(first * first - 4 * P * second).lc, *denominators(P), *denominators(first), *denominators(second)]
+    return union([irreducible_factors(element) for element in elements])
 
 
 def _undefined(problem: Problem) -> list[Poly]:

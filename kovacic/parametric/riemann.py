@@ -131,21 +131,24 @@ class Schwarz(Statement):
     def text(self) -> str:
         rows = [str(k) for k, row in _SCHWARZ.items() if row[0] is self.structure]
         which = "1 (two half-integers)" if not rows else f"{rows[0]}-{rows[-1]}"
-        return f"the exponent differences {self._differences()} are in Schwarz's row{'s' * bool(rows)} {which}"
-
-    def _differences(self) -> str:
-        field = self.cubic.field
-        names = []
-        for factor, k in field.factor(self.cubic):
-            if factor.degree > 1:
-                return f"(the square roots of the roots of {shown(self.cubic, 'Z')})"
-            root = field.sqrt(-factor[0])
-            name = f"sqrt({shown(RatFunc(-factor[0]))})" if root is None else shown(RatFunc(root))
-            names += [name] * k
-        return ", ".join(names)
+        return (
+            f"the exponent differences {_shown_differences(self.cubic)} are in Schwarz's row{'s' * bool(rows)} {which}"
+        )
 
     def latex(self) -> str:
         return rf"\text{{{self.text().replace('^', chr(92) + '^{}')}}}"
+
+
+def _shown_differences(cubic: FunctionPoly) -> str:
+    field = cubic.field
+    names = []
+    for factor, k in field.factor(cubic):
+        if factor.degree > 1:
+            return f"(the square roots of the roots of {shown(cubic, 'Z')})"
+        root = field.sqrt(-factor[0])
+        name = f"sqrt({shown(RatFunc(-factor[0]))})" if root is None else shown(RatFunc(root))
+        names += [name] * k
+    return ", ".join(names)
 
 
 def applies(problem: Problem) -> bool:
@@ -187,6 +190,19 @@ def reducible(problem: Problem) -> bool | list[Statement]:
     equation = ((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z
     assert isinstance(equation, FunctionPoly)
     return integer_roots(equation, [1], 2)
+
+
+def omega(problem: Problem) -> str:
+    """What a solution of case 1 looks like: its exponents, and the degree of its polynomial part."""
+    differences = _shown_differences(squares_of_differences(problem)).split(", ")
+    if len(differences) != 3:
+        return "omega = sum of (1 +- Delta_c)/(2 (x - c)) + P'/P, P a polynomial"
+    signs = "".join(f" +- {_parenthesised(d)}" for d in differences)
+    return f"omega = sum of (1 +- Delta_c)/(2 (x - c)) + P'/P with signs for which deg P = (-1{signs})/2 is a natural number"
+
+
+def _parenthesised(text: str) -> str:
+    return f"({text})" if " " in text else text
 
 
 def irreducible_structures(problem: Problem) -> Structure | list[tuple[Structure, Statement]]:

@@ -27,6 +27,7 @@ from kovacic.places import Kind, Place, Problem
 
 #: Places with exponents that depend on the parameters, above which combinations aren't tried.
 _VARIABLE_PLACES = 3
+_SEVERAL = "values that are special in two or more parameters at once"
 _PRIMITIVE_DENOMINATORS = {1, 2, 3, 4, 5}
 
 
@@ -58,6 +59,7 @@ def search(problem: Problem, max_degree: int) -> Findings:
     _imprimitive(problem, max_degree, findings)
     _primitive(problem, max_degree, findings)
     findings.candidates = union([findings.candidates])
+    findings.unproven = list(dict.fromkeys(findings.unproven))
     return findings
 
 
@@ -152,7 +154,10 @@ def _with_constant_degree(problem: Problem, degrees: set[int], findings: Finding
             value = (P.derivative().derivative() + zeroth * P + 2 * theta * P.derivative()) * common
             images.append(value.num)
         problem.budget.check()
-        for function in rank_conditions(images, problem):
+        found = rank_conditions(images, problem)
+        if not found.complete:
+            findings.unproven.append(_SEVERAL)
+        for function in found.polynomials:
             findings.candidates.append(function)
             if rank_drops(images, function):
                 findings.reducible.append(function)
@@ -230,7 +235,10 @@ def _forms(problem: Problem, m: int, max_degree: int, findings: Findings) -> boo
         if place.kind is Kind.REGULAR
         and (place.delta_squared is None or problem.field.rational_value(place.delta_squared) is None)
     ]
-    findings.candidates += form_conditions(problem, m)
+    found = form_conditions(problem, m)
+    findings.candidates += found.polynomials
+    if not found.complete:
+        findings.unproven.append(_SEVERAL)
     if not variable:
         return True
     if any(place.delta_squared is None for place in variable) or len(variable) > (_VARIABLE_PLACES if m == 4 else 1):
