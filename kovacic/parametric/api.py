@@ -11,7 +11,7 @@ from kovacic import engine
 from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.io.read import read_input
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric import sampling
@@ -130,13 +130,16 @@ class Conditions:
 
     def solve_at(self, values: Mapping[Any, Any]) -> Solution:
         """The verified answer at a point: the omega that the region makes possible."""
-        from kovacic.api import solve
-
         point = self.point(values)
         try:
-            return solve(at_point(self.S, point), var=self.variable, limits=self.limits)
+            S = at_point(self.S, point)
         except UndefinedError:
             raise InputError(f"S isn't defined at {point}") from None
+        answer = Solution(S.to_str(self.variable), self.variable, S, engine.decide(S, Budget(self.limits)))
+        verified = bool(answer.verify())
+        if not verified and answer.status is not Status.UNDECIDED:
+            raise VerificationFailed(f"the answer for S = {S} failed its own check; please report it")
+        return replace(answer, verified=verified)
 
     def predicted(self, point: Point) -> Verdict | None:
         """What the regions claim; None where S isn't defined."""
