@@ -5,6 +5,8 @@ from __future__ import annotations
 import contextlib
 import json
 import pickle
+import subprocess
+import sys
 from fractions import Fraction
 from pathlib import Path
 
@@ -259,3 +261,9 @@ def test_the_full_json_has_group_and_solutions() -> None:
     schema = json.loads((Path(kovacic.__file__).parent / "io" / "solution.schema.json").read_text("utf-8"))
     jsonschema.validate(data, schema)
     assert json.loads(kovacic.solve("x").to_json(full=True))["solutions"] is None
+
+
+def test_reading_an_equation_as_text_doesn_t_import_sympy() -> None:
+    code = "import sys, kovacic; kovacic.solve(\"x*y'' + y' + x*y = 0\").group; print('sympy' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"

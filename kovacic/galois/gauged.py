@@ -226,7 +226,6 @@ def _torus(vanishing: Iterable[tuple[Fraction, Fraction]], integral: Sequence[tu
         return Torus(1, (lcm(1, *((r * a + s * b).denominator for r, s in integral)),))
     n = lcm(1, *(value.denominator for row in integral for value in row))
     matrix = [(int(r * n), int(s * n)) for r, s in integral] + [(n, 0), (0, n)]
-    first = gcd(*(value for row in matrix for value in row))
+    # The entries have no common factor, n being the least common denominator: the elementary divisors are 1 and the minors'.
     minors = gcd(*(r[0] * s[1] - r[1] * s[0] for k, r in enumerate(matrix) for s in matrix[:k]))
-    second = minors // first
-    return Torus(0, tuple(sorted((n // first, n // second))))
+    return Torus(0, (n // minors, n))
