@@ -165,3 +165,17 @@ def test_a_root_of_a_quintic_without_radicals() -> None:
     assert answer.case == 1
     assert answer.verified
     assert any("alpha**5 - alpha - 1" in notice for notice in answer.notices)
+
+
+def test_solutions_use_the_root_that_was_meant() -> None:
+    """alpha = sqrt(1 + sqrt(2)) isn't its conjugate -alpha: checked numerically in the closed form."""
+    x = sympy.Symbol("x", positive=True)
+    for S, value in (
+        ("sqrt(1+sqrt(2))/x^2", sympy.sqrt(1 + sympy.sqrt(2)) / x**2),
+        (sympy.CRootOf(sympy.Symbol("y") ** 5 - sympy.Symbol("y") - 1, 0) / sympy.Symbol("x") ** 2, None),
+    ):
+        answer = kovacic.solve(S, var="x")
+        expected = value if value is not None else S.subs(sympy.Symbol("x"), x)
+        solution = answer.solutions[0].subs(sympy.Symbol("x"), x)
+        residual = sympy.diff(solution, x, 2) / solution - expected
+        assert abs(complex(residual.subs(x, sympy.Rational(7, 5)).evalf(20))) < 1e-12

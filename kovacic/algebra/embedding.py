@@ -103,8 +103,9 @@ class NumberField:
         pure = factor.degree == equation.degree
         if self.field == QQ:
             name = label if pure and label else "alpha"
-            field = AlgebraicField(QQ, factor, name)
-            return NumberField(field, _nearest_root(factor, target), (label,)), field.generator
+            position = _nearest_root(factor, target)
+            field = AlgebraicField(QQ, factor, name, position)
+            return NumberField(field, position, (label,)), field.generator
         return self._compositum(factor, target, label)
 
     def _vanishing_factor(self, equation: Poly, target: Any) -> Poly:
@@ -142,10 +143,10 @@ class NumberField:
         columns = [rows[n], _coordinates(tower.embed(old.generator), n), _coordinates(tower.generator, n)]
         solved = matrix.solve(fmpq_mat(n, 3, [column[i] for i in range(n) for column in columns]))
         modulus = QQ.poly([*(Fraction(int(-solved[i, 0].p), int(solved[i, 0].q)) for i in range(n)), 1])
-        field = AlgebraicField(QQ, modulus, "alpha")
-        theta, c = (field.poly([_element(field, [solved[i, k] for i in range(n)])]) for k in (1, 2))
         with ctx.workprec(_PRECISION):
             position = _nearest_root(modulus, target + _complex(self.theta) * shift)
+        field = AlgebraicField(QQ, modulus, "alpha", position)
+        theta, c = (field.poly([_element(field, [solved[i, k] for i in range(n)])]) for k in (1, 2))
         grown = NumberField(field, position, (*self.labels, label))
         radicals = tuple((_substituted(a, theta), k, _substituted(b, theta)) for a, k, b in self.radicals)
         return replace(grown, radicals=radicals), c
@@ -179,6 +180,20 @@ def _element(field: AlgebraicField, coordinates: list[Any]) -> Poly:
 def _complex(pair: tuple[Fraction, Fraction]) -> Any:
     real, imaginary = (arb(fmpq(c.numerator, c.denominator)) for c in pair)
     return acb(real, imaginary)
+
+
+def real_root_index(modulus: Poly, position: tuple[Fraction, Fraction]) -> int | None:
+    """How many real roots of a polynomial over Q lie below the real root at `position`; None if that one isn't real."""
+    integral = fmpz_poly([int(c * modulus.common_denominator()) for c in modulus.rational_coefficients()])
+    with ctx.workprec(_PRECISION):
+        roots = [root for root, _ in integral.complex_roots()]
+        target = _complex(position)
+        nearest = min(roots, key=lambda root: float(abs(root - target).mid()))
+        if not nearest.imag.contains(0) or any(
+            root is not nearest and abs(root - nearest.conjugate()).contains(0) for root in roots
+        ):
+            return None
+        return sum(1 for root in roots if root.imag.contains(0) and root.real < nearest.real)
 
 
 def refined_root(minimal: Poly, approximation: Any) -> Any:

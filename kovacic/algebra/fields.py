@@ -7,6 +7,7 @@ is: factoring, homomorphisms to prime fields (`bundles`), and the way back from 
 
 from __future__ import annotations
 
+import dataclasses
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -275,11 +276,16 @@ QQ = RationalField()
 
 @dataclass(frozen=True, slots=True)
 class AlgebraicField(Field):
-    """K(c), c a root of the monic irreducible `modulus` over K; `name` is what c is called in print."""
+    """K(c), c a root of the monic irreducible `modulus` over K; `name` is what c is called in print.
+
+    `approximation` says which complex root c is, by real and imaginary part; None where any root will do.  Exact arithmetic
+    doesn't depend on it, nor does equality.
+    """
 
     base: Field
     modulus: Poly
     name: str = "c"
+    approximation: tuple[Fraction, Fraction] | None = dataclasses.field(default=None, compare=False)
 
     @property
     def dimension(self) -> int:

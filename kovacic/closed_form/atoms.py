@@ -12,6 +12,7 @@ from typing import Any
 import sympy
 from sympy import Add, Integer, Mul, Pow, Rational, Symbol, exp, log, sqrt
 
+from kovacic.algebra.embedding import real_root_index
 from kovacic.algebra.fields import QQ, AlgebraicField, Field
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
@@ -92,11 +93,13 @@ class Atoms:
         modulus = field.modulus
         if modulus.degree == 2:
             half = self.constant(modulus[1]) / 2
-            return -half + sqrt(half**2 - self.constant(modulus[0]))
+            root = sqrt(half**2 - self.constant(modulus[0]))
+            return -half - root if _is_the_smaller_root(field) else -half + root
         pure = modulus.field.rational_value(-modulus[0])
-        if pure is not None and pure > 0 and not any(modulus[k] for k in range(1, modulus.degree)):
+        principal = field.approximation is None or (field.approximation[0] > 0 and not field.approximation[1])
+        if principal and pure is not None and pure > 0 and not any(modulus[k] for k in range(1, modulus.degree)):
             return Pow(rational(pure), rational(Fraction(1, modulus.degree)))
-        return sympy.CRootOf(sympy.Poly.from_list(self.coefficients(modulus)[::-1], self.x), 0)
+        return _chosen_root(sympy.Poly.from_list(self.coefficients(modulus)[::-1], self.x), field)
 
     def coefficients(self, polynomial: Poly) -> list[Expr]:
         """The coefficients from low to high."""
@@ -311,3 +314,25 @@ class Atoms:
     def _opposite(self, first: Expr, second: Expr) -> bool:
         """Are these a x - b and a x + b?"""
         return bool(first.is_Add and second.is_Add and first.subs(self.x, -self.x) == -second)
+
+
+def _is_the_smaller_root(field: AlgebraicField) -> bool:
+    """Is the root of a quadratic polynomial that is meant the one below the middle of both (or below the real axis)?"""
+    if field.approximation is None:
+        return False
+    real, imaginary = field.approximation
+    middle = field.base.rational_value(field.modulus[1])
+    return imaginary < 0 or (imaginary == 0 and middle is not None and real < -middle / 2)
+
+
+def _chosen_root(polynomial: Any, field: AlgebraicField) -> Expr:
+    """The root that the field means, or SymPy's first one."""
+    if field.approximation is None or field.ground != field.base:
+        return sympy.CRootOf(polynomial, 0)
+    values = [field.base.rational_value(c) for c in field.modulus]
+    index = real_root_index(QQ.poly([v for v in values if v is not None]), field.approximation)
+    if index is not None:
+        return sympy.CRootOf(polynomial, index)
+    real, imaginary = (float(part) for part in field.approximation)
+    roots = [sympy.CRootOf(polynomial, k) for k in range(field.dimension)]
+    return min(roots, key=lambda root: abs(complex(root.evalf(15)) - complex(real, imaginary)))

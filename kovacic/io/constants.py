@@ -41,7 +41,7 @@ class Constants:
             return base
         if base == QQ:
             return algebraic
-        return AlgebraicField(base, base.embed(algebraic.modulus), algebraic.name)
+        return AlgebraicField(base, base.embed(algebraic.modulus), algebraic.name, algebraic.approximation)
 
     def parameter(self, name: str) -> Poly:
         """The parameter of this name.  Raises `Enlarged` where it is new."""

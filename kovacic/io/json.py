@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from fractions import Fraction
 from typing import Any
 
 from kovacic.algebra.fields import QQ, AlgebraicField, Field
@@ -197,6 +198,8 @@ def _field(field: Field) -> dict[str, Any] | None:
     data: dict[str, Any] = {"parameters": list(parameters_of(field)), "symbol": None, "minimal_polynomial": None}
     if isinstance(field, AlgebraicField):
         data["symbol"], data["minimal_polynomial"] = field.name, field.modulus.to_str("t")
+        if field.approximation is not None:
+            data["near"] = [f"{float(part):.15g}" for part in field.approximation]
     return data
 
 
@@ -212,7 +215,9 @@ def _base_reader(data: Mapping[str, Any] | None, variable: str) -> _Reader:
         constants.update((name, ground.generator(name)) for name in ground.names)
     if data["symbol"] is not None:
         modulus = _Reader(QQ, {"t": VARIABLE}, {}).poly(data["minimal_polynomial"])
-        field = extension = AlgebraicField(field, modulus.over(field), data["symbol"])
+        near = data.get("near")
+        position = None if near is None else (Fraction(near[0]), Fraction(near[1]))
+        field = extension = AlgebraicField(field, modulus.over(field), data["symbol"], position)
         name = data["symbol"]
         if not name.isidentifier():
             name, radical = _RADICAL, name
