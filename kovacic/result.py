@@ -16,8 +16,12 @@ from kovacic.verify import Verification, verify
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from matplotlib.figure import Figure
+
     from kovacic.closed_form import ClosedForm
     from kovacic.galois import EquationGroup, Group
+    from kovacic.numeric.ball import Ball
+    from kovacic.numeric.lambdify import ClosedFormFunction
     from kovacic.parametric.generic import GenericConditions
 
 
@@ -116,6 +120,24 @@ class Solution:
     def solutions(self) -> tuple[Any, ...]:
         """y1 and y2, SymPy expressions that solve the equation as it was given; empty without a Liouvillian solution."""
         return () if self.closed_form is None else (self.closed_form.y1, self.closed_form.y2)
+
+    def at(self, x: Any, *, x0: Any, y0: Any, dy0: Any, digits: int = 15, **options: Any) -> Ball | tuple[Ball, ...]:
+        """A ball that contains y(x) for the solution with y(x0) = y0, y'(x0) = dy0; see `kovacic.evaluate`."""
+        from kovacic.numeric.evaluate import evaluate
+
+        return evaluate(self, x, x0=x0, y0=y0, dy0=dy0, digits=digits, **options)
+
+    def lambdify(self, **options: Any) -> ClosedFormFunction:
+        """The closed form of case 1 in double precision, vectorised; see `kovacic.numeric.lambdify.lambdify`."""
+        from kovacic.numeric.lambdify import lambdify
+
+        return lambdify(self, **options)
+
+    def plot(self, start: Any, stop: Any, **options: Any) -> Figure:
+        """A matplotlib figure of proven values over [start, stop]; see `kovacic.numeric.plot.plot`."""
+        from kovacic.numeric.plot import plot
+
+        return plot(self, start, stop, **options)
 
     @property
     def proof(self) -> tuple[Exclusion, ...]:
