@@ -4,7 +4,8 @@
               may be any antiderivative: it is differentiated by the fundamental theorem, and its value is then a free
               constant, for which a random number is put.  |u| is taken as sqrt(u^2), which is analytic.
     omega     omega' + omega^2 - S.
-    riccati   at each root W of the polynomial, W' = -M_x/M_W, and W' + W^2 - S.
+    riccati   at each root W of the polynomial, W' = -M_x/M_W, and W' + W^2 - S.  (Python packages give the coefficients
+              from W^0 on, and the minimal polynomial of the constant c or "".)
 
 An identity between analytic functions that holds at a point for one branch of the radicals in the answer holds on that
 branch: so one point where it holds is enough ("right"), but the points where it doesn't are counted, because the formula
@@ -15,10 +16,13 @@ Runs as a process of its own (`python check.py`, JSON lines in and out), because
 
 from __future__ import annotations
 
+import base64
 import json
+import pickle
 import random
 import re
 import sys
+from collections.abc import Callable
 from typing import Any
 
 import mpmath
@@ -26,7 +30,10 @@ import sympy
 from sympy.parsing.sympy_parser import parse_expr
 
 DIGITS = 30
-_WORKING_DIGITS = 60
+_WORKING_DIGITS = 80
+
+# A SymPy expression of `server.py`.
+PICKLED = "pickle:"
 POINTS = 6
 _X = sympy.Symbol("x")
 _W = sympy.Symbol("omega_")
@@ -40,8 +47,8 @@ class Unreadable(Exception):
 def read(text: str, syntax: str) -> Any:
     """An expression of a system's as a SymPy expression."""
     if syntax == "python":
-        if re.match(r"[A-Z]\w+\(", text):
-            return sympy.sympify(text)
+        if text.startswith(PICKLED):
+            return pickle.loads(base64.b64decode(text.removeprefix(PICKLED)))
         return parse_expr(text, {"x": _X, "omega_": _W, "c": _C})
     names: dict[str, Any] = {
         "x": _X,
@@ -105,8 +112,12 @@ def check(S_text: str, form: str, syntax: str, expressions: list[str]) -> str:
     points += [mpmath.mpc(rng.uniform(-2.5, -0.3), rng.uniform(-1.0, 1.0)) for _ in range(2)]
     with mpmath.workdps(_WORKING_DIGITS):
         if form == "riccati":
-            constant = expressions[1] if len(expressions) > 1 else ""
-            return _verdict([_riccati_holds(S, read(expressions[0], syntax), constant, points)])
+            if syntax == "python":
+                *texts, constant = expressions
+                return _verdict([_riccati_holds(S_text, [_function(text) for text in texts], constant, points)])
+            polynomial = sympy.Poly(read(expressions[0], syntax), _W)
+            functions = [sympy.lambdify((_X, _C), f, "mpmath") for f in reversed(polynomial.all_coeffs())]
+            return _verdict([_riccati_holds(S_text, functions, "", points)])
         verdicts = []
         for text in expressions:
             expression = read(text, syntax)
@@ -178,27 +189,38 @@ def _vanishes(pieces: list[Any], point: Any) -> bool | None:
     return bool(abs(sum(values)) < size * mpmath.mpf(10) ** -DIGITS)
 
 
-def _riccati_holds(S: Any, M: Any, constant: str, points: list[Any]) -> list[bool]:
-    constants = [None]
-    if constant:
-        constants = sympy.Poly(read(constant, "python"), _C).nroots(n=_WORKING_DIGITS, maxsteps=500)
+def _riccati_holds(S_text: str, coefficients: list[Any], constant: str, points: list[Any]) -> list[bool]:
+    """For the coefficients of W^0, ..., W^n, functions of (x, c), and the minimal polynomial of c."""
+    constants = sympy.Poly(read(constant, "python"), _C).nroots(n=_WORKING_DIGITS, maxsteps=500) if constant else [0]
+    scalar = _function(S_text.replace("^", "**"))
     result = []
-    for value in constants:
-        polynomial = sympy.Poly(M if value is None else M.subs(_C, value), _W)
-        coefficients = [sympy.lambdify(_X, c, "mpmath") for c in polynomial.all_coeffs()]
-        slopes = [sympy.lambdify(_X, c.diff(_X), "mpmath") for c in polynomial.all_coeffs()]
-        scalar = sympy.lambdify(_X, S, "mpmath")
-        for point in points[:3]:
-            c = [mpmath.mpmathify(f(point)) for f in coefficients]
-            d = [mpmath.mpmathify(f(point)) for f in slopes]
+    for value in map(mpmath.mpmathify, constants):
+        for point in points[: 3 if len(coefficients) <= 3 else 1]:  # each with all roots
+            c = [f(point, value) for f in reversed(coefficients)]
+            d = [mpmath.diff(lambda x, f=f, value=value: f(x, value), point) for f in reversed(coefficients)]
             n = len(c) - 1
             derivative = [c[k] * (n - k) for k in range(n)]
-            for root in mpmath.polyroots(c, maxsteps=500, extraprec=500) if n > 1 else [-c[1] / c[0]]:
+            for root in mpmath.polyroots(c, maxsteps=200, extraprec=200) if n > 1 else [-c[1] / c[0]]:
                 change = -mpmath.polyval(d, root) / mpmath.polyval(derivative, root)
-                terms = [change, root**2, -mpmath.mpmathify(scalar(point))]
+                terms = [change, root**2, -scalar(point, 0)]
                 size = max(abs(t) for t in terms)
                 result.append(bool(abs(sum(terms)) < size * mpmath.mpf(10) ** -DIGITS))
     return result if all(result) else [False]
+
+
+def _function(text: str) -> Callable[[Any, Any], Any]:
+    """A function of (x, c) from a text of numbers, x, c, + - * / ** and parentheses, without SymPy, which is slow here."""
+    if not re.fullmatch(r"[0-9xc+\-*/() ]*", text):
+        raise Unreadable(text[:40])
+    constants: list[Any] = []
+
+    def constant(match: re.Match[str]) -> str:
+        constants.append(mpmath.mpf(match.group(2)))
+        return f"{match.group(1)}N[{len(constants) - 1}]"
+
+    # Numbers that aren't exponents, so that no quotient is one of Python's integers.
+    code = compile(re.sub(r"((?<!\*)\*|(?<![\d*]))(\d+)", constant, text), "coefficient", "eval")
+    return lambda x, c: mpmath.mpmathify(eval(code, {"__builtins__": {}, "N": constants, "x": x, "c": c}))
 
 
 def main() -> None:

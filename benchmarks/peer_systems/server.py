@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import json
+import pickle
 import sys
 import warnings
 from collections.abc import Callable
@@ -15,6 +17,11 @@ def answer(kind: str, form: str = "y", expressions: list[str] | None = None) -> 
     return {"kind": kind, "form": form, "expressions": expressions or []}
 
 
+def pickled(expression: Any) -> str:
+    """A SymPy expression for `check.read`: printing and parsing it would take longer, and lose functions."""
+    return "pickle:" + base64.b64encode(pickle.dumps(expression)).decode("ascii")
+
+
 def by_kovacic(S: str) -> Answer:
     import kovacic
 
@@ -24,22 +31,16 @@ def by_kovacic(S: str) -> Answer:
     data = json.loads(found.to_json())
     constants = data["constants"]
     polynomial = "" if constants is None else constants["minimal_polynomial"]
-    return answer("solved", "riccati", [" + ".join(_terms(data["riccati"])), polynomial])
-
-
-def _terms(riccati: dict[str, Any]) -> list[str]:
-    return [f"({c})*omega_**{k}" for k, c in enumerate(riccati["coefficients"])]
+    return answer("solved", "riccati", [*data["riccati"]["coefficients"], polynomial])
 
 
 def by_kovacic_full(S: str) -> Answer:
-    import sympy
-
     import kovacic
 
     found = kovacic.solve(S)
     if found.case is None:
         return answer("undecided" if found.reason else "none")
-    return answer("solved", "y", [sympy.srepr(y) for y in found.solutions])
+    return answer("solved", "y", [pickled(y) for y in found.solutions])
 
 
 def by_dsolve(S: str) -> Answer:
@@ -53,7 +54,7 @@ def by_dsolve(S: str) -> Answer:
         return answer("undecided")
     if found.has(sympy.Order):
         return answer("undecided")
-    return answer("solved", "y", [sympy.srepr(found.rhs)])
+    return answer("solved", "y", [pickled(found.rhs)])
 
 
 def by_solve_riccati(S: str) -> Answer:
@@ -65,7 +66,7 @@ def by_solve_riccati(S: str) -> Answer:
     found = solve_riccati(
         sympy.Function("w")(x), x, parse_expr(S.replace("^", "**"), {"x": x}), sympy.S(0), sympy.S(-1)
     )
-    return answer("solved", "omega", [sympy.srepr(w.rhs) for w in found]) if found else answer("none", "omega")
+    return answer("solved", "omega", [pickled(w.rhs) for w in found]) if found else answer("none", "omega")
 
 
 METHODS: dict[str, Callable[[str], Answer]] = {
