@@ -13,11 +13,12 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from flint import Ordering, fmpq, fmpz_mpoly_ctx, nmod_poly
+from flint import Ordering, fmpz_mpoly_ctx, nmod_poly
 
 from kovacic.algebra.fields import BadPrimeError, CoordinateLifter, Field, Homomorphism
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Poly, RationalPoly, Scalar
+from kovacic.algebra.sparse import constant_term, format_terms, laurent_constant, square_root
 
 #: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.
 _FIRST_PRIME_RUN, _QUOTA = 3, 32
@@ -166,7 +167,7 @@ class FunctionField(Field):
     def rational_value(self, constant: Poly) -> Fraction | None:
         assert isinstance(constant, FunctionPoly)
         if constant.num.is_constant() and constant.den.is_constant():
-            return Fraction(_constant_term(constant.num), _constant_term(constant.den))
+            return Fraction(constant_term(constant.num), constant_term(constant.den))
         return None
 
     def sqrt(self, constant: Poly) -> Poly | None:
@@ -174,7 +175,7 @@ class FunctionField(Field):
         assert isinstance(constant, FunctionPoly)
         if not constant:
             return constant
-        roots = [_mpoly_sqrt(part, self.context) for part in (constant.num, constant.den)]
+        roots = [square_root(part, self.context) for part in (constant.num, constant.den)]
         return None if roots[0] is None or roots[1] is None else self.make(roots[0], roots[1])
 
     def __str__(self) -> str:
@@ -300,7 +301,7 @@ class FunctionPoly(Poly):
 
         The constant term of the iterated Laurent series at t1 = 0, then t2 = 0, ...
         """
-        return tuple(_laurent_constant(c.num, c.den, 1) for c in self.coefficients())
+        return tuple(laurent_constant(c.num, c.den, 1) for c in self.coefficients())
 
     def common_denominator(self) -> int:
         return int(abs(self.den.content())) if not self.den.is_one() else 1
@@ -340,53 +341,6 @@ def _substitute(polynomial: Any, values: Sequence[Poly], field: Field) -> Poly:
     return field.poly([columns.get(k, zero) for k in range(max(columns, default=-1) + 1)])
 
 
-def _laurent_constant(num: Any, den: Any, variable: int) -> Any:
-    """The constant term of num/den as a Laurent series in the variables from number `variable` on."""
-    if num.is_zero():
-        return fmpq(0)
-    if den.is_constant():
-        return fmpq(_constant_term(num), _constant_term(den))
-    size = len(num.degrees())
-    below = _by_power(den, variable)
-    start = min(below)
-    above = _by_power(num, variable)
-    first = below[start]
-    zero = first * 0
-    # series of num / (den / t^start): q_n = (num_n - sum_(i>0) den_(start+i) q_(n-i)) / first, as numerators over first^(n+1)
-    numerators: list[Any] = []
-    for n in range(start + 1):
-        total = above.get(n, zero) * first**n
-        for i in range(1, n + 1):
-            total = total - below.get(start + i, zero) * numerators[n - i] * first ** (i - 1)
-        numerators.append(total)
-    return _laurent_constant(numerators[start], first ** (start + 1), variable + 1) if variable < size else fmpq(0)
-
-
-def _by_power(polynomial: Any, variable: int) -> dict[int, Any]:
-    columns: dict[int, dict[tuple[int, ...], Any]] = {}
-    for exponents, coefficient in polynomial.to_dict().items():
-        rest = (*exponents[:variable], 0, *exponents[variable + 1 :])
-        columns.setdefault(int(exponents[variable]), {})[rest] = coefficient
-    context = polynomial.context()
-    return {power: context.from_dict(terms) for power, terms in columns.items()}
-
-
-def _constant_term(polynomial: Any) -> int:
-    return next((int(c) for e, c in polynomial.to_dict().items() if not any(e)), 0)
-
-
-def _mpoly_sqrt(polynomial: Any, context: Any) -> Any | None:
-    constant, factors = polynomial.factor()
-    value = int(constant)
-    root = int(constant.isqrt()) if value >= 0 else -1
-    if root < 0 or root * root != value or any(int(k) % 2 for _, k in factors):
-        return None
-    result = context.constant(root)
-    for factor, k in factors:
-        result = result * factor ** (int(k) // 2)
-    return -result if int(result.leading_coefficient()) < 0 else result
-
-
 def _terms(polynomial: Any) -> tuple[tuple[tuple[int, ...], int], ...]:
     return tuple((tuple(int(i) for i in e), int(c)) for e, c in polynomial.to_dict().items())
 
@@ -394,25 +348,6 @@ def _terms(polynomial: Any) -> tuple[tuple[tuple[int, ...], int], ...]:
 def _from_key(field: FunctionField, num: tuple[Any, ...], den: tuple[Any, ...]) -> FunctionPoly:
     context = field.context
     return FunctionPoly(field, context.from_dict(dict(num)), context.from_dict(dict(den)))
-
-
-def format_terms(polynomial: Any, names: Sequence[str]) -> str:
-    """A polynomial in the parameters, in Python syntax."""
-    terms: list[str] = []
-    for exponents, coefficient in polynomial.to_dict().items():
-        powers = [
-            name if exponent == 1 else f"{name}**{exponent}"
-            for name, exponent in zip(names, exponents[1:], strict=True)
-            if exponent
-        ]
-        value = int(coefficient)
-        if not powers:
-            terms.append(str(value))
-        elif abs(value) == 1:
-            terms.append(("-" if value < 0 else "") + "*".join(powers))
-        else:
-            terms.append("*".join([str(value), *powers]))
-    return " + ".join(terms).replace("+ -", "- ") if terms else "0"
 
 
 def cleared(num: Poly, den: Poly, ground: FunctionField) -> tuple[Poly, Poly]:

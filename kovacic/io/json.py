@@ -115,6 +115,7 @@ def _to_dict(solution: Solution) -> dict[str, Any]:
         if solution.constants is None
         else {"symbol": names.symbol, "minimal_polynomial": solution.constants.to_str(names.symbol)},
         "field": _field(solution.S.field),
+        "generic_conditions": _generic(solution),
         "verified": solution.verified,
         "proof": {
             "structure": None if decision.structure is None else decision.structure.value,
@@ -189,6 +190,17 @@ def _read_equation(data: Mapping[str, Any] | None, variable: str) -> Equation | 
     a, b, c, f = (reader.over_field(reader.ratfunc(data[name])) for name in ("a", "b", "c", "f"))
     h = None if data["h"] is None else parse_expression(data["h"], variable)
     return Equation(a, b, c, f, h, variable, data["unknown"])
+
+
+def _generic(solution: Solution) -> dict[str, list[str]] | None:
+    """Under which conditions an answer for generic parameters was derived; None without parameters."""
+    if not parameters_of(solution.S.field):
+        return None
+    conditions = solution.generic_conditions
+    return {
+        "nonzero": [str(f) for f in conditions.nonzero],
+        "irrational_squares": [str(f) for f in conditions.irrational_squares],
+    }
 
 
 def _field(field: Field) -> dict[str, Any] | None:

@@ -56,6 +56,9 @@ def render(solution: Solution, *, style: Style = plain) -> str:
         lines.append(f"  {style('Liouvillian solutions exist', 'good')}: {case}")
         lines += [f"  {line}" for line in _omega(solution, solution.riccati)]
     lines += [f"  {line}" for line in _exclusions(solution)]
+    if parameters_of(solution.S.field):
+        lines.append(f"  for generic parameters: {solution.generic_conditions}")
+        lines.append("  (kovacic conditions tells for which values more is solvable)")
     if solution.verified:
         lines.append(f"  {style('verified', 'good')}: {_how_verified(solution)}")
     elif solution.status is not Status.UNDECIDED:

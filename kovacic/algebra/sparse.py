@@ -1,0 +1,74 @@
+"""Functions on flint's sparse polynomials in x and the parameters, x being variable number 0."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from flint import fmpq
+
+
+def laurent_constant(num: Any, den: Any, variable: int) -> Any:
+    """The constant term of num/den as a Laurent series in the variables from number `variable` on."""
+    if num.is_zero():
+        return fmpq(0)
+    if den.is_constant():
+        return fmpq(constant_term(num), constant_term(den))
+    size = len(num.degrees())
+    below = by_power(den, variable)
+    start = min(below)
+    above = by_power(num, variable)
+    first = below[start]
+    zero = first * 0
+    # series of num / (den / t^start): q_n = (num_n - sum_(i>0) den_(start+i) q_(n-i)) / first, as numerators over first^(n+1)
+    numerators: list[Any] = []
+    for n in range(start + 1):
+        total = above.get(n, zero) * first**n
+        for i in range(1, n + 1):
+            total = total - below.get(start + i, zero) * numerators[n - i] * first ** (i - 1)
+        numerators.append(total)
+    return laurent_constant(numerators[start], first ** (start + 1), variable + 1) if variable < size else fmpq(0)
+
+
+def by_power(polynomial: Any, variable: int) -> dict[int, Any]:
+    columns: dict[int, dict[tuple[int, ...], Any]] = {}
+    for exponents, coefficient in polynomial.to_dict().items():
+        rest = (*exponents[:variable], 0, *exponents[variable + 1 :])
+        columns.setdefault(int(exponents[variable]), {})[rest] = coefficient
+    context = polynomial.context()
+    return {power: context.from_dict(terms) for power, terms in columns.items()}
+
+
+def constant_term(polynomial: Any) -> int:
+    return next((int(c) for e, c in polynomial.to_dict().items() if not any(e)), 0)
+
+
+def square_root(polynomial: Any, context: Any) -> Any | None:
+    constant, factors = polynomial.factor()
+    value = int(constant)
+    root = int(constant.isqrt()) if value >= 0 else -1
+    if root < 0 or root * root != value or any(int(k) % 2 for _, k in factors):
+        return None
+    result = context.constant(root)
+    for factor, k in factors:
+        result = result * factor ** (int(k) // 2)
+    return -result if int(result.leading_coefficient()) < 0 else result
+
+
+def format_terms(polynomial: Any, names: Sequence[str]) -> str:
+    """A polynomial in the parameters, in Python syntax."""
+    terms: list[str] = []
+    for exponents, coefficient in polynomial.to_dict().items():
+        powers = [
+            name if exponent == 1 else f"{name}**{exponent}"
+            for name, exponent in zip(names, exponents[1:], strict=True)
+            if exponent
+        ]
+        value = int(coefficient)
+        if not powers:
+            terms.append(str(value))
+        elif abs(value) == 1:
+            terms.append(("-" if value < 0 else "") + "*".join(powers))
+        else:
+            terms.append("*".join([str(value), *powers]))
+    return " + ".join(terms).replace("+ -", "- ") if terms else "0"
