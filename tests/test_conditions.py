@@ -248,3 +248,8 @@ def test_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert json.loads(capsys.readouterr().out)["regions"][0]["condition"] == "n - 1/2 in Z"
     assert run(["conditions", "x^2 + 3"]) == 2
     assert "no parameters" in capsys.readouterr().err
+
+
+def test_an_equation_in_place_of_S() -> None:
+    answer = kovacic.conditions("(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0")
+    assert [str(region.statement) for region in answer.regions] == ["n in Z"]
