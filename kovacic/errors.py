@@ -60,7 +60,7 @@ class ParseError(InputError):
 
 
 class NotRational(InputError):
-    """The expression is readable, but isn't a rational function of one variable over the rational numbers."""
+    """The expression is readable, but isn't a rational function of one variable with constant coefficients."""
 
 
 class NotLinear(InputError):
