@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from kovacic.algebra.fields import ExtensionPoly
+from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.poly import Poly, RationalPoly
 from kovacic.algebra.ratfunc import RatFunc
 

@@ -14,7 +14,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kovacic.algebra import modular
-from kovacic.algebra.fields import QQ, AlgebraicField
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.fields import QQ
 from kovacic.algebra.lifting import RationalLifter, prime, rational_reconstruction
 from kovacic.algebra.norms import norm
 from kovacic.algebra.poly import Poly, RationalPoly

@@ -12,7 +12,8 @@ import sympy
 
 import kovacic
 from kovacic.algebra.embedding import RATIONAL_NUMBERS
-from kovacic.algebra.fields import QQ, AlgebraicField, Field
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Limits
 from kovacic.transform import hypergeometric

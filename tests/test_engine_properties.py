@@ -24,7 +24,8 @@ from strategies import Example
 
 import kovacic
 from kovacic import Solution, Status, Structure, transform
-from kovacic.algebra.fields import QQ, AlgebraicField, ExtensionPoly
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
+from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.solution import (

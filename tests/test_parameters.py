@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.algebra.fields import QQ, AlgebraicField
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.fields import QQ
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc

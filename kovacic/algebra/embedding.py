@@ -15,7 +15,8 @@ from typing import Any
 
 from flint import acb, arb, ctx, fmpq, fmpq_mat, fmpz, fmpz_poly
 
-from kovacic.algebra.fields import QQ, AlgebraicField, ExtensionPoly, Field
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
+from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.poly import Poly, RationalPoly
 from kovacic.errors import LimitExceeded
 

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 from flint import fmpq, fmpq_poly, fmpz_mat
 
-from kovacic.algebra.fields import CoordinateLifter, ExtensionHomomorphism, ExtensionPoly, Homomorphism
+from kovacic.algebra.extension import ExtensionHomomorphism, ExtensionPoly
+from kovacic.algebra.fields import CoordinateLifter, Homomorphism
 from kovacic.algebra.poly import Poly, RationalPoly
 
 if TYPE_CHECKING:
-    from kovacic.algebra.fields import AlgebraicField
+    from kovacic.algebra.extension import AlgebraicField
 
 #: Bits that a reduced vector must leave unused, so that a chance hit is improbable; exactness comes from verification.
 _SLACK_BITS = 12

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from kovacic.algebra.poly import Poly
 
 if TYPE_CHECKING:
-    from kovacic.algebra.fields import AlgebraicField, ExtensionPoly
+    from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 
 
 def norm(polynomial: ExtensionPoly) -> Poly:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from flint import fmpz
 
-from kovacic.algebra.fields import QQ, AlgebraicField, Field
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.poly import Poly, to_fraction
 
 #: Bits of the primes whose squares are taken out of a radicand.

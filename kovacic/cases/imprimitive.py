@@ -7,7 +7,7 @@ squares F1 + lambda F2 are the members that are proportional to their Hessians, 
 
 from __future__ import annotations
 
-from kovacic.algebra.fields import AlgebraicField
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.cases.outcome import Found, Outcome
 from kovacic.cases.singular import singular_factor

@@ -13,7 +13,8 @@ import sympy
 from sympy import Add, Integer, Mul, Pow, Rational, Symbol, exp, log, sqrt
 
 from kovacic.algebra.embedding import real_root_index
-from kovacic.algebra.fields import QQ, AlgebraicField, Field
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc

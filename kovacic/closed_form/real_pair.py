@@ -21,7 +21,8 @@ from typing import Any
 import sympy
 from sympy import Add, cos, sin, sqrt
 
-from kovacic.algebra.fields import QQ, AlgebraicField
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.closed_form.atoms import Atoms, Expr
 from kovacic.closed_form.partial_fractions import Residue

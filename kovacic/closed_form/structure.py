@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from kovacic.algebra.fields import AlgebraicField
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve

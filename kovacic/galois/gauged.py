@@ -21,7 +21,8 @@ from fractions import Fraction
 from math import gcd, lcm
 from typing import Any
 
-from kovacic.algebra.fields import AlgebraicField, Field, RationalField
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.fields import Field, RationalField
 from kovacic.algebra.poly import Poly, to_fraction
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.galois.decide import rational_residues

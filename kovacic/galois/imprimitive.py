@@ -30,15 +30,8 @@ from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.fields import (
-    AlgebraicField,
-    BadPrimeError,
-    ExtensionHomomorphism,
-    Field,
-    Homomorphism,
-    RationalField,
-    RationalHomomorphism,
-)
+from kovacic.algebra.extension import AlgebraicField, ExtensionHomomorphism
+from kovacic.algebra.fields import BadPrimeError, Field, Homomorphism, RationalField, RationalHomomorphism
 from kovacic.algebra.jacobian import Jacobian
 from kovacic.algebra.modular import simple_roots, square_root
 from kovacic.algebra.poly import Poly

@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 from kovacic.algebra.embedding import RATIONAL_NUMBERS, NumberField, refined_root
-from kovacic.algebra.fields import QQ, AlgebraicField, ExtensionPoly, Field
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
+from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import LimitExceeded

@@ -18,7 +18,8 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from kovacic.algebra.fields import QQ, AlgebraicField, Field
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc

@@ -6,7 +6,8 @@ import re
 from collections.abc import Sequence
 from itertools import count
 
-from kovacic.algebra.fields import QQ, AlgebraicField, ExtensionPoly, Field
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
+from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 

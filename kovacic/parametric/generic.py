@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kovacic.algebra.fields import QQ, AlgebraicField, ExtensionPoly, Field
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
+from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.norms import norm
 from kovacic.algebra.poly import Poly

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from kovacic.algebra.fields import QQ, AlgebraicField, Field
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc

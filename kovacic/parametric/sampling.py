@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
 
-from kovacic.algebra.fields import QQ, AlgebraicField, Field
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.parametric.riemann import Schwarz

@@ -13,7 +13,8 @@ from fractions import Fraction
 from math import gcd, lcm
 from typing import Any
 
-from kovacic.algebra.fields import QQ, ExtensionPoly, Field
+from kovacic.algebra.extension import ExtensionPoly
+from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.parametric.formulas import as_latex, shown
