@@ -219,6 +219,9 @@ def test_what_lambdify_cannot_do_it_refuses() -> None:
         lambdify(kovacic.solve(PRIMITIVE["tetrahedral"]), interval=(2, 3))
     with pytest.raises(InputError, match="isn't real"):
         lambdify(kovacic.solve("-2"), interval=(0, 1))
+    conjugate_poles = "9/(2*x^4 + 16*x^3 + 72*x^2 + 160*x + 200)"  # omega over Q(sqrt(-6))
+    with pytest.raises(InputError, match="isn't real"):
+        lambdify(kovacic.solve(conjugate_poles), interval=(-1, 1))
     with pytest.raises(InputError, match="singular point"):
         lambdify(kovacic.solve("2/x^2"), interval=(-1, 1))
     with pytest.raises(InputError, match="outside"):

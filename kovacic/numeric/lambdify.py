@@ -194,12 +194,11 @@ def lambdify(
             raise InputError(f"which = {which}: there are {len(embeddings)} conjugates")
         c = embeddings[which]
         theta = LogDerivative.make(closed.theta, c)
-        _require_real(theta.primitive.coeffs())
+        _require_real([*theta.num.coeffs(), *theta.den.coeffs(), *embed(closed.P, c).coeffs()])
         a, b = to_acb(low).real, to_acb(high).real
         factors, poles = _theta_parts(theta, a, b)
         factors += [_factor(z, _real_arb(k), 0.0) for z, k in zeros(closed.P, c) if not _below_axis(z)]
         lead = embed(closed.P, c).coeffs()[-1]
-        _require_real([lead])
         exponent = tuple(_pair(v.real) for v in reversed(theta.primitive.coeffs()))
     result = ClosedFormFunction(
         (float(low.re), float(high.re)), tuple(factors), exponent, tuple(poles), bool(lead.real < 0)
