@@ -19,6 +19,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import kovacic
+from kovacic.batch.child import _START
 from kovacic.batch.items import LABELS, Item, Job, Record
 from kovacic.batch.output import Answers, take_up
 from kovacic.batch.pool import GRACE_SECONDS, Pool
@@ -245,30 +246,48 @@ def test_killed_processes_lose_nothing_and_repeat_nothing() -> None:
     assert [record.case for record in sorted(finished, key=lambda r: r.number)] == QUICK_CASES * 40
 
 
-def test_an_item_that_loses_its_process_twice_is_reported() -> None:
+def test_an_item_that_loses_every_process_is_reported() -> None:
     with Pool(1, Job()) as pool:
         records = pool.run(items(["x", SLOW, "x"]))
         assert next(records).label == "none"
-        started = pool.pids()[0]
-        _kill_later(pool, started)
+        _kill_later(pool, 4)
         record = next(records)
         assert record.label == "failed"
         assert "SIGKILL" in (record.error or "")
         assert next(records).label == "none"
+        assert pool.replaced == 4
 
 
-def _kill_later(pool: Pool, first: int) -> None:
-    """Kill the process that works on the slow item, and then its successor."""
+def _kill_later(pool: Pool, times: int) -> None:
+    """Kill the process that works on the slow item, and then its successors."""
     import threading
 
     def kill() -> None:
-        time.sleep(0.3)
-        os.kill(first, signal.SIGKILL)
-        while pool.pids() in ([], [first]) or not any(child.assigned for child in pool._children):
+        killed: set[int] = set()
+        while len(killed) < times:
             time.sleep(0.05)
-        os.kill(pool.pids()[0], signal.SIGKILL)
+            child = pool._children[0]
+            if child.pid not in killed and any(item.text == SLOW for item in list(child.assigned)[:1]):
+                killed.add(child.pid)
+                os.kill(child.pid, signal.SIGKILL)
 
     threading.Thread(target=kill, daemon=True).start()
+
+
+def test_an_unexpected_exception_is_reported_once_and_costs_nobody_else_an_answer(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    broken = (
+        "import kovacic; real = kovacic.solve; kovacic.solve = lambda S, **o: real(S, **o) if S != 'x^7' else 1/0; "
+    )
+    start = "from kovacic.batch.worker import main; main()"
+    monkeypatch.setattr("kovacic.batch.child._START", _START.replace(start, broken + start))
+    with Pool(2, Job()) as pool:
+        found = list(pool.run(items([*QUICK, "x^7", *QUICK])))
+        assert pool.replaced == 1
+    assert [record.case for record in found] == [*QUICK_CASES, None, *QUICK_CASES]
+    assert found[5].label == "failed"
+    assert "ZeroDivisionError" in (found[5].error or "")
 
 
 def test_a_worker_that_cannot_start_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:

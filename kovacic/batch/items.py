@@ -45,7 +45,7 @@ class Record:
 
     The JSON is schema 1 with the keys `line` (the number) and those of `Item.extra` before it.  Without an answer, `status`
     is "error" and `error` has `type` and `message`, and for a bad input `position` and `hint`; the label is then "bad input",
-    or "failed" where an answer didn't pass its check or a process was lost twice.
+    or "failed" where an answer didn't pass its check or its processes were lost.
     """
 
     number: int

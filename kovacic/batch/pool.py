@@ -4,8 +4,9 @@ One loop in the caller's thread waits for events (a record, the end of a process
 deadline.  A busy process has one small item waiting in its pipe, so that it needn't wait for the parent; such an item is
 given to another process when that one has nothing to do.  A record counts only if it comes from the item's owner.
 
-A process that is over its time is killed, and so is one that has ended by itself; its item gets a record or, once, another
-process, since it may have been killed by somebody else.  What was waiting behind it goes back to the front.
+A process that is over its time is killed, and its item gets a record.  So does the item of a process that has ended with an
+exception; one whose process was killed by somebody else gets another one, up to three times.  What was waiting behind the
+item goes back to the front.
 """
 
 from __future__ import annotations
@@ -44,11 +45,11 @@ _OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_a
 
 @dataclass(slots=True)
 class _Entry:
-    """An item on its way: its owner, and whether it has been given to a second process after the loss of the first."""
+    """An item on its way: its owner, and how many processes it has lost."""
 
     item: Item
     owner: Child | None = None
-    retried: bool = False
+    losses: int = 0
 
 
 class Pool:
@@ -235,11 +236,11 @@ class Pool:
                 del self._entries[head.number]
                 assert self._job.timeout is not None
                 yield stopped(head, f"the time limit of {self._job.timeout:g} s is used up (process ended)", seconds)
-            elif entry.retried:
-                del self._entries[head.number]
-                yield lost(head, _cause(status, words), seconds)
             else:
-                entry.retried = True
+                entry.losses += 1
+                if entry.losses >= _processes_for(status):
+                    del self._entries[head.number]
+                    yield lost(head, _cause(status, words), seconds)
         self._replace(child)
 
     def _replace(self, child: Child) -> None:
@@ -254,6 +255,13 @@ class Pool:
         child.kill()
         self._children[self._children.index(child)] = Child(self._job, self._events)
         self.replaced += 1
+
+
+def _processes_for(status: int) -> int:
+    """How many processes an item may lose in this way: an exception repeats itself, a kill came from somebody else."""
+    if status >= 0:
+        return 1
+    return 4 if -status in (signal.SIGKILL, signal.SIGTERM) else 2
 
 
 def _cause(status: int, words: str) -> str:
