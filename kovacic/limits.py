@@ -17,7 +17,8 @@ class Limits:
     denominator; `bits`, the predicted size of a coefficient in bits; `constants`, the degree of the field of algebraic
     constants over Q; `parameters`, the number of symbols beside the variable.
     Work (exceeding one gives the status UNDECIDED): `unknown_degree`, the degree bound of a polynomial to be found;
-    `seconds`, wall-clock time for one equation (None: no limit), checked between steps of algebra and so not a hard bound.
+    `seconds`, wall-clock time for one equation, checked between steps of algebra and so not a hard bound (None: the default
+    of ten minutes, so that nothing runs without end; math.inf: no limit).
     """
 
     text_length: int = 1_000_000
@@ -32,20 +33,23 @@ class Limits:
 
 
 DEFAULT_LIMITS = Limits()
+#: Seconds for one equation where the limits don't say.
+DEFAULT_SECONDS = 600.0
 
 
 class Budget:
     """The running clock of one call: `check()` between the steps, raises `LimitExceeded` once the time is over."""
 
-    __slots__ = ("_deadline", "limits")
+    __slots__ = ("_deadline", "_seconds", "limits")
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
         self.limits = limits
-        self._deadline = None if limits.seconds is None else time.monotonic() + limits.seconds
+        self._seconds = DEFAULT_SECONDS if limits.seconds is None else limits.seconds
+        self._deadline = time.monotonic() + self._seconds
 
     def check(self) -> None:
-        if self._deadline is not None and time.monotonic() > self._deadline:
-            raise LimitExceeded(f"the time limit of {self.limits.seconds:g} s is used up", limit="seconds")
+        if time.monotonic() > self._deadline:
+            raise LimitExceeded(f"the time limit of {self._seconds:g} s is used up", limit="seconds")
 
     def check_degree(self, degree: int, what: str) -> None:
         if degree > self.limits.unknown_degree:

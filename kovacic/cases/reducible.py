@@ -109,6 +109,7 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
     place = distinguishing_places(problem)[0]
     lifter, degree = problem.field.lifter(), None
     for bundle in problem.field.bundles():
+        problem.budget.check()
         try:
             parts = [_omega_modulo(h, problem, place, _FIRST_DEGREES if degree is None else [degree]) for h in bundle]
             if None in parts:
