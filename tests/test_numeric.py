@@ -387,3 +387,47 @@ def test_many_points_come_back_in_the_order_asked_for() -> None:
     assert together[3] == Ball.exact(1)
     chain = evaluate(AIRY, points, x0=0, y0=1, dy0=0, path="chain")
     assert all(a.overlaps(b) for a, b in zip(chain, alone, strict=True))
+
+
+# --- equations with a first derivative ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("text", ["x^2*y'' + x*y' + (x^2 - 1/9)*y = 0"])
+def test_an_equation_with_a_first_derivative_is_solved_itself_and_not_its_normal_form(text: str) -> None:
+    import kovacic
+
+    with mpmath.workdps(60):
+        nu, one = mpmath.mpf(1) / 3, mpmath.mpf(1)
+        y0, dy0 = mpmath.besselj(nu, one), mpmath.besselj(nu, one, derivative=1)
+        for equation in (text, kovacic.solve(text)):
+            balls = evaluate(equation, [3, 20, "1/100"], x0=1, y0=y0, dy0=dy0, digits=25)
+            assert isinstance(balls, tuple)
+            for x, ball in zip((3, 20, mpmath.mpf(1) / 100), balls, strict=True):
+                assert mp_close(ball, mpmath.besselj(nu, x), 25)
+
+
+def test_both_routes_for_an_equation_with_a_first_derivative() -> None:
+    import kovacic
+
+    solution = kovacic.solve("y'' - 2*y'/(x - 5) + (1 + 1/x)*y = 0")
+    path = [1 + 1j, 2]
+    methods = ("taylor", "closed form") if solution.case else ("taylor",)
+    balls = [evaluate(solution, 3, x0=1, y0=1, dy0=2, path=path, method=m) for m in methods]  # type: ignore[arg-type]
+    assert all(b.overlaps(balls[0]) for b in balls)  # type: ignore[union-attr,arg-type]
+    elementary = kovacic.solve("x*y'' + 2*y' - x*y = 0")  # sinh(x)/x, cosh(x)/x
+    values = [
+        evaluate(elementary, 2, x0=1, y0=math.e, dy0=0, digits=25, method=m)  # type: ignore[arg-type]
+        for m in ("taylor", "closed form")
+    ]
+    with mpmath.workdps(50):
+        # y = exp(x - 1)/x c1 + exp(1 - x)/x c2 with y(1) = c1 + c2, y'(1) = -2 c2
+        e = mpmath.mpf(math.e)
+        exact = e * mpmath.exp(1) / 2
+        assert all(mp_close(v, exact, 25) for v in values)  # type: ignore[arg-type]
+
+
+def test_poles_of_the_first_coefficient_are_singular_even_where_the_normal_form_is_regular() -> None:
+    with pytest.raises(InputError, match="through the singular point near 0"):
+        evaluate("x*y'' + 2*y' - x*y = 0", 1, x0=-1, y0=1, dy0=0)
+    with pytest.raises(InputError, match="homogeneous"):
+        evaluate("y'' - y = x", 1, x0=0, y0=1, dy0=0)

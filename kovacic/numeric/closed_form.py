@@ -39,6 +39,7 @@ from kovacic.numeric.exponential import (
     sharp_roots,
     zeros,
 )
+from kovacic.numeric.gauge import with_gauge
 from kovacic.numeric.points import Point, to_acb
 from kovacic.numeric.problem import NumericProblem
 from kovacic.numeric.singular import check_segment
@@ -309,11 +310,8 @@ class ClosedFormRoute:
     def __call__(self, prec: int, budget: Budget) -> list[tuple[acb, acb]]:
         from kovacic.numeric.evaluate import carry
 
-        return carry(
-            lambda a, b: leg_matrix(self.closed, a, b, prec, budget),
-            self.itinerary,
-            self.start,
-        )
+        legs = with_gauge(self.closed.problem.gauge, lambda a, b: leg_matrix(self.closed, a, b, prec, budget))
+        return carry(legs, self.itinerary, self.start)
 
 
 def closed_form_route(problem: NumericProblem, itinerary: Any, start: tuple[Any, Any]) -> ClosedFormRoute:

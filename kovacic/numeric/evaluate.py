@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Literal, Protocol
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.numeric.ball import Ball, ball_from_flint, ball_to_flint
+from kovacic.numeric.gauge import with_gauge
 from kovacic.numeric.points import Point, as_point, to_acb
 from kovacic.numeric.problem import NumericProblem, as_problem
 from kovacic.numeric.taylor import Matrix
@@ -150,7 +151,8 @@ def evaluate_states(
 def transition_matrix(
     equation: object, vertices: Sequence[object], *, digits: int = 15, limits: Limits | None = None
 ) -> tuple[tuple[Ball, Ball], tuple[Ball, Ball]]:
-    """Balls around the matrix that carries (y, y') along the polygon through `vertices` (determinant 1), for y'' = S y.
+    """Balls around the matrix that carries (y, y') along the polygon through `vertices` (determinant 1), for the
+    normal form y'' = S y.
 
     The radii are at most 10^-digits relative to the largest entry, unless a limit is reached first (then
     LimitExceeded).
@@ -274,7 +276,8 @@ class TaylorRoute:
 
     def __call__(self, prec: int, budget: Budget) -> list[tuple[acb, acb]]:
         system = self.problem.system
-        return carry(lambda a, b: piece_matrices(system, a, b, prec, budget), self.itinerary, self.start)
+        legs = with_gauge(self.problem.gauge, lambda a, b: piece_matrices(system, a, b, prec, budget))
+        return carry(legs, self.itinerary, self.start)
 
 
 def carry(

@@ -182,6 +182,8 @@ def lambdify(
     from flint import ctx
 
     problem = as_problem(solution)
+    if problem.gauge is not None:
+        raise InputError("lambdify needs a normal form y'' = S y", hint="use tabulate, which treats every equation")
     closed = closed_form_of(problem)
     if closed.case != 1:
         raise InputError("lambdify needs a solution of case 1 (exponential)", hint="use tabulate, which treats every S")

@@ -9,16 +9,23 @@ from fractions import Fraction
 from math import lcm
 from typing import Any
 
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.numeric.singular import System
+from kovacic.result import Solution
 
 
 @dataclass(frozen=True)
 class NumericProblem:
-    """y'' = S y as `system`; `source` is the object that it was read from (a solution carries its certificate)."""
+    """y'' = S y as `system`; `source` is the object that it was read from (a solution carries its certificate).
+
+    `gauge` is g'/g = -b/(2a) where the user's equation is a z'' + b z' + c z = 0 with z = g y; None for a normal form.
+    """
 
     system: System
     source: Any = None
+    gauge: Any = None
 
 
 def as_problem(equation: object) -> NumericProblem:
@@ -30,14 +37,29 @@ def as_problem(equation: object) -> NumericProblem:
         return NumericProblem(equation)
     if isinstance(equation, tuple) and len(equation) == 2 and all(isinstance(p, Sequence) for p in equation):
         return NumericProblem(System.make(*_integers(*equation)))
-    inner = getattr(equation, "S", None)
-    if inner is not None and inner is not equation:
-        return NumericProblem(as_problem(inner).system, equation)
-    if hasattr(equation, "num") and hasattr(equation, "den"):
+    if isinstance(equation, Equation):
+        return NumericProblem(_from_ratfunc(equation.S), equation, _gauge(equation))
+    if isinstance(equation, Solution):
+        return NumericProblem(_from_ratfunc(equation.S), equation, _gauge(equation.equation))
+    if isinstance(equation, RatFunc):
         return NumericProblem(_from_ratfunc(equation))
     from kovacic.io.read import read_input
 
-    return NumericProblem(_from_ratfunc(read_input(equation).S))
+    parsed = read_input(equation)
+    return NumericProblem(_from_ratfunc(parsed.S), None, _gauge(parsed.equation))
+
+
+def _gauge(equation: Equation | None) -> RatFunc | None:
+    if equation is None:
+        return None
+    if not equation.is_homogeneous:
+        raise InputError("numerical evaluation needs a homogeneous equation (right-hand side 0)")
+    return equation.gauge if equation.gauge else None
+
+
+def clear_denominators(function: RatFunc) -> System:
+    """A rational function over Q as num/den with integer coefficients."""
+    return _from_ratfunc(function)
 
 
 def _integers(num: Sequence[object], den: Sequence[object]) -> tuple[tuple[int, ...], tuple[int, ...]]:
