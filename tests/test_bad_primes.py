@@ -56,6 +56,15 @@ def test_an_exponent_difference_that_vanishes_modulo_the_first_prime() -> None:
     assert kovacic.solve(Fraction(P0, 7) / X**2 + 1).case is None
 
 
+def test_simple_solutions_with_exponents_far_apart_are_found() -> None:
+    n = 10**30
+    for S in (n * (n + 1) / X**2, transform.from_omega(Fraction(P0 + 2, 3) / X + 1 / (X - 1) + 1)):
+        for variant in (S, transform.moebius(S, 1, 2, 3, 4)):
+            answer = kovacic.solve(variant)
+            assert answer.case == 1
+            assert answer.verified
+
+
 def test_a_series_far_too_long_is_undecided_and_says_so() -> None:
     answer = kovacic.solve((P0 * P0 - 1) / (4 * X**2) + 1)
     assert answer.status is kovacic.Status.UNDECIDED

@@ -10,19 +10,21 @@
 
 from __future__ import annotations
 
-from itertools import count
+from collections.abc import Sequence
+from itertools import count, islice
 from typing import Any
 
-from kovacic.algebra.fields import BadPrimeError, Homomorphism
+from kovacic.algebra.fields import BadPrimeError, Homomorphism, Lifter
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.cases.constants import square_root
 from kovacic.cases.degree_bound import irrational_exponents, is_cheap, largest_degree
 from kovacic.cases.outcome import Found, Outcome
 from kovacic.cases.singular import singular_factor
+from kovacic.errors import LimitExceeded
 from kovacic.invariants import invariants
 from kovacic.local import chart, exponential_parts, omega_parts, rational_omega
-from kovacic.places import Place, Problem
+from kovacic.places import Kind, Place, Problem
 from kovacic.riccati import Form, normalised
 from kovacic.solution import Evidence, Exclusion, NoInvariant, NoRationalOmega, Structure
 
@@ -32,7 +34,14 @@ _LIFTED_DEGREE = 200
 
 def decide(problem: Problem) -> Outcome:
     """Find omega in C(x), or prove that there is none."""
-    quadratic = invariants(problem, 2)
+    try:
+        quadratic = invariants(problem, 2)
+    except LimitExceeded:
+        # The exponents are too far apart for a decision within the limits; there may be a simple solution all the same.
+        simple = _omega_of_low_degree(problem)
+        if simple is None:
+            raise
+        return Found(Structure.REDUCIBLE, lambda: simple)
     if not isinstance(quadratic, NoInvariant):
         F = quadratic[0]
         return Found(Structure.REDUCIBLE, lambda: _from_quadratic_invariant(problem, F), F)
@@ -126,20 +135,50 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
             if part is None:
                 return NoRationalOmega(bound if isinstance(bound, int) else -1, h.p, str(place))
         images = [part for part in parts if part is not None]
-        degrees = {d for _, d in images}
-        if len(degrees) > 1:
-            continue
-        degree = degrees.pop()
-        proposal = lifter.add(bundle, [[R] for R, _ in images])
-        if proposal:
-            P = _polynomial_part(problem, proposal[0], degree)
-            if P is not None:
-                return Form(1, proposal[0], P)
+        degree = images[0][1]
+        form = _lifted(problem, lifter, bundle, images)
+        if form is not None:
+            return form
     raise AssertionError("the sequence of primes is infinite")
+
+
+def _omega_of_low_degree(problem: Problem) -> Form | None:
+    """omega = R/D + P'/P with a P of small degree, by one of its expansions at a place; None if none was found."""
+    kinds = (Kind.REGULAR, Kind.UNRAMIFIED)
+    place = min((place for place in problem.places if place.kind in kinds), key=lambda p: p.degree, default=None)
+    if place is None:
+        return None
+    for sign in (0, 1):
+        lifter = problem.field.lifter()
+        for bundle in islice(problem.field.bundles(), _PRIMES_FOR_A_SIMPLE_OMEGA):
+            problem.budget.check()
+            try:
+                parts = [_omega_modulo(h, problem, place, _FIRST_DEGREES, sign) for h in bundle]
+            except BadPrimeError:
+                continue
+            images = [part for part in parts if part is not None]
+            if len(images) < len(parts):
+                break
+            form = _lifted(problem, lifter, bundle, images)
+            if form is not None:
+                return form
+    return None
+
+
+def _lifted(
+    problem: Problem, lifter: Lifter, bundle: Sequence[Homomorphism], images: list[tuple[Any, int]]
+) -> Form | None:
+    """The form with these R and degrees of P modulo p, once there are enough primes; None as long as there aren't."""
+    degrees = {degree for _, degree in images}
+    proposal = lifter.add(bundle, [[R] for R, _ in images]) if len(degrees) == 1 else None
+    P = _polynomial_part(problem, proposal[0], degrees.pop()) if proposal else None
+    return None if P is None or proposal is None else Form(1, proposal[0], P)
 
 
 #: Degrees of P that are tried before their bound is computed, which can be the more expensive part.
 _FIRST_DEGREES = [8, 32]
+#: How many primes the lift of an omega may take that is looked for without a proof at hand.
+_PRIMES_FOR_A_SIMPLE_OMEGA = 400
 
 
 def _ladder(bound: int) -> list[int]:
@@ -147,15 +186,20 @@ def _ladder(bound: int) -> list[int]:
     return [*(n for n in (64, 256, 1024) if n < bound), bound]
 
 
-def _omega_modulo(h: Homomorphism, problem: Problem, place: Place, degrees: list[int]) -> tuple[Any, int] | None:
+def _omega_modulo(
+    h: Homomorphism, problem: Problem, place: Place, degrees: list[int], sign: int | None = None
+) -> tuple[Any, int] | None:
     """R and deg P of the only rational omega modulo p; None if there is none.
 
-    Raises `BadPrimeError` if the place has no root in F_p, or if there are two such omegas modulo p.
+    With a `sign` only that one of the expansions at the place is looked at.  Raises `BadPrimeError` if the place has no root
+    in F_p, or if there are two such omegas modulo p.
     """
     c = chart(h, problem, place)
     if c is None:
         raise BadPrimeError("the place has no root modulo this prime")
     parts = exponential_parts(c.equation, place)
+    if sign is not None:
+        parts = parts[sign : sign + 1]
     for degree in degrees:
         problem.budget.check()
         problem.budget.check_degree(degree, "the polynomial part of a solution")
