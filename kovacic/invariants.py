@@ -32,8 +32,6 @@ from kovacic.solution import NoInvariant
 
 #: Equations beyond the number of unknowns, so that accidental solutions are improbable.
 _MARGIN = 6
-#: How many products of polynomials in building the recurrence of `kovacic.expansion` take as long as one more prime.
-_PRODUCTS_PER_PRIME = 1000
 
 
 def least_valuation(place: Place, m: int) -> int | None:
@@ -104,7 +102,11 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
             forms = [Form(m, R0, P) for P in proposal]
             if all(form.is_form(problem) for form in forms):
                 return forms
-        if not recurrence_tried and len(spaces[0][0]) == 1 and _recurrence_is_cheaper(problem, m, lifter.primes_used):
+        if (
+            not recurrence_tried
+            and len(spaces[0][0]) == 1
+            and _recurrence_is_cheaper(problem, m, bound.N, lifter.primes_used)
+        ):
             recurrence_tried = True
             lifted = polynomial_invariant(problem, m, bound.N, (*bound.valuations, bound.infinite))
             if lifted is not None and (form := Form(m, R0, lifted)).is_form(problem):
@@ -112,13 +114,14 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
     raise AssertionError("the sequence of primes is infinite")
 
 
-def _recurrence_is_cheaper(problem: Problem, m: int, primes_used: int) -> bool:
-    """Has lifting by primes already cost more than the recurrence would?
+def _recurrence_is_cheaper(problem: Problem, m: int, N: int, primes_used: int) -> bool:
+    """Has lifting by primes already cost as much as the recurrence would?
 
-    Building the recurrence takes about (m + 1)^2 n^2 products; measured by `benchmarks/lifting.py`.
+    Building the recurrence takes about (m + 1)^2 n^2 products of short polynomials, and a prime about as long as N + 20 of
+    them; measured by `benchmarks/lifting.py`.
     """
     products = ((m + 1) * (problem.D.degree + 1)) ** 2
-    return problem.field == QQ and primes_used * _PRODUCTS_PER_PRIME >= products
+    return problem.field == QQ and primes_used * (N + 20) >= products
 
 
 def singular_part(problem: Problem, valuations: Sequence[int]) -> Any:

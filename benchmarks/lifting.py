@@ -1,0 +1,126 @@
+"""Lifting one invariant to the rational numbers: by primes, and by its recurrence; and large polynomial solutions.
+
+    python benchmarks/lifting.py        prints a table and writes benchmarks/results/lifting.json and .md
+
+Both ways start from the same degree bound N.  `kovacic.invariants` begins with primes and changes to the recurrence when
+`_recurrence_is_cheaper` says so; the columns show what each way takes alone, and what `invariants` takes.
+"""
+
+from __future__ import annotations
+
+import json
+import platform
+import time
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+from unittest import mock
+
+import kovacic
+from kovacic import engine, invariants, transform
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.expansion import polynomial_invariant
+from kovacic.limits import Budget
+from kovacic.places import analyse
+from kovacic.verify import verify
+
+RESULTS = Path(__file__).parent / "results"
+X = RatFunc(QQ.poly([0, 1]))
+HALF, THIRD = Fraction(1, 2), Fraction(1, 3)
+#: Prime by prime takes minutes above this degree bound, so it isn't run there.
+LARGEST_BY_PRIMES = 200
+
+
+def seconds(function: Callable[[], object]) -> float:
+    """Wall-clock time of one call."""
+    start = time.perf_counter()
+    function()
+    return time.perf_counter() - start
+
+
+def invariant_rows() -> list[dict[str, object]]:
+    """Invariants of Schwarz's equations with shifted exponents, and of a pull-back with more poles."""
+    equations = [
+        (f"icosahedral, shifted by {k}", transform.hypergeometric(HALF + k, THIRD, Fraction(1, 5)), 12)
+        for k in (2, 4, 8, 20, 56, 112, 168)
+    ]
+    f = RatFunc(QQ.poly([3, -1, 2, 5, 1]))
+    equations += [
+        (
+            f"octahedral, shifted by {k}, pull-back",
+            transform.pull_back(transform.hypergeometric(HALF + k, THIRD, Fraction(1, 4)), f),
+            8,
+        )
+        for k in (2, 8)
+    ]
+    return [_invariant_row(name, S, m) for name, S, m in equations]
+
+
+def _invariant_row(name: str, S: RatFunc, m: int) -> dict[str, object]:
+    problem = analyse(S, Budget())
+    bound = invariants.bounds(problem, m)
+    if bound.N is None:
+        raise AssertionError("these equations have invariants")
+    N, valuations = bound.N, (*bound.valuations, bound.infinite)
+    by_primes = None
+    if N <= LARGEST_BY_PRIMES:
+        with mock.patch.object(invariants, "_recurrence_is_cheaper", return_value=False):
+            by_primes = seconds(lambda: invariants.invariants(problem, m))
+    return {
+        "equation": name,
+        "poles": S.den.degree // 2,
+        "N": N,
+        "primes": by_primes,
+        "recurrence": seconds(lambda: polynomial_invariant(problem, m, N, valuations)),
+        "invariants": seconds(lambda: invariants.invariants(problem, m)),
+    }
+
+
+def solution_rows() -> list[dict[str, object]]:
+    """Equations whose solutions have polynomials of high degree: decision and verification together."""
+    equations = [(f"Hermite, degree {d}", X**2 - (2 * d + 1)) for d in (500, 1000, 2000)]
+    equations += [(f"Legendre, degree {d}", (d * (d + 1) * (X**2 - 1) - 1) / (X**2 - 1) ** 2) for d in (500, 2000)]
+    rows: list[dict[str, object]] = []
+    for name, S in equations:
+        start = time.perf_counter()
+        decision = engine.decide(S, Budget())
+        decided = time.perf_counter()
+        if not verify(S, decision):
+            raise AssertionError(f"{name} isn't verified")
+        rows.append({"equation": name, "decide": decided - start, "verify": time.perf_counter() - decided})
+    return rows
+
+
+def _cell(value: object) -> str:
+    return "-" if value is None else f"{value:.3f}" if isinstance(value, float) else str(value)
+
+
+def _table(rows: list[dict[str, object]]) -> str:
+    names = list(rows[0])
+    lines = ["| " + " | ".join(names) + " |", "|" + "---|" * len(names)]
+    return "\n".join(lines + ["| " + " | ".join(_cell(row[name]) for name in names) + " |" for row in rows])
+
+
+def main() -> None:
+    kovacic.solve("x^2 + 3")
+    found = {"invariants": invariant_rows(), "solutions": solution_rows()}
+    machine = (
+        f"kovacic {kovacic.__version__}, python {platform.python_version()}, {platform.system()} {platform.machine()}"
+    )
+    text = "\n\n".join(
+        [
+            "# Lifting\n\nWritten by `python benchmarks/lifting.py`; see there for what is measured.  Times in seconds.",
+            machine,
+            _table(found["invariants"]),
+            _table(found["solutions"]),
+        ]
+    )
+    RESULTS.mkdir(exist_ok=True)
+    (RESULTS / "lifting.md").write_text(text + "\n")
+    (RESULTS / "lifting.json").write_text(json.dumps({"machine": machine, **found}, indent=1) + "\n")
+    print(text)
+
+
+if __name__ == "__main__":
+    main()
