@@ -31,6 +31,8 @@ import textbook
 from peer_systems.process import Answer, System
 from peer_systems.systems import ALL, Dsolve, SolveRiccati
 
+import kovacic
+
 HERE = Path(__file__).parent
 RESULTS = HERE / "results"
 CASES = HERE.parent / "tests" / "data" / "cases.jsonl"
@@ -152,11 +154,12 @@ def judge_negatives(rows: list[Row], equations: list[Equation]) -> None:
         for row in rows
         if row.outcome == "solved" and row.check.startswith("right") and row.system != Dsolve.name
     }
-    rational = {e.name for e in equations if e.case == 1}
+    # SymPy looks for omega over the field of S: constants outside it aren't held against it.
+    rational = {e.name for e in equations if e.case == 1 and kovacic.solve(e.S).constants is None}
     for row in rows:
         if row.outcome == "none":
             known = rational if row.system == SolveRiccati.name else solvable
-            row.check = "wrong" if row.name in known else "right" if row.name not in solvable else ""
+            row.check = "wrong" if row.name in known else "right" if row.name not in solvable else "not its case"
 
 
 def table(rows: list[Row], memory: dict[str, float]) -> list[str]:
@@ -205,9 +208,11 @@ def speed(rows: list[Row]) -> list[str]:
     return lines
 
 
-def figures(rows: list[Row], limit: float) -> list[Path]:
+def figures(rows: list[Row], limit: float) -> None:
     """For each family, the time of every system against the number of poles."""
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+    from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
     names = list(dict.fromkeys(row.system for row in rows))
     groups = [family for family in families.FAMILIES if any(row.family == family for row in rows)]
@@ -228,22 +233,23 @@ def figures(rows: list[Row], limit: float) -> list[Path]:
         panel.set_yscale("log")
         panel.set_title(family, fontsize=10)
         panel.grid(True, which="major", alpha=0.25)
+        panel.xaxis.set_major_locator(FixedLocator([1, 2, 5, 10, 20, 50, 100]))
+        panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        panel.xaxis.set_minor_formatter(NullFormatter())
         panel.tick_params(labelbottom=True)
     for k in range(len(groups), panels.size):
         panels[k // columns][k % columns].set_visible(False)
-    figure.supxlabel("finite poles of S")
-    figure.supylabel("seconds")
-    from matplotlib.lines import Line2D
-
+    for panel in panels[-1]:
+        panel.set_xlabel("finite poles of S")
+    for panel in panels[:, 0]:
+        panel.set_ylabel("seconds")
     handles = [Line2D([], [], color=c, label=n) for n, c in zip(names, colours, strict=False)]
     handles += [
         Line2D([], [], color="black", ls="", marker=m, label=t)
         for m, t in (("o", "right"), ("v", "time-out"), ("x", "wrong"), (".", "error, undecided, unchecked"))
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9, frameon=False)
-    path = RESULTS / "peers.png"
-    figure.savefig(path, dpi=110)
-    return [path]
+    figure.savefig(RESULTS / "peers.png", dpi=110)
 
 
 def _mark(row: Row) -> str:
@@ -278,8 +284,14 @@ def main() -> None:
     )
     parser.add_argument("--every", type=int, default=1, help="take each k-th of the published and textbook equations")
     parser.add_argument("--patience", type=int, default=2, help="time-outs in a row after which a family is given up")
+    parser.add_argument("--redraw", action="store_true", help="write the report and the figure from peers.json again")
+    parser.add_argument("--merge", action="store_true", help="keep the results of the other systems in peers.json")
     parser.add_argument("--only", default="", help="names of systems that contain one of these, comma-separated")
     options = parser.parse_args()
+    if options.redraw:
+        data = json.loads((RESULTS / "peers.json").read_text())
+        write([Row(**row) for row in data["rows"]], data["memory_mib"], data["about"])
+        return
     equations = list(corpora(tuple(map(int, options.sizes.split(","))), options.every))
     wanted = [part for part in options.only.split(",") if part]
     chosen = [s for s in ALL if not wanted or any(part in s.name for part in wanted)]
@@ -295,20 +307,32 @@ def main() -> None:
         memory[kind.name] = system.peak_mib
         print(f"{kind.name}: {time.perf_counter() - start:.0f} s", file=sys.stderr, flush=True)
     checker.close()
+    kept: dict[str, Any] = {"rows": [], "memory_mib": {}, "about": {"versions": []}}
+    if options.merge:
+        kept = json.loads((RESULTS / "peers.json").read_text())
+    order = [kind.name for kind in ALL]
+    rows += [Row(**row) for row in kept["rows"] if row["system"] not in versions]
+    rows.sort(key=lambda row: order.index(row.system))
+    memory = {**kept["memory_mib"], **memory}
     judge_negatives(rows, equations)
     about = {
         "machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} CPUs, python {platform.python_version()}, "
         f"load {os.getloadavg()[0]:.1f}",
         "limit": options.limit,
-        "versions": list(dict.fromkeys(versions.values())),
+        "versions": list(dict.fromkeys([*versions.values(), *kept["about"]["versions"]])),
         "absent": [s.name for s in chosen if not s.is_installed()],
     }
+    write(rows, memory, about)
+
+
+def write(rows: list[Row], memory: dict[str, float], about: dict[str, Any]) -> None:
+    """The data, the report and the figure."""
     RESULTS.mkdir(exist_ok=True)
     text = report(rows, memory, about)
     (RESULTS / "peers.md").write_text(text)
     data = {"about": about, "memory_mib": memory, "rows": [asdict(row) for row in rows]}
     (RESULTS / "peers.json").write_text(json.dumps(data, indent=0) + "\n")
-    figures(rows, options.limit)
+    figures(rows, about["limit"])
     print(text)
 
 

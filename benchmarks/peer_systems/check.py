@@ -164,12 +164,18 @@ def _integrals_as_symbols(expression: Any) -> tuple[Any, dict[Any, Any]]:
     SymPy's own derivative rewrites integrals (it pulls constants out), and would make two of one.
     """
     integrands: dict[Any, Any] = {}
+    expression = expression.replace(lambda e: isinstance(e, sympy.RootSum), _explicit)
     while integrals := expression.atoms(sympy.Integral):
         inner = next(i for i in integrals if not i.function.atoms(sympy.Integral))
         symbol = sympy.Symbol(f"J{len(integrands)}")
         integrands[symbol] = inner.function
         expression = expression.xreplace({inner: symbol})
     return expression, integrands
+
+
+def _explicit(roots: Any) -> Any:
+    """A sum over the roots of a polynomial, with the roots as numbers."""
+    return sum(roots.fun(root) for root in roots.poly.nroots(n=_WORKING_DIGITS, maxsteps=500))
 
 
 def _derivative(expression: Any, integrands: dict[Any, Any]) -> Any:
