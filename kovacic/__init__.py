@@ -8,28 +8,51 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from kovacic.api import Verdict, decide, solve
-from kovacic.dsolve import dsolve, solve_riccati
-from kovacic.equation import Equation
-from kovacic.errors import (
-    InputError,
-    KovacicError,
-    LimitExceeded,
-    NotLinear,
-    NotRational,
-    ParseError,
-    VerificationFailed,
-)
-from kovacic.limits import Limits
-from kovacic.result import Solution
-from kovacic.solution import Status, Structure
-
 if TYPE_CHECKING:
+    from kovacic.api import Verdict, decide, solve
     from kovacic.batch import solve_many
+    from kovacic.equation import Equation
+    from kovacic.errors import (
+        InputError,
+        KovacicError,
+        LimitExceeded,
+        NotLinear,
+        NotRational,
+        ParseError,
+        VerificationFailed,
+    )
+    from kovacic.general_solution import dsolve, solve_riccati
+    from kovacic.limits import Limits
     from kovacic.numeric.evaluate import evaluate
     from kovacic.parametric.api import conditions
+    from kovacic.result import Solution
+    from kovacic.solution import Status, Structure
 
 __version__ = "0.1.0"
+
+#: Every name is imported when it is first used, so that `import kovacic` doesn't cost what isn't needed.
+_MODULES = {
+    "Equation": "kovacic.equation",
+    "InputError": "kovacic.errors",
+    "KovacicError": "kovacic.errors",
+    "LimitExceeded": "kovacic.errors",
+    "Limits": "kovacic.limits",
+    "NotLinear": "kovacic.errors",
+    "NotRational": "kovacic.errors",
+    "ParseError": "kovacic.errors",
+    "Solution": "kovacic.result",
+    "Status": "kovacic.solution",
+    "Structure": "kovacic.solution",
+    "Verdict": "kovacic.api",
+    "VerificationFailed": "kovacic.errors",
+    "conditions": "kovacic.parametric.api",
+    "decide": "kovacic.api",
+    "dsolve": "kovacic.general_solution",
+    "evaluate": "kovacic.numeric.evaluate",
+    "solve": "kovacic.api",
+    "solve_many": "kovacic.batch",
+    "solve_riccati": "kovacic.general_solution",
+}
 
 __all__ = [
     "Equation",
@@ -55,15 +78,12 @@ __all__ = [
 ]
 
 
-#: Names that are imported when they are first used, so that `import kovacic` stays light.
-_LAZY = {
-    "conditions": "kovacic.parametric.api",
-    "evaluate": "kovacic.numeric.evaluate",
-    "solve_many": "kovacic.batch",
-}
-
-
 def __getattr__(name: str) -> Any:
-    if name not in _LAZY:
+    if name not in _MODULES:
         raise AttributeError(f"module 'kovacic' has no attribute {name!r}")
-    return getattr(import_module(_LAZY[name]), name)
+    value = globals()[name] = getattr(import_module(_MODULES[name]), name)
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

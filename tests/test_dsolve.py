@@ -8,7 +8,7 @@ import sympy
 from sympy import I, Rational, cos, exp, sin, sqrt
 
 import kovacic
-from kovacic.dsolve import dsolve, solve_riccati
+from kovacic.general_solution import dsolve, solve_riccati
 from kovacic.io.equation_parser import parse_expression
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")

@@ -23,9 +23,25 @@ def loaded_after(code: str) -> set[str]:
 
 
 def test_importing_the_package_imports_nothing_heavy() -> None:
-    loaded = loaded_after("import kovacic")
-    assert "flint" in loaded
-    assert loaded & (HEAVY | {"click", "json"}) == set()
+    assert loaded_after("import kovacic") & (HEAVY | {"click", "dataclasses", "flint", "fractions", "json"}) == set()
+    parts = "import sys, kovacic; print(*(name for name in sys.modules if name.startswith('kovacic.')))"
+    assert (
+        subprocess.run([sys.executable, "-c", parts], capture_output=True, text=True, check=True).stdout.split() == []
+    )
+
+
+def test_every_public_name_is_there_when_it_is_used() -> None:
+    assert sorted(kovacic._MODULES) == kovacic.__all__
+    for name in kovacic.__all__:
+        assert getattr(kovacic, name).__module__.startswith(kovacic._MODULES[name])
+        assert name in dir(kovacic)
+    with pytest.raises(AttributeError, match="no attribute 'sovle'"):
+        _ = kovacic.sovle
+
+
+def test_a_function_keeps_its_name_beside_its_module() -> None:
+    """`kovacic.solve` stays the function whatever was imported before: no module has the name of a function."""
+    assert not [name for name in kovacic.__all__ if (ROOT / f"{name}.py").exists() or (ROOT / name).exists()]
 
 
 def test_solving_text_imports_nothing_heavy() -> None:
