@@ -18,9 +18,9 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.numeric.ball import Ball, ball_from_flint, ball_to_flint
 from kovacic.numeric.evaluate import AccuracyWarning, evaluate, evaluate_states, transition_matrix
+from kovacic.numeric.frame import make_frame, ray_bound, shift_system
 from kovacic.numeric.points import Point, as_point
 from kovacic.numeric.singular import System, check_segment, distance_lower
-from kovacic.numeric.taylor import make_frame, ray_bound, shift_system
 from kovacic.numeric.transport import piece_matrices, product
 
 AIRY = ([0, 1], [1])

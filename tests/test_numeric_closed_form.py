@@ -2,162 +2,27 @@
 
 from __future__ import annotations
 
-import random
-import warnings
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
 import kovacic
-from kovacic.algebra.fields import QQ
-from kovacic.algebra.ratfunc import RatFunc
 from kovacic.cli.plot import plot_command
-from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Limits
+from kovacic.errors import InputError
 from kovacic.numeric.double_double import horner, two_product, two_sum
-from kovacic.numeric.evaluate import AccuracyWarning, evaluate, evaluate_states
+from kovacic.numeric.evaluate import evaluate
 from kovacic.numeric.lambdify import lambdify, measure
-from kovacic.numeric.monodromy import monodromy
 from kovacic.numeric.plot import plot, sample
 from kovacic.numeric.tabulate import tabulate
-from kovacic.transform import from_omega, from_squared_difference
 
 PRIMITIVE = {
     "tetrahedral": "(-32*x^2 + 27*x - 27)/(144*x^4 - 288*x^3 + 144*x^2)",
     "octahedral": "(-135*x^2 + 115*x - 108)/(576*x^4 - 1152*x^3 + 576*x^2)",
     "icosahedral": "(-864*x^2 + 739*x - 675)/(3600*x^4 - 7200*x^3 + 3600*x^2)",
 }
-
-
-def agree(S: Any, *, x: Any, x0: Any, path: Any = None, digits: int = 25) -> None:
-    solution = kovacic.solve(S)
-    assert solution.case is not None
-    results = [
-        evaluate_states(solution, [x], x0=x0, y0=1, dy0=Fraction(-3, 7), digits=digits, method=method, path=path)[0]
-        for method in ("taylor", "closed form")
-    ]
-    first, second = results
-    assert first.y.overlaps(second.y)
-    assert first.dy.overlaps(second.dy)
-    assert first.reached
-    assert second.reached
-    assert second.method == "closed form"
-
-
-@pytest.mark.parametrize(
-    "S", ["x^2 + 3", "2", "-2", "2/x^2", "1 + 2/x^2", "1/(4*x^2)", "-1/(4*x^2)", "x^6 - 3*x^2", "x^2 - 21"]
-)
-@pytest.mark.parametrize("path", [None, [Fraction(3, 2) + 1]])
-def test_case_1(S: str, path: Any) -> None:
-    agree(S, x=Fraction(19, 7), x0=Fraction(3, 7), path=path)
-
-
-@pytest.mark.parametrize("x", [0, "1e-20", -2, "0.5"])
-def test_values_at_and_beyond_a_zero_of_the_closed_form(x: Any) -> None:
-    agree("x^2 + 3", x=x, x0=2)  # y1 = x exp(x^2/2) vanishes at 0, an ordinary point
-
-
-def test_initial_values_at_a_zero_of_the_closed_form() -> None:
-    agree("x^2 + 3", x=1, x0=0)
-    agree("x^2 - 7", x="1/3", x0=0)
-
-
-@pytest.mark.parametrize(
-    "S",
-    ["(16*x - 3)/(16*x^2)", "(7*x^2 - 10)/(4*x^4 - 8*x^2 + 4)", "(-84*x^2 + 84*x - 75)/(400*x^4 - 800*x^3 + 400*x^2)"],
-)
-def test_case_2(S: str) -> None:
-    agree(S, x=Fraction(19, 7), x0=Fraction(3, 7), path=[1 + 1j])
-    agree(S, x=Fraction(3, 7), x0=Fraction(1, 7))
-
-
-@pytest.mark.parametrize("name", sorted(PRIMITIVE))
-def test_case_3(name: str) -> None:
-    agree(PRIMITIVE[name], x=Fraction(19, 7), x0=Fraction(3, 7), path=[1 + 1j])
-    agree(PRIMITIVE[name], x=Fraction(1, 2), x0=2, path=[1 - 1j], digits=60)
-
-
-def random_solvable(rng: random.Random) -> RatFunc:
-    """S of case 1 or 2 by construction."""
-    x = RatFunc(QQ.poly([0, 1]))
-    if rng.random() < 0.5:
-        omega = RatFunc(QQ.poly([rng.randint(-2, 2)]))
-        for _ in range(rng.randint(1, 3)):
-            omega = omega + RatFunc(QQ.poly([Fraction(rng.randint(-3, 5), rng.choice([1, 2, 3]))])) / (
-                x - rng.randint(-3, 3)
-            )
-        return from_omega(omega)
-    num, den = QQ.poly([rng.choice([1, 2, -3]), rng.randint(-2, 2)]), QQ.poly([rng.randint(-3, 3), 1])
-    return from_squared_difference(RatFunc(num, den))
-
-
-def routes_agree_on(seed: int) -> None:
-    rng = random.Random(seed)
-    S = random_solvable(rng)
-    x0, x = (Fraction(rng.randint(-40, 40), 13) + Fraction(1, 17) for _ in range(2))
-    path = [complex(rng.randint(-3, 3), rng.choice([-1.5, 0.75, 2.25]))]
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AccuracyWarning)
-        agree(S, x=x, x0=x0, path=path, digits=12)
-
-
-@pytest.mark.parametrize("seed", range(12))
-def test_the_routes_agree_on_random_problems(seed: int) -> None:
-    routes_agree_on(seed)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("block", range(40))
-def test_the_routes_agree_on_thousands_of_random_problems(block: int) -> None:
-    for seed in range(1000 + 50 * block, 1050 + 50 * block):
-        routes_agree_on(seed)
-
-
-def test_an_equation_without_closed_form_says_so() -> None:
-    with pytest.raises(InputError, match="needs a Liouvillian solution"):
-        evaluate(kovacic.solve("x"), 1, x0=0, y0=1, dy0=0, method="closed form")
-    assert evaluate(kovacic.solve("x"), 1, x0=0, y0=1, dy0=0).digits > 15
-
-
-def test_a_quadrature_stops_at_the_time_limit() -> None:
-    solution = kovacic.solve("-(10100*(1-x^2) + 1)/(1-x^2)^2")  # P has 100 zeros beside the path
-    with pytest.raises(LimitExceeded, match="time limit"):
-        evaluate(solution, "9/10", x0=0, y0=1, dy0=0, method="closed form", limits=Limits(seconds=0.5))
-
-
-# --- monodromy -------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("name", "orders"), [("tetrahedral", {4, 6}), ("octahedral", {4, 6, 8}), ("icosahedral", {4, 6, 10})]
-)
-def test_finite_groups_have_monodromy_of_finite_order(name: str, orders: set[int]) -> None:
-    for local in monodromy(PRIMITIVE[name]):
-        assert local.consistent
-        order = next(k for k in range(1, 61) if local.is_identity_to_the_power(k))
-        assert any(k % order == 0 for k in orders), order
-        assert not local.is_identity_to_the_power(order + 1) or order == 1
-
-
-@pytest.mark.parametrize(
-    "S", ["1/(x^2+1)^2 + x", "x/(x^3-x-1)^2 + 1/(x+2)", "1/x^3 + 1/(x-1)", "(3/4)/x^2 + 1", "-1/(4*x^2)"]
-)
-def test_traces_come_out_of_the_exponents(S: str) -> None:
-    found = monodromy(S)
-    assert found
-    for local in found:
-        assert local.consistent
-        assert (local.trace is None) == (local.multiplicity > 2)
-
-
-def test_a_logarithm_has_infinite_order_and_a_polynomial_has_no_monodromy() -> None:
-    (local,) = monodromy("-1/(4*x^2)")
-    assert not any(local.is_identity_to_the_power(k) for k in range(1, 30))
-    assert monodromy("x^2 + 1") == ()
 
 
 # --- double precision ------------------------------------------------------------------------------------------------

@@ -128,8 +128,21 @@ class KleinForm:
     polynomial: PowerPolynomial | None
 
 
-def klein_form(S: RatFunc, structure: Structure, invariant: SemiInvariant, gauge: RatFunc) -> KleinForm:
-    """Klein's form of the solutions of an equation with a primitive finite group."""
+@dataclass(frozen=True)
+class Covariants:
+    """The invariant F, H and T of the head of this module, the forms v and t of the vertices and edges, and J."""
+
+    problem: Problem
+    F: Form
+    H: Form
+    T: Form
+    vertices: Form
+    edges: Form
+    J: RatFunc
+
+
+def covariants(S: RatFunc, structure: Structure, invariant: SemiInvariant) -> Covariants:
+    """The forms that the solutions (1) are made of, for an equation with a primitive finite group."""
     problem = analyse(S, Budget())
     F = normalised(Form(invariant.degree, (invariant.theta * problem.D).num, invariant.P), problem)
     H = hessian(F, problem)
@@ -143,6 +156,13 @@ def klein_form(S: RatFunc, structure: Structure, invariant: SemiInvariant, gauge
         edges = _quotient(edges, vertices)
     else:
         J = RatFunc(square + cube * ratio, square)
+    return Covariants(problem, F, H, T, vertices, edges, J)
+
+
+def klein_form(S: RatFunc, structure: Structure, invariant: SemiInvariant, gauge: RatFunc) -> KleinForm:
+    """Klein's form of the solutions of an equation with a primitive finite group."""
+    forms = covariants(S, structure, invariant)
+    problem, vertices, edges = forms.problem, forms.vertices, forms.edges
     nu, n = (Fraction(1, 5), 30) if structure is Structure.ICOSAHEDRAL else (Fraction(1, 4), 12)
     a = (Fraction(1, 6) - nu) / 2
     b = a + Fraction(1, 2)
@@ -150,10 +170,10 @@ def klein_form(S: RatFunc, structure: Structure, invariant: SemiInvariant, gauge
     second = _product(problem, gauge, (edges, Fraction(1, n) - nu * 2), (vertices, Fraction(1)))
     return KleinForm(
         structure,
-        J,
+        forms.J,
         Hypergeometric(first, a, b, 1 - nu),
         Hypergeometric(second, a + nu, b + nu, 1 + nu),
-        None if gauge else _polynomial(problem, structure, F, H, T),
+        None if gauge else _polynomial(problem, structure, forms.F, forms.H, forms.T),
     )
 
 

@@ -1,319 +1,273 @@
 """Route (a): transition matrices from the certificate of a decision, without integrating the equation.
 
-The guarantee is that of route (b): the matrix of balls contains the exact transition matrix along the leg.
+The guarantee is that of route (b), with which nothing is shared: the matrices of balls contain the exact transition
+matrices along the leg.
 
 A leg from a to b is carried by the closed form (E = exp int_a^x theta, followed continuously, see `exponential`):
-- case 1, omega = theta + P'/P: y = E P.  A second solution comes from the conjugate omega, or, where omega is unique,
-from
-  y int dx / y^2 (rigorous quadrature).
-- case 2, f = y1 y2 = E P, w^2 = 4 S f^2 - 2 f f'' + f'^2 (a constant):  y = sqrt(f) exp(+- w/2 int dx/f).
-- case 3: three roots of the polynomial of omega.  Two solutions with omega_i, omega_j have the Wronskian
-  y_i y_j (omega_j - omega_i), a constant; so, normalised to 1 at a,
+- case 1, two rational or conjugate omega = theta + P'/P: y = E P for either.
+- case 1, a unique omega: y1 = E P, y2 = y1 int dx/y1^2.  P has simple zeros at ordinary points, where the integrand has
+  double poles; they are split off exactly [Hermite's reduction]: with A P' = -1 mod P,
 
-      y_i(b)^2 = g_ij g_ik / g_jk,    g_ij = (omega_i - omega_j)(a) / (omega_i - omega_j)(b):
+      1/y1^2 = (A/(P E^2))' + B/E^2,    B = (1 + A P' - A' P + 2 theta A P)/P^2,    y2 = A/E + y1 int_a^x B/E^2 dx,   (1)
 
-  no integral at all.  Which root of the polynomial at b continues which one at a, and the sign of the square root,
-  are discrete
-  data; they are read off route (b) at 15 to 40 digits.  Every digit of the value comes from the polynomial.
+  and B has no poles but the singular points of S.  Where E^2 is rational the integral is one of partial fractions, else
+  a rigorous quadrature.
+- case 2, f = y+ y- = E P, w^2 = 4 S f^2 - 2 f f'' + f'^2 (a constant), y+-'/y+- = (f' +- w)/(2 f), in which a zero of f is
+  removed by the conjugate:
 
-The zeros of P are ordinary points of the equation, where this arrangement is singular in case 2 and for the second
-solution
-of case 1: the leg goes around them; where an end of the leg is (nearly) such a zero, a short Taylor step leads away
-from it.
+      y-'/y- = (f'' - 2 S f)/(f' + w)  where f' + w has no zero,   y+'/y+ = (f'' - 2 S f)/(f' - w)  where f' - w has none; (2)
+
+  the leg is cut into pieces of these two kinds, and the other solution is the quotient of f and this one.
+- case 3: Klein's form, see `klein`.
+So the zeros of P need not be known, and no leg goes around them.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from functools import cached_property
+from typing import TYPE_CHECKING
 
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.partial_fractions import decompose
+from kovacic.errors import InputError
 from kovacic.limits import Budget
-from kovacic.numeric.exponential import (
-    LogDerivative,
-    conjugates,
-    continued_root,
-    embed,
-    integral,
-    sharp_roots,
-    zeros,
-)
+from kovacic.numeric.carry import Itinerary, Start, carry
+from kovacic.numeric.exponential import LogDerivative, conjugates, embed, integral
 from kovacic.numeric.gauge import with_gauge
+from kovacic.numeric.klein import Chart, charts, klein_leg
+from kovacic.numeric.pieces import Piece, Quotient, cut, fundamental, quotient, unknown
 from kovacic.numeric.points import Point, to_acb
 from kovacic.numeric.problem import NumericProblem
 from kovacic.numeric.singular import check_segment
-from kovacic.numeric.taylor import Matrix
-from kovacic.numeric.transport import adjugate, multiply, piece_matrices, product
+from kovacic.numeric.transport import adjugate, multiply
+from kovacic.result import Solution
 
 if TYPE_CHECKING:
-    from flint import acb
+    from flint import acb, acb_poly
+
+    from kovacic.algebra.poly import Poly
+    from kovacic.numeric.taylor import Matrix
+    from kovacic.solution import Decision
 
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """The certificate that the legs are computed from."""
+    """The certificate that the legs are computed from, and what follows from it exactly, computed once."""
 
     problem: NumericProblem
-    degree: int
-    theta: Any
-    P: Any
-    riccati: Any
-    case: int
+    S: RatFunc
+    decision: Decision
+
+    @property
+    def case(self) -> int | None:
+        """Kovacic's case."""
+        return self.decision.case
+
+    @property
+    def theta(self) -> RatFunc:
+        """f'/f = theta + P'/P for the product f of the solutions with conjugate omegas (case 1: for y1 itself)."""
+        assert self.decision.semi_invariant is not None
+        return self.decision.semi_invariant.theta
+
+    @property
+    def P(self) -> Poly:
+        """The polynomial factor of f."""
+        assert self.decision.semi_invariant is not None
+        return self.decision.semi_invariant.P
+
+    @cached_property
+    def second(self) -> tuple[RatFunc, Poly] | None:
+        """(theta, P) of the other omega, where two of them are rational."""
+        semi, product = self.decision.semi_invariant, self.decision.invariant
+        if semi is None or product is None or semi.theta.field != product.theta.field:
+            return None
+        zeros = product.P.exact_quotient(semi.P)
+        if zeros is None or product.logarithmic_derivative == 2 * semi.logarithmic_derivative:
+            return None
+        return product.theta - semi.theta, zeros
+
+    @cached_property
+    def reduction(self) -> tuple[Poly, RatFunc]:
+        """A and B of equation (1)."""
+        theta, P = self.theta, self.P
+        slope = P.derivative()
+        A = -(slope.inverse_modulo(P)) if P.degree > 0 else P.field.poly([])
+        # theta.den (1 + A P' - A' P) + 2 theta.num A P, divided by P^2
+        top = theta.den * (A * slope - A.derivative() * P + 1) + 2 * theta.num * A * P
+        quotient = top.exact_quotient(P * P)
+        if quotient is None:
+            raise AssertionError("the zeros of the solution are ordinary points")
+        return A, RatFunc(quotient, theta.den)
+
+    @cached_property
+    def rational_square(self) -> RatFunc | None:
+        """A rational function with the logarithmic derivative 2 theta; None if that isn't one."""
+        parts = decompose(self.theta * 2)
+        if parts.exact:
+            return None
+        total = RatFunc(self.P.field.poly([1]))
+        for residue in parts.residues:
+            value = residue.value.field.rational_value(residue.value) if residue.is_constant else None
+            if value is None or value.denominator != 1:
+                return None
+            total = total * RatFunc(residue.factor) ** int(value)
+        return total
+
+    @cached_property
+    def charts(self) -> tuple[Chart, ...]:
+        """Klein's form, case 3."""
+        assert self.decision.structure is not None
+        return charts(self.S, self.decision.structure, self.decision.invariant)
 
 
 def closed_form_of(problem: NumericProblem) -> ClosedForm:
     """The certificate of a solution; raises InputError where there is none."""
     source = problem.source
-    form = getattr(source, "semi_invariant", None)
-    case = getattr(source, "case", None)
-    if form is None or case is None:
+    if not isinstance(source, Solution) or source.semi_invariant is None:
         raise InputError(
             "the method 'closed form' needs a Liouvillian solution with its certificate",
             hint="pass kovacic.solve(S) with status LIOUVILLIAN, or use method='taylor'",
         )
-    return ClosedForm(problem, form.degree, form.theta, form.P, source.riccati, case)
+    return ClosedForm(problem, source.S, source.decision)
 
 
-def leg_matrix(closed: ClosedForm, a: Point, b: Point, prec: int, budget: Budget) -> list[Matrix]:
+def leg_matrix(closed: ClosedForm, a: Point, b: Point, budget: Budget) -> list[Matrix]:
     """Transition matrices whose product carries (y, y') from a to b along the straight segment."""
-    if (b - a).norm_squared() == 0:
+    if a == b:
         return []
     check_segment(closed.problem.system, a, b)
     budget.check()
     if closed.case == 3:
-        return [_algebraic_leg(closed, a, b, prec, budget)]
-    if closed.case == 1:
-        embeddings = conjugates(closed.theta.field if closed.P.field == closed.theta.field else closed.P.field)
-        if len(embeddings) >= 2:
-            return [_two_exponentials(closed, embeddings[:2], a, b)]
-    result = []
-    for start, stop, plain in _around_zeros(closed, a, b):
-        if plain:
-            leg = _pair_leg if closed.case == 2 else _integral_leg
-            result.append(leg(closed, start, stop, budget))
-        else:
-            result += piece_matrices(closed.problem.system, start, stop, prec, budget)
-    return result
+        return klein_leg(closed.charts, a, b, budget)
+    if closed.case == 2:
+        return _pair_leg(closed, a, b, budget)
+    embeddings = conjugates(closed.P.field)
+    if len(embeddings) == 2:
+        return [_two_exponentials([(closed.theta, closed.P, c) for c in embeddings], a, b)]
+    if closed.second is not None:
+        return [_two_exponentials([(closed.theta, closed.P, None), (*closed.second, None)], a, b)]
+    return [_integral_leg(closed, a, b, budget)]
 
 
-def _fundamental(rows: list[tuple[acb, acb]]) -> Matrix:
-    """The matrix with the states (y, y') of two solutions as its columns."""
-    (y1, d1), (y2, d2) = rows
-    return y1, y2, d1, d2
-
-
-def _quotient(at_b: Matrix, at_a: Matrix) -> Matrix:
-    """Y(b) Y(a)^-1."""
-    determinant = at_a[0] * at_a[3] - at_a[1] * at_a[2]
-    m = multiply(at_b, adjugate(at_a))
-    return m[0] / determinant, m[1] / determinant, m[2] / determinant, m[3] / determinant
-
-
-def _two_exponentials(closed: ClosedForm, embeddings: list[acb | None], a: Point, b: Point) -> Matrix:
-    """Case 1 with two conjugate omegas: y = E P for either."""
+def _two_exponentials(solutions: list[tuple[RatFunc, Poly, acb | None]], a: Point, b: Point) -> Matrix:
+    """Case 1 with two omegas: y = E P for either."""
     za, zb = to_acb(a), to_acb(b)
     at_a, at_b = [], []
-    for c in embeddings:
-        theta, P = LogDerivative.make(closed.theta, c), embed(closed.P, c)
+    for function, polynomial, c in solutions:
+        theta, P = LogDerivative.make(function, c), embed(polynomial, c)
         slope, growth = P.derivative(), theta.growth(za, zb)
         at_a.append((P(za), theta.value(za) * P(za) + slope(za)))
         at_b.append((growth * P(zb), growth * (theta.value(zb) * P(zb) + slope(zb))))
-    return _quotient(_fundamental(at_b), _fundamental(at_a))
+    return quotient(fundamental(*at_b), fundamental(*at_a))
 
 
 def _integral_leg(closed: ClosedForm, a: Point, b: Point, budget: Budget) -> Matrix:
-    """Case 1 with a unique omega, P without zeros on the segment: y1 = E P and y2 = y1 int_a dx/y1^2."""
+    """Case 1 with a unique omega, equation (1)."""
     from flint import acb
 
     za, zb = to_acb(a), to_acb(b)
-    theta, P = LogDerivative.make(closed.theta, None), embed(closed.P, None)
-    slope = P.derivative()
+    theta = LogDerivative.make(closed.theta, None)
+    exact_A, exact_B = closed.reduction
+    P, A, B = embed(closed.P, None), embed(exact_A, None), Quotient.make(exact_B, None)
+    dP, dA = P.derivative(), A.derivative()
 
-    def inverse_square(z: acb, analytic: bool) -> acb:
-        value = theta.growth(za, z, analytic=analytic) * P(z)
-        return 1 / (value * value)
+    def integrand(z: acb, analytic: bool) -> acb:
+        return B(z) * (-2 * theta.exponent(za, z, analytic=analytic)).exp()
 
-    area = integral(inverse_square, za, zb, budget)
-    growth = theta.growth(za, zb)
-    y1a, d1a = P(za), theta.value(za) * P(za) + slope(za)
-    y1b, d1b = growth * P(zb), growth * (theta.value(zb) * P(zb) + slope(zb))
-    at_a = (y1a, acb(0), d1a, 1 / y1a)
-    at_b = (y1b, y1b * area, d1b, d1b * area + 1 / y1b)
-    return _quotient(at_b, at_a)
+    square = closed.rational_square
+    if square is not None:
+        scale = Quotient.make(square, None)(za)
+        area = LogDerivative.make(exact_B / square, None).exponent(za, zb) * scale
+    else:
+        area = integral(integrand, za, zb, budget)
 
+    def states(x: acb, E: acb, I: acb) -> tuple[tuple[acb, acb], tuple[acb, acb]]:  # noqa: E741 - the integral in (1)
+        t, p, alpha = theta.value(x), P(x), A(x)
+        y, dy = E * p, E * (t * p + dP(x))
+        return (y, dy), (alpha / E + y * I, (dA(x) - t * alpha + B(x) * p) / E + dy * I)
 
-def _pair_leg(closed: ClosedForm, a: Point, b: Point, budget: Budget) -> Matrix:
-    """Case 2, P without zeros on the segment: y = sqrt(f/f(a)) exp(+- w/2 int dx/f)."""
-    from flint import acb
-
-    field = closed.theta.field if closed.theta.field != closed.problem.source.S.field else closed.P.field
-    c = conjugates(field)[0]
-    za, zb = to_acb(a), to_acb(b)
-    theta, P = LogDerivative.make(closed.theta, c), embed(closed.P, c)
-    P1 = P.derivative()
-    P2 = P1.derivative()
-    S = closed.problem.source.S
-    t, t1 = theta.value(za), embed(closed.theta.derivative().num, c)(za) / embed(closed.theta.derivative().den, c)(za)
-    f, f1 = P(za), t * P(za) + P1(za)
-    f2 = (t1 + t * t) * P(za) + 2 * t * P1(za) + P2(za)
-    w = (4 * (embed(S.num, None)(za) / embed(S.den, None)(za)) * f * f - 2 * f * f2 + f1 * f1).sqrt()
-    roots = zeros(closed.P, c)
-
-    def inverse(z: acb, analytic: bool) -> acb:
-        return 1 / (theta.growth(za, z, analytic=analytic) * P(z))
-
-    phase = integral(inverse, za, zb, budget) * w / 2
-    exponent = theta.exponent(za, zb)
-    root = (exponent / 2).exp() * continued_root(roots, za, zb)
-    g = exponent.exp() * P(zb)
-    g1 = theta.value(zb) * g + exponent.exp() * P1(zb)
-    rise, fall = phase.exp(), (-phase).exp()
-    at_a = (acb(1), acb(1), (f1 + w) / (2 * f), (f1 - w) / (2 * f))
-    y_plus, y_minus = root * rise, root * fall
-    at_b = (y_plus, y_minus, y_plus * (g1 + w) / (2 * g), y_minus * (g1 - w) / (2 * g))
-    return _quotient(at_b, at_a)
+    at_a, at_b = fundamental(*states(za, acb(1), acb(0))), fundamental(*states(zb, theta.growth(za, zb), area))
+    return multiply(at_b, adjugate(at_a))  # the Wronskian of y1 and y2 is 1
 
 
-def _around_zeros(closed: ClosedForm, a: Point, b: Point) -> list[tuple[Point, Point, bool]]:
-    """Legs (start, stop, plain) that replace the segment: plain ones keep away from the zeros of P, the others are
-    for route (b).
+def _pair_leg(closed: ClosedForm, a: Point, b: Point, budget: Budget) -> list[Matrix]:
+    """Case 2, equation (2): the leg is cut into pieces with a fixed sign."""
+    pair = Pair.make(closed, to_acb(a))
+    pieces = cut(Piece(a, b), pair.sign_on, budget)
+    if pieces is None:
+        return [unknown()]
+    return [pair.matrix(sign, to_acb(piece.a), to_acb(piece.b), budget) for piece, sign in pieces]
 
-    The detour stays in a strip beside the segment that contains no singular point, so it is homotopic to the segment.
-    """
-    field = closed.P.field
-    c = conjugates(field)[0]
-    roots = [root for root, _ in zeros(closed.P, c)]
-    if not roots:
-        return [(a, b, True)]
-    step = b - a
-    if _clearance(roots, a, b) > 1 / 64:
-        return [(a, b, True)]
-    # perpendicular offsets; the width is bounded by the distance of the singular points to the segment
-    for denominator in (8, 11, 17, 29, 64, 131, 400, 1601, 10007):
+
+@dataclass(frozen=True)
+class Pair:
+    """f = y+ y- = E P and w in balls, E = 1 at `origin`: f' = E first, f'' - 2 S f = E (second - 2 S P)."""
+
+    origin: acb
+    theta: LogDerivative
+    P: acb_poly
+    first: Quotient
+    second: Quotient
+    S: Quotient
+    w: acb
+
+    @classmethod
+    def make(cls, closed: ClosedForm, origin: acb) -> Pair:
+        """The pair of a decision of case 2; w is one of the two square roots."""
+        t, P = closed.theta, closed.P
+        c = conjugates(P.field)[0]
+        dP = P.derivative()
+        first = Quotient.make(t * P + dP, c)
+        second = Quotient.make((t.derivative() + t * t) * P + 2 * t * dP + dP.derivative(), c)
+        S, p = Quotient.make(closed.S, None), embed(P, c)
+        f, df, rest = p(origin), first(origin), second(origin) - 2 * S(origin) * p(origin)
+        return cls(origin, LogDerivative.make(t, c), p, first, second, S, (df * df - 2 * f * rest).sqrt())
+
+    def sign_on(self, piece: Piece) -> int | None:
+        """+1 or -1 where f' + w or f' - w is proven to have no zero on the piece; None where neither is."""
+        slope, w = self.first.on(piece), self.w / self.theta.growth(self.origin, piece.box())
         for sign in (1, -1):
-            side = Point(-step.im, step.re).scaled(Fraction(sign, denominator))
-            if not _strip_is_free(closed, a, b, side):
-                continue
-            top = (a + side, b + side)
-            if _clearance(roots, *top) < 1 / 256:
-                continue
-            return [(a, top[0], False), (*top, True), (top[1], b, False)]
-    raise LimitExceeded("no way around the zeros of the closed form was found on this leg", limit="unknown_degree")
+            value = slope + sign * w
+            if value.is_finite() and not value.contains(0):
+                return sign
+        return None
 
+    def omega(self, sign: int, x: acb, *, analytic: bool = False) -> acb:
+        """y'/y of y- (sign 1) or y+ (sign -1)."""
+        rest = self.second(x) - 2 * self.S(x) * self.P(x)
+        w = self.w * (-self.theta.exponent(self.origin, x, analytic=analytic)).exp()
+        return rest / (self.first(x) + sign * w)
 
-def _clearance(roots: list[acb], a: Point, b: Point) -> float:
-    """A lower bound of the distance from the segment to the nearest root, as a share of the segment's length (0:
-    unknown)."""
-    za, step = to_acb(a), to_acb(b - a)
-    best = 1e300
-    for root in roots:
-        u = (root - za) / step
-        x, y = float(u.real.mid()), float(u.imag.mid())
-        error = float(u.real.rad()) + float(u.imag.rad()) + 1e-12 * (1 + abs(x) + abs(y))
-        outside = max(0.0, -x, x - 1.0)
-        best = min(best, max(0.0, (outside * outside + y * y) ** 0.5 - error))
-    return best
+    def matrix(self, sign: int, a: acb, b: acb, budget: Budget) -> Matrix:
+        """The transition matrix from a to b, a piece of the leg that begins at `origin`."""
+        from flint import acb
 
+        def integrand(z: acb, analytic: bool) -> acb:
+            return self.omega(sign, z, analytic=analytic)
 
-def _strip_is_free(closed: ClosedForm, a: Point, b: Point, side: Point) -> bool:
-    """True if the parallelogram a, b, b + side, a + side contains no singular point (proven with the enclosures)."""
-    za, step, across = to_acb(a), to_acb(b - a), to_acb(side)
-    turn = across / step  # purely imaginary
-    for root, _ in closed.problem.system.roots("den", 128):
-        u = (root - za) / step
-        along, beside = u.real, u.imag / turn.imag
-        if not (along < 0 or along > 1 or beside < 0 or beside > 1):
-            return False
-    return True
+        def states(x: acb, E: acb, y: acb) -> tuple[tuple[acb, acb], tuple[acb, acb]]:
+            omega, f = self.omega(sign, x), E * self.P(x)
+            return (y, y * omega), (f / y, (E * self.first(x) - f * omega) / y)
 
-
-def _algebraic_leg(closed: ClosedForm, a: Point, b: Point, prec: int, budget: Budget) -> Matrix:
-    """Case 3: three roots of the polynomial of omega at both ends, matched through route (b) at low precision."""
-    from flint import ctx
-
-    coefficients = closed.riccati.coefficients
-    c = conjugates(coefficients[0].field)[0]
-    at_a, at_b = (_riccati_roots(coefficients, c, to_acb(p)) for p in (a, b))
-    low = 40
-    while True:
-        budget.check()
-        with ctx.workprec(low + 40):
-            rough = product(piece_matrices(closed.problem.system, a, b, low, budget))
-        matched = _match(at_a, at_b, rough)
-        if len(matched) >= 3:
-            break
-        low *= 2
-        if low > prec:
-            return _unknown()
-    (wa, wb, ya), (xa, xb, yb), (va, vb, _) = matched[:3]
-    g12, g13, g23 = (wa - xa) / (wb - xb), (wa - va) / (wb - vb), (xa - va) / (xb - vb)
-    y1, y2 = _signed((g12 * g13 / g23).sqrt(), ya), _signed((g12 * g23 / g13).sqrt(), yb)
-    if y1 is None or y2 is None:
-        return _unknown()
-    at_start = (_one(), _one(), wa, xa)
-    at_end = (y1, y2, y1 * wb, y2 * xb)
-    return _quotient(at_end, at_start)
-
-
-def _one() -> acb:
-    from flint import acb
-
-    return acb(1)
-
-
-def _riccati_roots(coefficients: tuple[Any, ...], c: acb | None, x: acb) -> list[acb]:
-    from flint import acb_poly
-
-    return sharp_roots(acb_poly([embed(r.num, c)(x) / embed(r.den, c)(x) for r in coefficients]))
-
-
-def _unknown() -> Matrix:
-    """The matrix of which nothing is known: the caller raises the precision."""
-    from flint import acb
-
-    nothing = acb(float("nan"), float("nan"))
-    return nothing, nothing, nothing, nothing
-
-
-def _match(at_a: list[acb], at_b: list[acb], rough: Matrix) -> list[tuple[acb, acb, acb]]:
-    """Triples (omega at a, its continuation at b, rough value of y(b) for y(a) = 1) that are unambiguous."""
-    found = []
-    for omega in at_a:
-        y, dy = rough[0] + rough[1] * omega, rough[2] + rough[3] * omega
-        if y.contains(0):
-            continue
-        slope = dy / y
-        candidates = [other for other in at_b if other.overlaps(slope)]
-        if len(candidates) == 1:
-            found.append((omega, candidates[0], y))
-    return found
-
-
-def _signed(root: acb, rough: acb) -> acb | None:
-    """The square root that is near the rough value; None where that can't be told."""
-    if root.overlaps(rough) and not (-root).overlaps(rough):
-        return root
-    if (-root).overlaps(rough) and not root.overlaps(rough):
-        return -root
-    return None
+        growth = integral(integrand, a, b, budget).exp()
+        at_a, at_b = states(a, acb(1), acb(1)), states(b, self.theta.growth(a, b), growth)
+        return quotient(fundamental(*at_b), fundamental(*at_a))
 
 
 @dataclass(frozen=True)
 class ClosedFormRoute:
-    """Route (a) as a `kovacic.numeric.evaluate.Route`."""
+    """Route (a) as a `kovacic.numeric.precision.Route`."""
 
     closed: ClosedForm
-    itinerary: Any
-    start: tuple[Any, Any]
+    itinerary: Itinerary
+    start: Start
 
     def __call__(self, prec: int, budget: Budget) -> list[tuple[acb, acb]]:
-        from kovacic.numeric.evaluate import carry
-
-        legs = with_gauge(self.closed.problem.gauge, lambda a, b: leg_matrix(self.closed, a, b, prec, budget))
+        legs = with_gauge(self.closed.problem.gauge, lambda a, b: leg_matrix(self.closed, a, b, budget))
         return carry(legs, self.itinerary, self.start)
 
 
-def closed_form_route(problem: NumericProblem, itinerary: Any, start: tuple[Any, Any]) -> ClosedFormRoute:
+def closed_form_route(problem: NumericProblem, itinerary: Itinerary, start: Start) -> ClosedFormRoute:
     """The route of a solution with a certificate; raises InputError where there is none."""
     return ClosedFormRoute(closed_form_of(problem), itinerary, start)

@@ -22,8 +22,9 @@ from typing import TYPE_CHECKING, Any
 
 from kovacic.errors import InputError
 from kovacic.limits import Limits
-from kovacic.numeric.evaluate import Evaluation, evaluate_states
+from kovacic.numeric.evaluate import evaluate_states
 from kovacic.numeric.points import Point, as_point
+from kovacic.numeric.precision import Evaluation
 from kovacic.numeric.problem import as_problem
 from kovacic.numeric.singular import System
 

@@ -28,21 +28,10 @@ from typing import TYPE_CHECKING
 
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
+from kovacic.numeric.frame import Frame, RayBound, log2_lead, log2_norm, make_frame, ray_bound, shift_system
 from kovacic.numeric.points import Point
 from kovacic.numeric.singular import System, check_segment, distance_lower
-from kovacic.numeric.taylor import (
-    Expansion,
-    Frame,
-    Matrix,
-    RayBound,
-    expand,
-    log2_lead,
-    log2_norm,
-    make_frame,
-    ray_bound,
-    shift_system,
-    transition,
-)
+from kovacic.numeric.taylor import Expansion, Matrix, expand, transition
 
 if TYPE_CHECKING:
     from flint import acb
