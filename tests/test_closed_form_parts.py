@@ -5,10 +5,11 @@ from __future__ import annotations
 import pickle
 from fractions import Fraction
 
-import mpmath
+import flint
 import pytest
 import strategies
 import sympy
+from flint import acb, arb
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from sympy.abc import t, x
@@ -36,10 +37,6 @@ ZERO = RatFunc(QQ.poly([]))
 squarefree = strategies.polynomials(1, 4).filter(lambda g: g.gcd(g.derivative()).degree == 0).map(Poly.monic)
 
 
-def value(r: RatFunc, point: mpmath.mpc) -> mpmath.mpc:
-    return Atoms(x).ratio(r).subs(x, sympy.sympify(point)).evalf(30)
-
-
 @given(strategies.rational_functions(5))
 def test_partial_fractions_add_up(r: RatFunc) -> None:
     parts = decompose(r)
@@ -57,8 +54,8 @@ def test_logarithms_of_partial_fractions(data: st.DataObject) -> None:
     """The SymPy integral differentiates back to r, at a point, with jets."""
     r = data.draw(strategies.rational_functions(3))
     expression = Atoms(x).integral(decompose(r))
-    with mpmath.workdps(40):
-        point = mpmath.mpc("0.37", "-0.59")
+    with flint.ctx.workdps(40):
+        point = acb("0.37", "-0.59")
         assert abs(jet(expression, x, point)[1] - jet(Atoms(x).ratio(r), x, point)[0]) < 1e-25
 
 
@@ -80,8 +77,8 @@ def test_integrals_on_curves(r: RatFunc, g: Poly) -> None:
 def test_integrals_of_genus_0_differentiate_back(r: RatFunc, g: Poly) -> None:
     expression, notes = curve_integral(integrate_on_curve(r, g), Atoms(x))
     assert notes == ()
-    with mpmath.workdps(40):
-        for point in (mpmath.mpc("0.37", "-0.59"), mpmath.mpc("-2.1", "0.3"), mpmath.mpc("1.9", "0.7")):
+    with flint.ctx.workdps(40):
+        for point in (acb("0.37", "-0.59"), acb("-2.1", "0.3"), acb("1.9", "0.7")):
             expected = jet(Atoms(x).ratio(r) / sympy.sqrt(Atoms(x).poly(g)), x, point)[0]
             assert abs(jet(expression, x, point)[1] - expected) < 1e-20 * (1 + abs(expected))
 
@@ -172,17 +169,17 @@ def test_klein_form_and_polynomial_agree_along_a_path(S: str) -> None:
     assert isinstance(form.structure, KleinForm)
     polynomial = form.structure.polynomial
     assert polynomial is not None
-    with mpmath.workdps(75):
-        path = [mpmath.mpc(2) + mpmath.mpc("0.05", "0.11") * k for k in range(1, 6)]
-        values = [[1, *(value_at(c, point) for c in polynomial.coefficients)] for point in path]
-        roots = mpmath.polyroots(values[0], maxsteps=500, extraprec=300)
+    with flint.ctx.workdps(200):
+        path = [2 + acb("0.05", "0.11") * k for k in range(1, 6)]
+        values = [[acb(1), *(value_at(c, point) for c in polynomial.coefficients)] for point in path]
+        roots = flint.acb_poly(values[0][::-1]).roots(tol=arb(10) ** -60)
         for y in form:
             powers = [jet(y, x, point)[0] ** polynomial.power for point in path]
             # The scale is a root of unity times a positive number: the ratio with a real 6th power.
-            scale = min((root / powers[0] for root in roots), key=lambda q: abs(mpmath.im(q**6)) / abs(q**6))
+            scale = min((root / powers[0] for root in roots), key=lambda q: float((abs((q**6).imag) / abs(q**6)).mid()))
             for coefficients, power in zip(values, powers, strict=True):
                 terms = [c * (scale * power) ** (len(coefficients) - 1 - i) for i, c in enumerate(coefficients)]
-                assert abs(mpmath.fsum(terms)) < mpmath.mpf(10) ** -50 * max(abs(term) for term in terms)
+                assert abs(sum(terms)) < arb(10) ** -50 * sum(abs(term) for term in terms)
 
 
 def test_polynomial_is_shown_in_factored_form() -> None:

@@ -6,7 +6,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import gcd
 from typing import Any
 
 import sympy
@@ -16,12 +15,12 @@ from kovacic.algebra.embedding import real_root_index
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Poly, RationalPoly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form import plain
 from kovacic.closed_form.partial_fractions import Decomposition, Residue
+from kovacic.closed_form.plain import Expr
 from kovacic.closed_form.product import Product
-
-Expr = Any  # SymPy publishes no types
 
 
 def rational(value: Fraction | int) -> Expr:
@@ -113,23 +112,23 @@ class Atoms:
     def poly(self, polynomial: Poly, variable: Expr = None) -> Expr:
         """A polynomial, expanded."""
         x = self.x if variable is None else variable
-        return Add(*(c * x**k for k, c in enumerate(self.coefficients(polynomial)) if c))
+        return plain.polynomial(self.coefficients(polynomial), x)
 
     def primitive(self, polynomial: Poly) -> tuple[Fraction, Expr]:
         """(content, expression): the polynomial is content * expression, which has coprime integer coefficients over Q."""
-        if polynomial.field != QQ or not polynomial:
+        if not isinstance(polynomial, RationalPoly) or not polynomial:
             return Fraction(1), self.poly(polynomial)
-        denominator = polynomial.common_denominator()
-        scaled = polynomial * denominator
-        content = gcd(*(int(c.p) for c in scaled.rational_coefficients()))
-        if polynomial.lc.rational_coefficients()[0] < 0:
+        numerator = polynomial.numerator()
+        content = int(numerator.content())
+        if numerator.leading_coefficient() < 0:
             content = -content
-        return Fraction(content, denominator), self.poly(scaled * Fraction(1, content))
+        coefficients = [Integer(int(c)) for c in (numerator // content).coeffs()]
+        return Fraction(content, polynomial.common_denominator()), plain.polynomial(coefficients, self.x)
 
     def ratio(self, r: RatFunc) -> Expr:
         """A rational function as one fraction."""
         (c, num), (d, den) = self.primitive(r.num), self.primitive(r.den)
-        return rational(c / d) * num / den
+        return plain.quotient(rational(c / d) * num if c != d else num, den)
 
     def sum(self, r: RatFunc) -> Expr:
         """A rational function as polynomial part and proper fraction."""
@@ -146,8 +145,8 @@ class Atoms:
             for p, k in r.field.factor(polynomial) if polynomial.degree > 0 else []:
                 c, base = self.primitive(p)
                 content *= c ** (sign * k)
-                factors.append(base ** (sign * k))
-        return Mul(rational(content), *factors)
+                factors.append(plain.power(base, Integer(sign * k)))
+        return plain.times(rational(content), *factors)
 
     # ---------------------------------------------------------------------------------------------- roots
 
@@ -180,7 +179,7 @@ class Atoms:
 
     def integral(self, parts: Decomposition) -> Expr:
         """The integral of a decomposed rational function: rational part and logarithms."""
-        return Add(self.sum(parts.exact), *self.logarithms(parts.residues))
+        return plain.plus(self.sum(parts.exact), *self.logarithms(parts.residues))
 
     def logarithms(self, residues: Iterable[Residue]) -> list[Expr]:
         """Logarithms; those of two linear factors with opposite residues as one, real between the roots if 0 lies there."""
@@ -200,14 +199,14 @@ class Atoms:
             if at_zero is not None and at_zero < 0:
                 bottom = Add(*(-term for term in bottom.args))
             # SymPy would search the argument for special values.
-            terms.append(self.constant(first.value) * log(top / bottom, evaluate=False))
+            terms.append(plain.times(self.constant(first.value), log(plain.quotient(top, bottom), evaluate=False)))
         return terms[::-1]
 
     # ------------------------------------------------------------------------------------------- products
 
     def product(self, y: Product, *, around_zero: bool = False) -> Expr:
         """A product, up to a constant factor."""
-        return Mul(*self.factors(y, around_zero=around_zero)[1])
+        return plain.times(*self.factors(y, around_zero=around_zero)[1])
 
     def factors(
         self, y: Product, extra: RatFunc | None = None, *, like: Product | None = None, around_zero: bool = True
@@ -247,7 +246,10 @@ class Atoms:
         """The factor exp(rational function) of a product, with the sums over roots that aren't written as powers."""
         inner = [self.log_sum(residue) for residue in y.roots if not self._explicit(residue)]
         if y.exponential.num.degree > 0 or not y.exponential.is_polynomial:
-            inner.append(self.sum(y.exponential))
+            rational_part = self.sum(y.exponential)
+            if not inner:
+                return plain.exponential(rational_part)
+            inner.append(rational_part)
         return exp(Add(*inner)) if inner else Integer(1)
 
     def is_linear_power(self, residue: Residue) -> bool:
@@ -290,15 +292,22 @@ class Atoms:
             turned = [-base if around_zero and self._is_negative_around_zero(base) else base for base in bases]
             flips = sum(base != other for base, other in zip(bases, turned, strict=True))
             scale = scale * Integer(-1) ** (exponent * flips)
-            powers.append(Pow(Mul(*turned), exponent))
-        powers += [Pow(base, k) for k, bases in integers.items() for base in self._joined(bases)]
+            powers.append(plain.power(plain.times(*turned), exponent))
+        powers += [plain.power(base, k) for k, bases in integers.items() for base in self._joined(bases)]
         return scale, powers
 
     def _is_negative_around_zero(self, base: Expr) -> bool:
-        """Is this c x^2 - a with c, a > 0?"""
-        return bool(base.is_Add and base.subs(self.x, 0).is_negative and base == base.subs(self.x, -self.x)) and (
-            sympy.degree(base, self.x) == 2
-        )
+        """Is this c x^2 - a with a > 0?"""
+        if not base.is_Add:
+            return False
+        constants = [term for term in base.args if term.is_number]
+        powers = [term for term in base.args if not term.is_number]
+        return len(powers) == 1 and self._degree(powers[0]) == 2 and bool(Add(*constants).is_negative)
+
+    def _degree(self, monomial: Expr) -> int | None:
+        """The degree of c x^k; None for anything else."""
+        power = monomial.as_independent(self.x, as_Add=False)[1].as_base_exp()
+        return int(power[1]) if power[0] == self.x and power[1].is_Integer else None
 
     def _joined(self, bases: list[Expr]) -> list[Expr]:
         """With every pair x - a, x + a multiplied out."""
@@ -314,7 +323,10 @@ class Atoms:
 
     def _opposite(self, first: Expr, second: Expr) -> bool:
         """Are these a x - b and a x + b?"""
-        return bool(first.is_Add and second.is_Add and first.subs(self.x, -self.x) == -second)
+        if not (first.is_Add and second.is_Add and len(first.args) == len(second.args) == 2):
+            return False
+        (b, ax), (c, other) = (e.args if e.args[0].is_number else e.args[::-1] for e in (first, second))
+        return bool(b.is_number and ax == other and b == -c and self._degree(ax) == 1)
 
 
 def _is_the_smaller_root(field: AlgebraicField) -> bool:

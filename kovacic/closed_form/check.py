@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-import mpmath
+from flint import acb, acb_poly, arb, ctx, fmpq
 from sympy import Dummy
 
-from kovacic.algebra.fields import QQ
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Poly, RationalPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.curve import CurveIntegral
@@ -96,39 +95,34 @@ def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
 
 
 def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: Any) -> Any:
-    """|y'' - 2 g y' + (g^2 - g' - S) y| relative to its terms, g the logarithmic derivative of the gauge factor."""
+    """|y'' - 2 g y' + (g^2 - g' - S) y| relative to its terms, g the logarithmic derivative of the gauge factor: a ball."""
     y, first, second = jet(expression, variable, point)
-    S0, g0, slope = value_at(S, point), value_at(gauge, point), value_at(gauge.derivative(), point)
+    S0, g0 = value_at(S, point), value_at(gauge, point)
+    slope = value_at(gauge.derivative(), point) if gauge else g0
     terms = (second, -2 * g0 * first, (g0 * g0 - slope - S0) * y)
-    scale = max(abs(term) for term in terms) + abs(y) + abs(first)
-    return abs(sum(terms)) / scale if scale else mpmath.inf
+    scale = sum(map(abs, terms), abs(y) + abs(first))
+    return abs(sum(terms)) / scale
 
 
 def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc) -> bool:
     """Does the expression satisfy the equation to 50 digits at a point with negative real and imaginary part?"""
     # Legendre's Q_60 is the difference of two terms that agree in a hundred digits; hence the repetitions.
     for digits in (DIGITS + 15, 3 * DIGITS, 8 * DIGITS, 24 * DIGITS):
-        with mpmath.workdps(digits):
-            point = mpmath.mpc(-mpmath.mpf(137) / 101, -mpmath.mpf(71) / 89)
-            if residual(expression, variable, S, gauge, point) < mpmath.mpf(10) ** -DIGITS:
+        with ctx.workdps(digits):
+            point = acb(arb(fmpq(-137, 101)), arb(fmpq(-71, 89)))
+            if residual(expression, variable, S, gauge, point) < arb(10) ** -DIGITS:
                 return True
     return False
 
 
 def value_at(r: RatFunc, point: Any) -> Any:
-    return _horner(r.num, point) / _horner(r.den, point)
+    return _value(r.num, point) / _value(r.den, point)
 
 
-def _horner(polynomial: Poly, point: Any) -> Any:
-    total = mpmath.mpf(0)
-    for c in reversed(_coefficients(polynomial)):
-        total = total * point + c
-    return total
-
-
-def _coefficients(polynomial: Poly) -> list[Any]:
-    """Numbers; the constants as in what is shown."""
-    if polynomial.field == QQ:
-        return [mpmath.mpf(int(c.p)) / int(c.q) for c in polynomial.rational_coefficients()]
+def _value(polynomial: Poly, point: Any) -> Any:
+    if isinstance(polynomial, RationalPoly):
+        return acb_poly(polynomial.rep)(point)
+    # The constants as in what is shown.
     variable = Dummy()
-    return [jet(c, variable, mpmath.mpf(0))[0] for c in Atoms(variable).coefficients(polynomial)]
+    constants = (jet(c, variable, acb(0))[0] for c in Atoms(variable).coefficients(polynomial))
+    return acb_poly(list(constants))(point)

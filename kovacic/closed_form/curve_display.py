@@ -16,9 +16,11 @@ from sympy import Add, Integer, Mul, Pow, atan, cos, exp, log, sin, sqrt
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms, Expr, rational
+from kovacic.closed_form import plain
+from kovacic.closed_form.atoms import Atoms, rational
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.partial_fractions import Residue
+from kovacic.closed_form.plain import Expr
 from kovacic.closed_form.structure import OnCurve
 from kovacic.closed_form.units import Unit, unit
 
@@ -49,7 +51,7 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
         angle = Add(
             *(_times(kappa, t) for t in terms.others), *(_times(kappa, c) * log(b) for c, b in terms.logarithms)
         )
-        return common * cos(angle), common * sin(angle), terms.notes
+        return plain.times(common, cos(angle)), plain.times(common, sin(angle)), terms.notes
     kappa = sqrt(square)
     pair = []
     for sign in (kappa, -kappa):

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from sympy import hyper
 
-from kovacic.closed_form.atoms import Atoms, Expr, rational
+from kovacic.closed_form.atoms import Atoms, rational
 from kovacic.closed_form.curve_display import exponentials
 from kovacic.closed_form.integrals import second_solution
 from kovacic.closed_form.klein import Hypergeometric
+from kovacic.closed_form.plain import Expr
 from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
 

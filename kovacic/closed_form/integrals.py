@@ -7,13 +7,15 @@ from fractions import Fraction
 from math import gcd, lcm
 
 import sympy
-from sympy import Add, Ei, Mul, Pow, erf, erfi, exp, pi, sqrt
+from sympy import Add, Ei, Integer, Mul, Pow, erf, erfi, exp, pi, sqrt
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms, Expr, rational
+from kovacic.closed_form import plain
+from kovacic.closed_form.atoms import Atoms, rational
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.curve_display import curve_integral
+from kovacic.closed_form.plain import Expr
 from kovacic.closed_form.primitive import (
     CurvePrimitive,
     ExponentialPrimitive,
@@ -46,16 +48,18 @@ Scaled = tuple[Expr, Expr]  # a constant and an expression, to be multiplied
 
 def _sum(terms: list[Scaled]) -> Expr:
     """The sum up to a constant factor: coprime integer coefficients if they are commensurable, the last one positive."""
+    if len(terms) == 1:
+        return terms[0][1]
     ratios = [c / terms[-1][0] for c, _ in terms]
     if all(ratio.is_Rational for ratio in ratios):
         content = sympy.Rational(gcd(*(int(r.p) for r in ratios)), lcm(*(int(r.q) for r in ratios)))
         ratios = [ratio / content for ratio in ratios]
-    return Add(*(Mul(c, e) for c, e in zip(ratios, (e for _, e in terms), strict=True)))
+    return plain.plus(*(plain.times(c, e) for c, e in zip(ratios, (e for _, e in terms), strict=True)))
 
 
 def _scaled(scale: Expr, factors: list[Expr]) -> Scaled:
     """Rational factors of the product join the constant."""
-    coefficient, rest = Mul(*factors).as_coeff_Mul()
+    coefficient, rest = plain.times(*factors).as_coeff_Mul()
     return scale * coefficient, rest
 
 
@@ -85,7 +89,7 @@ def _normalised_constant(exact: RatFunc) -> RatFunc:
 def _on_curve(form: Triangular, integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, tuple[str, ...]]:
     first = atoms.product(form.first, around_zero=True)
     value, notes = curve_integral(integral, atoms)
-    return Add(*(Mul(first, term) for term in Add.make_args(value))), notes
+    return plain.plus(*(plain.times(first, term) for term in Add.make_args(value))), notes
 
 
 def _exponential(form: Triangular, primitive: ExponentialPrimitive, atoms: Atoms) -> Expr:
@@ -93,7 +97,7 @@ def _exponential(form: Triangular, primitive: ExponentialPrimitive, atoms: Atoms
     terms = []
     if primitive.W:
         terms.append(_algebraic_part(form, primitive, atoms))
-    shift = exp(atoms.constant(primitive.constant))
+    shift = exp(atoms.constant(primitive.constant)) if primitive.constant else Integer(1)
     t = atoms.x - atoms.constant(primitive.centre)
     scale, factors = atoms.factors(form.first)
     for term in primitive.terms:

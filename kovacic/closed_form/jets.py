@@ -1,4 +1,6 @@
-"""Values with first and second derivatives of SymPy expressions, by mpmath: the numerical check of what is shown.
+"""Values with first and second derivatives of SymPy expressions in ball arithmetic: the numerical check of what is shown.
+
+The balls contain the values, except that algebraic numbers without radicals (`CRootOf`) are taken from SymPy as points.
 
 An unevaluated integral counts as an antiderivative with an arbitrary constant: its value is taken as 1, and its derivatives
 are those of the integrand.  In y1 int y1^-2 and exp(int ...) the constant changes the solution into another one.
@@ -7,18 +9,21 @@ are those of the integrand.  In y1 int y1^-2 and exp(int ...) the constant chang
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import prod
 from typing import Any
 
-import mpmath
 import sympy
+from flint import acb, arb, ctx, fmpq, fmpz_poly
 
-Number = Any  # mpmath's mpc and mpf
+Number = Any  # flint's acb
 Jet = tuple[Number, Number, Number]
 Unary = Callable[[Number], Jet]
 
+_ZERO, _ONE = acb(0), acb(1)
+
 
 def jet(expression: Any, variable: Any, point: Number) -> Jet:
-    """(f, f', f'') at the point, in the current precision of mpmath.
+    """(f, f', f'') at the point, in the current precision of flint.
 
     Raises `NotImplementedError` for a function that no closed form of this package contains.
     """
@@ -27,12 +32,12 @@ def jet(expression: Any, variable: Any, point: Number) -> Jet:
 
 def parameter_value(name: str) -> Number:
     """The value that a parameter takes in the check: a number that isn't special."""
-    return mpmath.mpf(1) + mpmath.mpf(sum(ord(c) * 31**k for k, c in enumerate(name)) % 9973) / 9967
+    return acb(1 + arb(fmpq(sum(ord(c) * 31**k for k, c in enumerate(name)) % 9973, 9967)))
 
 
 class _Evaluator:
     def __init__(self, variable: Any, point: Number) -> None:
-        self.bindings: dict[Any, Jet] = {variable: (mpmath.mpmathify(point), mpmath.mpf(1), mpmath.mpf(0))}
+        self.bindings: dict[Any, Jet] = {variable: (acb(point), _ONE, _ZERO)}
         self.variable = variable
         self.memo: dict[Any, Jet] = {}
 
@@ -47,10 +52,13 @@ class _Evaluator:
 
     def _evaluate(self, e: Any) -> Jet:
         if e.is_Rational:
-            return _constant(mpmath.mpf(int(e.p)) / int(e.q))
+            return _constant(acb(arb(fmpq(int(e.p), int(e.q)))))
         if e.is_Add:
-            jets = [self(arg) for arg in e.args]
-            return tuple(mpmath.fsum(part) for part in zip(*jets, strict=True))
+            value, first, second = self(e.args[0])
+            for arg in e.args[1:]:
+                jet = self(arg)
+                value, first, second = value + jet[0], first + jet[1], second + jet[2]
+            return value, first, second
         if e.is_Mul:
             result = self(e.args[0])
             for arg in e.args[1:]:
@@ -64,7 +72,7 @@ class _Evaluator:
             return self._root_sum(e)
         if isinstance(e, sympy.Integral):
             value, first, _ = self(e.function)
-            return mpmath.mpf(1), value, first
+            return _ONE, value, first
         if isinstance(e, (sympy.uppergamma, sympy.lowergamma)):
             return self._incomplete_gamma(e)
         if isinstance(e, sympy.hyper):
@@ -75,7 +83,7 @@ class _Evaluator:
         if e.is_Symbol:
             return _constant(parameter_value(e.name))
         if not e.free_symbols:
-            return _constant(mpmath.mpmathify(e._to_mpmath(mpmath.mp.prec)))
+            return _constant(_number(e))
         raise NotImplementedError(f"the function {e.func} can't be evaluated")
 
     def _power(self, e: Any) -> Jet:
@@ -89,16 +97,16 @@ class _Evaluator:
             first = -value[1] * inverse**2
             return inverse, first, -(value[2] * inverse**2) - 2 * first * value[1] * inverse
         power = value[0] ** k
-        if k == 0 or value[1] == 0 == value[2]:
+        if k == 0 or (value[1].is_zero() and value[2].is_zero()):
             return _constant(power)
         slope = k * power / value[0]
         return power, slope * value[1], slope * value[2] + (k - 1) * slope / value[0] * value[1] ** 2
 
     def _root_sum(self, e: Any) -> Jet:
         a = e.fun.variables[0]
-        coefficients = [mpmath.mpf(int(c.p)) / int(c.q) for c in e.poly.all_coeffs()]
-        total = _constant(mpmath.mpf(0))
-        for root in mpmath.polyroots(coefficients, maxsteps=500, extraprec=4 * mpmath.mp.prec):
+        coefficients = e.poly.clear_denoms()[1].all_coeffs()
+        total = _constant(_ZERO)
+        for root, _ in fmpz_poly([int(c) for c in coefficients[::-1]]).complex_roots():
             inner = _Evaluator(self.variable, self.bindings[self.variable][0])
             inner.bindings[a] = _constant(root)
             total = _plus(total, inner(e.fun.expr))
@@ -109,8 +117,8 @@ class _Evaluator:
         upper = isinstance(e, sympy.uppergamma)
 
         def unary(z: Number) -> Jet:
-            value = mpmath.gammainc(s, z) if upper else mpmath.gammainc(s, 0, z)
-            slope = mpmath.exp(-z) * z ** (s - 1) * (-1 if upper else 1)
+            value = z.gamma_upper(s) if upper else z.gamma_lower(s)
+            slope = (-z).exp() * z ** (s - 1) * (-1 if upper else 1)
             return value, slope, slope * ((s - 1) / z - 1)
 
         return _chain(self(e.args[1]), unary)
@@ -119,17 +127,28 @@ class _Evaluator:
         top, bottom = [self(a)[0] for a in e.ap], [self(b)[0] for b in e.bq]
 
         def unary(z: Number) -> Jet:
-            values, factor = [], mpmath.mpf(1)
+            values, factor = [], _ONE
             for k in range(3):
-                values.append(factor * mpmath.hyper([a + k for a in top], [b + k for b in bottom], z))
-                factor *= mpmath.fprod(a + k for a in top) / mpmath.fprod(b + k for b in bottom)
+                values.append(factor * z.hypgeom([a + k for a in top], [b + k for b in bottom]))
+                factor *= prod((a + k for a in top), start=_ONE) / prod((b + k for b in bottom), start=_ONE)
             return values[0], values[1], values[2]
 
         return _chain(self(e.argument), unary)
 
 
+def _number(e: Any) -> Number:
+    """A constant that isn't made of the functions above."""
+    if e is sympy.I:
+        return acb(0, 1)
+    if e is sympy.pi:
+        return acb.pi()
+    number = e._to_mpmath(ctx.prec)
+    parts = number._mpc_ if hasattr(number, "_mpc_") else (number._mpf_,)
+    return acb(*(arb((-mantissa if sign else mantissa, exponent)) for sign, mantissa, exponent, _ in parts))
+
+
 def _constant(value: Number) -> Jet:
-    return value, mpmath.mpf(0), mpmath.mpf(0)
+    return value, _ZERO, _ZERO
 
 
 def _plus(f: Jet, g: Jet) -> Jet:
@@ -146,42 +165,43 @@ def _chain(u: Jet, function: Unary) -> Jet:
 
 
 def _exp(z: Number) -> Jet:
-    value = mpmath.exp(z)
+    value = z.exp()
     return value, value, value
 
 
 def _log(z: Number) -> Jet:
-    return mpmath.log(z), 1 / z, -1 / z**2
+    inverse = 1 / z
+    return z.log(), inverse, -inverse * inverse
 
 
 def _sin(z: Number) -> Jet:
-    c, s = mpmath.cos(z), mpmath.sin(z)
+    s, c = z.sin_cos()
     return s, c, -s
 
 
 def _cos(z: Number) -> Jet:
-    c, s = mpmath.cos(z), mpmath.sin(z)
+    s, c = z.sin_cos()
     return c, -s, -c
 
 
 def _atan(z: Number) -> Jet:
     slope = 1 / (1 + z * z)
-    return mpmath.atan(z), slope, -2 * z * slope**2
+    return z.atan(), slope, -2 * z * slope**2
 
 
 def _erf(z: Number) -> Jet:
-    slope = 2 / mpmath.sqrt(mpmath.pi) * mpmath.exp(-z * z)
-    return mpmath.erf(z), slope, -2 * z * slope
+    slope = 2 / acb.pi().sqrt() * (-z * z).exp()
+    return z.erf(), slope, -2 * z * slope
 
 
 def _erfi(z: Number) -> Jet:
-    slope = 2 / mpmath.sqrt(mpmath.pi) * mpmath.exp(z * z)
-    return mpmath.erfi(z), slope, 2 * z * slope
+    slope = 2 / acb.pi().sqrt() * (z * z).exp()
+    return z.erfi(), slope, 2 * z * slope
 
 
 def _ei(z: Number) -> Jet:
-    slope = mpmath.exp(z) / z
-    return mpmath.ei(z), slope, slope * (1 - 1 / z)
+    slope = z.exp() / z
+    return z.ei(), slope, slope * (1 - 1 / z)
 
 
 _UNARY: dict[Any, Unary] = {

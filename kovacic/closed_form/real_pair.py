@@ -19,13 +19,15 @@ from fractions import Fraction
 from typing import Any
 
 import sympy
-from sympy import Add, cos, sin, sqrt
+from sympy import Add, Integer, cos, sin, sqrt
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
-from kovacic.closed_form.atoms import Atoms, Expr
+from kovacic.closed_form import plain
+from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.partial_fractions import Residue
+from kovacic.closed_form.plain import Expr
 from kovacic.closed_form.product import Power, Product
 from kovacic.closed_form.structure import Conjugate
 from kovacic.places import rational_square_root
@@ -81,15 +83,21 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
         plus = sqrt(root + distance)
         minus = sign * atoms.quadratic_roots(p)[2] / (2 * plus)
         first, second = first * plus - second * minus, first * minus + second * plus
-    angle = _angle(phase)
+    angle = Add(*phase)
     if angle != 0:
-        c, t = cos(angle), sin(angle)
-        first, second = first * c - second * t, first * t + second * c
+        if angle.could_extract_minus_sign():  # the complex conjugates: y- instead of y+
+            angle, second = -angle, -second
+        evaluate = angle.has(sympy.atan)  # everything else stays as it is
+        c, t = cos(angle, evaluate=evaluate), sin(angle, evaluate=evaluate)
+        first, second = (
+            plain.plus(plain.times(first, c), plain.times(Integer(-1), second, t)),
+            plain.plus(plain.times(first, t), plain.times(second, c)),
+        )
     return _times(common, first), _times(common, second)
 
 
 def _times(common: Expr, factor: Expr) -> Expr:
-    return _without_content(factor) * common
+    return plain.times(_without_content(factor), common)
 
 
 def _without_content(expression: Expr) -> Expr:
@@ -102,11 +110,6 @@ def _without_content(expression: Expr) -> Expr:
         )
     constants = [term.as_coeff_Mul()[0] for term in expression.args]
     return -expression if all(c.is_negative for c in constants) else expression
-
-
-def _angle(phase: list[Expr]) -> Expr:
-    total = Add(*phase)
-    return -total if total.could_extract_minus_sign() and not isinstance(total, Add) else total
 
 
 def _content(atoms: Atoms, A: Poly, B: Poly) -> Fraction:

@@ -1,0 +1,112 @@
+"""SymPy expressions put together without SymPy's evaluation, where that would return the same expression.
+
+`Mul`, `Pow` and functions ask about the signs, zeros and infinities of their arguments, which takes most of the time in
+which a closed form is built.  The functions here return what `Mul(*factors)`, `base**exponent` and so on return: directly
+where the arguments are of the kinds that closed forms are made of and have nothing in common, and through SymPy elsewhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cmp_to_key
+from typing import Any
+
+from sympy import Add, Basic, Integer, Mul, Pow, S, exp
+from sympy.core.function import Function
+
+Expr = Any  # SymPy publishes no types
+_order = cmp_to_key(Basic.compare)
+
+
+def _is_sum_or_symbol(e: Expr) -> bool:
+    return e.is_Symbol or (e.is_Add and not e.is_number)
+
+
+def power(base: Expr, exponent: Expr) -> Expr:
+    """`base**exponent`."""
+    if exponent is S.One:
+        return base
+    if exponent.is_Rational and exponent is not S.Zero:
+        product = base.is_Mul and not exponent.is_Integer and all(map(_is_sum_or_symbol, base.args))
+        if product or _is_sum_or_symbol(base):
+            return Pow(base, exponent, evaluate=False)
+    return Pow(base, exponent)
+
+
+def _base(factor: Expr) -> Expr:
+    """The base of a factor that stays as it is beside factors with other bases; None for other factors."""
+    if factor.is_Pow:
+        base = factor.base
+        if not factor.exp.is_Rational:
+            return None
+        if base.is_Integer and base > 0:
+            return S.Half  # the product of two roots of integers is one root
+        return base if base is S.Pi or not base.is_number else None
+    if isinstance(factor, exp):
+        return S.Exp1 if not factor.args[0].is_number else None
+    if _is_sum_or_symbol(factor) or (isinstance(factor, Function) and not factor.is_number):
+        return factor
+    return None
+
+
+def times(*factors: Expr) -> Expr:
+    """`Mul(*factors)`."""
+    coefficient, rest, bases = S.One, [], set()
+    for product in factors:
+        for factor in Mul.make_args(product):
+            if factor is S.One:
+                continue
+            if factor.is_Rational:
+                coefficient = coefficient * factor
+                continue
+            base = _base(factor)
+            if base is None or base in bases:
+                return Mul(*factors)
+            bases.add(base)
+            rest.append(factor)
+    if coefficient is S.Zero or not rest:
+        return coefficient
+    if coefficient is S.One:
+        return rest[0] if len(rest) == 1 else Mul._from_args(sorted(rest, key=_order), True)
+    if len(rest) == 1 and rest[0].is_Add:
+        return plus(*(times(coefficient, term) for term in rest[0].args))
+    return Mul._from_args([coefficient, *sorted(rest, key=_order)], True)
+
+
+def plus(*terms: Expr) -> Expr:
+    """`Add(*terms)`."""
+    constant, rest, monomials = S.Zero, [], set()
+    for total in terms:
+        for term in Add.make_args(total):
+            if term.is_Rational:
+                constant = constant + term
+                continue
+            monomial = term.as_coeff_Mul()[1]
+            if monomial in monomials:
+                return Add(*terms)
+            monomials.add(monomial)
+            rest.append(term)
+    return Add._from_args([*([constant] if constant is not S.Zero else []), *sorted(rest, key=_order)], True)
+
+
+def quotient(numerator: Expr, denominator: Expr) -> Expr:
+    """`numerator / denominator`."""
+    return numerator if denominator is S.One else times(numerator, power(denominator, S.NegativeOne))
+
+
+def polynomial(coefficients: Sequence[Expr], variable: Expr) -> Expr:
+    """The sum of `coefficients[k] * variable**k`."""
+    if not (variable.is_Symbol and all(c.is_Rational for c in coefficients)):
+        return Add(*(c * variable**k for k, c in enumerate(coefficients) if c is not S.Zero))
+    terms = []
+    for k, c in enumerate(coefficients[1:], 1):
+        if c is not S.Zero:
+            x_k = variable if k == 1 else Pow(variable, Integer(k), evaluate=False)
+            terms.append(x_k if c is S.One else Mul._from_args([c, x_k], True))
+    constant = [c for c in coefficients[:1] if c is not S.Zero]
+    return Add._from_args(constant + sorted(terms, key=_order), True)
+
+
+def exponential(rational_function: Expr) -> Expr:
+    """`exp(f)` for a rational function that isn't a constant."""
+    return exp(rational_function, evaluate=False)

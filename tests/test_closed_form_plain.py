@@ -1,0 +1,97 @@
+"""Expressions that are put together without SymPy's evaluation are the ones that SymPy makes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from sympy import Add, Integer, Mul, Pow, Rational, cos, exp, log, pi, sqrt
+from sympy.abc import n, x
+
+from kovacic.closed_form import plain
+
+exponents = st.sampled_from([Rational(p, q) for p in (-3, -2, -1, 0, 1, 2, 3) for q in (1, 2, 3)])
+bases = st.sampled_from(
+    [
+        x,
+        x + 1,
+        1 - x,
+        x**2 - 2,
+        2 * x + 3,
+        x + sqrt(2),
+        3 * x**2 + x,
+        n + x,
+        n,
+        Integer(2),
+        Integer(-3),
+        1 + sqrt(5),
+        3 * x,
+    ]
+)
+factors = st.one_of(
+    st.builds(Pow, bases, exponents),
+    st.sampled_from(
+        [
+            Integer(0),
+            Integer(1),
+            Integer(-1),
+            Rational(2, 3),
+            sqrt(2),
+            sqrt(3),
+            sqrt(pi),
+            pi,
+            sympy.I,
+            sqrt(-2),
+            1 + sqrt(5),
+        ]
+    ),
+    st.sampled_from(
+        [exp(x), exp(-(x**2)), exp(2), cos(x), log(x + 1), sympy.erf(x), Mul(2, x, x + 1), -x, 2 * x, sqrt(x) * x]
+    ),
+)
+
+
+def assert_same(ours: Any, theirs: Any) -> None:
+    assert ours == theirs
+    assert sympy.srepr(ours) == sympy.srepr(theirs)
+    assert ours.is_commutative
+
+
+@settings(max_examples=200)
+@given(st.lists(factors, max_size=4))
+def test_products(chosen: list[Any]) -> None:
+    assert_same(plain.times(*chosen), Mul(*chosen))
+
+
+@settings(max_examples=200)
+@given(st.lists(factors, max_size=4))
+def test_sums(chosen: list[Any]) -> None:
+    assert_same(plain.plus(*chosen), Add(*chosen))
+
+
+@settings(max_examples=200)
+@given(st.one_of(bases, st.builds(Mul, bases, bases)), exponents)
+def test_powers(base: Any, exponent: Any) -> None:
+    assert_same(plain.power(base, exponent), Pow(base, exponent))
+
+
+@given(factors, bases)
+def test_quotients(numerator: Any, denominator: Any) -> None:
+    assert_same(plain.quotient(numerator, denominator), numerator / denominator)
+
+
+@given(
+    st.lists(st.sampled_from([Integer(0), Integer(1), Integer(-1), Integer(7), Rational(1, 2), sqrt(2), n]), max_size=6)
+)
+def test_polynomials(coefficients: list[Any]) -> None:
+    for variable in (x, 2 * x, x**3):
+        expected = Add(*(c * variable**k for k, c in enumerate(coefficients)))
+        assert_same(plain.polynomial(coefficients, variable), expected)
+
+
+@pytest.mark.parametrize("argument", [x, -x, 1 / x, x**2 / 2 + 3, (x + 1) / (x - 1), 3 * x / 2 - 1 / x**2])
+def test_exponentials(argument: Any) -> None:
+    assert_same(plain.exponential(argument), exp(argument))
