@@ -17,7 +17,7 @@ from flint import fmpq, fmpq_poly, nmod_poly
 
 from kovacic.algebra.lifting import RationalLifter as ResidueLifter
 from kovacic.algebra.lifting import primes
-from kovacic.algebra.poly import Poly, RationalPoly, Scalar, to_fraction
+from kovacic.algebra.poly import Poly, RationalPoly, Scalar, to_fmpq, to_fraction
 
 
 class BadPrimeError(Exception):
@@ -206,7 +206,10 @@ class RationalField(Field):
     """The field Q of rational numbers."""
 
     def poly(self, coefficients: Iterable[Scalar | Poly]) -> RationalPoly:
-        return RationalPoly.of(c.constant() if isinstance(c, RationalPoly) else c for c in coefficients)  # type: ignore[misc]
+        return RationalPoly(fmpq_poly([c if type(c) is int else _flint_scalar(c) for c in coefficients]))
+
+    def rational_value(self, constant: Poly) -> Fraction | None:
+        return to_fraction(constant.rep[0])  # type: ignore[attr-defined]
 
     def extends(self, other: Field) -> bool:
         return False
@@ -244,4 +247,9 @@ class RationalField(Field):
         return "Q"
 
 
+def _flint_scalar(value: Scalar | Poly) -> Any:
+    return value.rep[0] if isinstance(value, RationalPoly) else to_fmpq(value)  # type: ignore[arg-type]
+
+
 QQ = RationalField()
+RationalPoly.rationals = QQ

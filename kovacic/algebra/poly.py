@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from math import lcm
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from flint import fmpq, fmpq_poly, fmpz_poly
 
@@ -197,6 +197,10 @@ class Poly(ABC):
     def is_constant(self) -> bool:
         return self.degree <= 0
 
+    @property
+    def is_monic(self) -> bool:
+        return self.lc == 1
+
     def over(self, field: Field) -> Poly:
         """The same polynomial over an extension of its field (or over the field itself)."""
         return self if self.field == field else field.embed(self)
@@ -284,6 +288,7 @@ class RationalPoly(Poly):
 
     __slots__ = ("rep",)
 
+    rationals: ClassVar[Field]  # set by `fields`, which imports this module
     rep: Any  # fmpq_poly, never changed after construction
 
     def __init__(self, rep: Any) -> None:
@@ -305,9 +310,7 @@ class RationalPoly(Poly):
 
     @property
     def field(self) -> Field:
-        from kovacic.algebra.fields import QQ
-
-        return QQ
+        return self.rationals
 
     @property
     def degree(self) -> int:
@@ -333,6 +336,7 @@ class RationalPoly(Poly):
             return RationalPoly(fmpq_poly([to_fmpq(other)]))
         return None
 
+    # Python's overhead is most of the time for small polynomials: hence these besides the methods of `Poly`.
     # The operators of `Poly` with a short way for the common cases.
     def __add__(self, other: Poly | Scalar) -> RationalPoly:
         return RationalPoly(self.rep + other.rep) if type(other) is RationalPoly else super().__add__(other)
@@ -346,9 +350,17 @@ class RationalPoly(Poly):
         kind = type(other)
         if kind is RationalPoly:
             return RationalPoly(self.rep * other.rep)  # type: ignore[union-attr]
-        return RationalPoly(self.rep * other) if kind is int else super().__mul__(other)
+        if kind is int:
+            return RationalPoly(self.rep * other)
+        return RationalPoly(self.rep * to_fmpq(other)) if kind is Fraction else super().__mul__(other)  # type: ignore[arg-type]
 
     __rmul__ = __mul__
+
+    def __mod__(self, other: Poly | Scalar) -> RationalPoly:
+        return RationalPoly(self.rep % other.rep) if type(other) is RationalPoly else super().__mod__(other)
+
+    def __floordiv__(self, other: Poly | Scalar) -> RationalPoly:
+        return RationalPoly(self.rep // other.rep) if type(other) is RationalPoly else super().__floordiv__(other)
 
     def __truediv__(self, other: Poly | Scalar) -> RationalPoly:
         return RationalPoly(self.rep / other) if type(other) is int and other else super().__truediv__(other)
@@ -371,6 +383,16 @@ class RationalPoly(Poly):
         if exponent < 0:
             raise ValueError("a polynomial has no negative powers")
         return RationalPoly(self.rep**exponent)
+
+    def __bool__(self) -> bool:
+        return bool(self.rep)
+
+    @property
+    def is_monic(self) -> bool:
+        return bool(self.rep.leading_coefficient() == 1)
+
+    def monic(self) -> RationalPoly:
+        return RationalPoly(self.rep / self.rep.leading_coefficient()) if self.rep else self
 
     def gcd(self, other: Poly) -> RationalPoly:
         if not isinstance(other, RationalPoly):

@@ -40,8 +40,9 @@ class RatFunc:
                 common = num.gcd(den)
                 if common.degree > 0:
                     num, den = num // common, den // common
-            leading = den.lc.inverse()
-            num, den = num * leading, den * leading
+            if not den.is_monic:
+                leading = den.lc.inverse()
+                num, den = num * leading, den * leading
         object.__setattr__(self, "num", num)
         object.__setattr__(self, "den", den)
 

@@ -102,6 +102,9 @@ def irregular_difference_squared(place: Place) -> Poly:
 
 def _taylor(polynomial: Poly, p: Poly, count: int) -> list[Poly]:
     """The first Taylor coefficients at the class of x in K[x]/p."""
+    if p.degree == 1:
+        shifted = polynomial(p.field.poly([-p[0], 1])) if p[0] else polynomial
+        return [shifted[i] for i in range(count)]
     coefficients, current = [], polynomial
     for i in range(count):
         coefficients.append(current % p)

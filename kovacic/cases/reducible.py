@@ -116,11 +116,11 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
     if bound is not None and (not isinstance(bound, int) or bound < 0):
         return NoRationalOmega(-1) if isinstance(bound, int) else bound
     place = distinguishing_places(problem)[0]
-    lifter, degree = problem.field.lifter(), None
+    lifter, degrees = problem.field.lifter(), _FIRST_DEGREES if bound is None else _ladder(bound)
     for bundle in problem.field.bundles():
         problem.budget.check()
         try:
-            parts = [_omega_modulo(h, problem, place, _FIRST_DEGREES if degree is None else [degree]) for h in bundle]
+            parts = [_omega_modulo(h, problem, place, degrees) for h in bundle]
             if None in parts:
                 if bound is None:
                     bound = largest_degree(problem)
@@ -128,14 +128,16 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
                     return bound
                 if bound < 0:
                     return NoRationalOmega(-1)
-                parts = [_omega_modulo(h, problem, place, _ladder(bound)) for h in bundle]
+                further = [n for n in _ladder(bound) if n > degrees[-1]]
+                if further:
+                    parts = [_omega_modulo(h, problem, place, further) for h in bundle]
         except BadPrimeError:
             continue
         for h, part in zip(bundle, parts, strict=True):
             if part is None:
                 return NoRationalOmega(bound if isinstance(bound, int) else -1, h.p, str(place))
         images = [part for part in parts if part is not None]
-        degree = images[0][1]
+        degrees = [images[0][1]]
         form = _lifted(problem, lifter, bundle, images)
         if form is not None:
             return form
@@ -175,7 +177,7 @@ def _lifted(
     return None if P is None or proposal is None else Form(1, proposal[0], P)
 
 
-#: Degrees of P that are tried before their bound is computed, which can be the more expensive part.
+#: Degrees of P that are tried before their bound is computed where that is the more expensive part.
 _FIRST_DEGREES = [8, 32]
 #: How many primes the lift of an omega may take that is looked for without a proof at hand.
 _PRIMES_FOR_A_SIMPLE_OMEGA = 400
@@ -183,7 +185,7 @@ _PRIMES_FOR_A_SIMPLE_OMEGA = 400
 
 def _ladder(bound: int) -> list[int]:
     """Degrees to be tried for P: small ones first, for the bound is often far above the degree; the bound last."""
-    return [*(n for n in (64, 256, 1024) if n < bound), bound]
+    return [*(n for n in (8, 32, 128, 1024) if n < bound), bound]
 
 
 def _omega_modulo(
