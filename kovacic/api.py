@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from kovacic import engine
+from kovacic.algebra.fields import QQ
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.result import Solution
-from kovacic.solution import Status
+from kovacic.solution import Decision, Status
 
 if TYPE_CHECKING:
     from kovacic.io.parsed import Parsed
@@ -33,6 +35,7 @@ def solve(
     c: Any = 0,
     f: Any = 0,
     var: str | None = None,
+    assume: Mapping[Any, str] | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Solution:
     """Decide whether y'' = S(x) y has Liouvillian (closed-form) solutions, with a certificate; verified.
@@ -41,9 +44,12 @@ def solve(
     (numerator, denominator), low to high, of integers or fractions.  Or it is a linear equation of second order, whose
     normal form is decided: a string ("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"), a SymPy `Eq` with a function y(x), or the
     coefficients of a y'' + b y' + c y = f as keywords.  `var` names the variable; by default it is the only symbol of S, or
-    x.  `limits` bounds the input and the work.
+    x.  `limits` bounds the input and the work.  Every other symbol is a parameter, for whose generic values the equation is
+    decided; `assume={"n": "integer"}`, or assumptions of SymPy symbols, say more (see `conditions`), and a notice says for
+    which of these values the answer holds.
 
-    Returns a `Solution`.  Its `status` is UNDECIDED exactly when a limit of the work was reached.  Raises `InputError` for
+    Returns a `Solution`.  Its `status` is UNDECIDED exactly when a limit of the work was reached, or where the assumptions
+    imply a case with an omega that depends on the values of the parameters; `reason` says so.  Raises `InputError` for
     what isn't such a function, `LimitExceeded` for an input above the limits, and `VerificationFailed` if the answer
     doesn't pass its own check, which is a defect of this package.
 
@@ -74,8 +80,8 @@ def solve(
         text = S.strip()
     else:
         text = parsed.S.to_str(parsed.variable) if parsed.equation is None else parsed.equation.text(caret=False)
-    decision = engine.decide(parsed.S, Budget(limits))
-    answer = Solution(text, parsed.variable, parsed.S, decision, parsed.notices, equation=parsed.equation)
+    decision, notices = _decided(parsed, S, assume, limits, certify=True)
+    answer = Solution(text, parsed.variable, parsed.S, decision, notices, equation=parsed.equation)
     verification = answer.verify()
     if not verification and (verification.checks or answer.status is not Status.UNDECIDED):
         raise VerificationFailed(
@@ -84,7 +90,9 @@ def solve(
     return replace(answer, verified=bool(verification), seconds=time.perf_counter() - start)
 
 
-def decide(S: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Verdict:
+def decide(
+    S: Any, *, var: str | None = None, assume: Mapping[Any, str] | None = None, limits: Limits = DEFAULT_LIMITS
+) -> Verdict:
     """The case of y'' = S(x) y alone, without the polynomial of omega and without the second check.
 
     Arguments and exceptions as for `solve`.
@@ -93,8 +101,27 @@ def decide(S: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS) -
     >>> kovacic.decide("-3/(16*x^2) + 1/x").case
     2
     """
-    decision = engine.decide(_read(S, var, limits).S, Budget(limits), certify=False)
+    decision, _ = _decided(_read(S, var, limits), S, assume, limits, certify=False)
     return Verdict(decision.status, decision.case, decision.undecided)
+
+
+def _decided(
+    parsed: Parsed, S: Any, assume: Mapping[Any, str] | None, limits: Limits, *, certify: bool
+) -> tuple[Decision, tuple[str, ...]]:
+    """The decision, under the assumptions if there are any, and the notices."""
+    decision = engine.decide(parsed.S, Budget(limits), certify=certify)
+    if assume is None and parsed.S.field.ground == QQ:
+        return decision, parsed.notices
+    from kovacic.io.names import parameters_of
+    from kovacic.parametric.assumptions import read_assumptions
+
+    known = read_assumptions(assume, S, parameters_of(parsed.S.field))
+    if not known or (assume is None and not known.concerns_exponents):
+        return decision, parsed.notices
+    from kovacic.parametric.api import under_assumptions
+
+    decision, sentence = under_assumptions(parsed, decision, known, limits, certify=certify)
+    return decision, (*parsed.notices, sentence) if sentence else parsed.notices
 
 
 def _read(S: Any, var: str | None, limits: Limits) -> Parsed:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from math import isqrt
 
 F = Fraction
 
@@ -35,7 +36,21 @@ def odd(value: Fraction) -> bool:
 def hypergeometric(differences: tuple[str, str, str]) -> str:
     """The normal form with these exponent differences at 0, 1, infinity [Kimura 1969]."""
     p, q, r = differences
-    return f"-(1-({p})^2)/(4*x^2) - (1-({q})^2)/(4*(x-1)^2) - (({p})^2+({q})^2-({r})^2-1)/(4*x*(x-1))"
+    return with_squares(f"({p})^2", f"({q})^2", f"({r})^2")
+
+
+def with_squares(p: str, q: str, r: str) -> str:
+    """The same, from the squares of the exponent differences."""
+    return f"-(1-{p})/(4*x^2) - (1-{q})/(4*(x-1)^2) - ({p}+{q}-{r}-1)/(4*x*(x-1))"
+
+
+def rational_root(value: Fraction | int) -> Fraction | None:
+    """The square root that isn't negative, if it is rational."""
+    fraction = F(value)
+    if fraction < 0:
+        return None
+    root = F(isqrt(fraction.numerator), isqrt(fraction.denominator))
+    return root if root * root == fraction else None
 
 
 BALL = "(1+8*k^2)/(8*(x1-x2)*(x-x1)) - 3/(16*(x-x1)^2) - (1+8*k^2)/(8*(x1-x2)*(x-x2)) - 3/(16*(x-x2)^2)"
@@ -136,6 +151,38 @@ FAMILIES = [
         "bound states at energy -b^2: Z/b = l + 1 + d",
     ),
     Family(
+        "harmonic oscillator",
+        "x^2 - E",
+        ("E",),
+        lambda E: 1 if odd(E) else None,
+        ((1,), (7,), (-3,), (0,), (2,), (F(1, 2),)),
+        "bound states at E = 2d + 1",
+    ),
+    Family(
+        "coulomb, in the energy",
+        "l*(l+1)/x^2 - Z/x - E",
+        ("l", "Z", "E"),
+        lambda l_, Z, E: _coulomb(l_, Z, E),
+        ((0, 2, -1), (1, 2, F(-1, 4)), (0, 3, -1), (2, 0, 5), (F(1, 3), 1, -1), (F(1, 4), 1, 0), (0, 0, 0), (1, 1, 0)),
+        "bound states at E = -Z^2/(4 (l + 1 + d)^2)",
+    ),
+    Family(
+        "poeschl-teller, in the energy",
+        with_squares("(-E)", "(-E)", "(2*l+1)^2"),
+        ("l", "E"),
+        lambda l_, E: _poeschl_teller(l_, rational_root(-E)),
+        ((3, -4), (3, -1), (F(3, 2), F(-1, 4)), (F(1, 3), -1), (F(1, 3), F(-1, 4)), (2, 3), (F(1, 3), 3)),
+        "bound states at E = -(l - d)^2, in the variable (1 + tanh x)/2",
+    ),
+    Family(
+        "morse, in the energy",
+        "A^2 - 2*A*b/x - (E + 1/4)/x^2",
+        ("A", "b", "E"),
+        lambda A, b, E: _morse(A, b, rational_root(-4 * E)),
+        ((1, F(3, 2), -1), (1, F(3, 2), 0), (2, 3, F(-25, 4)), (1, 2, -1), (0, 1, 3), (1, 1, F(1, 4))),
+        "bound states at E = -(b - d - 1/2)^2, in the variable exp(-x)",
+    ),
+    Family(
         "poeschl-teller",
         hypergeometric(("m", "m", "2*l+1")),
         ("l", "m"),
@@ -154,8 +201,28 @@ FAMILIES = [
 ]
 
 
-def _poeschl_teller(l_: Fraction, m: Fraction) -> int | None:
-    """The points of the family avoid Schwarz's rows 2-15."""
-    if integer(l_) or integer(m + l_) or integer(m - l_):
+def _poeschl_teller(l_: Fraction, m: Fraction | None) -> int | None:
+    """The points of the family avoid Schwarz's rows 2-15; m is None where it is irrational."""
+    if integer(l_):
+        return 1
+    if m is None:
+        return None
+    if integer(m + l_) or integer(m - l_):
         return 1
     return 2 if F(m).denominator == 2 else None
+
+
+def _coulomb(l_: Fraction, Z: Fraction, E: Fraction) -> int | None:
+    if E == 0:
+        return 1 if Z == 0 else 2 if odd(2 * (2 * l_ + 1)) else None
+    root = rational_root(-Z * Z / F(E))
+    if root is None:
+        return None
+    return 1 if odd(root + 2 * l_ + 1) or odd(root - 2 * l_ - 1) else None
+
+
+def _morse(A: Fraction, b: Fraction, root: Fraction | None) -> int | None:
+    """root^2 = -4 E."""
+    if A == 0:
+        return 1
+    return 1 if root is not None and (odd(root + 2 * b) or odd(root - 2 * b)) else None

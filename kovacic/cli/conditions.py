@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import sys
+from typing import TYPE_CHECKING
 
 import click
 
 from kovacic.cli.main import BAD_INPUT, CHECK_FAILED, DECIDED, UNDECIDED
-from kovacic.cli.options import parse_limits, refuse_options
+from kovacic.cli.options import parse_assumptions, parse_limits, refuse_options
+
+if TYPE_CHECKING:
+    from kovacic.parametric.api import CheckReport
 
 
 @click.command(context_settings={"ignore_unknown_options": True})
@@ -15,7 +19,7 @@ from kovacic.cli.options import parse_limits, refuse_options
 @click.option("--json", "as_json", is_flag=True, help="One line of JSON.")
 @click.option("--latex", "as_latex", is_flag=True, help="A LaTeX formula.")
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
-@click.option("--assume", metavar="NAME=integer", multiple=True, help="What is known about a parameter.")
+@click.option("--assume", metavar="NAME=WHAT", multiple=True, help="What is known about a parameter: n=integer.")
 @click.option("--max-degree", default=12, show_default=True, help="How far to go where no theorem covers all degrees.")
 @click.option("--check", "samples", metavar="N", type=int, help="Solve at N exact points, and compare.")
 @click.option("--limit", "limits", metavar="NAME=VALUE", multiple=True, help="Change a limit, such as seconds.")
@@ -39,7 +43,7 @@ def command(
     from kovacic.parametric.api import conditions
 
     refuse_options((equation,))
-    assumptions = dict(item.partition("=")[::2] for item in assume)
+    assumptions = parse_assumptions(assume)
     try:
         answer = conditions(equation, var=var, assume=assumptions, max_degree=max_degree, limits=parse_limits(limits))
         report = None if samples is None else answer.check(samples)
@@ -49,10 +53,15 @@ def command(
     print(answer.to_json() if as_json else answer.latex() if as_latex else answer)
     if report is not None:
         print(
-            f"  checked at {report.inside} points inside and {report.outside} outside: "
-            f"{'all agree' if report else f'{len(report.disagreements)} disagree'}",
+            f"  checked at {report.inside} points inside and {report.outside} outside: {_agreement(report)}",
             file=sys.stderr if as_json or as_latex else sys.stdout,
         )
         if not report:
             return CHECK_FAILED
     return DECIDED if answer.within_limits else UNDECIDED
+
+
+def _agreement(report: CheckReport) -> str:
+    if not report:
+        return f"{len(report.disagreements)} disagree"
+    return "all agree" if report.inside + report.outside else "no point with these properties was found"

@@ -34,6 +34,17 @@ def parse_limits(settings: Sequence[str]) -> Limits:
     return limits
 
 
+def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
+    """What is known about the parameters, each `NAME=WHAT`; None without any.  Raises `click.UsageError`."""
+    found: dict[str, str] = {}
+    for setting in settings:
+        name, separator, what = setting.partition("=")
+        if not separator:
+            raise click.UsageError(f"--assume {setting}: write NAME=WHAT, such as n=integer")
+        found[name.strip()] = f"{found.get(name.strip(), '')} {what.strip()}".strip()
+    return found or None
+
+
 def expressions(arguments: Sequence[str]) -> Iterator[str]:
     """The arguments, `-` standing for the lines of standard input; empty lines and those beginning with # are skipped."""
     for argument in arguments:

@@ -7,7 +7,7 @@ import sys
 import click
 
 from kovacic.cli.main import BAD_INPUT, CHECK_FAILED, DECIDED, UNDECIDED
-from kovacic.cli.options import expressions, parse_limits, refuse_options
+from kovacic.cli.options import expressions, parse_assumptions, parse_limits, refuse_options
 from kovacic.cli.terminal import styled
 
 # The most serious outcome of several equations is the exit status.
@@ -21,6 +21,7 @@ _SEVERITY = (DECIDED, UNDECIDED, BAD_INPUT, CHECK_FAILED)
 @click.option("--latex", is_flag=True, help="The equation and its solutions in LaTeX.")
 @click.option("--explain", is_flag=True, help="The derivation, step by step (see `kovacic explain`).")
 @click.option("--var", metavar="NAME", help="The name of the variable; by default the only symbol of S, or x.")
+@click.option("--assume", metavar="NAME=WHAT", multiple=True, help="What is known about a parameter: n=integer.")
 @click.option(
     "--limit",
     "limits",
@@ -35,6 +36,7 @@ def command(
     latex: bool,
     explain: bool,
     var: str | None,
+    assume: tuple[str, ...],
     limits: tuple[str, ...],
 ) -> int:
     """Decide y'' = S(x) y for every S, or an equation with y'' in it; "-" reads one a line from standard input.
@@ -50,11 +52,12 @@ def command(
 
     refuse_options(equations)
     chosen = parse_limits(limits)
+    assumptions = parse_assumptions(assume)
     outcomes = [DECIDED]
     first = True
     for text in expressions(equations):
         try:
-            answer = solve(text, var=var, limits=chosen)
+            answer = solve(text, var=var, assume=assumptions, limits=chosen)
         except (InputError, LimitExceeded, VerificationFailed) as error:
             print(f"kovacic: {error}", file=sys.stderr)
             outcomes.append(

@@ -16,6 +16,7 @@ from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import LimitExceeded
+from kovacic.io.parsed import ENERGY
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
 T = TypeVar("T")
@@ -89,6 +90,8 @@ class Constants:
             found.append(
                 f"{names} {'is taken as a parameter' if one else 'are taken as parameters'} with generic values"
             )
+        if ENERGY in self.parameters:
+            found.append("E is a parameter here, an energy; Euler's number, being transcendental, is one of its generic values")
         algebraic = self.numbers.field
         if isinstance(algebraic, AlgebraicField) and algebraic.name == "alpha":
             where = self.numbers.located()

@@ -24,7 +24,7 @@ from kovacic.io.automaton import Site, run
 from kovacic.io.constants import Constants, read_with_constants
 from kovacic.io.lexer import Tokens, tokenize
 from kovacic.io.linear import LinearArithmetic, LinearForm
-from kovacic.io.parsed import DEFAULT_VARIABLE, NUMBER_NAMES, UNKNOWN
+from kovacic.io.parsed import DEFAULT_VARIABLE, ENERGY, NUMBER_NAMES, UNKNOWN
 from kovacic.io.parser import ExpressionBuilder
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
@@ -140,10 +140,10 @@ class EquationBuilder(ExpressionBuilder):
         (name,) = values
         if name == self.unknown:
             return self._derivative_of_unknown(0)
-        if name != self.variable and name in ("E", "e", "pi", "π"):
+        if name != self.variable and name in ("e", "pi", "π"):
             import sympy
 
-            return self.arithmetic.opaque(sympy.E if name in "Ee" else sympy.pi)
+            return self.arithmetic.opaque(sympy.E if name == "e" else sympy.pi)
         if name == UNKNOWN and self.constants is not None:  # the unknown function has another name
             return self.constants.parameter(name)
         return super().name(values, where)
@@ -320,7 +320,7 @@ def _variable_of(tokens: Tokens, unknown: str) -> str:
             return tokens.piece(k + 2, k + 3)
         if is_unknown and kinds[k : k + 3] == ["NAME", "COMMA", "NAME"]:
             return tokens.piece(k + 2, k + 3)
-    excluded = {*NUMBER_NAMES, unknown, "e"}
+    excluded = {*NUMBER_NAMES, ENERGY, unknown, "e"}
     names = [name for name in tokens.names() if name not in excluded]
     if DEFAULT_VARIABLE in names or not names:
         return DEFAULT_VARIABLE

@@ -28,12 +28,14 @@ NUMBER_NAMES = {
     "I": "the imaginary unit",
     "pi": "the number pi",
     "π": "the number pi",
-    "E": "Euler's number",
     "oo": "infinity",
     "zoo": "infinity",
     "inf": "infinity",
     "nan": "not a number",
 }
+
+# Not the variable unless the caller says so: the energy, a parameter.
+ENERGY = "E"
 
 # The unknown function of y'' = S y: a variable only where the caller says so.
 UNKNOWN = "y"

@@ -21,7 +21,7 @@ from kovacic.io.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.io.automaton import Site, run
 from kovacic.io.constants import Constants, read_with_constants
 from kovacic.io.lexer import Tokens, tokenize
-from kovacic.io.parsed import DEFAULT_VARIABLE, NUMBER_NAMES, UNKNOWN, Parsed
+from kovacic.io.parsed import DEFAULT_VARIABLE, ENERGY, NUMBER_NAMES, UNKNOWN, Parsed
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
 _SUPERSCRIPTS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
@@ -338,7 +338,7 @@ def _choose_variable(tokens: Tokens, variable: str | None) -> str:
             raise InputError(f"{variable!r} can't be the name of a variable", hint="a letter, or a word: x, t, x1")
         chosen = variable
     else:
-        names = [name for name in tokens.names() if name not in NUMBER_NAMES and name != UNKNOWN]
+        names = [name for name in tokens.names() if name not in (*NUMBER_NAMES, ENERGY, UNKNOWN)]
         if len(names) > 1 and DEFAULT_VARIABLE not in names:
             raise InputError(
                 f"which of {', '.join(names[:6])} is the variable?",

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.io.names import Names, parameters_of
 from kovacic.result import Solution
-from kovacic.solution import Evidence, Exclusion, NecessaryCondition, NoInvariant, RiccatiPolynomial, Status
+from kovacic.solution import Evidence, Exclusion, NecessaryCondition, NoInvariant, Status
 
 #: Gives a piece of text a role ("good", "bad", "unsure", "title", "faint"): colours on a terminal, nothing elsewhere.
 Style = Callable[[str, str], str]
@@ -54,9 +54,9 @@ def render(solution: Solution, *, style: Style = plain) -> str:
         assert solution.riccati is not None
         case = f"case {solution.case}, omega = y'/y is {_NAMES_OF_DEGREE[solution.riccati.degree]}"
         lines.append(f"  {style('Liouvillian solutions exist', 'good')}: {case}")
-        lines += [f"  {line}" for line in _omega(solution, solution.riccati)]
+        lines += [f"  {line}" for line in omega_lines(solution)]
     lines += [f"  {line}" for line in _exclusions(solution)]
-    if parameters_of(solution.S.field):
+    if parameters_of(solution.S.field) and solution.status is not Status.UNDECIDED:
         lines.append(f"  for generic parameters: {solution.generic_conditions}")
         lines.append("  (kovacic conditions tells for which values more is solvable)")
     if solution.verified:
@@ -70,7 +70,11 @@ def _names(solution: Solution) -> Names:
     return Names(solution.variable, parameters_of(solution.S.field))
 
 
-def _omega(solution: Solution, riccati: RiccatiPolynomial) -> list[str]:
+def omega_lines(solution: Solution) -> list[str]:
+    """omega, or its polynomial; without a Liouvillian solution no line."""
+    riccati = solution.riccati
+    if riccati is None:
+        return []
     variable, names = solution.variable, _names(solution)
     unknown = names.unknown
     coefficients = [names.renamed(coefficient) for coefficient in riccati.coefficients]

@@ -8,22 +8,29 @@ from random import Random
 from typing import Any
 
 from kovacic import engine
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.fields import QQ, Field
-from kovacic.algebra.function_field import FunctionField
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
+from kovacic.io.names import parameters_of
+from kovacic.io.parsed import Parsed
 from kovacic.io.read import read_input
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric import sampling
+from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.formulas import as_latex, shown
-from kovacic.parametric.partition import Partition, Region, Settings, Verdict, partition
+from kovacic.parametric.partition import Partition, Region, Settings, Verdict, partition, verdict_of
 from kovacic.parametric.restriction import UndefinedError, at_point
+from kovacic.parametric.slices import NO_CONSTANT, reduced, with_free_constant
 from kovacic.parametric.statements import Both, Point, Statement
 from kovacic.result import Solution
-from kovacic.solution import Status
+from kovacic.solution import Decision, Status
 
 #: Seconds for the search where the limits don't say.
 DEFAULT_SECONDS = 30.0
+#: The bound for the degree of P where no theorem covers all degrees.
+DEFAULT_DEGREE = 12
 
 
 @dataclass(frozen=True)
@@ -86,7 +93,8 @@ class Conditions:
     """The partition of parameter space for y'' = S y: frozen and picklable.
 
     `generic` holds where no region's statement does; the regions are tried in their order.  `complete` is True where the
-    list is proven to be complete, else a sentence such as "up to degree 12 (...)".
+    list is proven to be complete, else a sentence such as "up to degree 12 (...)".  All of it holds for values with the
+    `assumptions`.  `constant` is the value of the algebraic constant in S, which is a parameter of `S` here.
     """
 
     S: RatFunc
@@ -98,6 +106,8 @@ class Conditions:
     theory: str
     limits: Limits
     notices: tuple[str, ...] = ()
+    assumptions: Assumptions = NOTHING_ASSUMED
+    constant: Point = NO_CONSTANT
 
     @property
     def within_limits(self) -> bool:
@@ -162,7 +172,11 @@ class Conditions:
                 f"values are needed for {', '.join(self.parameters)}",
                 hint=f"missing: {', '.join(missing) or 'none'}; unknown: {', '.join(unknown) or 'none'}",
             )
-        return _point(self.parameters, [given[name] for name in self.parameters], self.limits)
+        point = _point(self.parameters, [given[name] for name in self.parameters], self.constant, self.limits)
+        for name, value in zip(point.names, point.values, strict=True):
+            if not self.assumptions.of(name).admits(value):
+                raise InputError(f"{name} = {value.to_str()} contradicts the assumption: {self.assumptions}")
+        return point
 
     def check(self, samples: int = 200, *, seed: int = 1) -> CheckReport:
         """Solve the equation without parameters at exact points inside and outside of the regions, and compare."""
@@ -174,10 +188,13 @@ class Conditions:
         while sum(counts) < samples and attempts < 20 * samples:
             attempts += 1
             if usable and attempts % 2:
-                point = sampling.inside(usable[attempts // 2 % len(usable)], self.parameters, random)
+                statement = usable[attempts // 2 % len(usable)]
+                point = sampling.inside(statement, self.constant, self.parameters, self.assumptions, random)
             else:
-                point = sampling.outside(self.parameters, random)
-            if point is None:
+                point = sampling.outside(self.constant, self.parameters, self.assumptions, random)
+            if point is None or not all(
+                self.assumptions.of(n).admits(v) for n, v in zip(point.names, point.values, strict=True)
+            ):
                 continue
             try:
                 predicted = self.predicted(point)
@@ -207,6 +224,7 @@ class Conditions:
             "S": self.S.to_str(self.variable),
             "variable": self.variable,
             "parameters": list(self.parameters),
+            "assumptions": self.assumptions.to_dict(),
             "generic": {"case": self.generic.case, "group": self.generic.group},
             "regions": [
                 {
@@ -241,7 +259,8 @@ class Conditions:
         return plot(self, axes, **options)
 
     def __str__(self) -> str:
-        lines = [f"y'' = ({shown(self.S, self.variable)}) y, parameters {', '.join(self.parameters)}"]
+        known = f" ({self.assumptions})" if self.assumptions else ""
+        lines = [f"y'' = ({shown(self.S, self.variable)}) y, parameters {', '.join(self.parameters)}{known}"]
         lines += [f"  {region}" for region in self.regions]
         lines.append(f"  {'otherwise' if self.regions else 'always'}: {_case_text(self.generic)}")
         complete = "proven to be complete" if self.complete is True else f"complete {self.complete}"
@@ -254,13 +273,14 @@ def conditions(
     *,
     var: Any = None,
     assume: Mapping[Any, str] | None = None,
-    max_degree: int = 12,
+    max_degree: int = DEFAULT_DEGREE,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Conditions:
     """The exact values of the parameters for which y'' = S(x) y has Liouvillian solutions.
 
-    Every symbol besides the variable is a parameter.  `assume={"n": "integer"}` leaves out what then can't happen.
-    SymPy symbols that are assumed to be integers are used in the same way.  `max_degree` bounds the degree of P where no
+    Every symbol besides the variable is a parameter.  `assume={"n": "positive integer"}` leaves out what then can't happen;
+    its words are integer, even, odd, half-integer, rational, irrational, noninteger, nonzero, positive, negative.  Assumptions
+    of SymPy symbols are used in the same way.  `max_degree` bounds the degree of P where no
     theorem covers all degrees; `complete` then says so.  A budget that is used up (`limits.seconds`, 30 s where there is
     none) gives a partial list, and `complete` says that as well.
 
@@ -277,53 +297,68 @@ def conditions(
     AAECC 3 (1992).
     """
     parsed = read_input(S, var=var, limits=limits)
-    field = parsed.S.field
-    if not isinstance(field, FunctionField):
-        if field.ground != QQ:
-            raise InputError(
-                "algebraic constants together with parameters aren't supported here",
-                hint="make the constant a parameter, and evaluate with case_at",
-            )
+    names = parameters_of(parsed.S.field)
+    if not names:
         raise InputError("S has no parameters", hint="solve decides equations without parameters")
-    integers = _integers(assume, field) | _integer_symbols(S, field)
+    return conditions_of(parsed, read_assumptions(assume, S, names), max_degree, limits)
+
+
+def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int, limits: Limits) -> Conditions:
+    """The conditions for an input that was read."""
+    lifted, constant = with_free_constant(parsed.S)
+    assumptions = replace(known, values=tuple(zip(constant.names, constant.values, strict=True)))
     bounded = limits if limits.seconds is not None else replace(limits, seconds=DEFAULT_SECONDS)
-    result = partition(parsed.S, Settings(max_degree, Budget(bounded)))
+    budget = Budget(bounded)
+    result = partition(lifted, Settings(max_degree, budget, parsed.variable))
     different: dict[str, Condition] = {}
     for region in _flattened(result):
+        region = replace(region, statement=reduced(region.statement, constant))
         different.setdefault(region.statement.text(), region)
-    regions = [region for region in different.values() if region.statement.decided(integers) is not False]
-    always = next((k for k, r in enumerate(regions) if r.statement.decided(integers) is True), None)
+    regions = [region for region in different.values() if region.statement.decided(assumptions) is not False]
+    always = next((k for k, r in enumerate(regions) if r.statement.decided(assumptions) is True), None)
     generic, complete = result.generic, result.complete
     if always is not None:
-        generic, regions = regions[always].verdict, regions[:always]
+        generic, complete, regions = regions[always].verdict, regions[always].complete, regions[:always]
+        complete = next((region.complete for region in regions if region.complete is not True), complete)
+        if not generic.known:
+            generic = verdict_of(engine.decide(parsed.S, budget, certify=False))
     return Conditions(
-        parsed.S,
+        lifted,
         parsed.variable,
-        field.names,
+        parameters_of(parsed.S.field),
         generic,
         tuple(regions),
         complete,
         result.theory,
         limits,
         tuple(notice for notice in parsed.notices if "parameter" not in notice),
+        known,
+        constant,
     )
 
 
-def _integers(assume: Mapping[Any, str] | None, field: FunctionField) -> frozenset[str]:
-    found = set()
-    for name, what in (assume or {}).items():
-        if str(name) not in field.names:
-            raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(field.names)}")
-        if what != "integer":
-            raise InputError(f"{what!r} isn't an assumption that is known", hint='assume={"n": "integer"}')
-        found.add(str(name))
-    return frozenset(found)
+def under_assumptions(
+    parsed: Parsed, decision: Decision, known: Assumptions, limits: Limits, *, certify: bool
+) -> tuple[Decision, str]:
+    """The decision for generic parameters where the assumptions hold, and a sentence that says for which of these values.
 
-
-def _integer_symbols(S: Any, field: FunctionField) -> frozenset[str]:
-    """The parameters that are SymPy symbols with integer=True."""
-    symbols = getattr(S, "free_symbols", ())
-    return frozenset(s.name for s in symbols if getattr(s, "is_integer", None) and s.name in field.names)
+    Where the assumptions imply another case, that is the decision if no certificate is asked for.  Else it is undecided, with
+    the case in its reason: omega depends on the value of a parameter, so that no single omega is the answer.
+    """
+    if decision.status is Status.UNDECIDED:
+        return decision, ""
+    answer = conditions_of(parsed, known, DEFAULT_DEGREE, limits)
+    if answer.generic.known and answer.generic.case != decision.case:
+        if not certify:
+            return Decision(answer.generic.structure, ()), ""
+        reason = (
+            f"with {known} the equation is in case {answer.generic.case} ({answer.theory}), by an omega that depends on the "
+            "values of the parameters: give values, or use kovacic.conditions and its solve_at"
+        )
+        return Decision(None, (), undecided=reason), ""
+    exceptions = " or ".join(str(region.statement) for region in answer.regions)
+    sentence = f"with {known} the answer holds" + (f" except where {exceptions}" if exceptions else "")
+    return decision, f"{sentence} ({answer.theory}" + (")" if answer.complete is True else f"; {answer.complete})")
 
 
 def _flattened(result: Partition) -> list[Condition]:
@@ -358,8 +393,22 @@ def _both(first: Statement, second: Statement) -> Statement:
     return Both((first, *parts))
 
 
-def _point(names: tuple[str, ...], values: list[Any], limits: Limits) -> Point:
-    """Constants of one field, from numbers, SymPy numbers or text."""
+def _point(names: tuple[str, ...], values: list[Any], constant: Point, limits: Limits) -> Point:
+    """Constants of one field, from numbers, SymPy numbers or text, together with the constant of S."""
+    numbers, field = _constants(values, limits)
+    if field == QQ:
+        field = constant.field
+        numbers = [number.over(field) for number in numbers]
+    elif isinstance(constant.field, AlgebraicField):
+        if constant.field.name == "alpha":
+            raise InputError("rational values are needed where S has an algebraic constant that isn't one radical")
+        numbers, field = _constants([*(str(value) for value in values), constant.field.name], limits)
+        return Point((*names, *constant.names), tuple(numbers), field)
+    return Point((*names, *constant.names), (*numbers, *constant.values), field)
+
+
+def _constants(values: list[Any], limits: Limits) -> tuple[list[Poly], Field]:
+    """The values in one field: the coefficients of one polynomial."""
     if any(type(value).__module__.startswith("sympy") for value in values):
         import sympy
 
@@ -370,8 +419,7 @@ def _point(names: tuple[str, ...], values: list[Any], limits: Limits) -> Point:
     polynomial = read_input(together, var="x", limits=limits).S
     if not polynomial.is_polynomial or polynomial.field.ground != QQ:
         raise InputError("the values of parameters are numbers")
-    field: Field = polynomial.field
-    return Point(names, tuple(polynomial.num[i] for i in range(len(names))), field)
+    return [polynomial.num[i] for i in range(len(values))], polynomial.field
 
 
 def _case_text(verdict: Verdict) -> str:

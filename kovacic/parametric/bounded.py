@@ -16,7 +16,7 @@ from math import lcm
 from random import Random
 from typing import Any
 
-from flint import fmpq, fmpq_mat, nmod_mat
+from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
 
 from kovacic.algebra.fields import BadPrimeError
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
@@ -112,7 +112,7 @@ def rank_conditions(images: list[Poly], problem: Problem) -> RankConditions:
     common = zero
     for _ in range(_DETERMINANTS):
         problem.budget.check()
-        determinant = _determinant(_mixed(rows, rank, random, zero), field)
+        determinant = _determinant(_mixed(rows, rank, random, zero), problem)
         if determinant.is_constant() and not determinant.is_zero():
             return _NEVER
         common = common.gcd(determinant)
@@ -213,8 +213,12 @@ def _mixed(rows: list[list[Any]], rank: int, random: Random, zero: Any) -> list[
     return combinations([list(column) for column in zip(*half, strict=True)])
 
 
-def _determinant(matrix: list[list[Any]], field: FunctionField) -> Any:
-    """By Bareiss' elimination, without fractions."""
+def _determinant(matrix: list[list[Any]], problem: Problem) -> Any:
+    """Up to its sign: with one parameter by interpolation, with several by Bareiss' elimination without fractions."""
+    field = problem.field
+    assert isinstance(field, FunctionField)
+    if len(field.names) == 1:
+        return _interpolated_determinant(matrix, problem, field)
     rows = [list(row) for row in matrix]
     n, previous = len(rows), field.context.constant(1)
     for k in range(n - 1):
@@ -224,9 +228,34 @@ def _determinant(matrix: list[list[Any]], field: FunctionField) -> Any:
         rows[k], rows[pivot] = rows[pivot], rows[k]
         for i in range(k + 1, n):
             for j in range(k + 1, n):
+                problem.budget.check()
                 rows[i][j] = (rows[k][k] * rows[i][j] - rows[i][k] * rows[k][j]) // previous
         previous = rows[k][k]
     return rows[-1][-1]
+
+
+def _interpolated_determinant(matrix: list[list[Any]], problem: Problem, field: FunctionField) -> Any:
+    """The determinant as a polynomial in the only parameter, from its values at integers."""
+    terms = [[{int(e[1]): int(c) for e, c in entry.to_dict().items()} for entry in row] for row in matrix]
+    degree = max((e for row in terms for entry in row for e in entry), default=0)
+    powers = [fmpz_mat([[entry.get(k, 0) for entry in row] for row in terms]) for k in range(degree, -1, -1)]
+    bound = sum(max((e for entry in row for e in entry), default=0) for row in terms)
+    nodes = [(k + 1) // 2 * (-1) ** k for k in range(bound + 1)]
+    values = []
+    for node in nodes:
+        problem.budget.check()
+        value = powers[0]
+        for coefficient in powers[1:]:
+            value = value * node + coefficient
+        values.append(fmpq(value.det()))
+    # Newton's divided differences, and Horner's scheme.
+    for k in range(1, bound + 1):
+        for i in range(bound, k - 1, -1):
+            values[i] = (values[i] - values[i - 1]) / (nodes[i] - nodes[i - k])
+    total = fmpq_poly([])
+    for node, value in zip(reversed(nodes), reversed(values), strict=True):
+        total = total * fmpq_poly([-node, 1]) + value
+    return field.context.from_dict({(0, k): c.p for k, c in enumerate(total.coeffs()) if c})
 
 
 def denominators(polynomial: Poly) -> list[Poly]:

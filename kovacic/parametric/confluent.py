@@ -43,17 +43,21 @@ class Confluent:
 
 
 def omega(form: Confluent) -> str:
-    """What the solutions look like in the coordinate z of the form (1)."""
-    field = form.b.field
+    """What the solutions look like in the coordinate of the form (1), called s unless it has a name."""
+    field, n = form.b.field, form.n
+    simple = form.coordinate.isidentifier()
+    z, where = (form.coordinate, "") if simple else ("s", f", s = {form.coordinate}")
     difference = _root(1 + 4 * form.b)
     if not form.q:
-        return f"omega of degree 2: rational in sqrt(z), z = {form.coordinate}; Delta = {difference}"
+        return f"omega of degree 2, rational in {z} and sqrt({z}){where}"
     leading = field.sqrt(form.q)
-    shown_leading = f"sqrt({shown(RatFunc(form.q))})" if leading is None else f"({shown(RatFunc(leading))})"
+    root = f"sqrt({shown(RatFunc(form.q))})" if leading is None else f"({shown(RatFunc(leading))})"
+    power = "" if n == 1 else f" {z}" if n == 2 else f" {z}^{n - 1}"
     beta = _root(form.r * form.r / form.q)
+    natural = "a natural number" if n == 1 else f"a natural multiple of {n}"
     return (
-        f"omega = +-{shown_leading} z^{form.n - 1} + (1 +- ({difference}))/(2 z) + P'/P, z = {form.coordinate}, with signs for "
-        f"which deg P = (-{form.n} +- ({beta}) +- ({difference}))/2 is a natural multiple of {form.n}"
+        f"omega = +-{root}{power} + (1 +- ({difference}))/(2 {z}) + P'/P{where}, with signs for which "
+        f"deg P = (-{n} +- ({beta}) +- ({difference}))/2 is {natural}"
     )
 
 
@@ -62,20 +66,31 @@ def _root(square: Poly) -> str:
     return f"sqrt({shown(RatFunc(square))})" if root is None else shown(RatFunc(root))
 
 
-def recognise(problem: Problem) -> Confluent | None:
-    """The equation in the form (1), or None."""
+def group(form: Confluent) -> str:
+    """The family of the groups where a Liouvillian solution exists.
+
+    An irregular point makes the group infinite.  With q = 0 it is imprimitive.  Otherwise a solution with a rational omega has
+    one of two exponential factors, and both occur where each sign of beta fits, as for beta = 0; the group is diagonal then.
+    """
+    if not form.q:
+        return "the infinite dihedral group"
+    return "Borel group, or G_m where both exponential factors occur" if form.r else "G_m"
+
+
+def recognise(problem: Problem, variable: str) -> Confluent | None:
+    """The equation in the form (1), or None; `variable` is the name of x."""
     singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
     irregular = [place for place in singular if place.kind is not Kind.REGULAR]
     if len(irregular) != 1 or len(singular) > 2 or any(place.degree > 1 for place in singular):
         return None
     S, field = problem.S, problem.field
-    coordinate = "x"
+    coordinate = variable
     x = RatFunc(field.poly([0, 1]))
     if not irregular[0].at_infinity:
         # Move the irregular point c to infinity: x = c + 1/z, S -> S(c + 1/z)/z^4.
         c = -irregular[0].factor[0]
         S = S(RatFunc(field.poly([1]), field.poly([0, 1])) + c) / x**4
-        coordinate = f"1/(x - ({c}))" if c else "1/x"
+        coordinate = f"1/({variable} - ({shown(RatFunc(c))}))" if c else f"1/{variable}"
     regular = [-factor[0] for factor, _ in field.factor(S.den)] if S.den.degree else []
     if not regular:
         n = S.num.degree
@@ -84,6 +99,7 @@ def recognise(problem: Problem) -> Confluent | None:
         center = regular[0]
     if center:
         S = S(x + center)
+        coordinate = f"{coordinate} - ({shown(RatFunc(center))})"
     terms = _laurent(S)
     if terms is None:
         return None
@@ -127,4 +143,4 @@ def solvable(form: Confluent) -> tuple[int, bool | list[Statement]]:
     return 2, integer_roots(equation, [n], 2 * n)
 
 
-__all__ = ["Confluent", "recognise", "solvable"]
+__all__ = ["Confluent", "group", "omega", "recognise", "solvable"]

@@ -1,14 +1,25 @@
-"""The partition of parameter space: which theory applies, the regions in their order, and the degenerate values."""
+"""The partition of parameter space: which theory applies, the regions in their order, and the degenerate values.
+
+What holds for generic values has limits everywhere.  Let S be defined at t0, and let omega be a solution of the Riccati equation
+over the algebraic closure of Q(t)(x), of degree m.  Choose a valuation ring of the constants that dominates t0.  For m = 1
+write omega = N/D with coprime polynomials in x whose coefficients are integral and not all in the maximal ideal.  In the
+residue field N'D - ND' + N^2 = S D^2, so that D = 0 would give N^2 = 0, against the choice: D isn't 0, and N/D is a rational
+solution for t0.  For m > 1 the same argument, on the curve of omega or for the coefficients of its polynomial scaled in this
+way, gives an algebraic solution of degree at most m.  So an equation that is generically in case 1 is in case 1 wherever S is
+defined, one in case 2 is in case 1 or 2, and one that has Liouvillian solutions has them everywhere.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from kovacic import engine
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import LimitExceeded
+from kovacic.galois import group_of
+from kovacic.io.text import omega_lines
 from kovacic.limits import Budget
 from kovacic.parametric import confluent, riemann
 from kovacic.parametric.bounded import (
@@ -23,15 +34,25 @@ from kovacic.parametric.restriction import Restriction, UndefinedError, on_hyper
 from kovacic.parametric.search import search
 from kovacic.parametric.statements import Point, Statement, Vanishes, either
 from kovacic.places import Problem, analyse
+from kovacic.result import Solution
 from kovacic.solution import Decision, Status, Structure
+
+#: The degree of an algebraic number up to which its equation is solved, although it is known to be reducible.
+_WRITTEN_OUT = 2
+#: Characters of an omega that is written out.
+_LONGEST_OMEGA = 300
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """The case (None: no Liouvillian solution), the structure, and whether that is known at all."""
+    """The case (None: no Liouvillian solution), the structure, and whether that is known at all.
+
+    `family` says more about the group than the structure does.
+    """
 
     structure: Structure | None
     known: bool = True
+    family: str | None = field(default=None, compare=False)
 
     @property
     def case(self) -> int | None:
@@ -40,7 +61,7 @@ class Verdict:
     @property
     def group(self) -> str:
         """The family of the Galois group."""
-        return _GROUPS[self.structure] if self.known else "not determined"
+        return (self.family or _GROUPS[self.structure]) if self.known else "not determined"
 
 
 _GROUPS = {
@@ -104,37 +125,39 @@ class Settings:
 
     max_degree: int
     budget: Budget
+    variable: str = "x"
 
 
 def partition(S: RatFunc, settings: Settings) -> Partition:
     """The partition for S over Q(t), or the single verdict for S over Q or Q(alpha)."""
-    field = S.field
+    constants = S.field
     decision = engine.decide(S, settings.budget, certify=False)
-    generic = _verdict(decision)
-    if not isinstance(field, FunctionField):
+    generic = verdict_of(decision)
+    if not isinstance(constants, FunctionField):
         return Partition(S, (), (), generic, generic.known or str(decision.undecided), "the engine")
     try:
         return _by_theory(S, generic, settings)
     except LimitExceeded as limit:
         complete = f"only as far as the limits allowed: {limit}"
-        return Partition(S, field.names, (), generic, complete, "nothing but the generic answer")
+        return Partition(S, constants.names, (), generic, complete, "nothing but the generic answer")
 
 
 def _by_theory(S: RatFunc, generic: Verdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
     if generic.known and generic.structure is Structure.REDUCIBLE:
-        # Solutions with a rational omega of bounded degree have limits of the same kind, everywhere where S is defined.
+        # So it is in case 1 at all values where S is defined: see the head of this module.
         regions = [region for region in _degenerate(problem, _undefined(problem), settings) if not region.defined]
         return _closed(problem, regions, generic, "a rational omega for generic values, and so for all", generic)
     if riemann.applies(problem):
         return _riemann(problem, generic, settings)
-    form = confluent.recognise(problem)
+    form = confluent.recognise(problem, settings.variable)
     if form is not None:
         return _confluent(problem, form, generic, settings)
     return _by_candidates(problem, generic, settings)
 
 
-def _verdict(decision: Decision) -> Verdict:
+def verdict_of(decision: Decision) -> Verdict:
+    """What the engine's decision says."""
     return Verdict(decision.structure, decision.status is not Status.UNDECIDED)
 
 
@@ -142,21 +165,23 @@ def _riemann(problem: Problem, generic: Verdict, settings: Settings) -> Partitio
     theory = "at most three regular singular points: Kimura's theorem"
     regions = _degenerate(problem, _confluence(problem), settings)
     reducible = riemann.reducible(problem)
+    case_1 = Verdict(Structure.REDUCIBLE, family=riemann.group(problem, Structure.REDUCIBLE))
     if reducible is True:
-        return _closed(problem, regions, Verdict(Structure.REDUCIBLE), theory, generic)
+        return _closed(problem, regions, case_1, theory, generic)
     assert isinstance(reducible, list)
-    regions.append(Region(either(reducible), Verdict(Structure.REDUCIBLE), omega=riemann.omega(problem)))
+    regions.append(Region(either(reducible), case_1, omega=riemann.omega(problem, settings.variable)))
     others = riemann.irreducible_structures(problem)
     if isinstance(others, Structure):
-        return _closed(problem, regions, Verdict(others), theory, generic)
+        return _closed(problem, regions, Verdict(others, family=riemann.group(problem, others)), theory, generic)
     for structure in Structure:
         statements = [statement for other, statement in others if other is structure]
         if statements:
-            regions.append(Region(either(statements), Verdict(structure), omega=_SEMI_INVARIANTS[structure]))
+            verdict = Verdict(structure, family=riemann.group(problem, structure))
+            regions.append(Region(either(statements), verdict, omega=_SEMI_INVARIANTS[structure]))
     return _closed(problem, regions, Verdict(None), theory, generic)
 
 
-_RATIONAL_OMEGA = "omega = theta + P'/P, theta = sum of (1 +- Delta_c)/(2 (x - c)) + polynomial part, P a polynomial"
+_RATIONAL_OMEGA = "omega = theta + P'/P, theta from the exponents and the polynomial part of sqrt(S), P a polynomial"
 _SEMI_INVARIANTS = {
     Structure.IMPRIMITIVE: "y1 y2 = sqrt of a rational function; omega of degree 2",
     Structure.TETRAHEDRAL: "a rational invariant of degree 6; omega of degree 4",
@@ -173,12 +198,12 @@ def _confluent(problem: Problem, form: confluent.Confluent, generic: Verdict, se
     functions = [*_undefined(problem), *irreducible_factors(form.degenerate)]
     regions = _degenerate(problem, functions, settings)
     case, statements = confluent.solvable(form)
-    structure = Structure.REDUCIBLE if case == 1 else Structure.IMPRIMITIVE
+    verdict = Verdict(Structure.REDUCIBLE if case == 1 else Structure.IMPRIMITIVE, family=confluent.group(form))
     if statements is True:
-        return _closed(problem, regions, Verdict(structure), theory, generic)
+        return _closed(problem, regions, verdict, theory, generic)
     assert isinstance(statements, list)
     if statements:
-        regions.append(Region(either(statements), Verdict(structure), omega=confluent.omega(form)))
+        regions.append(Region(either(statements), verdict, omega=confluent.omega(form)))
     return _closed(problem, regions, Verdict(None), theory, generic)
 
 
@@ -223,7 +248,7 @@ def _by_candidates(problem: Problem, generic: Verdict, settings: Settings) -> Pa
         for function in candidates:
             if function not in known:
                 settings.budget.check()
-                if function in reducible and generic.structure is not Structure.REDUCIBLE:
+                if function in reducible and _height(function) > _WRITTEN_OUT:
                     verdict = Verdict(Structure.REDUCIBLE)
                     regions.append(Region(Vanishes(function), verdict, omega=_RATIONAL_OMEGA))  # type: ignore[arg-type]
                     continue
@@ -235,6 +260,12 @@ def _by_candidates(problem: Problem, generic: Verdict, settings: Settings) -> Pa
     if complete is True:
         complete = _together(regions)
     return Partition(problem.S, names, tuple(regions), generic, complete, theory)
+
+
+def _height(function: Poly) -> int:
+    """The largest degree in one parameter."""
+    assert isinstance(function, FunctionPoly)
+    return max(int(k) for k in function.num.degrees())
 
 
 def _discriminants(problem: Problem, generic: Verdict, settings: Settings) -> list[Poly]:
@@ -307,10 +338,23 @@ def _inside(problem: Problem, function: Poly, settings: Settings) -> Region:
     if restriction is None:
         return Region(statement, unknown, complete=f"the values with {statement.text()} aren't examined")
     inner = partition(restriction.S, settings)
-    complete = inner.complete
-    if not inner.names:
-        return Region(statement, inner.generic, complete, restriction=restriction)
-    return Region(statement, inner.generic, complete, inner=inner, restriction=restriction)
+    omega, verdict = None, inner.generic
+    if verdict.structure is not None:
+        decision = engine.decide(restriction.S, settings.budget)
+        omega = omega_text(restriction.S, decision, settings.variable)
+        if not inner.names and not decision.undecided:
+            verdict = replace(verdict, family=str(group_of(restriction.S, decision)))
+    whole = inner if inner.names else None
+    return Region(statement, verdict, inner.complete, omega=omega, inner=whole, restriction=restriction)
+
+
+def omega_text(S: RatFunc, decision: Decision, variable: str) -> str | None:
+    """What a certified decision says about omega; None without a solution."""
+    if decision.riccati is None or decision.structure is None:
+        return None
+    lines = omega_lines(Solution(S.to_str(variable), variable, S, decision))
+    text = " ".join(line.strip() for line in lines if not line.startswith("y ="))
+    return text if len(text) <= _LONGEST_OMEGA else _SEMI_INVARIANTS[decision.structure]
 
 
 def _region_where_zero(problem: Problem, function: Poly, generic: Verdict, settings: Settings) -> Region | None:
@@ -319,8 +363,9 @@ def _region_where_zero(problem: Problem, function: Poly, generic: Verdict, setti
     same = region.verdict.known and region.verdict.case == generic.case
     if same and (region.inner is None or not region.inner.regions) and region.complete is True:
         return None
-    omega = None if region.verdict.structure is None else _SEMI_INVARIANTS[region.verdict.structure]
-    return replace(region, omega=omega)
+    if region.omega is not None or region.verdict.structure is None:
+        return region
+    return replace(region, omega=_SEMI_INVARIANTS[region.verdict.structure])
 
 
-__all__ = ["Partition", "Region", "Settings", "Verdict", "partition"]
+__all__ = ["Partition", "Region", "Settings", "Verdict", "partition", "verdict_of"]

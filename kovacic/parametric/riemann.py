@@ -145,10 +145,13 @@ def _shown_differences(cubic: FunctionPoly) -> str:
     for factor, k in field.factor(cubic):
         if factor.degree > 1:
             return f"(the square roots of the roots of {shown(cubic, 'Z')})"
-        root = field.sqrt(-factor[0])
-        name = f"sqrt({shown(RatFunc(-factor[0]))})" if root is None else shown(RatFunc(root))
-        names += [name] * k
+        names += [_root_text(-factor[0])] * k
     return ", ".join(names)
+
+
+def _root_text(square: Poly) -> str:
+    root = square.field.sqrt(square)
+    return f"sqrt({shown(RatFunc(square))})" if root is None else shown(RatFunc(root))
 
 
 def applies(problem: Problem) -> bool:
@@ -192,13 +195,40 @@ def reducible(problem: Problem) -> bool | list[Statement]:
     return integer_roots(equation, [1], 2)
 
 
-def omega(problem: Problem) -> str:
+def omega(problem: Problem, variable: str) -> str:
     """What a solution of case 1 looks like: its exponents, and the degree of its polynomial part."""
+    general = f"omega = sum of (1 +- Delta_c)/(2 ({variable} - c)) + P'/P"
     differences = _shown_differences(squares_of_differences(problem)).split(", ")
     if len(differences) != 3:
-        return "omega = sum of (1 +- Delta_c)/(2 (x - c)) + P'/P, P a polynomial"
+        return f"{general}, P a polynomial"
     signs = "".join(f" +- {_parenthesised(d)}" for d in differences)
-    return f"omega = sum of (1 +- Delta_c)/(2 (x - c)) + P'/P with signs for which deg P = (-1{signs})/2 is a natural number"
+    return f"{general} with signs for which deg P = (-1{signs})/2 is a natural number"
+
+
+def group(problem: Problem, structure: Structure) -> str | None:
+    """The family of the groups with this structure; None where the structure is all there is to say.
+
+    All residues of a logarithmic derivative of a solution come from the exponents and from zeros, so that its constant
+    multiples are rational logarithmic derivatives exactly where the exponents are rational.  On the curve w^2 = F of an
+    imprimitive equation, which is rational because it has two branch points, the same holds for the third difference.
+    """
+    cubic = squares_of_differences(problem)
+    constants, variable = _split(cubic)
+    if structure is Structure.REDUCIBLE:
+        if None not in constants and len(constants) >= 2:
+            return "mu_n, or G_a extended by mu_n"  # a third difference is rational because their sum is
+        where = f"where {_shown_differences(cubic)} are rational"
+        return f"mu_n, or G_a extended by mu_n, {where}; else G_m, or the Borel group"
+    if structure is not Structure.IMPRIMITIVE:
+        return None
+    rest = list(constants)
+    for half in [d for d in constants if d is not None and d.denominator == 2][:2]:
+        rest.remove(half)
+    if len(constants) >= 2 and rest:
+        return "the infinite dihedral group" if rest[0] is None else "dicyclic"
+    if len(constants) == 2 and variable is not None:
+        return f"dicyclic where {_root_text(variable)} is rational, else the infinite dihedral group"
+    return "dicyclic where the third exponent difference is rational, else the infinite dihedral group"
 
 
 def _parenthesised(text: str) -> str:
@@ -264,4 +294,4 @@ def rational_roots_of_square(value: Fraction) -> list[Fraction]:
     return rational_roots(QQ.poly([-value, 0, 1]))
 
 
-__all__ = ["IntegerRoot", "Schwarz", "applies", "irreducible_structures", "kimura", "reducible"]
+__all__ = ["IntegerRoot", "Schwarz", "applies", "group", "irreducible_structures", "kimura", "omega", "reducible"]

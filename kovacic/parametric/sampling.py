@@ -4,22 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from random import Random
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
+from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import Both, Classes, Either, IntegerRoot, Point, Statement, Vanishes
-
-_DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
 
 
 @dataclass
 class _Draft:
-    """A point in the making: rational values, or one algebraic one."""
+    """A point in the making: values in one field, which is enlarged once at most."""
 
     values: dict[str, Poly]
     field: Field = QQ
@@ -28,14 +26,19 @@ class _Draft:
         return Point(tuple(names), tuple(self.values[name].over(self.field) for name in names), self.field)
 
 
-def outside(names: Sequence[str], random: Random) -> Point:
-    """A point with small rational coordinates: as a rule, outside of all conditions."""
-    return _Draft({name: QQ.poly([_small(random)]) for name in names}).point(names)
+def outside(start: Point, names: Sequence[str], assumptions: Assumptions, random: Random) -> Point:
+    """A point with small rational coordinates: as a rule, outside of all conditions.
+
+    `start` has the coordinates that are fixed; `names` are those that are chosen.
+    """
+    return _draft(start, names, assumptions, random).point([*start.names, *names])
 
 
-def inside(statement: Statement, names: Sequence[str], random: Random) -> Point | None:
+def inside(
+    statement: Statement, start: Point, names: Sequence[str], assumptions: Assumptions, random: Random
+) -> Point | None:
     """A point at which the statement holds; None if none was found."""
-    draft = _Draft({name: QQ.poly([_small(random)]) for name in names})
+    draft = _draft(start, names, assumptions, random)
     free = list(names)
     for part in reversed(_conjunction(statement, random)):
         try:
@@ -46,11 +49,16 @@ def inside(statement: Statement, names: Sequence[str], random: Random) -> Point 
             return None
         if solved in free:
             free.remove(solved)
-    point = draft.point(names)
+    point = draft.point([*start.names, *names])
     try:
         return point if statement.holds(point) else None
     except ZeroDivisionError:
         return None
+
+
+def _draft(start: Point, names: Sequence[str], assumptions: Assumptions, random: Random) -> _Draft:
+    fixed = dict(zip(start.names, start.values, strict=True))
+    return _Draft(fixed | {name: QQ.poly([assumptions.of(name).sample(random)]) for name in names}, start.field)
 
 
 def _conjunction(statement: Statement, random: Random) -> list[Statement]:
@@ -88,41 +96,32 @@ def _solve_for_zero(function: FunctionPoly, draft: _Draft, free: Sequence[str], 
     for name in sorted(candidates, key=lambda n: degrees[n]):
         # The function as a polynomial in this parameter, the others having their values.
         one_variable = _in_one_parameter(function, name, draft)
-        if one_variable is None or one_variable.degree < 1:
+        if one_variable.degree < 1:
             continue
         factor = random.choice([f for f, _ in one_variable.field.factor(one_variable)])
         if factor.degree == 1:
             draft.values[name] = -factor[0]
             return name
-        if draft.field == QQ and len(names) == 1:
+        if draft.field == QQ and len(free) == len(names) == 1:
             draft.field = AlgebraicField(QQ, factor, "alpha")
             draft.values[name] = draft.field.generator
             return name
     return None
 
 
-def _in_one_parameter(function: FunctionPoly, name: str, draft: _Draft) -> Poly | None:
-    """The numerator as a polynomial over Q in the given parameter."""
-    if draft.field != QQ:
-        return None
+def _in_one_parameter(function: FunctionPoly, name: str, draft: _Draft) -> Poly:
+    """The numerator as a polynomial in the given parameter, the others having their values."""
     names = function.field.names
     index = names.index(name)
-    coefficients: dict[int, Fraction] = {}
+    coefficients: dict[int, Poly] = {}
     for exponents, coefficient in function.num.to_dict().items():
-        value = Fraction(int(coefficient))
+        value = draft.field.poly([int(coefficient)])
         for i, exponent in enumerate(exponents[1:]):
             if i != index and exponent:
-                known = QQ.rational_value(draft.values[names[i]])
-                assert known is not None
-                value *= known ** int(exponent)
+                value = value * draft.values[names[i]].over(draft.field) ** int(exponent)
         power = int(exponents[1 + index])
-        coefficients[power] = coefficients.get(power, Fraction(0)) + value
-    return QQ.poly([coefficients.get(k, 0) for k in range(max(coefficients, default=-1) + 1)])
-
-
-def _small(random: Random) -> Fraction:
-    denominator = random.choice(_DENOMINATORS)
-    return Fraction(random.randint(-6 * denominator, 6 * denominator), denominator)
+        coefficients[power] = coefficients.get(power, draft.field.poly([])) + value
+    return draft.field.poly([coefficients.get(k, 0) for k in range(max(coefficients, default=-1) + 1)])
 
 
 __all__ = ["inside", "outside"]

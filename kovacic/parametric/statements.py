@@ -10,13 +10,14 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd
 from typing import Any
 
 from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
+from kovacic.parametric.assumptions import Assumptions, Coset, common_multiple
 from kovacic.parametric.formulas import as_latex, shown
 
 
@@ -52,8 +53,8 @@ class Statement(ABC):
     def latex(self) -> str:
         """As LaTeX, without dollar signs."""
 
-    def decided(self, integers: frozenset[str]) -> bool | None:
-        """True or False where that follows from these parameters being integers; None otherwise."""
+    def decided(self, assumptions: Assumptions) -> bool | None:
+        """True or False where that follows from what is known about the parameters; None otherwise."""
         return None
 
     def __str__(self) -> str:
@@ -68,6 +69,9 @@ class Vanishes(Statement):
 
     def holds(self, point: Point) -> bool:
         return not point.at(self.function)
+
+    def decided(self, assumptions: Assumptions) -> bool | None:
+        return assumptions.vanishes(self.function)
 
     def text(self) -> str:
         return f"{shown(self.function)} = 0"
@@ -109,7 +113,7 @@ class Classes(Statement):
             residues = tuple(-r for r in other.residues)
         else:
             return None
-        common = _common_multiple(self.modulus, other.modulus)
+        common = common_multiple(self.modulus, other.modulus)
         both = [
             residue + k * modulus
             for values, modulus in ((self.residues, self.modulus), (residues, other.modulus))
@@ -118,16 +122,8 @@ class Classes(Statement):
         ]
         return Classes.make(self.form, both, common)
 
-    def decided(self, integers: frozenset[str]) -> bool | None:
-        used = [name for i, name in enumerate(self.form.field.names) if int(self.form.num.degrees()[1 + i]) > 0]
-        if not self.form.den.is_one() or not all(name in integers for name in used):
-            return None
-        whole = [r for r in self.residues if any((r + k * self.modulus).denominator == 1 for k in range(60))]
-        if not whole:
-            return False
-        period = lcm(self.modulus.numerator, 1)
-        covered = all(any((n - r) % self.modulus == 0 for r in self.residues) for n in range(period))
-        return True if covered else None
+    def decided(self, assumptions: Assumptions) -> bool | None:
+        return assumptions.meets_classes(self.form, [Coset(residue, self.modulus) for residue in self.residues])
 
     def text(self) -> str:
         form = shown(self.form)
@@ -218,8 +214,8 @@ class Either(Statement):
     def holds(self, point: Point) -> bool:
         return any(part.holds(point) for part in self.parts)
 
-    def decided(self, integers: frozenset[str]) -> bool | None:
-        decisions = [part.decided(integers) for part in self.parts]
+    def decided(self, assumptions: Assumptions) -> bool | None:
+        decisions = [part.decided(assumptions) for part in self.parts]
         if any(decisions):
             return True
         return False if all(d is False for d in decisions) else None
@@ -240,8 +236,8 @@ class Both(Statement):
     def holds(self, point: Point) -> bool:
         return all(part.holds(point) for part in self.parts)
 
-    def decided(self, integers: frozenset[str]) -> bool | None:
-        decisions = [part.decided(integers) for part in self.parts]
+    def decided(self, assumptions: Assumptions) -> bool | None:
+        decisions = [part.decided(assumptions) for part in self.parts]
         if any(d is False for d in decisions):
             return False
         return True if all(decisions) else None
@@ -323,11 +319,6 @@ def _shifted(form: str, residue: Fraction) -> str:
 def _constant(form: FunctionPoly) -> Fraction:
     value = form.rational_coefficients()
     return Fraction(int(value[0].p), int(value[0].q)) if value else Fraction(0)
-
-
-def _common_multiple(a: Fraction, b: Fraction) -> Fraction:
-    denominator = lcm(a.denominator, b.denominator)
-    return Fraction(lcm(int(a * denominator), int(b * denominator)), denominator)
 
 
 def _reduced(residues: set[Fraction], modulus: Fraction) -> tuple[set[Fraction], Fraction]:

@@ -1,0 +1,315 @@
+"""What is known about the parameters, and what follows from it for a statement about them.
+
+A parameter can be known to lie in a class s + m Z ("integer", "odd", "even", "half-integer"), to be rational or irrational, not
+an integer, not zero, positive or negative.  A conclusion holds at all values with these properties; None where none follows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd, lcm
+from random import Random
+from typing import Any
+
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Poly
+from kovacic.errors import InputError
+
+_DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
+
+
+@dataclass(frozen=True)
+class Coset:
+    """The numbers `start + k step` with integers k; step > 0."""
+
+    start: Fraction
+    step: Fraction
+
+    def contains(self, value: Fraction) -> bool:
+        """Is the value one of them?"""
+        return (value - self.start) % self.step == 0
+
+    def meets(self, other: Coset) -> bool:
+        """Is there a common number?"""
+        return (self.start - other.start) % common_divisor(self.step, other.step) == 0
+
+    def is_covered_by(self, cosets: Iterable[Coset]) -> bool:
+        """Does each of the numbers lie in one of the cosets?"""
+        others = list(cosets)
+        period = self.step
+        for other in others:
+            period = common_multiple(period, other.step)
+        numbers = (self.start + k * self.step for k in range(int(period / self.step)))
+        return all(any(other.contains(number) for other in others) for number in numbers)
+
+
+_INTEGERS = Coset(Fraction(0), Fraction(1))
+_COSETS = {
+    "integer": _INTEGERS,
+    "even": Coset(Fraction(0), Fraction(2)),
+    "odd": Coset(Fraction(1), Fraction(2)),
+    "half-integer": Coset(Fraction(1, 2), Fraction(1)),
+}
+_SIGNS = {"positive": 1, "negative": -1}
+WORDS = (*_COSETS, "rational", "irrational", "noninteger", "nonzero", *_SIGNS)
+
+
+@dataclass(frozen=True)
+class Known:
+    """What is known about one parameter: some of `WORDS`."""
+
+    words: tuple[str, ...] = ()
+
+    @property
+    def coset(self) -> Coset | None:
+        """The smallest known class that contains it."""
+        found = [_COSETS[word] for word in self.words if word in _COSETS]
+        return max(found, key=lambda coset: coset.step, default=None)
+
+    @property
+    def rational(self) -> bool | None:
+        return True if self.coset or "rational" in self.words else False if "irrational" in self.words else None
+
+    @property
+    def sign(self) -> int | None:
+        return next((_SIGNS[word] for word in self.words if word in _SIGNS), None)
+
+    @property
+    def nonzero(self) -> bool:
+        outside = self.coset is not None and not self.coset.contains(Fraction(0))
+        return outside or self.sign is not None or bool({"nonzero", "noninteger", "irrational"} & set(self.words))
+
+    def admits(self, value: Poly) -> bool:
+        """May the parameter have this value?  The sign of an irrational value isn't looked at."""
+        number = value.field.rational_value(value)
+        if number is None:
+            return self.rational is not True
+        return not (
+            any(not _COSETS[word].contains(number) for word in self.words if word in _COSETS)
+            or self.rational is False
+            or ("noninteger" in self.words and number.denominator == 1)
+            or (self.nonzero and not number)
+            or (self.sign is not None and self.sign * number <= 0)
+        )
+
+    def sample(self, random: Random) -> Fraction:
+        """A small rational number, in the known class if there is one."""
+        if self.coset is not None:
+            return self.coset.start + random.randint(-6, 6) * self.coset.step
+        denominator = random.choice(_DENOMINATORS)
+        return Fraction(random.randint(-6 * denominator, 6 * denominator), denominator)
+
+
+@dataclass(frozen=True)
+class Assumptions:
+    """What is known about the parameters, by name, and those that have a value (constants of one field)."""
+
+    known: tuple[tuple[str, Known], ...] = ()
+    values: tuple[tuple[str, Poly], ...] = ()
+
+    def __bool__(self) -> bool:
+        return bool(self.known)
+
+    @property
+    def concerns_exponents(self) -> bool:
+        """Is anything known beside signs?"""
+        return any(known.coset or known.rational is False or "noninteger" in known.words for _, known in self.known)
+
+    def of(self, name: str) -> Known:
+        return dict(self.known).get(name, Known())
+
+    def to_dict(self) -> dict[str, str]:
+        """Words separated by spaces, by name."""
+        return {name: " ".join(known.words) for name, known in self.known}
+
+    def __str__(self) -> str:
+        return ", ".join(f"{name} {' '.join(known.words)}" for name, known in self.known)
+
+    def meets_classes(self, form: FunctionPoly, classes: list[Coset]) -> bool | None:
+        """Is the value of a form rational and in one of the classes: True (always), False (never) or None?"""
+        value = self._value_of(form)
+        if value is not None:
+            number = value.field.rational_value(value)
+            return number is not None and any(coset.contains(number) for coset in classes)
+        values = self._coset_of(form)
+        if values is not None:
+            if not any(values.meets(coset) for coset in classes):
+                return False
+            return True if values.is_covered_by(classes) else None
+        if self._is_irrational(form):
+            return False
+        linear = _linear(form)
+        if linear is not None and len(linear[1]) == 1:
+            ((name, factor),) = linear[1].items()
+            solutions = [Coset((c.start - linear[0]) / factor, c.step / abs(factor)) for c in classes]
+            if "noninteger" in self.of(name).words and all(s.is_covered_by([_INTEGERS]) for s in solutions):
+                return False
+        return None
+
+    def vanishes(self, function: FunctionPoly) -> bool | None:
+        """Does the function vanish: True (always), False (never) or None?"""
+        value = self._value_of(function)
+        if value is not None:
+            return not value
+        return False if self._is_nonzero(function) else None
+
+    def _value_of(self, function: FunctionPoly) -> Poly | None:
+        """The value of a polynomial that doesn't depend on the parameters without a value; None for any other."""
+        if not self.values:
+            return None
+        field, fixed = self.values[0][1].field, dict(self.values)
+        names = function.field.names
+        free = [i for i, name in enumerate(names) if name not in fixed]
+        if any(int(k) for i, k in enumerate(function.den.degrees()[1:]) if i in free):
+            return None
+        constants = [fixed.get(name, field.poly([0])) for name in names]
+        one = function.field.context.constant(1)
+        parts: dict[tuple[int, ...], dict[Any, Any]] = {}
+        for exponents, coefficient in function.num.to_dict().items():
+            parts.setdefault(tuple(int(exponents[1 + i]) for i in free), {})[exponents] = coefficient
+        total = field.poly([0])
+        for powers, terms in parts.items():
+            ones = [field.poly([1]) if name not in fixed else fixed[name] for name in names]
+            part = FunctionPoly(function.field, function.field.context.from_dict(terms), one).value_at(ones, field)
+            if any(powers) and part:
+                return None
+            if not any(powers):
+                total = part
+        below = FunctionPoly(function.field, function.den, one).value_at(constants, field)
+        return total / below if below else None
+
+    def _is_nonzero(self, function: FunctionPoly) -> bool:
+        """Can the function be proven to vanish nowhere?"""
+        values = self._coset_of(function)
+        if (values is not None and not values.contains(Fraction(0))) or self._is_irrational(function):
+            return True
+        terms = [(int(c), _powers(function, e)) for e, c in function.num.to_dict().items()]
+        if len(terms) == 1:
+            return all(self.of(name).nonzero for name in terms[0][1])
+        signs = {self._sign(c, powers) for c, powers in terms}
+        return len(signs) == 1 and None not in signs
+
+    def _sign(self, coefficient: int, powers: Mapping[str, int]) -> int | None:
+        sign = 1 if coefficient > 0 else -1
+        for name, power in powers.items():
+            own = self.of(name).sign
+            if own is None:
+                return None
+            sign *= own**power
+        return sign
+
+    def _coset_of(self, form: FunctionPoly) -> Coset | None:
+        """A class that contains all values of a polynomial."""
+        linear = _linear(form)
+        if linear is not None:
+            cosets = {name: self.of(name).coset for name in linear[1]}
+            known = {name: coset for name, coset in cosets.items() if coset is not None}
+            if len(known) < len(cosets) or not known:
+                return None
+            start = linear[0] + sum(factor * known[name].start for name, factor in linear[1].items())
+            step = Fraction(0)
+            for name, factor in linear[1].items():
+                step = common_divisor(step, abs(factor) * known[name].step)
+            return Coset(start, step)
+        names = {name for e in form.num.to_dict() for name in _powers(form, e)}
+        cosets = {name: self.of(name).coset for name in names}
+        if form.den.is_one() and all(c is not None and c.is_covered_by([_INTEGERS]) for c in cosets.values()):
+            return _INTEGERS
+        return None
+
+    def _is_irrational(self, form: FunctionPoly) -> bool:
+        """A linear form in which one parameter is irrational and the others are rational."""
+        linear = _linear(form)
+        if linear is None:
+            return False
+        kinds = [self.of(name).rational for name in linear[1]]
+        return kinds.count(False) == 1 and None not in kinds
+
+
+NOTHING_ASSUMED = Assumptions()
+
+
+def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str, ...]) -> Assumptions:
+    """From `{"n": "positive integer"}`, and from the assumptions on the SymPy symbols in S.
+
+    Raises `InputError` for a name that isn't a parameter, and for a word that isn't one of `WORDS` ("real" and "complex" say
+    nothing that could be used).
+    """
+    found: dict[str, list[str]] = {}
+    for symbol in getattr(S, "free_symbols", ()):
+        if symbol.name in names:
+            found[symbol.name] = _words_of(symbol)
+    for name, what in (assume or {}).items():
+        if str(name) not in names:
+            raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
+        words = str(what).replace(",", " ").split()
+        unknown = [word for word in words if word not in (*WORDS, "real", "complex")]
+        if unknown or not words:
+            raise InputError(
+                f"{' '.join(unknown) or what!r} isn't an assumption that is known", hint=f"known are {', '.join(WORDS)}"
+            )
+        found.setdefault(str(name), []).extend(words)
+    pairs = [(name, Known(tuple(w for w in dict.fromkeys(found.get(name, ())) if w in WORDS))) for name in names]
+    return Assumptions(tuple((name, known) for name, known in pairs if known.words))
+
+
+def _words_of(symbol: Any) -> list[str]:
+    """What SymPy knows of a symbol, without what follows from the rest."""
+    if symbol.is_integer:
+        words = ["odd" if symbol.is_odd else "even" if symbol.is_even else "integer"]
+    elif symbol.is_irrational:
+        words = ["irrational"]
+    else:
+        words = ["rational"] * bool(symbol.is_rational) + ["noninteger"] * (symbol.is_integer is False)
+    sign = "positive" if symbol.is_positive else "negative" if symbol.is_negative else None
+    if sign:
+        return [*words, sign]
+    return words if Known(tuple(words)).nonzero or symbol.is_zero is not False else [*words, "nonzero"]
+
+
+def common_divisor(a: Fraction, b: Fraction) -> Fraction:
+    """The largest number of which both are integral multiples; a and b are not negative."""
+    denominator = lcm(a.denominator, b.denominator)
+    return Fraction(gcd(int(a * denominator), int(b * denominator)), denominator)
+
+
+def common_multiple(a: Fraction, b: Fraction) -> Fraction:
+    """The least positive integral multiple of both; a and b are positive."""
+    denominator = lcm(a.denominator, b.denominator)
+    return Fraction(lcm(int(a * denominator), int(b * denominator)), denominator)
+
+
+def _linear(form: FunctionPoly) -> tuple[Fraction, dict[str, Fraction]] | None:
+    """The constant term and the coefficients of a linear form in the parameters; None for anything else."""
+    if not form.den.is_constant():
+        return None
+    scale = int(form.den.leading_coefficient())
+    constant, factors = Fraction(0), {}
+    for exponents, coefficient in form.num.to_dict().items():
+        powers = _powers(form, exponents)
+        if sum(powers.values()) > 1:
+            return None
+        if powers:
+            factors[next(iter(powers))] = Fraction(int(coefficient), scale)
+        else:
+            constant = Fraction(int(coefficient), scale)
+    return constant, factors
+
+
+def _powers(form: FunctionPoly, exponents: Any) -> dict[str, int]:
+    """The parameters of a monomial with their positive exponents."""
+    return {name: int(k) for name, k in zip(form.field.names, exponents[1:], strict=True) if k}
+
+
+__all__ = [
+    "NOTHING_ASSUMED",
+    "WORDS",
+    "Assumptions",
+    "Coset",
+    "Known",
+    "common_divisor",
+    "common_multiple",
+    "read_assumptions",
+]
