@@ -1,11 +1,12 @@
 """The partition of parameter space: which theory applies, the regions in their order, and the degenerate values.
 
-What holds for generic values has limits everywhere.  Let S be defined at t0, and let omega be a solution of the Riccati equation
-over the algebraic closure of Q(t)(x), of degree m.  Choose a valuation ring of the constants that dominates t0.  For m = 1
-write omega = N/D with coprime polynomials in x whose coefficients are integral and not all in the maximal ideal.  In the
-residue field N'D - ND' + N^2 = S D^2, so that D = 0 would give N^2 = 0, against the choice: D isn't 0, and N/D is a rational
-solution for t0.  For m > 1 the same argument, on the curve of omega or for the coefficients of its polynomial scaled in this
-way, gives an algebraic solution of degree at most m.  So an equation that is generically in case 1 is in case 1 wherever S is
+What holds for generic values has limits everywhere.  An omega of degree m over the algebraic closure of Q(t)(x) is a root of a
+binary form F(y, y') of degree m, with polynomials in x as coefficients, whose derivative along the solutions is a multiple of
+it, F' = lambda F with a rational function lambda.  Let S be defined at t0, take a valuation ring of the constants that
+dominates t0, and scale F so that its coefficients are integral and not all in the maximal ideal.  Then lambda is integral
+(if pi lambda were the first integral multiple, pi F' = pi lambda F would vanish in the residue field, but neither pi lambda
+nor F does), so that the residue of F is a form of degree m for t0, not zero, with the same property: a product of m
+solutions with an algebraic logarithmic derivative.  So an equation that is generically in case 1 is in case 1 wherever S is
 defined, one in case 2 is in case 1 or 2, and one that has Liouvillian solutions has them everywhere.
 """
 
