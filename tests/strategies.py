@@ -505,6 +505,26 @@ def rational_pole_equations(draw: st.DrawFn) -> RatFunc:
     return S
 
 
+@st.composite
+def parametric_equations(draw: st.DrawFn) -> str:
+    """Small S with the parameters t and u, of every shape that `kovacic.conditions` treats in its own way."""
+    rational = fractions(9, (1, 2, 4, 16)).map(str)
+    with_parameter = ("t", "u", "t + 1", "t^2", "t*u", "t + u", "(t^2-1)/4", "t*(t+1)", "(4*u^2-1)/4")
+    coefficient = st.one_of(st.sampled_from((*with_parameter, "-3/16", "-2/9", "3/4", "2")), rational)
+    shapes = (
+        ("x^2", "x", "1"),
+        ("x^4", "x^2", "x"),
+        ("1/x^2", "1/x", "1"),
+        ("1/x^2", "1", "x^2"),
+        ("1/x^2", "1/(x-1)^2", "1/(x*(x-1))"),
+        ("1/x^2", "1/(x-1)^2", "1/(x+1)^2", "1/(x*(x-1))", "1/(x*(x+1))"),
+        ("1/(x^2+t)^2", "1/(x^2+t)"),
+        ("1/(x^2-2)^2", "1/(x^2+u)"),
+        ("1/x^4", "1/x^3", "1/x^2", "1/x"),
+    )
+    return " + ".join(f"({draw(coefficient)})*{term}" for term in draw(st.sampled_from(shapes)))
+
+
 def pole_orders(S: RatFunc) -> Iterator[int]:
     """Orders of the finite poles, factor by factor."""
     return (k for _, k in QQ.factor(S.den)) if S.den.degree > 0 else iter(())

@@ -9,6 +9,7 @@ from fractions import Fraction
 
 import pytest
 import sympy
+from hypothesis import given, settings
 
 import kovacic
 from kovacic.algebra.fields import QQ
@@ -19,6 +20,7 @@ from kovacic.parametric.partition import Verdict
 from kovacic.parametric.riemann import kimura
 from kovacic.solution import Structure
 from tests.parametric_cases import FAMILIES, Family
+from tests.strategies import parametric_equations
 
 F = Fraction
 
@@ -340,6 +342,28 @@ def test_wrong_input_and_limits() -> None:
     partial = kovacic.conditions("x^6 + a*x^2 + b", var="x", limits=Limits(seconds=0.3))
     assert isinstance(partial.complete, str)
     assert "limits" in partial.complete
+
+
+def _regions_agree_with_the_engine(S: str, samples: int, seconds: float) -> None:
+    try:
+        answer = kovacic.conditions(S, var="x", max_degree=2, limits=Limits(seconds=seconds))
+    except kovacic.InputError:  # no parameters were drawn
+        return
+    report = answer.check(samples)
+    assert report, (S, report.disagreements)
+
+
+@given(parametric_equations())
+@settings(max_examples=25)
+def test_random_equations_agree_with_the_engine(S: str) -> None:
+    _regions_agree_with_the_engine(S, 12, 1.0)
+
+
+@pytest.mark.slow
+@given(parametric_equations())
+@settings(max_examples=400)
+def test_many_random_equations_agree_with_the_engine(S: str) -> None:
+    _regions_agree_with_the_engine(S, 60, 10.0)
 
 
 MORE = [
