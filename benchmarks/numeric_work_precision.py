@@ -172,7 +172,8 @@ def double_row(solution: Any, x0: str, x: str) -> tuple[str, float, float, float
 
     import numpy as np
 
-    from kovacic.numeric.lambdify import lambdify, measure
+    from kovacic.numeric.accuracy import measure
+    from kovacic.numeric.lambdify import lambdify
 
     low, high = sorted((float(Fraction(x0)), float(Fraction(x))))
     with warnings.catch_warnings():
@@ -180,7 +181,7 @@ def double_row(solution: Any, x0: str, x: str) -> tuple[str, float, float, float
         function = lambdify(solution, interval=(low - 1e-3, high + 1e-3), check=False)
         points = np.linspace(low, high, 1000)
         seconds, _ = best(lambda: function(points))
-        median, worst = measure(function, solution)
+        median, worst, _ = measure(function, solution)
     print(f"   double precision: median {median:.2g}, worst {worst:.2g} units in the last place")
     return "closed form, double", 16, seconds / 1000, math.log10(max(worst, 0.5) * 2.0**-53)
 

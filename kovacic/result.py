@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from kovacic.closed_form import ClosedForm
     from kovacic.galois import EquationGroup, Group
     from kovacic.numeric.ball import Ball
-    from kovacic.numeric.lambdify import ClosedFormFunction
+    from kovacic.numeric.product_form import ProductForm
+    from kovacic.numeric.tabulate import TabulatedFunction
     from kovacic.parametric.generic import GenericConditions
 
 
@@ -127,8 +128,8 @@ class Solution:
 
         return evaluate(self, x, x0=x0, y0=y0, dy0=dy0, digits=digits, **options)
 
-    def lambdify(self, **options: Any) -> ClosedFormFunction:
-        """The closed form of case 1 in double precision, vectorised; see `kovacic.numeric.lambdify.lambdify`."""
+    def lambdify(self, **options: Any) -> ProductForm | TabulatedFunction:
+        """A solution as a NumPy function, its error measured; see `kovacic.numeric.lambdify.lambdify`."""
         from kovacic.numeric.lambdify import lambdify
 
         return lambdify(self, **options)

@@ -1,0 +1,297 @@
+"""NumPy functions of solutions against proven values, and against formulas that are known otherwise."""
+
+from __future__ import annotations
+
+import dataclasses
+from fractions import Fraction
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from published import load
+
+import kovacic
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.errors import InputError
+from kovacic.numeric import double_double as dd
+from kovacic.numeric.accuracy import MEDIAN, WORST, measure, warn_unless_accurate
+from kovacic.numeric.evaluate import AccuracyWarning, evaluate
+from kovacic.numeric.lambdify import lambdify
+from kovacic.numeric.problem import as_problem
+from kovacic.numeric.product_form import ProductForm
+from kovacic.numeric.tabulate import TabulatedFunction, tabulate
+
+TETRAHEDRAL = "(-32*x^2 + 27*x - 27)/(144*x^4 - 288*x^3 + 144*x^2)"
+ICOSAHEDRAL = "(-864*x^2 + 739*x - 675)/(3600*x^4 - 7200*x^3 + 3600*x^2)"
+CONJUGATE_POLES = "9/(2*x^4 + 16*x^3 + 72*x^2 + 160*x + 200)"  # omega over Q(sqrt(-6))
+ELLIPTIC = (  # Lame's equation, n = 1
+    "(80*x**4 + 320*x**3 - 168*x**2 - 1136*x - 587)/(256*x**6 - 384*x**4 - 896*x**3 + 144*x**2 + 672*x + 784)"
+)
+
+
+def ball(k: Fraction, D: tuple[Fraction | int, ...]) -> RatFunc:
+    """S with y1 y2 = sqrt(D), w^2 = 4 k^2 lc(D): the ball on a sphere, whose solutions are D^(1/4) (D'/(2 sqrt(lc D)) +
+    sqrt(D))^k."""
+    f = RatFunc(QQ.poly(D))
+    phi = f.derivative() / (2 * f)
+    return (RatFunc(QQ.poly([4 * k * k * D[2]])) / f + 2 * phi.derivative() + phi * phi) / 4
+
+
+# --- double-doubles --------------------------------------------------------------------------------------------------
+
+
+def exact(pair: Any) -> list[Fraction]:
+    return [Fraction(float(h)) + Fraction(float(r)) for h, r in zip(pair[0], pair[1], strict=True)]
+
+
+def numbers(seed: int, spread: int = 9) -> Any:
+    rng = np.random.default_rng(seed)
+    hi = rng.normal(size=200) * 10.0 ** rng.integers(-spread, spread, 200)
+    return dd.two_sum(hi, hi * 2.0**-54 * rng.uniform(-1, 1, 200))
+
+
+def test_sums_and_products_of_doubles_are_exact() -> None:
+    a, b = numbers(1)[0], numbers(2)[0]
+    assert exact(dd.two_sum(a, b)) == [Fraction(p) + Fraction(q) for p, q in zip(a, b, strict=True)]
+    assert exact(dd.two_product(a, b)) == [Fraction(p) * Fraction(q) for p, q in zip(a, b, strict=True)]
+
+
+def test_arithmetic_of_pairs_is_good_to_a_hundred_bits() -> None:
+    a, b = numbers(3), numbers(4)
+    for got, wanted in (
+        (dd.multiply(a, b), [p * q for p, q in zip(exact(a), exact(b), strict=True)]),
+        (dd.divide(a, b), [p / q for p, q in zip(exact(a), exact(b), strict=True)]),
+        (dd.add(a, b), [p + q for p, q in zip(exact(a), exact(b), strict=True)]),
+    ):
+        assert all(abs(g / w - 1) < Fraction(2) ** -100 for g, w in zip(exact(got), wanted, strict=True))
+    size = (np.abs(a[0]), np.sign(a[0]) * a[1])
+    assert all(
+        abs(r * r / v - 1) < Fraction(2) ** -100 for r, v in zip(exact(dd.square_root(size)), exact(size), strict=True)
+    )
+
+
+def test_logarithms_and_angles_are_good_to_a_hundred_bits() -> None:
+    a, b = numbers(5, 100), numbers(6)
+    size = (np.abs(a[0]), np.sign(a[0]) * a[1])
+    near_one = dd.two_sum(1 + np.linspace(-1e-3, 1e-3, 50), 1e-18)
+    with mpmath.workdps(60):
+
+        def mp(pair: Any) -> list[mpmath.mpf]:
+            return [
+                mpmath.mpf(float(h)) + mpmath.mpf(float(r)) for h, r in zip(*np.broadcast_arrays(*pair), strict=True)
+            ]
+
+        for argument in (size, near_one):
+            pairs = zip(mp(dd.log(argument)), mp(argument), strict=True)
+            assert all(abs(got - mpmath.log(v)) <= mpmath.mpf(2) ** -100 * abs(mpmath.log(v)) for got, v in pairs)
+        c = numbers(7)
+        pairs = zip(mp(dd.angle(b, c)), mp(b), mp(c), strict=True)
+        assert all(abs(got - mpmath.atan2(y, x)) < mpmath.mpf(2) ** -100 for got, y, x in pairs)
+    assert dd.log((np.array([0.0]), np.array([0.0])))[0] == -np.inf
+
+
+# --- the promise -----------------------------------------------------------------------------------------------------
+
+PROMISES: list[tuple[Any, Any, type]] = [
+    ("x^2 + 3", (-3, 5), ProductForm),
+    ("2", (0, 30), ProductForm),
+    ("1 + 2/x^2", (0, 9), ProductForm),
+    ("x^2 - 1", (0, 20), ProductForm),
+    ("x^2 - 101", (-5, 5), ProductForm),
+    ("(35*x^2 - 38)/(4*x^4 - 8*x^2 + 4)", (-1, 1), ProductForm),
+    ("(x^2 - 4*x + 8)/(4*x^2)", (0, 4), ProductForm),
+    ("-2", (0, 30), ProductForm),
+    ("-10^30", (0, 1e-10), ProductForm),
+    (CONJUGATE_POLES, (-1, 1), ProductForm),
+    ("-2", (-1, 3 + 2j), ProductForm),
+    ("x^2 + 3", (-1 - 1j, 2 + 1j), ProductForm),
+    (CONJUGATE_POLES, (-1 - 1j, 1 + 1j), ProductForm),
+    ("1/x - 3/(16*x^2)", (0, 900), ProductForm),  # the line s^2 = x
+    ("1/x - 3/(16*x^2)", (-9, 0), ProductForm),
+    (ball(Fraction(1, 3), (5, 2, Fraction(1, 2))), (-9, 9), ProductForm),  # hyperbola, no real branch point
+    (ball(Fraction(577, 408), (-5, 2, Fraction(1, 2))), (2, 900), ProductForm),  # hyperbola, ahead and behind
+    (ball(Fraction(577, 408), (-5, 2, Fraction(1, 2))), (-900, -6), ProductForm),
+    (ball(Fraction(577, 408), (-5, 2, Fraction(1, 2))), (-5, 1), ProductForm),  # ellipse
+    ("-3/(16*x^2) - 3/(16*(x-1)^2) + 7/(16*x*(x-1))", (0, 1), ProductForm),
+    ("x^2 - 801", (-3, 3), TabulatedFunction),
+    (ELLIPTIC, (2.5, 6), TabulatedFunction),
+    (TETRAHEDRAL, (2, 9), TabulatedFunction),
+    (ICOSAHEDRAL, (0.01, 0.99), TabulatedFunction),
+    ("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0", (0.1, 20), ProductForm),
+    ("y'' - x*y' + 3*y = 0", (-3, 3), ProductForm),
+]
+
+
+@pytest.mark.parametrize(("S", "interval", "kind"), PROMISES)
+def test_the_measured_error_keeps_the_promise(S: Any, interval: Any, kind: type) -> None:
+    solution = kovacic.solve(S)
+    function = lambdify(solution, interval=interval)  # warnings are errors here
+    assert type(function) is kind
+    median, worst, count = measure(function, solution)
+    assert count >= 20
+    assert median <= MEDIAN
+    assert worst <= WORST
+
+
+@pytest.mark.slow
+def test_the_promise_for_the_published_equations() -> None:
+    for entry in load():
+        if entry.case is None:
+            continue
+        solution = kovacic.solve(entry.S)
+        try:
+            poles = [float(p.real.mid()) for p, _ in as_problem(solution).system.roots("den", 64)]
+        except InputError:
+            continue  # algebraic constants
+        start = max(poles, default=0.0)
+        for which in (0,) if entry.case == 1 else (0, 1):
+            lambdify(solution, interval=(start + 0.1, start + 4), which=which)
+
+
+def test_values_close_to_a_zero_keep_their_relative_accuracy() -> None:
+    solution = kovacic.solve("x^2 - 21")  # H_10(x) exp(-x^2/2)
+    zero = float(max(np.polynomial.hermite.hermroots([0] * 10 + [1])))
+    points = np.array([0.1, *(zero + k * 2.0**-40 for k in range(-3, 4))])
+    assert measure(lambdify(solution, interval=(-5, 5)), solution, points).worst <= 4
+    table = tabulate(solution, 0, 5, x0=0, y0=0, dy0=1)
+    near = [float(z) for z in (4.04, 4.041, 4.0409)]
+    proven = evaluate(solution, near, x0=0, y0=0, dy0=1)
+    assert [float(b) for b in proven] == pytest.approx(list(table(np.array(near))), rel=4e-16)
+
+
+# --- formulas that are known otherwise -------------------------------------------------------------------------------
+
+
+def test_a_complex_omega_gives_a_complex_exponential() -> None:
+    x = np.linspace(0, 30, 7)
+    both = [lambdify(kovacic.solve("-2"), interval=(0, 30), which=which)(x) for which in (0, 1)]
+    assert np.allclose(
+        sorted(both, key=lambda y: y[1].imag), [np.exp(-1j * 2**0.5 * x), np.exp(1j * 2**0.5 * x)], rtol=1e-14
+    )
+
+
+def test_the_ball_has_its_known_solution_on_the_curve() -> None:
+    k, x = 1 / 3, np.linspace(-9, 9, 13)
+    D, slope = 5 + 2 * x + x * x / 2, 2 + x
+    known = [D**0.25 * (slope / (2 * 0.5**0.5) + np.sqrt(D)) ** e for e in (-k, k)]
+    for which in (0, 1):
+        y = lambdify(kovacic.solve(ball(Fraction(1, 3), (5, 2, Fraction(1, 2)))), interval=(-9, 9), which=which)(x)
+        assert np.ptp(np.log(y / known[which])) < 1e-12
+
+
+def test_conjugate_solutions_of_an_oscillating_case_2_multiply_to_the_amplitude() -> None:
+    x = np.linspace(0.1, 900, 9)  # y1 y2 = sqrt(x) for S = -1/x - 3/(16 x^2): x^(1/4) exp(+-2 i sqrt(x))
+    first, second = (lambdify(kovacic.solve("-1/x - 3/(16*x^2)"), interval=(0, 901), which=w)(x) for w in (0, 1))
+    assert np.ptp(np.log(np.abs(first * second) / np.sqrt(x))) < 1e-14
+    assert np.allclose(
+        np.unwrap(np.angle(second / second[0])), 2 * (np.sqrt(x) - np.sqrt(0.1)) % (2 * np.pi)
+    ) or np.allclose(second / second[0], (x / 0.1) ** 0.25 * np.exp(2j * (np.sqrt(x) - np.sqrt(0.1))))
+
+
+def test_huge_values_have_logarithms() -> None:
+    function = lambdify(kovacic.solve("x^2 - 1"), interval=(0, 1000), check=False)
+    assert isinstance(function, ProductForm)
+    sign, size = function.log(np.array([900.0]))
+    assert sign[0] == 1
+    assert size[0] == pytest.approx(-(900.0**2) / 2, rel=1e-15)
+    assert function(np.array([900.0]))[0] == 0.0
+    power = lambdify(kovacic.solve("999999*10^6/x^2"), interval=(0, 10), which=0, check=False)
+    assert isinstance(power, ProductForm)
+    with mpmath.workdps(30):
+        ratio = power(np.array([1.0005]))[0] / power(np.array([1.0]))[0]
+        exponents = (10**6, 1 - 10**6)
+        assert min(abs(ratio / mpmath.mpf(1.0005) ** e - 1) for e in exponents) < 4e-16
+
+
+def test_functions_take_scalars_lists_and_arrays_of_every_shape() -> None:
+    for S in ("x^2 + 3", "-2", TETRAHEDRAL):
+        f = lambdify(kovacic.solve(S), interval=(2, 3), check=False)
+        assert np.shape(f(2.5)) == ()
+        assert f(np.full((2, 3), 2.5)).shape == (2, 3)
+        assert f([2.5, 3]).tolist()[0] == f(2.5)
+        assert f(np.array([])).shape == (0,)
+
+
+# --- tables ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_table_of_a_solution_without_closed_form() -> None:
+    table = tabulate("x", -6, 2, x0=0, y0=1, dy0=-1)
+    points = np.linspace(-6, 2, 37)
+    balls = evaluate("x", [float(p) for p in points], x0=0, y0=1, dy0=-1)
+    assert np.all(np.abs(table(points) / [float(b) for b in balls] - 1) < 3e-16)
+    with pytest.raises(InputError, match="outside"):
+        table(np.array([2.5]))
+
+
+def test_a_table_of_a_complex_solution_and_of_an_equation_with_a_first_derivative() -> None:
+    turning = tabulate("-1", 0, 10, x0=0, y0=1, dy0=1j)
+    x = np.linspace(0, 10, 11)
+    assert np.allclose(turning(x), np.exp(1j * x), rtol=1e-15, atol=0)
+    equation = "y'' - x*y' + x*y = 0"
+    table = tabulate(equation, -1, 3, x0=0, y0=1, dy0=1)
+    balls = evaluate(equation, [-1.0, 0.3, 2.7], x0=0, y0=1, dy0=1)
+    assert table([-1.0, 0.3, 2.7]).tolist() == pytest.approx([float(b) for b in balls], rel=1e-15)
+
+
+# --- warnings and refusals -------------------------------------------------------------------------------------------
+
+
+def test_an_inaccurate_function_warns_with_its_measured_error() -> None:
+    solution = kovacic.solve("x^2 + 3")
+    good = lambdify(solution, interval=(-3, 5))
+    assert isinstance(good, ProductForm)
+    (a, b, *rest) = good.exponent.polynomial
+    wrong = ((a[0][0] * (1 + 1e-11), 0.0), a[1])
+    bad = dataclasses.replace(good, exponent=dataclasses.replace(good.exponent, polynomial=(wrong, b, *rest)))
+    with pytest.warns(AccuracyWarning, match=r"median \d.*worst \d"):
+        warn_unless_accurate(bad, solution, 0)
+
+
+def test_a_wrong_zero_counts_as_an_error() -> None:
+    solution = kovacic.solve("x^2 + 3")
+    good = lambdify(solution, interval=(-3, 5))
+    points = np.array([1.0, 2.0, 3.0])
+
+    class Broken:
+        region, base = good.region, good.base
+
+        def __call__(self, x: Any) -> Any:
+            return np.where(x == 2.0, 0.0, good(x))
+
+    assert measure(Broken(), solution, points).worst > 1e15  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("S", "options", "words"),
+    [
+        ("x", {"interval": (1, 2)}, "needs a Liouvillian"),
+        ("2/x^2", {"interval": (-1, 1)}, "singular point 0"),
+        ("2/(x^2 - 2)^2", {"interval": (1, 2)}, "singular point 1.414"),
+        ("2/(x^2 + 1)^2", {"interval": (-1 - 2j, 1 + 2j)}, "singular point 0"),
+        ("2/x^2", {"interval": (2, 1)}, "empty"),
+        ("2/x^2", {"interval": (1, 1)}, "empty"),
+        ("2/x^2", {"interval": 7}, "pair"),
+        ("2/x^2", {"interval": (1, float("inf"))}, "finite"),
+        ("2/x^2", {"interval": (1, 10**400)}, "range of doubles"),
+        ("2/x^2", {"interval": (1, 2), "which": 2}, "which = 2"),
+        ("x^2 + 3", {"interval": (1, 2), "which": 1}, "only which = 0"),
+        (TETRAHEDRAL, {"interval": (2, 3 + 1j)}, "case 1"),
+        (TETRAHEDRAL, {"interval": (1, 2)}, "end of the interval is a singular"),
+    ],
+)
+def test_what_lambdify_cannot_do_it_refuses(S: str, options: dict[str, Any], words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        lambdify(kovacic.solve(S), **options)
+
+
+@pytest.mark.parametrize(
+    ("points", "words"),
+    [([3.5], "outside"), ([1.0], "outside"), ([np.nan], "outside"), ([2 + 1j], "complex"), (["a"], "numerical")],
+)
+def test_arguments_are_checked(points: Any, words: str) -> None:
+    function = lambdify(kovacic.solve("2/(x-1)^2"), interval=(1, 3))
+    with pytest.raises(InputError, match=words):
+        function(np.array(points))
