@@ -28,10 +28,8 @@ def by_kovacic(S: str) -> Answer:
     found = kovacic.solve(S)
     if found.riccati is None:
         return answer("undecided" if found.reason else "none")
-    data = json.loads(found.to_json())
-    constants = data["constants"]
-    polynomial = "" if constants is None else constants["minimal_polynomial"]
-    return answer("solved", "riccati", [*data["riccati"]["coefficients"], polynomial])
+    polynomial = "" if found.constants is None else found.constants.to_str("c")
+    return answer("solved", "riccati", [*map(str, found.riccati.coefficients), polynomial])
 
 
 def by_kovacic_full(S: str) -> Answer:

@@ -77,8 +77,9 @@ class Arithmetic:
 
     def constant(self, value: int | Fraction) -> Value:
         """A rational number as a value."""
-        self._check(0, _bits(value))
-        return _term(value, 0)
+        bits = _bits(value)
+        self._check(0, bits)
+        return Term(value, 0) if bits <= _SMALL_BITS and type(value) is int else _term(value, 0)
 
     def quotient_of_integers(self, numerator: int, denominator: int) -> Poly:
         """`numerator/denominator` as a value; the denominator isn't zero."""
@@ -262,6 +263,8 @@ def _integer(digits: str) -> int:
 
 
 def _bits(value: int | Fraction) -> int:
+    if type(value) is int:
+        return value.bit_length()
     return max(value.numerator.bit_length(), value.denominator.bit_length())
 
 
