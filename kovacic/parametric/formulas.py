@@ -33,6 +33,36 @@ def as_latex(function: FunctionPoly | RatFunc, variable: str = "x") -> str:
     return rf"\frac{{{numerator}}}{{{_polynomial(below.num, names)}}}"
 
 
+def factored(function: RatFunc, variable: str) -> str:
+    """The shorter one of the expanded form and the product of irreducible factors over Q."""
+    above, below = function.cleared()
+    if not isinstance(above, FunctionPoly) or not isinstance(below, FunctionPoly):
+        raise TypeError("a function over Q(t) is expected")
+    expanded = shown(function, variable)
+    if above.num.is_zero():
+        return expanded
+    numerator, denominator = (_factors(part, variable) for part in (above, below))
+    product = "*".join(numerator).replace("-1*", "-")
+    if denominator != ["1"]:
+        product += "/" + ("*".join(denominator) if len(denominator) == 1 else f"({'*'.join(denominator)})")
+    return min(expanded, product, key=len)
+
+
+def _factors(polynomial: FunctionPoly, variable: str) -> list[str]:
+    """The content, unless it is 1, and the powers of the factors."""
+    content, factors = polynomial.num.factor()
+    one = polynomial.field.context.constant(1)
+    parts = []
+    for factor, power in factors:
+        text = shown(FunctionPoly(polynomial.field, factor, one), variable)
+        parts.append(_in_parentheses(text, " -") + (f"^{power}" if power > 1 else ""))
+    return parts if int(content) == 1 and parts else [str(int(content)), *parts]
+
+
+def _in_parentheses(text: str, when: str) -> str:
+    return f"({text})" if any(sign in text for sign in when) else text
+
+
 def symbol(name: str) -> str:
     """A name as LaTeX: Greek letters, and digits at the end as an index."""
     match = re.fullmatch(r"([^\W\d_]+)_?(\d+)", name)

@@ -194,7 +194,8 @@ _SEMI_INVARIANTS = {
 
 def _confluent(problem: Problem, form: confluent.Confluent, generic: Verdict, settings: Settings) -> Partition:
     kind = "Whittaker's equation" if form.q else "Bessel's equation"
-    power = form.coordinate if form.n == 1 else f"({form.coordinate})^{form.n}"
+    base = form.coordinate if form.coordinate.isidentifier() else f"({form.coordinate})"
+    power = form.coordinate if form.n == 1 else f"{base}^{form.n}"
     theory = f"{kind} in {power}: Martinet & Ramis"
     functions = [*_undefined(problem), *irreducible_factors(form.degenerate)]
     regions = _degenerate(problem, functions, settings)

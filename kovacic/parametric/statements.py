@@ -18,7 +18,7 @@ from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.parametric.assumptions import Assumptions, Coset, common_multiple
-from kovacic.parametric.formulas import as_latex, shown
+from kovacic.parametric.formulas import as_latex, factored, shown
 
 
 @dataclass(frozen=True)
@@ -174,7 +174,7 @@ class IntegerRoot(Statement):
     def text(self) -> str:
         family = self.family()
         if family is not None:
-            return f"{family[0]} = {shown(family[1], 'N')} for {self._classes()}"
+            return f"{family[0]} = {factored(family[1], 'N')} for {self._classes()}"
         return f"{shown(self._numerator(), 'N')} = 0 for {self._classes()}"
 
     def latex(self) -> str:
