@@ -15,7 +15,7 @@ import kovacic
 from kovacic.algebra.fields import QQ
 from kovacic.galois.group import Kind
 from kovacic.limits import Limits
-from kovacic.parametric.api import Conditions
+from kovacic.parametric.answer import Conditions
 from kovacic.parametric.partition import Verdict
 from kovacic.parametric.riemann import kimura
 from kovacic.solution import Structure

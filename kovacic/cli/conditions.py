@@ -11,7 +11,7 @@ from kovacic.cli.main import BAD_INPUT, CHECK_FAILED, DECIDED, UNDECIDED
 from kovacic.cli.options import parse_assumptions, parse_limits, refuse_options
 
 if TYPE_CHECKING:
-    from kovacic.parametric.api import CheckReport
+    from kovacic.parametric.answer import CheckReport
 
 
 @click.command(context_settings={"ignore_unknown_options": True})

@@ -31,6 +31,7 @@ from kovacic.parametric.bounded import (
     irreducible_factors,
     union,
 )
+from kovacic.parametric.degenerate import confluence, structure_changes, undefined
 from kovacic.parametric.restriction import Restriction, UndefinedError, on_hypersurface
 from kovacic.parametric.search import search
 from kovacic.parametric.statements import Point, Statement, Vanishes, either
@@ -147,7 +148,7 @@ def _by_theory(S: RatFunc, generic: Verdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
     if generic.known and generic.structure is Structure.REDUCIBLE:
         # So it is in case 1 at all values where S is defined: see the head of this module.
-        regions = [region for region in _degenerate(problem, _undefined(problem), settings) if not region.defined]
+        regions = [region for region in _degenerate(problem, undefined(problem), settings) if not region.defined]
         return _closed(problem, regions, generic, "a rational omega for generic values, and so for all", generic)
     if riemann.applies(problem):
         return _riemann(problem, generic, settings)
@@ -164,7 +165,7 @@ def verdict_of(decision: Decision) -> Verdict:
 
 def _riemann(problem: Problem, generic: Verdict, settings: Settings) -> Partition:
     theory = "at most three regular singular points: Kimura's theorem"
-    regions = _degenerate(problem, _confluence(problem), settings)
+    regions = _degenerate(problem, confluence(problem), settings)
     reducible = riemann.reducible(problem)
     case_1 = Verdict(Structure.REDUCIBLE, family=riemann.group(problem, Structure.REDUCIBLE))
     if reducible is True:
@@ -197,7 +198,7 @@ def _confluent(problem: Problem, form: confluent.Confluent, generic: Verdict, se
     base = form.coordinate if form.coordinate.isidentifier() else f"({form.coordinate})"
     power = form.coordinate if form.n == 1 else f"{base}^{form.n}"
     theory = f"{kind} in {power}: Martinet & Ramis"
-    functions = [*_undefined(problem), *irreducible_factors(form.degenerate)]
+    functions = [*undefined(problem), *irreducible_factors(form.degenerate)]
     regions = _degenerate(problem, functions, settings)
     case, statements = confluent.solvable(form)
     verdict = Verdict(Structure.REDUCIBLE if case == 1 else Structure.IMPRIMITIVE, family=confluent.group(form))
@@ -229,7 +230,7 @@ def _by_candidates(problem: Problem, generic: Verdict, settings: Settings) -> Pa
     theory = "polynomial conditions"
     reducible: list[Poly] = []
     try:
-        regions = _degenerate(problem, union([_undefined(problem), _structure_changes(problem)]), settings)
+        regions = _degenerate(problem, union([undefined(problem), structure_changes(problem)]), settings)
         known = [r.statement.function for r in regions if isinstance(r.statement, Vanishes)]
         if has_constant_rational_exponents(problem):
             found = [form_conditions(problem, m) for m in degrees_that_decide(problem)]
@@ -282,41 +283,6 @@ def _discriminants(problem: Problem, generic: Verdict, settings: Settings) -> li
     P, _, first, second = riccati.P, riccati.D, riccati.numerators[1], riccati.numerators[2]
     elements = [(first * first - 4 * P * second).lc, *denominators(P), *denominators(first), *denominators(second)]
     return union([irreducible_factors(element) for element in elements])
-
-
-def _undefined(problem: Problem) -> list[Poly]:
-    """The irreducible polynomials at whose zeros the leading coefficient of S's denominator vanishes."""
-    _, below = problem.S.cleared()
-    return irreducible_factors(below.lc)
-
-
-def _confluence(problem: Problem) -> list[Poly]:
-    """Where poles merge or go to infinity."""
-    radical = problem.field.poly([1])
-    for place in problem.finite_places:
-        radical = radical * place.factor
-    return union([_undefined(problem), _discriminant(radical)])
-
-
-def _structure_changes(problem: Problem) -> list[Poly]:
-    """Where poles merge, go to infinity, or change their order."""
-    above, below = problem.S.cleared()
-    lists = [_confluence(problem), irreducible_factors(above.lc), _resultant(above, below)]
-    return union(lists)
-
-
-def _discriminant(polynomial: Poly) -> list[Poly]:
-    return _resultant(polynomial, polynomial.derivative()) if polynomial.degree > 1 else []
-
-
-def _resultant(first: Poly, second: Poly) -> list[Poly]:
-    assert isinstance(first, FunctionPoly)
-    assert isinstance(second, FunctionPoly)
-    if first.degree < 1 or second.degree < 1:
-        return []
-    value = first.num.resultant(second.num, 0)
-    field = first.field
-    return irreducible_factors(FunctionPoly(field, value, field.context.constant(1)))
 
 
 def _degenerate(problem: Problem, functions: list[Poly], settings: Settings) -> list[Region]:

@@ -10,7 +10,7 @@ from kovacic.errors import InputError
 from kovacic.parametric.restriction import UndefinedError
 
 if TYPE_CHECKING:
-    from kovacic.parametric.api import Conditions
+    from kovacic.parametric.answer import Conditions
 
 _LABELS = ("no Liouvillian solution", "case 1", "case 2", "case 3", "not determined", "S not defined")
 #: Colours that keep apart in print and for colour-blind readers [Okabe & Ito].
