@@ -318,6 +318,7 @@ def test_views(answers: dict[str, Conditions]) -> None:
     assert data["regions"][0]["complete"] is True
     assert "otherwise: no Liouvillian solution" in str(answer)
     assert r"\mathbb{Z}" in answer.latex()
+    assert r"\mu \sqrt{2} \equiv 1" in kovacic.conditions("x^2 + sqrt(2)*mu", var="x").latex()
     assert pickle.loads(pickle.dumps(answer)) == answer
 
 

@@ -64,7 +64,10 @@ def _in_parentheses(text: str, when: str) -> str:
 
 
 def symbol(name: str) -> str:
-    """A name as LaTeX: Greek letters, and digits at the end as an index."""
+    """A name as LaTeX: Greek letters, digits at the end as an index; the constants I and sqrt(n)."""
+    radical = re.fullmatch(r"sqrt\((.*)\)", name)
+    if radical or name == "I":
+        return rf"\sqrt{{{radical[1]}}}" if radical else r"\mathrm{i}"
     match = re.fullmatch(r"([^\W\d_]+)_?(\d+)", name)
     base, index = (match[1], match[2]) if match else (name, "")
     letter = f"\\{base}" if base in _GREEK else base if len(base) == 1 else rf"\mathrm{{{base}}}"
