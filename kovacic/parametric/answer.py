@@ -254,6 +254,7 @@ class Conditions:
     def __str__(self) -> str:
         known = f" ({self.assumptions})" if self.assumptions else ""
         lines = [f"y'' = ({shown(self.S, self.variable)}) y, parameters {', '.join(self.parameters)}{known}"]
+        lines += [f"  note: {notice}" for notice in self.notices]
         lines += [f"  {region}" for region in self.regions]
         lines.append(f"  {'otherwise' if self.regions else 'always'}: {_case_text(self.generic)}")
         complete = "proven to be complete" if self.complete is True else f"complete {self.complete}"
