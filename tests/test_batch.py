@@ -27,7 +27,7 @@ from kovacic.batch.reading import count_items, guess_format, item_from, opened, 
 from kovacic.batch.summary import Summary
 from kovacic.batch.worker import decode_item, decode_record, encode_item, encode_record, solve_item
 from kovacic.errors import InputError, KovacicError
-from kovacic.limits import Limits
+from kovacic.limits import DEFAULT_LIMITS, Limits
 
 CASES = Path(__file__).parent / "data" / "cases.jsonl"
 
@@ -142,7 +142,7 @@ def test_items_survive_the_pipe(text: str, var: str | None, extra: dict[str, str
 
 
 def test_records_survive_the_pipe() -> None:
-    record = solve_item(Item(7, "x^2+3", extra={"id": "tab\tnewline\n"}), Job(group=True))
+    record = solve_item(Item(7, "x^2+3", extra={"id": "tab\tnewline\n"}), Job(group=True), DEFAULT_LIMITS)
     assert decode_record(encode_record(record) + "\n") == Record(7, record.label, round(record.seconds, 6), record.json)
     assert record.data["group"]["name"] == "Borel"
     assert Job.loads(Job(timeout=2, memory=3, group=True, limits=Limits(degree=7)).dumps()) == Job(
@@ -349,7 +349,7 @@ def test_loky_gives_the_same_answers() -> None:
 
 
 def records(numbers: list[int]) -> list[Record]:
-    return [solve_item(Item(number, f"x + {number}"), Job()) for number in numbers]
+    return [solve_item(Item(number, f"x + {number}"), Job(), DEFAULT_LIMITS) for number in numbers]
 
 
 @pytest.mark.parametrize(

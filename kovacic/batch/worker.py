@@ -10,6 +10,7 @@ equation never pays for another.
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import signal
@@ -21,6 +22,7 @@ from typing import IO, Any
 import kovacic
 from kovacic.batch.items import Item, Job, Record, refused, solved
 from kovacic.errors import KovacicError
+from kovacic.limits import Limits
 
 READY = "ready"
 _MIB = 1 << 20
@@ -34,24 +36,26 @@ def main() -> None:
     os.dup2(2, 1)
     _leave_with_parent()
     job = Job.loads(sys.stdin.readline())
-    solve_item(Item(0, "x**2 + 3"), job)  # the modules are loaded before the clock of the first equation starts
+    limits = job.engine_limits
+    solve_item(Item(0, "x**2 + 3"), job, limits)  # the modules are loaded before the clock of the first equation starts
+    gc.freeze()  # what is loaded stays: the collector needn't look at it again
     _write(answers, READY)
     for line in sys.stdin:
         item = decode_item(line)
         _limit_memory(job)
         _set_alarm(job)
-        record = solve_item(item, job)
+        record = solve_item(item, job, limits)
         _clear_alarm(job)
         _write(answers, encode_record(record))
 
 
-def solve_item(item: Item, job: Job) -> Record:
-    """The record of one item, computed in this process."""
+def solve_item(item: Item, job: Job, limits: Limits) -> Record:
+    """The record of one item, computed in this process; the limits are those of the job."""
     start = time.perf_counter()
     try:
         if item.error is not None:
             raise item.error
-        return solved(item, kovacic.solve(item.text, var=item.var, limits=job.engine_limits), job)
+        return solved(item, kovacic.solve(item.text, var=item.var, limits=limits), job)
     except KovacicError as error:
         return refused(item, error, time.perf_counter() - start)
 
