@@ -60,8 +60,8 @@ def conditions(
     return conditions_of(parsed, read_assumptions(assume, S, names), max_degree, limits)
 
 
-def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int, limits: Limits) -> Conditions:
-    """The conditions for an input that was read."""
+def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, limits: Limits) -> Conditions:
+    """The conditions for an input that was read; `max_degree` None: by theorems only."""
     lifted, constant = with_free_constant(parsed.S)
     assumptions = replace(known, values=tuple(zip(constant.names, constant.values, strict=True)))
     bounded = limits if limits.seconds is not None else replace(limits, seconds=DEFAULT_SECONDS)
@@ -104,8 +104,10 @@ def under_assumptions(
     """
     if decision.status is Status.UNDECIDED:
         return decision, ""
-    answer = conditions_of(parsed, known, DEFAULT_DEGREE, limits)
-    if answer.generic.known and answer.generic.case != decision.case:
+    answer = conditions_of(parsed, known, None, limits)
+    if answer.complete is not True:
+        return decision, f"whether all values with {known} are generic ones isn't known ({answer.theory})"
+    if answer.generic.case != decision.case:
         if not certify:
             return Decision(answer.generic.structure, ()), ""
         reason = (
@@ -114,8 +116,8 @@ def under_assumptions(
         )
         return Decision(None, (), undecided=reason), ""
     exceptions = " or ".join(str(region.statement) for region in answer.regions)
-    sentence = f"with {known} the answer holds" + (f" except where {exceptions}" if exceptions else "")
-    return decision, f"{sentence} ({answer.theory}" + (")" if answer.complete is True else f"; {answer.complete})")
+    exception = f" except where {exceptions}" if exceptions else ""
+    return decision, f"with {known} the answer holds{exception} ({answer.theory})"
 
 
 def _flattened(result: Partition) -> list[Condition]:

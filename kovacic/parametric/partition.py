@@ -123,9 +123,9 @@ class Partition:
 
 @dataclass(frozen=True)
 class Settings:
-    """How far to go."""
+    """How far to go: where no theorem covers all degrees up to `max_degree` (None: then no search at all)."""
 
-    max_degree: int
+    max_degree: int | None
     budget: Budget
     variable: str = "x"
 
@@ -155,7 +155,10 @@ def _by_theory(S: RatFunc, generic: Verdict, settings: Settings) -> Partition:
     form = confluent.recognise(problem, settings.variable)
     if form is not None:
         return _confluent(problem, form, generic, settings)
-    return _by_candidates(problem, generic, settings)
+    if settings.max_degree is None:
+        names: tuple[str, ...] = problem.field.names  # type: ignore[attr-defined]
+        return Partition(S, names, (), generic, "for generic values only", "no theorem covers all values")
+    return _by_candidates(problem, generic, settings, settings.max_degree)
 
 
 def verdict_of(decision: Decision) -> Verdict:
@@ -223,7 +226,7 @@ def _together(regions: list[Region]) -> bool | str:
     return next((r.complete for r in regions if r.complete is not True), True)
 
 
-def _by_candidates(problem: Problem, generic: Verdict, settings: Settings) -> Partition:
+def _by_candidates(problem: Problem, generic: Verdict, settings: Settings, max_degree: int) -> Partition:
     names: tuple[str, ...] = problem.field.names  # type: ignore[attr-defined]
     regions: list[Region] = []
     complete: bool | str = True
@@ -241,13 +244,13 @@ def _by_candidates(problem: Problem, generic: Verdict, settings: Settings) -> Pa
             if generic.structure not in (None, Structure.REDUCIBLE, Structure.IMPRIMITIVE):
                 complete = "not proven where the generic group is finite and primitive"
         else:
-            findings = search(problem, settings.max_degree)
+            findings = search(problem, max_degree)
             candidates, reducible = findings.candidates, findings.reducible
             theory = "candidates from the exponents"
             if generic.structure is not None and generic.structure is not Structure.REDUCIBLE:
                 findings.unproven.append("smaller groups than the generic one")
             if findings.unproven:
-                complete = f"up to degree {settings.max_degree} (not proven: {'; '.join(findings.unproven)})"
+                complete = f"up to degree {max_degree} (not proven: {'; '.join(findings.unproven)})"
         for function in candidates:
             if function not in known:
                 settings.budget.check()
