@@ -31,18 +31,18 @@ class Form:
     R: Poly
     P: Poly
 
-    def numerators(self, problem: Problem) -> list[Poly]:
-        """A_0, ..., A_m, A_(m+1) of equation (2); f is a form in the solutions exactly when the last one is zero."""
+    def numerators(self, problem: Problem, last: int | None = None) -> list[Poly]:
+        """A_0, ..., A_last of equation (2), by default A_(m+1), which is zero exactly when f is a form in the solutions."""
         D, T, m = problem.D, problem.T, self.degree
         slope = D.derivative()
         sequence: list[Any] = [self.P]
         previous: Any = None
-        for k in range(m + 1):
+        for k in range(m + 1 if last is None else last):
             current = sequence[-1]
-            following = D * current.derivative() + (self.R - k * slope) * current
+            following = D * current.derivative() + (self.R - k * slope if k else self.R) * current
             if previous is not None:
                 following = following - (m - k + 1) * (T * previous)
-            sequence.append(following / (k + 1))
+            sequence.append(following / (k + 1) if k else following)
             previous = current
             problem.budget.check()
         return sequence
@@ -80,7 +80,7 @@ def root(form: Form, n: int, problem: Problem) -> Form:
 
 def hessian(form: Form, problem: Problem) -> Form:
     """Hess(f) = (m-1) [m f (f'' - m S f) - (m-1) f'^2], of degree 2m - 4, up to the factor m - 1."""
-    A0, A1, A2 = form.numerators(problem)[:3]
+    A0, A1, A2 = form.numerators(problem, 2)
     m = form.degree
     return Form(2 * m - 4, 2 * (form.R - problem.D.derivative()), 2 * m * A0 * A2 - (m - 1) * A1 * A1)
 

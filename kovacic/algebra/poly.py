@@ -128,7 +128,9 @@ class Poly(ABC):
 
     def __mul__(self, other: Poly | Scalar) -> Self:
         value = self._coerce(other)
-        return self._extended(other, "__mul__") if value is None else self._mul(value)
+        if value is None:
+            return other * self if isinstance(other, Poly) and other.field.extends(self.field) else NotImplemented
+        return self._mul(value)
 
     __rmul__ = __mul__
 

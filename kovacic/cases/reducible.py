@@ -59,7 +59,7 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     (else it has a recurrence).
     """
     F = normalised(F, problem)
-    P, X, A2, *_ = F.numerators(problem)
+    P, X, A2 = F.numerators(problem, 2)
     point = next(n for n in count() if problem.D(n))
     value = X(point) ** 2 - 4 * P(point) * A2(point)
     if not value:  # F = y1^2
