@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from kovacic.closed_form import ClosedForm
     from kovacic.galois import EquationGroup, Group
+    from kovacic.numeric.agreement import Agreement
     from kovacic.numeric.ball import Ball
     from kovacic.numeric.product_form import ProductForm
     from kovacic.numeric.tabulate import TabulatedFunction
@@ -139,6 +140,12 @@ class Solution:
         from kovacic.numeric.plot import plot
 
         return plot(self, start, stop, **options)
+
+    def compare_with_monodromy(self, **options: Any) -> Agreement:
+        """Does the monodromy, by analytic continuation, agree with `group`?  See `kovacic.numeric.agreement`."""
+        from kovacic.numeric.agreement import agrees_with_group
+
+        return agrees_with_group(self, **options)
 
     @property
     def proof(self) -> tuple[Exclusion, ...]:

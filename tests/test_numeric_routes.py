@@ -7,15 +7,22 @@ import warnings
 from fractions import Fraction
 from typing import Any
 
+import flint
 import pytest
+from published import load
 
 import kovacic
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import InputError, LimitExceeded
+from kovacic.galois import Ground, Group, Kind
 from kovacic.limits import Limits
+from kovacic.numeric.agreement import agrees_with_group, compare, is_fuchsian
+from kovacic.numeric.ball import ball_to_flint
 from kovacic.numeric.evaluate import AccuracyWarning, evaluate, evaluate_states
 from kovacic.numeric.monodromy import monodromy
+from kovacic.numeric.problem import as_problem
+from kovacic.numeric.transport import identity, multiply
 from kovacic.transform import from_omega, from_squared_difference
 
 PRIMITIVE = {
@@ -71,6 +78,46 @@ def test_case_2(S: str) -> None:
 def test_case_3(name: str) -> None:
     agree(PRIMITIVE[name], x=Fraction(19, 7), x0=Fraction(3, 7), path=[1 + 1j])
     agree(PRIMITIVE[name], x=Fraction(1, 2), x0=2, path=[1 - 1j], digits=60)
+
+
+@pytest.mark.parametrize(
+    "S",
+    ["-(10100*(1-x^2) + 1)/(1-x^2)^2", "-(250500*(1-x^2) + 1)/(1-x^2)^2", "x^2 - 101", "x^2 - 1001"],
+    ids=["Legendre, 100", "Legendre, 500", "Hermite, 50", "Hermite, 500"],
+)
+def test_polynomials_of_high_degree_on_an_interval_with_their_zeros(S: str) -> None:
+    agree(S, x="9/10", x0="-1/3", digits=15)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_case_3_along_random_paths(seed: int) -> None:
+    rng = random.Random(seed)
+    name = rng.choice(sorted(PRIMITIVE))
+    path = [Fraction(rng.randint(-20, 20), 7) + Fraction(1, 9), complex(rng.uniform(-1, 2), rng.uniform(0.2, 2))]
+    path.insert(1, complex(rng.uniform(-1, 2), -rng.uniform(0.2, 2)))  # once around a singular point, or around both
+    agree(PRIMITIVE[name], x=path[0], x0=path[0], path=path[1:], digits=20)
+
+
+def test_case_3_at_vertices_faces_and_edges() -> None:
+    # J = 4 (1 - x)/x^2-like pull-backs take the values 0, 1 and infinity at ordinary points
+    S = published_S("pull-A5-deg2")
+    agree(S, x="5/3", x0="1/3", path=[1 + 1j])
+
+
+def published_S(name: str) -> str:
+    return next(entry.S for entry in load() if entry.id == name)
+
+
+def test_the_closed_form_asks_nothing_of_the_other_route(monkeypatch: pytest.MonkeyPatch) -> None:
+    def forbidden(*_: object) -> None:
+        raise AssertionError("a Taylor step")
+
+    solutions = [kovacic.solve(S) for S in (*PRIMITIVE.values(), "x^2 - 7", "(7*x^2 - 10)/(4*x^4 - 8*x^2 + 4)")]
+    monkeypatch.setattr("kovacic.numeric.transport.expand", forbidden)
+    for solution in solutions:
+        evaluate(solution, [3, "1/3"], x0=2, y0=1, dy0=0, path=[1 + 1j], method="closed form")
+        with pytest.raises(AssertionError, match="Taylor"):
+            evaluate(solution, 3, x0=2, y0=1, dy0=0, method="taylor")
 
 
 def random_solvable(rng: random.Random) -> RatFunc:
@@ -150,3 +197,95 @@ def test_a_logarithm_has_infinite_order_and_a_polynomial_has_no_monodromy() -> N
     (local,) = monodromy("-1/(4*x^2)")
     assert not any(local.is_identity_to_the_power(k) for k in range(1, 30))
     assert monodromy("x^2 + 1") == ()
+
+
+@pytest.mark.parametrize(
+    "S", [*PRIMITIVE.values(), "(x^2+3)/(x^3-x-1)^2", "1/(4*x^2*(x-1)^2) + 1/(x*(x-1))", "1/(x^2+1)^2"]
+)
+def test_the_product_of_all_loops_is_the_loop_around_infinity(S: str) -> None:
+    with flint.ctx.workprec(300):
+        total = identity()
+        for local in monodromy(S, digits=20):
+            total = multiply(tuple(ball_to_flint(entry) for row in local.matrix for entry in row), total)
+        system = as_problem(S).system
+        leading = flint.arb(system.num[-1]) / system.den[-1] if len(system.num) == len(system.den) - 2 else flint.arb(0)
+        difference = flint.acb(1 + 4 * leading).sqrt()
+        trace = total[0] + total[3]
+        assert trace.overlaps(-2 * difference.cos_pi())
+        assert trace.real.rad() < 1e-15
+
+
+GROUPS = {
+    "mu_3": "euler-13",
+    "mu_4": "chebyshev-3",
+    "dicyclic of order 8": "lame-half-B0",
+    "dicyclic of order 12": "chebyshev-1/3",
+    "SL(2,3)": "schwarz-II",
+    "binary octahedral": "schwarz-IV",
+    "SL(2,5)": "schwarz-VI",
+    "G_a": "poschl-teller-2",
+    "G_a extended by mu_2": "legendre-1",
+    "G_a extended by mu_15": "kimura-red-2",
+    "G_m": "euler-sqrt2",
+    "Borel": "omega-alg-poles",
+    "N(T)": "chebyshev-sqrt2",
+    "SL2": "kimura-parity-fail-V",
+}
+
+
+@pytest.mark.parametrize("name", sorted(GROUPS))
+def test_the_monodromy_of_published_equations_agrees_with_their_groups(name: str) -> None:
+    solution = kovacic.solve(published_S(GROUPS[name]))
+    assert str(solution.group) == name
+    agreement = solution.compare_with_monodromy()
+    assert agreement.verdict is True, agreement.reason
+
+
+def claimed(kind: Kind, n: int | None = None) -> Group:
+    return Group(kind, Ground.UNDETERMINED, n)
+
+
+FINITE = [claimed(Kind.CYCLIC, n) for n in (1, 2, 3, 4, 24)]
+FINITE += [claimed(Kind.DICYCLIC, n) for n in (2, 3, 6)]
+FINITE += [claimed(kind) for kind in (Kind.TETRAHEDRAL, Kind.OCTAHEDRAL, Kind.ICOSAHEDRAL)]
+
+
+@pytest.mark.parametrize("name", sorted(GROUPS))
+def test_a_wrong_finite_group_is_disproved(name: str) -> None:
+    S = published_S(GROUPS[name])
+    matrices, fuchsian = monodromy(S), is_fuchsian(as_problem(S).system)
+    for group in FINITE:
+        if str(group) != name:
+            assert compare(matrices, group, fuchsian).verdict is False, str(group)
+
+
+@pytest.mark.parametrize(
+    ("id", "wrong"),
+    [
+        ("schwarz-II", [claimed(Kind.BOREL), claimed(Kind.MULTIPLICATIVE), claimed(Kind.INFINITE_DIHEDRAL)]),
+        ("kimura-parity-fail-V", [claimed(Kind.BOREL), claimed(Kind.IMPRIMITIVE, 2), claimed(Kind.ADDITIVE, 6)]),
+        ("chebyshev-sqrt2", [claimed(Kind.BOREL), claimed(Kind.MULTIPLICATIVE)]),
+        ("kimura-red-2", [claimed(Kind.ADDITIVE, n) for n in (3, 5, 30, 7)] + [claimed(Kind.MULTIPLICATIVE)]),
+        ("legendre-1", [claimed(Kind.ADDITIVE, n) for n in (1, 4, 6)]),
+        ("kovacic-c2-1", [claimed(Kind.CYCLIC, 4), claimed(Kind.TETRAHEDRAL)]),
+    ],
+)
+def test_a_wrong_infinite_group_is_disproved(id: str, wrong: list[Group]) -> None:
+    solution = kovacic.solve(published_S(id))
+    for group in wrong:
+        assert agrees_with_group(solution, group).verdict is False, str(group)
+
+
+def test_matrices_that_cannot_tell_say_so() -> None:
+    airy = kovacic.solve("x").compare_with_monodromy()
+    assert airy.verdict is None
+    assert "trivial" in airy.reason
+    larger = agrees_with_group(kovacic.solve(PRIMITIVE["octahedral"]), claimed(Kind.SL2))
+    assert larger.verdict is None
+
+
+@pytest.mark.slow
+def test_no_published_equation_disagrees_with_its_group() -> None:
+    verdicts = [kovacic.solve(entry.S).compare_with_monodromy().verdict for entry in load()]
+    assert False not in verdicts
+    assert verdicts.count(True) >= 110

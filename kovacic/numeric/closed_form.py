@@ -36,7 +36,7 @@ from kovacic.numeric.carry import Itinerary, Start, carry
 from kovacic.numeric.exponential import LogDerivative, conjugates, embed, integral
 from kovacic.numeric.gauge import with_gauge
 from kovacic.numeric.klein import Chart, charts, klein_leg
-from kovacic.numeric.pieces import Piece, Quotient, cut, fundamental, quotient, unknown
+from kovacic.numeric.pieces import Piece, Quotient, cut, fundamental, quotient, unknown, values
 from kovacic.numeric.points import Point, to_acb
 from kovacic.numeric.problem import NumericProblem
 from kovacic.numeric.singular import check_segment
@@ -226,31 +226,34 @@ class Pair:
 
     def sign_on(self, piece: Piece) -> int | None:
         """+1 or -1 where f' + w or f' - w is proven to have no zero on the piece; None where neither is."""
-        slope, w = self.first.on(piece), self.w / self.theta.growth(self.origin, piece.box())
+        start = to_acb(piece.a)
+        slope, w = self.first(piece.box()), self.wronskian(start) / self.theta.growth(start, piece.box())
         for sign in (1, -1):
             value = slope + sign * w
             if value.is_finite() and not value.contains(0):
                 return sign
         return None
 
-    def omega(self, sign: int, x: acb, *, analytic: bool = False) -> acb:
-        """y'/y of y- (sign 1) or y+ (sign -1)."""
-        rest = self.second(x) - 2 * self.S(x) * self.P(x)
-        w = self.w * (-self.theta.exponent(self.origin, x, analytic=analytic)).exp()
-        return rest / (self.first(x) + sign * w)
+    def wronskian(self, x: acb) -> acb:
+        """w for E = 1 at x."""
+        return self.w / self.theta.growth(self.origin, x)
 
     def matrix(self, sign: int, a: acb, b: acb, budget: Budget) -> Matrix:
-        """The transition matrix from a to b, a piece of the leg that begins at `origin`."""
+        """The transition matrix from a to b, a piece with this sign of the leg that begins at `origin`."""
         from flint import acb
 
-        def integrand(z: acb, analytic: bool) -> acb:
-            return self.omega(sign, z, analytic=analytic)
+        w = sign * self.wronskian(a)
+
+        def omega(z: acb, analytic: bool = False) -> acb:
+            """y'/y of y- (sign 1) or y+ (sign -1)."""
+            rest = self.second(z) - 2 * self.S(z) * values(self.P, z)
+            return rest / (self.first(z) + w * (-self.theta.exponent(a, z, analytic=analytic)).exp())
 
         def states(x: acb, E: acb, y: acb) -> tuple[tuple[acb, acb], tuple[acb, acb]]:
-            omega, f = self.omega(sign, x), E * self.P(x)
-            return (y, y * omega), (f / y, (E * self.first(x) - f * omega) / y)
+            slope, f = omega(x), E * self.P(x)
+            return (y, y * slope), (f / y, (E * self.first(x) - f * slope) / y)
 
-        growth = integral(integrand, a, b, budget).exp()
+        growth = integral(omega, a, b, budget).exp()
         at_a, at_b = states(a, acb(1), acb(1)), states(b, self.theta.growth(a, b), growth)
         return quotient(fundamental(*at_b), fundamental(*at_a))
 

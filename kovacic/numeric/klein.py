@@ -105,7 +105,7 @@ def klein_leg(pairs: tuple[Chart, ...], a: Point, b: Point, budget: Budget) -> l
     arguments = {chart: Quotient.make(chart.z, None) for chart in pairs}
 
     def chart_on(piece: Piece) -> Chart | None:
-        return next((chart for chart in pairs if _off_the_cut(arguments[chart].on(piece))), None)
+        return next((chart for chart in pairs if _off_the_cut(arguments[chart](piece.box()))), None)
 
     pieces = cut(Piece(a, b), chart_on, budget)
     if pieces is None:

@@ -24,7 +24,7 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.numeric.ball import Ball, ball_from_flint, ball_to_flint
 from kovacic.numeric.evaluate import transition_matrix
-from kovacic.numeric.points import Point
+from kovacic.numeric.points import Point, to_acb
 from kovacic.numeric.problem import as_problem
 from kovacic.numeric.singular import System
 
@@ -77,9 +77,8 @@ class LocalMonodromy:
 def monodromy(equation: object, *, digits: int = 15, limits: Limits | None = None) -> tuple[LocalMonodromy, ...]:
     """The local monodromy of y'' = S y at every finite singular point, for one base point above all of them.
 
-    The loops are ordered by the real parts of the singular points (then by the imaginary parts), which isn't a
-    standard system of
-    generators: every matrix is right by itself, while their product need not be the monodromy at infinity.
+    The loops go straight to the points and around them; they generate the fundamental group, and come in the order, seen
+    from the base point, in which M_n ... M_1 is the monodromy of a counter-clockwise loop around all of them.
     Raises LimitExceeded if the limits don't suffice.
 
     >>> (point,) = monodromy(([-2], [0, 0, 9]))   # exponents 1/3, 2/3
@@ -89,38 +88,62 @@ def monodromy(equation: object, *, digits: int = 15, limits: Limits | None = Non
     limits = limits or DEFAULT_LIMITS
     system = as_problem(equation).system
     budget = Budget(limits)
-    places = _places(system)
-    if not places:
-        return ()
-    base = Point(
-        Fraction(sum(z.re for z, _ in places), len(places)),
-        max(z.im for z, _ in places) + max(Fraction(1), _spread([z for z, _ in places])),
-    )
-    base = Point(base.re.limit_denominator(64) + Fraction(1, 97), base.im.limit_denominator(64))
     result = []
-    for index, (z, radius) in enumerate(places):
+    for loop, z in _loops(_places(system)):
         budget.check()
-        loop = _loop(base, z, radius, [p for j, (p, _) in enumerate(places) if j != index])
         matrix = transition_matrix(system, loop, digits=digits, limits=limits)
-        result.append(_local(system, index, loop, matrix, digits))
+        result.append(_local(system, z, loop, matrix, digits))
     return tuple(result)
-
-
-def _spread(points: list[Point]) -> Fraction:
-    return max((abs(p.re - q.re) + abs(p.im - q.im) for p in points for q in points), default=Fraction(0))
 
 
 def _places(system: System) -> list[tuple[Point, Fraction]]:
     """Rational approximations of the singular points, each with half the distance to its neighbour (1 if alone)."""
     points = []
-    for root, _ in _sorted_roots(system, 64):
+    for root, _ in system.roots("den", 64):
         parts = [part.mid().man_exp() for part in (root.real, root.imag)]
         points.append(Point(*(Fraction(int(m)) * Fraction(2) ** int(e) for m, e in parts)))
     places = []
     for i, p in enumerate(points):
-        gaps = [_root_below((p - q).norm_squared()) for j, q in enumerate(points) if j != i]
-        places.append((p, min([Fraction(2), *gaps]) / 2))
+        gap = min([Fraction(2), *(_root_below((p - q).norm_squared()) for j, q in enumerate(points) if j != i)])
+        unit = Fraction(2) ** (gap.numerator.bit_length() - gap.denominator.bit_length() - 8)
+        places.append((Point(round(p.re / unit) * unit, round(p.im / unit) * unit), gap / 2))
     return places
+
+
+def _loops(places: list[tuple[Point, Fraction]]) -> list[tuple[tuple[Point, ...], Point]]:
+    """Loops from one base point with the points that they enclose, in the order of their directions (left ones first).
+
+    Each is a segment to a square around the point, the square counter-clockwise, and the segment back.  The squares keep
+    off the other segments, so the segments are a star with the points at its ends.
+    """
+    if not places:
+        return []
+    centres = [z for z, _ in places]
+    spread = max(abs(p.re - q.re) + abs(p.im - q.im) for p in centres for q in centres)
+    top = max(z.im for z in centres) + max(Fraction(1), spread)
+    middle = sum((z.re for z in centres), Fraction(0)) / len(centres)
+    best: tuple[Fraction, Point, list[Fraction]] | None = None
+    for shift in (1, -3, 10, -17, 29, -41):
+        base = Point(
+            (middle + spread * Fraction(shift, 97)).limit_denominator(64) + Fraction(1, 97), top.limit_denominator(64)
+        )
+        radii = [min([r, *(_distance_below(z, base, other) for other in centres if other != z)]) / 2 for z, r in places]
+        narrowest = min(radius / r for radius, (_, r) in zip(radii, places, strict=True))
+        if best is None or narrowest > best[0]:
+            best = narrowest, base, radii
+    assert best is not None
+    narrowest, base, radii = best
+    if narrowest == 0:
+        raise LimitExceeded("no base point was found that sees the singular points apart", limit="unknown_degree")
+    quarter, loops = Point(Fraction(0), Fraction(1)), []
+    for z, radius in zip(centres, radii, strict=True):
+        offset = base - z
+        corner = offset.scaled(_root_below(radius * radius / offset.norm_squared()))
+        corners = [corner]
+        for _ in range(4):
+            corners.append(corners[-1] * quarter)
+        loops.append(((base, *(z + c for c in corners), base), z))
+    return sorted(loops, key=lambda item: (item[1].re - base.re) / (base.im - item[1].im))
 
 
 def _root_below(square: Fraction) -> Fraction:
@@ -130,42 +153,22 @@ def _root_below(square: Fraction) -> Fraction:
     return next(unit * k for k in (3, 2, 1) if (unit * k) ** 2 <= square)
 
 
-def _sorted_roots(system: System, prec: int) -> list[tuple[acb, int]]:
-    return sorted(system.roots("den", prec), key=lambda item: (float(item[0].real.mid()), float(item[0].imag.mid())))
-
-
-def _loop(base: Point, z: Point, radius: Fraction, others: list[Point]) -> tuple[Point, ...]:
-    """A polygon from the base point to a square around z, counter-clockwise, and back the same way.
-
-    The way to the square is a straight line, bent aside where it would come close to another singular point.
-    """
-    r = radius / 2
-    unit = Fraction(2) ** (r.numerator.bit_length() - r.denominator.bit_length() - 6)
-    centre = Point(round(z.re / unit) * unit, round(z.im / unit) * unit)
-    corners = [centre + Point(r * x, r * y) for x, y in ((0, 1), (-1, 0), (0, -1), (1, 0), (0, 1))]
-    for bend in (0, 1, -1, 2, -2, 3, -3, 5, -5, 8, -8, 13, -13):
-        middle = (base + corners[0]).scaled(Fraction(1, 2)) + Point(Fraction(bend) * abs(base.im - z.im) / 16)
-        way = [base, middle]
-        if all(_far(o, base, middle, radius / 8) and _far(o, middle, corners[0], radius / 8) for o in others):
-            return (*way, *corners, *reversed(way))
-    raise LimitExceeded("no simple loop around one of the singular points was found", limit="unknown_degree")
-
-
-def _far(point: Point, a: Point, b: Point, distance: Fraction) -> bool:
-    """True if the point keeps this distance from the segment."""
+def _distance_below(point: Point, a: Point, b: Point) -> Fraction:
+    """A rational number not above the distance of the point from the segment, and above a third of it."""
     step, offset = b - a, point - a
-    size = step.norm_squared()
-    t = (offset.re * step.re + offset.im * step.im) / size if size else Fraction(0)
-    t = min(max(t, Fraction(0)), Fraction(1))
-    return (offset - step.scaled(t)).norm_squared() > distance * distance
+    t = (offset.re * step.re + offset.im * step.im) / step.norm_squared()
+    nearest = a + step.scaled(min(max(t, Fraction(0)), Fraction(1)))
+    square = (point - nearest).norm_squared()
+    return _root_below(square) if square else Fraction(0)
 
 
-def _local(system: System, index: int, loop: tuple[Point, ...], matrix: BallMatrix, digits: int) -> LocalMonodromy:
+def _local(system: System, z: Point, loop: tuple[Point, ...], matrix: BallMatrix, digits: int) -> LocalMonodromy:
     from flint import acb, acb_poly, arb, ctx
 
     prec = int(digits * 3.33) + 60
     with ctx.workprec(prec):
-        root, multiplicity = _sorted_roots(system, prec)[index]
+        near = to_acb(z)
+        root, multiplicity = min(system.roots("den", prec), key=lambda item: float((item[0] - near).abs_upper()))
         exponents = trace = None
         if multiplicity <= 2:
             b = acb(0)

@@ -61,12 +61,12 @@ def cut(piece: Piece, found_on: Callable[[Piece], Found | None], budget: Budget)
     return result
 
 
-def on_piece(poly: acb_poly, piece: Piece) -> acb:
-    """The values of a polynomial on the piece, by its expansion at the middle (narrower than by Horner's rule)."""
+def values(poly: acb_poly, x: acb) -> acb:
+    """The values of a polynomial on a ball, by its expansion at the middle: narrow where Horner's rule isn't."""
     from flint import acb_poly
 
-    centre = to_acb(piece.middle)
-    value: acb = poly(acb_poly([centre, 1]))(piece.box() - centre)
+    centre = x.mid()
+    value: acb = poly(acb_poly([centre, 1]))(x - centre)
     return value
 
 
@@ -83,11 +83,8 @@ class Quotient:
         return cls(embed(function.num, c), embed(function.den, c))
 
     def __call__(self, x: acb) -> acb:
-        return self.num(x) / self.den(x)
-
-    def on(self, piece: Piece) -> acb:
-        """The values on the piece; not finite where a pole can't be excluded."""
-        return on_piece(self.num, piece) / on_piece(self.den, piece)
+        """The values on a ball; not finite where a pole can't be excluded."""
+        return values(self.num, x) / values(self.den, x)
 
 
 def fundamental(first: tuple[acb, acb], second: tuple[acb, acb]) -> Matrix:
