@@ -267,3 +267,11 @@ def test_reading_an_equation_as_text_doesn_t_import_sympy() -> None:
     code = "import sys, kovacic; kovacic.solve(\"x*y'' + y' + x*y = 0\").group; print('sympy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
+
+
+def test_E_is_the_energy_and_not_the_base_of_the_exponential_function() -> None:
+    schroedinger = kovacic.solve("-y'' + x^2*y = E*y")
+    assert schroedinger.S.to_str("x") == "x**2 - E"
+    assert any("energy" in notice for notice in schroedinger.notices)
+    with pytest.raises(kovacic.NotLinear, match=r"write exp"):
+        kovacic.solve("y'' - y = E^x")

@@ -185,6 +185,10 @@ class EquationBuilder(ExpressionBuilder):
                     return super()._root(base, exponent, where)
                 except NotRational:
                     pass
+            site = where()
+            if site.piece(0) == ENERGY:
+                hint = f"write exp(...) or e^x for the exponential function; {ENERGY} is the energy"
+                raise _error(NotLinear, f"a power of {ENERGY}, which is a parameter", site, hint=hint)
             return self.arithmetic.opaque(self.arithmetic.expression(base) ** self.arithmetic.expression(exponent))
 
     def juxtapose(self, values: list[Any], where: Where) -> tuple[Any, int]:
