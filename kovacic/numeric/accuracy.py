@@ -58,14 +58,12 @@ def measure(
     LimitExceeded where route (b) doesn't arrive within the limits.
     """
     import numpy as np
-    from flint import ctx
 
     problem = as_problem(equation)
     given = samples(function) if points is None else np.atleast_1d(points)
     exact = [as_point(complex(x), "x") for x in given]
     values = [complex(v) for v in function(given)]
-    with ctx.workprec(_BITS):
-        slope = ball_from_flint(omega(problem, which, function.base))
+    slope = ball_from_flint(omega(problem, which, function.base, _BITS))
     states = evaluate_states(problem, exact, x0=function.base, y0=1, dy0=slope, digits=_DIGITS, limits=limits)
     if not all(state.reached or state.y.contains_zero() for state in states):
         raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
@@ -132,10 +130,12 @@ def warn_unless_accurate(function: ProductForm | TabulatedFunction, equation: ob
     except LimitExceeded as limit:
         text = f"the error of this function couldn't be measured: {limit}"
     else:
-        if found.median <= MEDIAN and found.worst <= WORST:
+        if found.points and found.median <= MEDIAN and found.worst <= WORST:
             return
-        text = (
-            f"measured error of this function in units in the last place: median {found.median:.3g}, "
-            f"worst {found.worst:.3g} of {found.points} points"
-        )
+        text = "the error of this function couldn't be measured: all samples are beyond the range of doubles"
+        if found.points:
+            text = (
+                f"measured error of this function in units in the last place: median {found.median:.3g}, "
+                f"worst {found.worst:.3g} of {found.points} points"
+            )
     warnings.warn(text, AccuracyWarning, stacklevel=3)

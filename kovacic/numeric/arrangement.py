@@ -155,7 +155,7 @@ def _on_curve(problem: NumericProblem, which: int, region: Region, base: Point) 
     # Which sign is the solution number `which`?  y'/y = (even part) + kappa r/s for the sign of kappa found here.
     average = value(even, c, z) + value(_slope(closed.P), c, z) / 2
     odd = kappa * value(form.integral.integrand, c, z) / conic.root(z)
-    target = omega(problem, which, base)
+    target = omega(problem, which, base, 200)
     if not (average + odd).overlaps(target):
         kappa, odd = -kappa, -odd
     if not (average + odd).overlaps(target) or (average - odd).overlaps(target):

@@ -91,8 +91,11 @@ class Ball:
 
     @property
     def radius(self) -> float:
-        """An upper bound of the radius as a double; `rad` is the radius itself."""
-        value = _to_float(self.rad)
+        """An upper bound of the radius as a double (inf beyond their range); `rad` is the radius itself."""
+        try:
+            value = _to_float(self.rad)
+        except OverflowError:
+            return math.inf
         return value if _to_fraction_cheap(self.rad, value) else math.nextafter(value, math.inf)
 
     @property

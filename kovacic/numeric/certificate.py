@@ -6,13 +6,14 @@ rational ones; in cases 2 and 3 the roots of the polynomial of omega at the poin
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
 from typing import TYPE_CHECKING
 
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.partial_fractions import decompose
 from kovacic.errors import InputError
-from kovacic.numeric.closed_form import closed_form_of
+from kovacic.numeric.closed_form import ClosedForm, closed_form_of
 from kovacic.numeric.exponential import conjugates, embed, sharp_roots
 from kovacic.numeric.points import Point, to_acb
 from kovacic.numeric.problem import NumericProblem
@@ -21,7 +22,12 @@ if TYPE_CHECKING:
     from flint import acb
 
     from kovacic.algebra.poly import Poly
-    from kovacic.algebra.ratfunc import RatFunc
+
+_HIGHEST = 40_000
+"""Bits up to which a logarithmic derivative is computed: the polynomial may cancel as many."""
+
+_SMALL = 60
+"""Degree up to which a second rational omega is sought by integration."""
 
 
 @dataclass(frozen=True)
@@ -60,9 +66,27 @@ def exponentials(problem: NumericProblem) -> list[Exponential]:
     theta, P = closed.theta, closed.P
     count = len(conjugates(P.field if hasattr(P.field, "modulus") else theta.field))
     found = [Exponential(_gauged(theta, problem), P, k) for k in range(count)]
-    if count == 1 and closed.second is not None:
-        found.append(Exponential(_gauged(closed.second[0], problem), closed.second[1], 0))
+    second = (closed.second or _companion(closed)) if count == 1 else None
+    if second is not None:
+        found.append(Exponential(_gauged(second[0], problem), second[1], 0))
     return found
+
+
+def _companion(closed: ClosedForm) -> tuple[RatFunc, Poly] | None:
+    """(theta, P) of y2 = y1 int y1^-2 where y1^2 is rational, of small degree, and the integral is rational too."""
+    residues = decompose(closed.theta).residues
+    sizes = [r.value.field.rational_value(r.value) if r.is_constant else None for r in residues]
+    degree = sum(_SMALL if v is None else abs(v) * r.factor.degree for r, v in zip(residues, sizes, strict=True))
+    if degree + closed.P.degree > _SMALL:  # before the square is written out: it may be x^1000000
+        return None
+    square = closed.rational_square
+    if square is None:
+        return None
+    inverse = decompose(1 / (square * RatFunc(closed.P) ** 2))
+    if inverse.residues:
+        return None
+    factor = inverse.exact * closed.P
+    return closed.theta - RatFunc(factor.den.derivative(), factor.den), factor.num
 
 
 def _gauged(theta: RatFunc, problem: NumericProblem) -> RatFunc:
@@ -70,30 +94,21 @@ def _gauged(theta: RatFunc, problem: NumericProblem) -> RatFunc:
 
 
 def omegas(problem: NumericProblem, x0: Point) -> list[acb]:
-    """The logarithmic derivatives at x0 in their order, at the working precision in force; not finite at a zero."""
+    """The logarithmic derivatives at x0 in their order, at the working precision in force; not finite at a zero.
+
+    The list is empty where the precision is too low to tell the roots of the polynomial of omega apart.
+    """
+    from flint import acb_poly
+
     z = to_acb(x0)
     found = exponentials(problem)
     if found:
         return [branch.omega(z) for branch in found]
-    from flint import ctx
-
-    closed_form_of(problem)
-    roots: list[acb] = []
-    for factor in (1, 2, 4, 8):  # the polynomial may have large coefficients, and roots that are close together
-        with ctx.workprec(ctx.prec * factor):
-            roots = _riccati_roots(problem.source.riccati.coefficients, x0)
-        if roots:
-            break
-    roots.sort(key=cmp_to_key(_order))
+    coefficients = problem.source.riccati.coefficients
+    c = conjugates(coefficients[0].field)[0]
+    roots = sorted(sharp_roots(acb_poly([value(r, c, z) for r in coefficients])), key=cmp_to_key(_order))
     shift = 0 if problem.gauge is None else value(problem.gauge, None, z)
     return [root + shift for root in roots]
-
-
-def _riccati_roots(coefficients: Sequence[RatFunc], x0: Point) -> list[acb]:
-    from flint import acb_poly
-
-    c, z = conjugates(coefficients[0].field)[0], to_acb(x0)
-    return sharp_roots(acb_poly([value(r, c, z) for r in coefficients]))
 
 
 def _order(a: acb, b: acb) -> int:
@@ -103,27 +118,41 @@ def _order(a: acb, b: acb) -> int:
     return -1 if a.real < b.real else 1
 
 
-def omega(problem: NumericProblem, which: int, x0: Point) -> acb:
-    """One of them; raises InputError if there is no solution of this number."""
-    values = omegas(problem, x0)
-    if values and not 0 <= which < len(values):
-        names = "only which = 0" if len(values) == 1 else f"which = 0, ..., {len(values) - 1}"
-        raise InputError(
-            f"which = {which}: the equation has {names} here", hint="tabulate gives every solution, by initial values"
-        )
-    if not values or not values[which].is_finite():
-        raise ZeroDivisionError(f"the logarithmic derivative isn't finite at {x0}")
-    return values[which]
+def omega(problem: NumericProblem, which: int, x0: Point, bits: int) -> acb:
+    """One of them, accurate to that many bits.
+
+    Raises InputError if there is no solution of this number, and ZeroDivisionError where it is zero at x0, as far as the
+    highest precision can tell.
+    """
+    from flint import ctx
+
+    prec = bits + 64
+    while prec <= max(4 * bits, _HIGHEST):
+        with ctx.workprec(prec):
+            values = omegas(problem, x0)
+            if values and not 0 <= which < len(values):
+                names = "only which = 0" if len(values) == 1 else f"which = 0, ..., {len(values) - 1}"
+                raise InputError(
+                    f"which = {which}: the equation has {names} here",
+                    hint="tabulate gives every solution, by initial values",
+                )
+            if values and values[which].is_finite() and _is_sharp(values[which], bits):
+                return values[which]
+        prec *= 2
+    raise ZeroDivisionError(f"the logarithmic derivative isn't finite at {x0}")
+
+
+def _is_sharp(ball: acb, bits: int) -> bool:
+    from flint import arb
+
+    return bool(ball.rel_accuracy_bits() >= bits) or bool(ball.real.rad() + ball.imag.rad() < arb((1, -bits - 400)))
 
 
 def finite_base(problem: NumericProblem, which: int, candidates: list[Point]) -> Point:
     """The first of the points where y'/y is finite for the solution of this number."""
-    from flint import ctx
-
     for x0 in candidates:
         try:
-            with ctx.workprec(200):
-                omega(problem, which, x0)
+            omega(problem, which, x0, 64)
         except ZeroDivisionError:
             continue
         return x0

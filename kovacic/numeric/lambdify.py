@@ -28,8 +28,8 @@ from kovacic.numeric.tabulate import TabulatedFunction, tabulate
 from kovacic.result import Solution
 
 _PREC = 240
-_SLOPE_BITS = 1200
-"""Precision of the initial slope of a table."""
+_SLOPE_BITS = 4000
+"""Precision of the initial slope of a table: a recessive solution is contaminated by its error times the growth."""
 
 
 def lambdify(
@@ -74,10 +74,7 @@ def lambdify(
 
 
 def _table(problem: NumericProblem, which: int, region: Region, base: Point) -> TabulatedFunction:
-    from flint import ctx
-
     if not region.is_real:
         raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
-    with ctx.workprec(_SLOPE_BITS):
-        slope = ball_from_flint(omega(problem, which, base))
+    slope = ball_from_flint(omega(problem, which, base, _SLOPE_BITS))
     return tabulate(problem, region.low.real, region.high.real, x0=base, y0=1, dy0=slope)

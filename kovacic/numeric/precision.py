@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal, Protocol
 
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits
-from kovacic.numeric.ball import Ball, ball_from_flint
+from kovacic.numeric.ball import Ball, Dyadic, ball_from_flint
 from kovacic.numeric.points import Point
 
 if TYPE_CHECKING:
@@ -108,7 +108,15 @@ def _missing_bits(y: acb, digits: int, prec: int) -> int:
 
 def _stalled(previous: tuple[Evaluation, ...], found: tuple[Evaluation, ...]) -> bool:
     """True if a higher precision hasn't made the balls smaller: their size comes from the initial values."""
-    return all(f.reached or 4 * f.y.radius > 3 * p.y.radius for p, f in zip(previous, found, strict=True))
+    return all(
+        f.reached or _binary_order(f.y.rad) >= _binary_order(p.y.rad) for p, f in zip(previous, found, strict=True)
+    )
+
+
+def _binary_order(number: Dyadic) -> int:
+    """The exponent of 2, without the limits of a double."""
+    mantissa, exponent = number
+    return abs(mantissa).bit_length() + exponent
 
 
 def _reason(result: Evaluation) -> str:

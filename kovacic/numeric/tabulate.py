@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 
 _PREC = 116
 _DIGITS = 34
+_SHARP = 90
 _GROWTH = 30.0
 _MAX_PIECES = 5000
 
@@ -186,6 +187,8 @@ def _coefficients(system: System, piece: tuple[Frame, RayBound], state: Evaluati
     first, second = (column[0] for column in expansion.columns)
     found = [y * arb(first[n]) + slope * arb(second[n]) for n in range(max(len(first), len(second)))]
     sizes = [abs(v).mid() for v in found]
+    if max((v.real.rad() + v.imag.rad() for v in found), key=float) > max(sizes) * arb((1, -_SHARP)):
+        raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
     floor = max(sizes) * arb((1, -_PREC))
     while len(found) > 1 and sizes[len(found) - 1] < floor:
         found.pop()
