@@ -1,8 +1,9 @@
 """Is an answer right?  Substituted into the equation at complex points with 30 digits, independently of every system.
 
-    y         the second derivative is formed symbolically, and y'' - S y evaluated at the points.  An unevaluated integral
-              may be any antiderivative: it is differentiated by the fundamental theorem, and its value is then a free
-              constant, for which a random number is put.  |u| is taken as sqrt(u^2), which is analytic.
+    y         y'' - S y at the points, y'' by the second difference with so many digits that 30 are left; symbolically
+              where y has an unevaluated integral, which may be any antiderivative: it is differentiated by the fundamental
+              theorem, and its value is then a free constant, for which a random number is put.  |u| is taken as
+              sqrt(u^2), which is analytic.
     omega     omega' + omega^2 - S.
     riccati   at each root W of the polynomial, W' = -M_x/M_W, and W' + W^2 - S.  (Python packages give the coefficients
               from W^0 on, and the minimal polynomial of the constant c or "".)
@@ -25,12 +26,13 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
+import flint
 import mpmath
 import sympy
 from sympy.parsing.sympy_parser import parse_expr
 
 DIGITS = 30
-_WORKING_DIGITS = 80
+_WORKING_DIGITS = 140
 
 # A SymPy expression of `server.py`.
 PICKLED = "pickle:"
@@ -152,9 +154,19 @@ def _holds(S: Any, expression: Any, form: str, points: list[Any], rng: random.Ra
         if expression == 0:
             return [False]
         y, integrands = _integrals_as_symbols(expression)
+        if not integrands:
+            return _holds_by_differences(S, y, points)
         values = {J: sympy.Rational(rng.randint(1, 10**6), 10**6) + sympy.I * rng.randint(1, 9) for J in integrands}
         slope = _derivative(y, integrands)
         pieces = [piece.subs(values) for piece in (_derivative(slope, integrands), -S * y)]
+    functions = [sympy.lambdify(_X, piece, "mpmath") for piece in pieces]
+    return [value for value in (_vanishes(functions, point) for point in points) if value is not None]
+
+
+def _holds_by_differences(S: Any, y: Any, points: list[Any]) -> list[bool]:
+    """With the second difference at a distance of 10^-25 for y'': the derivative of a large expression is larger still."""
+    f, coefficient, h = sympy.lambdify(_X, y, "mpmath"), sympy.lambdify(_X, S, "mpmath"), mpmath.mpf(10) ** -25
+    pieces = [lambda x: (f(x + h) - 2 * f(x) + f(x - h)) / h**2, lambda x: -coefficient(x) * f(x)]
     return [value for value in (_vanishes(pieces, point) for point in points) if value is not None]
 
 
@@ -175,7 +187,12 @@ def _integrals_as_symbols(expression: Any) -> tuple[Any, dict[Any, Any]]:
 
 def _explicit(roots: Any) -> Any:
     """A sum over the roots of a polynomial, with the roots as numbers."""
-    return sum(roots.fun(root) for root in roots.poly.nroots(n=_WORKING_DIGITS, maxsteps=500))
+    coefficients = roots.poly.clear_denoms()[1].all_coeffs()
+    with flint.ctx.workdps(_WORKING_DIGITS):
+        found = [root for root, _ in flint.fmpz_poly([int(c) for c in coefficients[::-1]]).complex_roots()]
+        parts = [[part.str(_WORKING_DIGITS, radius=False) for part in (root.real, root.imag)] for root in found]
+    values = (sympy.Float(re, _WORKING_DIGITS) + sympy.I * sympy.Float(im, _WORKING_DIGITS) for re, im in parts)
+    return sum(roots.fun(value) for value in values)
 
 
 def _derivative(expression: Any, integrands: dict[Any, Any]) -> Any:
@@ -183,10 +200,10 @@ def _derivative(expression: Any, integrands: dict[Any, Any]) -> Any:
     return expression.diff(_X) + sum(expression.diff(J) * f for J, f in integrands.items())
 
 
-def _vanishes(pieces: list[Any], point: Any) -> bool | None:
-    """Is the sum zero to 30 digits, relative to its pieces?  None where it can't be evaluated."""
+def _vanishes(functions: list[Callable[[Any], Any]], point: Any) -> bool | None:
+    """Is the sum zero to 30 digits, relative to its terms?  None where it can't be evaluated."""
     try:
-        values = [mpmath.mpmathify(sympy.lambdify(_X, piece, "mpmath")(point)) for piece in pieces]
+        values = [mpmath.mpmathify(function(point)) for function in functions]
     except (ZeroDivisionError, ValueError, TypeError, NameError, OverflowError, KeyError, mpmath.libmp.NoConvergence):
         return None
     size = max(abs(value) for value in values)
