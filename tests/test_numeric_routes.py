@@ -16,10 +16,11 @@ from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.galois import Ground, Group, Kind
-from kovacic.limits import Limits
+from kovacic.limits import Budget, Limits
 from kovacic.numeric.agreement import agrees_with_group, compare, is_fuchsian
 from kovacic.numeric.ball import ball_to_flint
 from kovacic.numeric.evaluate import AccuracyWarning, evaluate, evaluate_states
+from kovacic.numeric.exponential import integral
 from kovacic.numeric.monodromy import monodromy
 from kovacic.numeric.problem import as_problem
 from kovacic.numeric.transport import identity, multiply
@@ -166,6 +167,27 @@ def test_a_quadrature_stops_at_the_time_limit() -> None:
     solution = kovacic.solve("(7*x^2 - 10)/(4*x^4 - 8*x^2 + 4)")  # case 2, a quadrature of 2 s at 500 digits
     with pytest.raises(LimitExceeded, match="time limit"):
         evaluate(solution, 3, x0=2, y0=1, dy0=0, digits=500, method="closed form", limits=Limits(seconds=0.3))
+
+
+class Interrupting(Budget):
+    """The user presses Ctrl-C at the n-th step."""
+
+    def __init__(self, steps: int) -> None:
+        super().__init__()
+        self.steps = steps
+
+    def check(self) -> None:
+        self.steps -= 1
+        if self.steps == 0:
+            raise KeyboardInterrupt
+
+
+@pytest.mark.parametrize("steps", [1, 2, 10, 40])
+def test_an_interrupted_quadrature_is_an_interruption_and_leaves_the_precision_alone(steps: int) -> None:
+    before = flint.ctx.prec
+    with pytest.raises(KeyboardInterrupt), flint.ctx.workprec(500):
+        integral(lambda z, _: (z * z).exp(), flint.acb(0), flint.acb(5), Interrupting(steps))
+    assert flint.ctx.prec == before
 
 
 # --- monodromy -------------------------------------------------------------------------------------------------------

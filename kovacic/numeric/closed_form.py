@@ -50,6 +50,9 @@ if TYPE_CHECKING:
     from kovacic.numeric.taylor import Matrix
     from kovacic.solution import Decision
 
+_CHEAP_DEGREE = 60
+"""Degree of P up to which its evaluation costs less than the Taylor steps."""
+
 
 @dataclass(frozen=True)
 class ClosedForm:
@@ -113,6 +116,12 @@ class ClosedForm:
                 return None
             total = total * RatFunc(residue.factor) ** int(value)
         return total
+
+    @property
+    def is_cheap(self) -> bool:
+        """Case 1: does a leg cost less than Taylor steps (measured): no quadrature, and no polynomial of a high degree?"""
+        two = len(conjugates(self.P.field)) == 2 or self.second is not None
+        return self.P.degree <= _CHEAP_DEGREE and (two or self.rational_square is not None)
 
     @cached_property
     def charts(self) -> tuple[Chart, ...]:

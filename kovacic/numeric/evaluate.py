@@ -166,23 +166,17 @@ class TaylorRoute:
         return carry(legs, self.itinerary, self.start)
 
 
-def _route(
-    problem: NumericProblem,
-    itinerary: Itinerary,
-    start: Start,
-    method: Method | None,
-) -> tuple[Route, Method]:
-    """The route asked for; by itself the cheaper one: the closed form only where it needs neither detours nor
-    quadrature.
+def _route(problem: NumericProblem, itinerary: Itinerary, start: Start, method: Method | None) -> tuple[Route, Method]:
+    """The route asked for; by itself the cheaper one, by a rule that was measured (`benchmarks/numeric_work_precision.py`).
 
-    That's two conjugate exponentials without a polynomial factor, whose cost doesn't depend on the distance.
-    Measured at 15 to 50
-    digits, everything else costs more than the Taylor steps.
+    A closed form of case 1 without quadrature costs about a millisecond whatever the distance, the digits and the solution's
+    zeros, if its polynomial has a moderate degree: less than the Taylor steps.  Quadratures and hypergeometric functions
+    cost as much as Taylor steps at 15 digits and several times as much at 500.
     """
-    if method is None:
-        form = getattr(problem.source, "semi_invariant", None)
-        cheap = form is not None and form.degree == 1 and form.P.degree == 0 and hasattr(form.P.field, "modulus")
-        method = "closed form" if cheap else "taylor"
+    if method is None and getattr(problem.source, "case", None) == 1:
+        from kovacic.numeric.closed_form import closed_form_of
+
+        method = "closed form" if closed_form_of(problem).is_cheap else None
     if method == "closed form":
         from kovacic.numeric.closed_form import closed_form_route
 

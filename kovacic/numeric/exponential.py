@@ -166,41 +166,31 @@ def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[ac
     return tuple(quotient[k - 1 - j] for j in range(k))
 
 
-def continued_root(values: list[tuple[acb, int]], a: acb, b: acb, *, analytic: bool = False) -> acb:
-    """sqrt(prod ((b - rho)/(a - rho))^k), continued from 1 at a along the straight segment to b."""
-    from flint import acb
-
-    total = acb(1)
-    for rho, k in values:
-        quotient = (b - rho) / (a - rho)
-        total *= quotient ** (k // 2)
-        if k % 2:
-            total *= quotient.sqrt(analytic=analytic)
-    return total
-
-
 def integral(function: Callable[[acb, bool], acb], a: acb, b: acb, budget: Budget) -> acb:
     """int_a^b, by flint's rigorous adaptive quadrature; a non-finite ball where it gave up.
 
-    Raises LimitExceeded when the budget is used up.  An exception can't cross flint's C code (python-flint 0.9.0
-    turns it into a
-    SystemError), so the integrand answers "unknown" from then on, which ends the quadrature quickly, and the check
-    comes after.
+    Raises LimitExceeded when the budget is used up.  An exception can't cross flint's C code (python-flint 0.9.0 turns it
+    into a SystemError), so the integrand answers 0 once it was stopped or interrupted, which ends the quadrature at once, and
+    the exception comes after.
     """
     from flint import acb
 
-    unknown = acb(float("nan"), float("nan"))
-    over = False
+    stopped: BaseException | None = None
 
     def guarded(z: acb, analytic: bool) -> acb:
-        nonlocal over
-        if not over:
+        nonlocal stopped
+        if stopped is None:
             try:
                 budget.check()
-            except LimitExceeded:
-                over = True
-        return unknown if over else function(z, analytic)
+                return function(z, analytic)
+            except (LimitExceeded, KeyboardInterrupt) as reason:
+                stopped = reason
+        return acb(0)
 
-    result: acb = acb.integral(guarded, a, b)
-    budget.check()
+    try:
+        result: acb = acb.integral(guarded, a, b)
+    except SystemError as error:  # the interrupt came between two calls of the integrand
+        raise error.__cause__ or error from None
+    if stopped is not None:
+        raise stopped
     return result

@@ -3,7 +3,6 @@ is one."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
@@ -35,8 +34,6 @@ def as_problem(equation: object) -> NumericProblem:
         return equation
     if isinstance(equation, System):
         return NumericProblem(equation)
-    if isinstance(equation, tuple) and len(equation) == 2 and all(isinstance(p, Sequence) for p in equation):
-        return NumericProblem(System.make(*_integers(*equation)))
     if isinstance(equation, Equation):
         return NumericProblem(_from_ratfunc(equation.S), equation, _gauge(equation))
     if isinstance(equation, Solution):
@@ -62,21 +59,6 @@ def clear_denominators(function: RatFunc) -> System:
     return _from_ratfunc(function)
 
 
-def _integers(num: Sequence[object], den: Sequence[object]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Coefficient lists with a common denominator cleared."""
-    from kovacic.numeric.points import as_point
-
-    lists = []
-    for name, values in (("numerator", num), ("denominator", den)):
-        points = [as_point(v, f"a coefficient of the {name}") for v in values]
-        if not all(p.is_real() for p in points):
-            raise InputError(f"the coefficients of the {name} must be real rational numbers")
-        lists.append([p.re for p in points])
-    common = lcm(*(v.denominator for values in lists for v in values))
-    n, d = (tuple(int(v * common) for v in values) for values in lists)
-    return n, d
-
-
 def _from_ratfunc(S: Any) -> System:
     try:
         num, den = ([Fraction(c) for c in part.coefficients()] for part in (S.num, S.den))
@@ -84,4 +66,6 @@ def _from_ratfunc(S: Any) -> System:
         raise InputError(
             "numerical evaluation needs S with rational coefficients (no parameters, no algebraic constants)"
         ) from None
-    return System.make(*_integers(num, den))
+    common = lcm(*(c.denominator for c in (*num, *den)))
+    n, d = (tuple(int(c * common) for c in part) for part in (num, den))
+    return System.make(n, d)
