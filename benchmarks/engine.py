@@ -49,6 +49,7 @@ class Measurement:
     total: float
     verify: float
     memory: float | None
+    resident: float | None
 
     @property
     def ratio(self) -> float:
@@ -78,12 +79,13 @@ def measure(name: str, parameter: int, *, memory: bool) -> Measurement:
     if answer.case != one.case or answer.status is kovacic.Status.UNDECIDED:
         raise SystemExit(f"{name}, {parameter}: case {answer.case} instead of {one.case}")
     verify, _ = timed(answer.verify)
-    peak = None
+    peak = resident = None
     if memory:
-        peak = max(_peak(name, parameter, "solve") - _peak(name, parameter, "build"), 0.0)
+        resident = _peak(name, parameter, "solve")
+        peak = max(resident - _peak(name, parameter, "build"), 0.0)
     degree = max(one.S.num.degree, one.S.den.degree)
     digits = int(max(one.S.num.height_bits(), one.S.den.height_bits()) * math.log10(2)) + 1
-    return Measurement(name, parameter, one.poles, degree, digits, total, verify, peak)
+    return Measurement(name, parameter, one.poles, degree, digits, total, verify, peak, resident)
 
 
 def _peak(name: str, parameter: int, what: str) -> float:
@@ -185,6 +187,9 @@ def markdown(report: dict[str, Any]) -> str:
                 f"| {one['name']} | " + " | ".join(_cell(kind, m) for m in one["measurements"]) + f" | {slope} |"
             )
         lines.append("")
+    residents = [m["resident"] for one in report["series"] for m in one["measurements"] if m["resident"] is not None]
+    if residents:
+        lines += [f"Largest peak resident set of a process that solves one of these: {max(residents):.0f} MiB.", ""]
     return "\n".join(lines)
 
 

@@ -16,7 +16,7 @@ from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 
-SIZES = (5, 10, 20, 40, 80)
+SIZES = (5, 10, 20, 40, 80, 100)
 DIGITS = (1, 10, 100, 1000)
 ORDERS = (2, 4, 6, 8, 10, 12)
 X = RatFunc(QQ.poly([0, 1]))

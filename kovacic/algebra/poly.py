@@ -375,7 +375,10 @@ class RationalPoly(Poly):
 
     def __call__(self, point: Poly | Scalar) -> Poly:
         value = self._coerce(point)
-        return super().__call__(point) if value is None else RationalPoly(self.rep(value.rep))
+        if value is None:
+            return super().__call__(point)
+        constant = value.degree <= 0  # evaluation is much faster than composition with a constant
+        return RationalPoly(fmpq_poly([self.rep(value.rep[0])]) if constant else self.rep(value.rep))
 
     def _divmod(self, other: RationalPoly) -> tuple[RationalPoly, RationalPoly]:
         quotient, remainder = divmod(self.rep, other.rep)
