@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
-from kovacic.cli.plot import plot_command
+from kovacic.cli.main import run
+from kovacic.numeric.ball import Ball
 from kovacic.numeric.plot import plot, sample
 
 
@@ -29,26 +30,53 @@ def test_a_plot_is_a_figure_of_its_own() -> None:
     assert matplotlib.get_backend() == backend
 
 
-def test_the_plot_command_writes_a_picture(tmp_path: Path) -> None:
+def test_the_error_band_is_drawn_where_it_is_visible_and_a_vanishing_imaginary_part_is_not() -> None:
+    wide = plot("x", -3, 1, x0=-1, y0=Ball((1, 0), rad=(1, -4)), points=20)
+    assert [text.get_text() for text in wide.axes[0].get_legend().get_texts()] == ["y", "error band"]
+    around = plot("2/x^2", -2, 3, points=40)  # real on both sides, as far as the enclosures tell
+    assert [text.get_text() for text in around.axes[0].get_legend().get_texts()] == ["y", "singular point"]
+
+
+def test_the_plot_command_writes_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     target = tmp_path / "curve.png"
-    run = CliRunner().invoke(
-        plot_command, ["-1/x^2 + 2", "--from", "-1", "--to", "3/2", "--points", "30", "-o", str(target)]
-    )
-    assert run.exit_code == 0, run.output
+    assert run(["plot", "-1/x^2 + 2", "--from", "-1", "--to", "3/2", "--points", "30", "-o", str(target)]) == 0
     assert target.read_bytes()[:4] == b"\x89PNG"
+    assert capsys.readouterr().out == f"wrote {target}\n"
 
 
 @pytest.mark.parametrize(
-    "arguments",
+    ("arguments", "status", "words"),
     [
-        ["x", "--from", "2", "--to", "1", "-o", "a.png"],
-        ["x", "--from", "1", "--to", "2", "-o", "a.exe"],
-        ["x+", "--from", "1", "--to", "2", "-o", "a.png"],
-        ["x", "--from", "nan", "--to", "2", "-o", "a.png"],
+        (["x", "--from", "2", "--to", "1", "-o", "a.png"], 2, "empty"),
+        (["x", "--from", "1", "--to", "2", "-o", "a.exe"], 2, ".exe"),
+        (["x", "--from", "1", "--to", "2", "-o", "no/such/place/a.png"], 2, "no directory"),
+        (["x+", "--from", "1", "--to", "2", "-o", "a.png"], 2, "ends after"),
+        (["x", "--from", "nan", "--to", "2", "-o", "a.png"], 2, "from isn't"),
+        (["1/x", "--from", "-1", "--to", "2", "--x0", "0", "-o", "a.png"], 2, "singular point"),
+        (["x", "--from", "0", "--to", "100000", "-o", "a.png", "--limit", "seconds=0.2"], 3, "time limit"),
     ],
 )
-def test_the_plot_command_refuses_wrong_input(arguments: list[str]) -> None:
-    run = CliRunner().invoke(plot_command, arguments)
-    assert run.exit_code in (1, 2)
-    assert "Error" in run.output
-    assert "Traceback" not in run.output
+def test_the_plot_command_refuses_wrong_input(
+    arguments: list[str], status: int, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["plot", *arguments]) == status
+    assert words in capsys.readouterr().err
+
+
+def test_without_matplotlib_the_command_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    for name in [name for name in sys.modules if name.split(".")[0] == "matplotlib"]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert run(["plot", "x", "--from", "0", "--to", "1", "-o", str(tmp_path / "a.png")]) == 2
+    assert "pip install kovacic[plot]" in capsys.readouterr().err
+
+
+def test_ctrl_c_ends_the_command_without_a_picture(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("kovacic.numeric.plot.evaluate_states", interrupted)
+    assert run(["plot", "x", "--from", "0", "--to", "1", "-o", str(tmp_path / "a.png")]) == 130
+    assert not (tmp_path / "a.png").exists()

@@ -64,7 +64,9 @@ def measure(
     exact = [as_point(complex(x), "x") for x in given]
     values = [complex(v) for v in function(given)]
     slope = ball_from_flint(omega(problem, which, function.base, _BITS))
-    states = evaluate_states(problem, exact, x0=function.base, y0=1, dy0=slope, digits=_DIGITS, limits=limits)
+    states = evaluate_states(
+        problem, exact, x0=function.base, y0=1, dy0=slope, digits=_DIGITS, method="taylor", limits=limits
+    )
     if not all(state.reached or state.y.contains_zero() for state in states):
         raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
     pairs = [(v, state.y) for v, state in zip(values, states, strict=True) if not state.y.contains_zero()]

@@ -128,8 +128,8 @@ def plot(
     output: str | Path | None = None,
     limits: Limits | None = None,
 ) -> Figure:
-    """A figure with the real and (unless it vanishes) the imaginary part over [start, stop]; saved to `output` if
-    given.
+    """A figure with the real part over [start, stop], and the imaginary part unless it can't be told from zero; saved to
+    `output` if given.
 
     Arguments as for `sample`.  The file type follows the suffix of `output` (png, svg, pdf).  Returns the matplotlib
     figure.
@@ -141,7 +141,7 @@ def plot(
     figure = NewFigure(figsize=(8, 4.8), layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
-    is_complex = any(not result.y.real for run in samples.runs for result in run)
+    is_complex = any(abs(result.y.mid.imag) > result.y.radius for run in samples.runs for result in run)
     _curves(axes, samples, is_complex)
     low, high = float(as_point(start, "from").re), float(as_point(stop, "to").re)
     _marks(axes, samples, low, high)
@@ -194,4 +194,5 @@ def _limit_height(axes: Any, samples: Samples) -> None:
     )
     usual, largest = sizes[int(0.9 * (len(sizes) - 1))], sizes[-1]
     if usual > 0 and largest > 12 * usual:
-        axes.set_ylim(-4 * usual, 4 * usual)
+        low, high = axes.get_ylim()
+        axes.set_ylim(max(low, -4 * usual), min(high, 4 * usual))
