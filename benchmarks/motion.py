@@ -1,162 +1,307 @@
-"""Run time against error for the ball's motion: quadratures of the closed form against direct integration.
+"""Run time against error for the ball's motion: closed form and quadratures against direct integration.
 
-    python benchmarks/motion.py [--oscillations 10000] [--samples 100] [--plot motion.png]
+    python benchmarks/motion.py      writes benchmarks/results/motion.json, .md and .png; about eight minutes of processor time
 
-The reference is the closed form in 30-digit arithmetic (turning points, period and phase by mpmath).  The error is that of
-u and omega_3 at the samples, spread over the last oscillation; the time includes everything, from the initial state on.
-The direct integration is SciPy's DOP853 on Woronetz's eight equations, with rtol = tolerance, atol = tolerance/100.
+Every method gives the whole motion (u, v, omega_3, n and the contact point on the sphere) at the same times, spread over the
+last oscillation.  The error is the largest of the differences of u, omega_3, n, of v on the circle, and of the contact point
+in units of R1.  Times are processor time from the initial state on; Woronetz's equations are compiled beforehand.
+Direct integration: SciPy's DOP853 and Radau on Woronetz's eight equations, rtol = tolerance, atol = tolerance/100.
+
+The reference knows nothing of the closed form: Woronetz's equations over one oscillation in 30-digit arithmetic
+(extrapolation), whose period is found by Newton's method and checked: all five reduced coordinates return to 1e-25.
+After k oscillations the frame at the contact is the k-th power of a rotation times the frame in the first one, and v has
+gained k times the same angle.  Its error is far below 1e-20, a rounding of the times (doubles of about 3e4) costs 1e-11.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
+import platform
 import time
-from collections.abc import Callable
+from dataclasses import asdict, astuple, dataclass, replace
+from pathlib import Path
 
 import mpmath
 import numpy as np
 import sympy as sp
+from scipy.integrate import solve_ivp
 
+import kovacic
 from kovacic.mechanics import Ball, U
-from kovacic.mechanics.ball import BallOnSphere
-from kovacic.mechanics.closed import NumericBall
-from kovacic.mechanics.direct import State, equations
+from kovacic.mechanics.attitude import locate
+from kovacic.mechanics.direct import State, equations, integrate_precisely, jacobian
 from kovacic.mechanics.motion import solve_motion
 
+RESULTS = Path(__file__).parent / "results"
 SPHERE = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
 POTENTIAL = sp.Rational(3, 2) * sp.cos(U)
 START = State(1.0, 0.1, 0.3, 1.2, 0.2, 0.5, 0.25, 2.0)
+SYSTEM = equations(SPHERE.body, POTENTIAL)
+DIGITS, SAMPLES = 30, 25
+EXPONENTS = range(3, 13)
+LONG, SHORTER = 10_000, (1, 10, 100, 1000)
+#: Radau is stopped after so many seconds, and isn't asked for smaller tolerances once it was.
+PATIENCE = 60.0
 
 
-class Precise:
-    """x and omega_3 at any time, by the quadrature for t(phi), in mpmath's arithmetic."""
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One run; `seconds` None means that it was stopped after PATIENCE seconds."""
 
-    def __init__(self, sphere: BallOnSphere, start: State) -> None:
-        self.ball = NumericBall.of(sphere, mpmath)
-        mpf = mpmath.mpf
-        self.x0, self.n0 = mpmath.cos(mpf(start.u)), mpf(start.n)
-        sine2 = 1 - self.x0**2
-        self.w0 = self.x0 * self.n0 - (1 + self.ball.rho) * sine2 * mpf(start.dv)
-        kinetic = self.ball.K11(self.x0) * mpf(start.du) ** 2
-        kinetic += self.ball.transverse_energy(self.x0, sine2, self.w0, self.n0) / sine2
-        self.energy = kinetic / 2 + mpf(3) / 2 * self.x0
-        rough = solve_motion(sphere, POTENTIAL, start).turning_points
-        self.top, self.bottom = (mpmath.findroot(self.W, mpmath.cos(mpf(u))) for u in rough)
-        self.middle, self.amp = (self.top + self.bottom) / 2, (self.top - self.bottom) / 2
-        self.coefficients, self.mean = self._series()
-        self.period = 2 * mpmath.pi * self.mean
-        phi_0 = mpmath.acos((self.x0 - self.middle) / self.amp)
-        self.begin = self.time(phi_0 if start.du >= 0 else -phi_0)
-
-    def W(self, x: mpmath.mpf) -> mpmath.mpf:
-        omega_3, n = self.ball.transport(x, self.x0, self.w0, self.n0)
-        sine2 = 1 - x * x
-        V = mpmath.mpf(3) / 2 * x
-        transverse = self.ball.transverse_energy(x, sine2, omega_3, n)
-        return (2 * (self.energy - V) * sine2 - transverse) / self.ball.K11(x)
-
-    def _series(self) -> tuple[list[mpmath.mpf], mpmath.mpf]:
-        count = 64
-        nodes = [(mpmath.mpf(j) + mpmath.mpf(1) / 2) * mpmath.pi / count for j in range(count)]
-        values = []
-        for phi in nodes:
-            x = self.middle + self.amp * mpmath.cos(phi)
-            values.append(self.amp * mpmath.sin(phi) / mpmath.sqrt(self.W(x)))
-        sums = [
-            2 * mpmath.fsum(v * mpmath.cos(k * p) for v, p in zip(values, nodes, strict=True)) / count
-            for k in range(48)
-        ]
-        return [sums[k] / k for k in range(1, 48)], sums[0] / 2
-
-    def time(self, phi: mpmath.mpf) -> mpmath.mpf:
-        return self.mean * phi + mpmath.fsum(c * mpmath.sin((k + 1) * phi) for k, c in enumerate(self.coefficients))
-
-    def at(self, t: float) -> tuple[float, float]:
-        """(u, omega_3) at time t."""
-        rest = mpmath.fmod(mpmath.mpf(t) + self.begin, self.period)
-        phi = mpmath.findroot(lambda p: self.time(p) - rest, (0, 2 * mpmath.pi), solver="anderson", tol=1e-50)
-        x = self.middle + self.amp * mpmath.cos(phi)
-        return float(mpmath.acos(x)), float(self.ball.transport(x, self.x0, self.w0, self.n0)[0])
+    method: str
+    oscillations: int
+    tolerance: float
+    seconds: float | None
+    error: float | None
 
 
-def closed(tolerance: float, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+@dataclass(frozen=True, slots=True)
+class Values:
+    """The motion at the sample times; the contact point as a unit vector."""
+
+    u: np.ndarray
+    v: np.ndarray
+    omega_3: np.ndarray
+    n: np.ndarray
+    contact: np.ndarray
+
+    def distance(self, other: Values) -> float:
+        turn = np.angle(np.exp(1j * (self.v - other.v)))
+        pairs = ((self.u, other.u), (self.omega_3, other.omega_3), (self.n, other.n), (turn, 0 * turn))
+        return max(
+            *(float(np.abs(p - q).max()) for p, q in pairs),
+            float(np.linalg.norm(self.contact - other.contact, axis=1).max()),
+        )
+
+
+def reference(counts: tuple[int, ...]) -> tuple[float, float, dict[int, tuple[np.ndarray, Values]]]:
+    """The period, the largest defect of periodicity, and for each count the sample times with the motion there."""
+    with mpmath.workdps(DIGITS + 10):
+        rough = mpmath.mpf(solve_motion(SPHERE, POTENTIAL, START).period)
+        [back] = integrate_precisely(SPHERE.body, POTENTIAL, START, [rough], digits=DIGITS)
+        period = rough
+        for _ in range(2):
+            change = (START.u - back.u) / back.du
+            period += change
+            [back] = integrate_precisely(SPHERE.body, POTENTIAL, back, [change], digits=DIGITS)
+        defect = max(abs(getattr(back, name) - mpmath.mpf(getattr(START, name))) for name in ("u", "du", "dv", "n"))
+        assert defect < mpmath.mpf(10) ** -25, mpmath.nstr(defect)
+        gain, turn = back.v - START.v, frame(back) * frame(START).T
+        times = {k: float(period) * (k - 1 + np.arange(1, SAMPLES + 1) / (SAMPLES + 1)) for k in counts}
+        rests = sorted((mpmath.mpf(t) - (k - 1) * period, k) for k in counts for t in times[k])
+        states = integrate_precisely(SPHERE.body, POTENTIAL, START, [rest for rest, _ in rests], digits=DIGITS)
+        result = {}
+        for count in counts:
+            mine = [state for state, (_, k) in zip(states, rests, strict=True) if k == count]
+            rotation = turn ** (count - 1)
+            contact = [list(-(rotation * frame(state))[:, 2]) for state in mine]
+            result[count] = (
+                times[count],
+                Values(
+                    u=np.array([float(state.u) for state in mine]),
+                    v=np.array([float(mpmath.fmod(state.v + (count - 1) * gain, 2 * mpmath.pi)) for state in mine]),
+                    omega_3=np.array([float(SYSTEM.omega_3([float(value) for value in astuple(s)])) for s in mine]),
+                    n=np.array([float(state.n) for state in mine]),
+                    contact=np.array(contact, dtype=float),
+                ),
+            )
+    return float(period), float(defect), result
+
+
+def frame(state: State) -> mpmath.matrix:
+    """e_u, e_v, e_n as columns, in space; the contact point on the unit sphere is -e_n."""
+    sin, cos = mpmath.sin, mpmath.cos
+    south = mpmath.matrix([cos(state.u1) * cos(state.v1), cos(state.u1) * sin(state.v1), -sin(state.u1)])
+    east = mpmath.matrix([-sin(state.v1), cos(state.v1), 0])
+    out = mpmath.matrix([sin(state.u1) * cos(state.v1), sin(state.u1) * sin(state.v1), cos(state.u1)])
+    s, c = sin(state.theta), cos(state.theta)
+    columns = (c * east - s * south, c * south + s * east, -out)
+    return mpmath.matrix([[column[i] for column in columns] for i in range(3)])
+
+
+def closed(tolerance: float, times: np.ndarray) -> Values:
     motion = solve_motion(SPHERE, POTENTIAL, START, tolerance=tolerance)
     phi = motion.phase(times)
-    return motion.band.colatitude(phi), motion.rotation(phi)[0]
+    omega_3, n = motion.rotation(phi)
+    return Values(
+        motion.band.colatitude(phi), motion.v(phi), omega_3, n, locate(motion, phi).contact * motion.ball.kappa
+    )
 
 
-def direct(tolerance: float, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    from dataclasses import astuple
+class Stopped(Exception):
+    """An integration took longer than PATIENCE."""
 
-    from scipy.integrate import solve_ivp
+
+def direct(method: str, tolerance: float, times: np.ndarray) -> Values:
+    end = time.process_time() + PATIENCE if method == "Radau" else np.inf
+
+    def rates(t: float, y: np.ndarray) -> list[float]:
+        if time.process_time() > end:
+            raise Stopped
+        return SYSTEM.rates(t, y)
 
     result = solve_ivp(
-        SYSTEM.rates,
+        rates if method == "Radau" else SYSTEM.rates,
         (0.0, times[-1]),
         astuple(START),
-        method="DOP853",
+        method=method,
         t_eval=times,
-        rtol=max(tolerance, 2.3e-14),
+        rtol=tolerance,
         atol=tolerance / 100,
+        **({"jac": jacobian(SYSTEM)} if method == "Radau" else {}),
     )
-    return result.y[0], np.array([SYSTEM.omega_3(list(column)) for column in result.y.T])
+    assert result.success, result.message
+    u, v, _, u1, v1, _, _, n = result.y
+    omega_3 = np.array([SYSTEM.omega_3(list(column)) for column in result.y.T])
+    return Values(u, v, omega_3, n, np.stack([np.sin(u1) * np.cos(v1), np.sin(u1) * np.sin(v1), np.cos(u1)], axis=1))
 
 
-SYSTEM = equations(SPHERE.body, POTENTIAL)  # compiled beforehand: not part of the direct integration's time
+def measure(method: str, count: int, exponent: int, samples: tuple[np.ndarray, Values], repeat: int) -> Row:
+    """The least time of `repeat` runs, for other work on the machine only adds to it."""
+    times, exact = samples
+    tolerance = 10.0**-exponent
+    row = Row(method, count, tolerance, None, None)
+    for _ in range(repeat):
+        begin = time.process_time()
+        try:
+            values = closed(tolerance, times) if method == "closed form" else direct(method, tolerance, times)
+        except Stopped:
+            return row
+        seconds = time.process_time() - begin
+        row = replace(row, seconds=min(seconds, row.seconds or seconds), error=values.distance(exact))
+    return row
 
 
-def measure(
-    method: Callable[..., tuple[np.ndarray, np.ndarray]], tolerance: float, times: np.ndarray, reference: np.ndarray
-):
-    begin = time.perf_counter()
-    values = np.array(method(tolerance, times))
-    return time.perf_counter() - begin, float(np.abs(values - reference).max())
+def run(long: int) -> tuple[float, float, list[Row]]:
+    counts = (*SHORTER, long)
+    period, defect, samples = reference(counts)
+    closed(1e-9, samples[1][0])  # imports and caches aren't part of the first measurement
+    rows: list[Row] = []
+
+    def add(method: str, count: int, exponent: int, repeat: int) -> Row:
+        row = measure(method, count, exponent, samples[count], repeat)
+        rows.append(row)
+        print(text(row), flush=True)
+        return row
+
+    for exponent in EXPONENTS:
+        add("closed form", long, exponent, 5)
+        add("DOP853", long, exponent, 1)
+    for exponent in EXPONENTS:
+        if add("Radau", long, exponent, 1).seconds is None:
+            break
+    for count in SHORTER:
+        for exponent in (6, 9, 12):
+            add("closed form", count, exponent, 5)
+            add("DOP853", count, exponent, 5 if count < 100 else 1)
+            if count <= 10:
+                add("Radau", count, exponent, 1)
+    return period, defect, rows
+
+
+def text(row: Row) -> str:
+    seconds = f"more than {PATIENCE:g}" if row.seconds is None else f"{row.seconds:.4f}"
+    return f"| {row.oscillations} | {row.tolerance:.0e} | {row.method} | {seconds} | {_error(row)} |"
+
+
+def _error(row: Row) -> str:
+    return "" if row.error is None else f"{row.error:.1e}"
+
+
+def markdown(period: float, defect: float, rows: list[Row], long: int) -> str:
+    closed_rows = [row for row in rows if row.method == "closed form"]
+    ratios = {row: _partner(rows, row).seconds / row.seconds for row in closed_rows}
+    below = [ratio for row, ratio in ratios.items() if row.oscillations == long and row.tolerance < 1e-6]
+    slower = [row for row, ratio in ratios.items() if ratio <= 1]
+    times = [1000 * row.seconds for row in closed_rows]
+    floor = max(row.error for row in closed_rows if row.oscillations == long and row.tolerance <= 1e-11)
+    verdict = (
+        f"- At {long} oscillations the closed form is {min(below):.0f} to {max(below):.0f} times as fast as DOP853 at the"
+        " tolerances below 1e-6."
+        if min(below) > 1
+        else "- The closed form isn't faster at every tolerance below 1e-6: see the second table."
+    )
+    if slower:
+        where = "; ".join(f"{row.tolerance:.0e} with {row.oscillations} oscillation(s)" for row in slower)
+        verdict += f"\n- It isn't faster at these tolerances: {where}.  It always works out a whole oscillation and the series."
+    return "\n".join(
+        [
+            "# The motion of the ball: run time against error",
+            "",
+            "Written by `python benchmarks/motion.py`; see there for what is measured.  Seconds of processor time.",
+            "",
+            f"kovacic {kovacic.__version__}, python {platform.python_version()}, {platform.system()} {platform.machine()}",
+            "",
+            verdict,
+            f"- The closed form costs {min(times):.1f} to {max(times):.1f} ms for any number of oscillations; the cost of"
+            " direct integration grows with it.",
+            "- The error of direct integration grows with the number of oscillations as well, so that equal tolerances aren't",
+            f"  equal errors.  The closed form's has a floor, {floor:.0e} at {long} oscillations: the sample times and the",
+            "  period are doubles, and their rounding errors are multiplied by the number of oscillations.",
+            f"- The reference has the period {period:.15f} and is periodic up to {defect:.0e}.",
+            "",
+            "| oscillations | tolerance | method | seconds | error |",
+            "|---|---|---|---|---|",
+            *(text(row) for row in rows),
+            "",
+            "| oscillations | tolerance | DOP853's time over the closed form's |",
+            "|---|---|---|",
+            *(f"| {row.oscillations} | {row.tolerance:.0e} | {ratio:.3g} |" for row, ratio in ratios.items()),
+            "",
+        ]
+    )
+
+
+def _partner(rows: list[Row], row: Row) -> Row:
+    return next(r for r in rows if r.method == "DOP853" and astuple(r)[1:3] == astuple(row)[1:3])
+
+
+def draw(rows: list[Row], path: Path, long: int) -> None:
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(11, 4.8), layout="constrained", dpi=120)
+    left, right = figure.subplots(1, 2)
+    styles = {"closed form": ("o-", "#1f5f99"), "DOP853": ("s-", "#d9731a"), "Radau": ("^-", "#2f7d4f")}
+    for method, (style, colour) in styles.items():
+        done = [row for row in rows if row.method == method and row.seconds is not None]
+        whole = [row for row in done if row.oscillations == long]
+        label = "closed form and quadratures" if method == "closed form" else f"direct integration, {method}"
+        if whole:
+            left.loglog([row.error for row in whole], [row.seconds for row in whole], style, color=colour, label=label)
+        for exponent, line in ((6, ":"), (9, "--"), (12, "-")):
+            part = sorted((r.oscillations, r.seconds) for r in done if round(-np.log10(r.tolerance)) == exponent)
+            if len(part) > 1:
+                label = f"{method}, 1e-{exponent}"
+                right.loglog(*zip(*part, strict=True), style[0] + line, color=colour, label=label)
+    left.invert_xaxis()
+    left.set(xlabel=r"largest error of $u$, $v$, $\omega_3$, $n$ and the contact point", ylabel="processor time (s)")
+    left.set_title(f"{long} oscillations; tolerances 1e-3 (left) to 1e-12 (right)", fontsize=10)
+    right.set(xlabel="number of oscillations", ylabel="processor time (s)")
+    right.set_title("the cost of a longer motion", fontsize=10)
+    right.set_ylim(bottom=1e-4)
+    left.legend(fontsize=8, loc="center")
+    right.legend(title="method, tolerance", fontsize=7.5, title_fontsize=8, ncols=3, loc="lower center")
+    for axes in (left, right):
+        axes.grid(True, which="major", color="#dddddd")
+    figure.savefig(path)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--oscillations", type=int, default=10_000)
-    parser.add_argument("--samples", type=int, default=100)
-    parser.add_argument("--tolerances", default="3,4,5,6,7,8,9,10,11,12", help="decimal exponents")
-    parser.add_argument("--plot")
+    parser.add_argument("--oscillations", type=int, default=LONG, help="the longest motion (default %(default)s)")
+    parser.add_argument("--results", type=Path, default=RESULTS, help="the folder that is written to")
     options = parser.parse_args()
-    with mpmath.workdps(30):
-        precise = Precise(SPHERE, START)
-        period = float(precise.period)
-        times = period * (options.oscillations - 1 + np.arange(1, options.samples + 1) / options.samples)
-        reference = np.array([precise.at(t) for t in times]).T
-    closed(1e-13, times)
-    print(f"{options.oscillations} oscillations, period {period:.12f}, {options.samples} samples in the last one")
-    print(f"{'tolerance':>10} {'closed form':>13} {'error':>9} {'direct':>11} {'error':>9} {'ratio':>8}")
-    rows = []
-    for exponent in map(int, options.tolerances.split(",")):
-        tolerance = 10.0**-exponent
-        quick = min((measure(closed, tolerance, times, reference) for _ in range(3)), key=lambda pair: pair[0])
-        slow = measure(direct, tolerance, times, reference)
-        rows.append((tolerance, *quick, *slow))
-        print(
-            f"{tolerance:>10.0e} {quick[0] * 1e3:>10.2f} ms {quick[1]:>9.1e} {slow[0] * 1e3:>8.0f} ms {slow[1]:>9.1e}"
-            f" {slow[0] / quick[0]:>8.0f}",
-            flush=True,
-        )
-    if options.plot:
-        draw(rows, options.plot, options.oscillations)
-
-
-def draw(rows: list[tuple[float, ...]], path: str, oscillations: int) -> None:
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(7, 4.5), layout="constrained", dpi=120)
-    axes = figure.add_subplot()
-    data = np.array(rows)
-    axes.loglog(data[:, 2], data[:, 1], "o-", color="#1f5f99", label="closed form and quadratures")
-    axes.loglog(data[:, 4], data[:, 3], "s-", color="#d9731a", label="direct integration, DOP853")
-    axes.invert_xaxis()
-    axes.set(xlabel=r"largest error of $u$ and $\omega_3$", ylabel="run time (s)")
-    axes.set_title(f"ball on a sphere, {oscillations} oscillations; tolerances 1e-3 ... 1e-12", fontsize=10)
-    axes.grid(True, which="major", color="#dddddd")
-    axes.legend()
-    figure.savefig(path)
+    period, defect, rows = run(options.oscillations)
+    data = {
+        "python": platform.python_version(),
+        "period": period,
+        "defect": defect,
+        "rows": [asdict(row) for row in rows],
+    }
+    (options.results / "motion.json").write_text(json.dumps(data, indent=1) + "\n")
+    (options.results / "motion.md").write_text(markdown(period, defect, rows, options.oscillations))
+    draw(rows, options.results / "motion.png", options.oscillations)
 
 
 if __name__ == "__main__":

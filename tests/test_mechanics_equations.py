@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 import sympy as sp
 
-from kovacic.errors import InputError
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.mechanics import Ball, Body, Profile, U, X
 from kovacic.mechanics.ball import exact
 from kovacic.mechanics.field import Ring, base_part
@@ -232,5 +232,21 @@ def test_exact_numbers_only():
     for value in (0.5, sp.Float(0.5), True, None):
         with pytest.raises(InputError, match="exact number"):
             exact(value, "m")
-    with pytest.raises(InputError, match="isn't a number"):
-        exact("__import__('os')", "m")
+    assert exact("2*sqrt(2)", "m") == sp.sqrt(8)
+    for text in ("__import__('os')", "one", "", "1/0", "9^^9", "1 2", "cos(u)"):
+        with pytest.raises(InputError):
+            exact(text, "m")
+    for value in (sp.I, sp.oo, sp.nan, "sqrt(-1)"):
+        with pytest.raises(InputError, match="isn't a real number"):
+            exact(value, "m")
+
+
+def test_numbers_that_are_too_large_are_refused_before_they_are_computed():
+    for value in ("1e999999999", "9^9^9", "((9^100)^100)^100", 10**400, Fraction(1, 10**400)):
+        with pytest.raises(LimitExceeded):
+            exact(value, "m")
+
+
+def test_irrational_parameters_have_to_be_symbols():
+    with pytest.raises(InputError, match="has to be a symbol"):
+        Ball(m=1, R=1, a=0, A1="1/4", A3="1/3").on_sphere("sqrt(2)").second_order()

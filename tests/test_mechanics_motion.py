@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
+from dataclasses import astuple, replace
 
 import mpmath
 import numpy as np
 import pytest
 import sympy as sp
+from numpy.polynomial import chebyshev
 from scipy.integrate import solve_ivp
 
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.mechanics import Ball, Body, Profile, U
 from kovacic.mechanics.attitude import follow, locate
-from kovacic.mechanics.closed import NumericBall, central_gravity
+from kovacic.mechanics.ball import ball_with_roots
+from kovacic.mechanics.closed import NumericBall
 from kovacic.mechanics.direct import IntegrationFailed, State, equations, integrate, integrate_precisely
+from kovacic.mechanics.extrapolation import extrapolate
 from kovacic.mechanics.motion import solve_motion
 from kovacic.mechanics.plot import compare, draw
+from kovacic.mechanics.potential import central_gravity, compiled, potential_of
 from kovacic.mechanics.series import Primitive, cosine_series, divide, invert
 
 POTENTIAL = sp.Rational(3, 2) * sp.cos(U)
@@ -205,23 +209,118 @@ def test_energy_and_the_linear_integrals_are_conserved():
     assert np.ptp(direct.omega_3 * np.sqrt(ball.D(np.cos(direct.states[0])))) < 1e-9  # Chaplygin's integral
 
 
-@pytest.mark.parametrize(
-    ("digits", "duration"), [(18, "1/64"), pytest.param(50, "1/4", marks=pytest.mark.slow)], ids=["18", "50"]
-)
-def test_high_precision(digits, duration):
-    """High precision: Taylor steps of the full equations against the closed form at the u that they reach."""
-    sphere = Ball(m=1, R=1, a=0, A1="1/4", A3="1/3").on_sphere(2)
-    start = State(1, 0, 0, 1, 0, mpmath.mpf(1) / 2, mpmath.mpf(1) / 3, 2)
-    with mpmath.workdps(digits + 5):
-        time = mpmath.mpf(sp.Rational(duration).p) / sp.Rational(duration).q
-        end = integrate_precisely(sphere.body, sp.cos(U), start, time, digits=digits)
-        numeric = NumericBall.of(sphere, mpmath)
-        u0 = mpmath.mpf(1)
-        omega_0 = mpmath.cos(u0) * 2 - (1 + numeric.rho) * mpmath.sin(u0) ** 2 * start.dv
-        omega_3, n = numeric.transport(mpmath.cos(end[0]), mpmath.cos(u0), omega_0, mpmath.mpf(2))
-        assert abs(n - end[7]) < mpmath.mpf(10) ** (2 - digits)
-        dv = (mpmath.cos(end[0]) * n - omega_3) / ((1 + numeric.rho) * mpmath.sin(end[0]) ** 2)
-        assert abs(dv - end[6]) < mpmath.mpf(10) ** (3 - digits)
+def quadrature(sphere, start):
+    """x_min, x_max and the period under V = cos u, from the closed form and the energy integral, by mpmath alone."""
+    ball, mpf = NumericBall.of(sphere, mpmath), mpmath.mpf
+    x0 = mpmath.cos(mpf(start.u))
+    omega_0 = x0 * start.n - (1 + ball.rho) * (1 - x0**2) * start.dv
+    first = ball.transverse_energy(x0, 1 - x0**2, omega_0, start.n) / (1 - x0**2)
+    energy = (ball.K11(x0) * start.du**2 + first) / 2 + x0
+
+    def W(x):
+        omega_3, n = ball.transport(x, x0, omega_0, start.n)
+        return (2 * (energy - x) * (1 - x * x) - ball.transverse_energy(x, 1 - x * x, omega_3, n)) / ball.K11(x)
+
+    rough = solve_motion(sphere, "cos(u)", State(*map(float, astuple(start)))).turning_points
+    top, bottom = (mpmath.findroot(W, mpmath.cos(mpf(u))) for u in rough)
+    middle, amp, count = (top + bottom) / 2, (top - bottom) / 2, 128
+    nodes = [middle + amp * mpmath.cos((mpf(2 * j + 1) / 2) * mpmath.pi / count) for j in range(count)]
+    slowness = [mpmath.sqrt((top - x) * (x - bottom) / W(x)) for x in nodes]
+    return bottom, top, 2 * mpmath.pi * mpmath.fsum(slowness) / count
+
+
+def test_fifty_digits_over_one_oscillation():
+    """The period, omega_3 and n from the closed form, against the full equations in 50-digit arithmetic."""
+    sphere = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(2)
+    with mpmath.workdps(60):
+        start = State(*map(mpmath.mpf, (1, 0, 0, 1, 0, "0.5", "0.25", 2)))
+        bottom, top, period = quadrature(sphere, start)
+        half, whole = integrate_precisely(sphere.body, sp.cos(U), start, [period / 2, period], digits=50)
+        tiny = mpmath.mpf(10) ** -48
+        for name in ("u", "du", "dv", "n"):
+            assert abs(getattr(whole, name) - getattr(start, name)) < tiny, name
+        assert bottom < mpmath.cos(half.u) < top
+        ball, x0 = NumericBall.of(sphere, mpmath), mpmath.cos(start.u)
+        omega_0 = x0 * start.n - (1 + ball.rho) * mpmath.sin(start.u) ** 2 * start.dv
+        omega_3, n = ball.transport(mpmath.cos(half.u), x0, omega_0, start.n)
+        assert abs(half.n - n) < tiny
+        assert abs((mpmath.cos(half.u) * n - omega_3) / ((1 + ball.rho) * mpmath.sin(half.u) ** 2) - half.dv) < tiny
+
+
+def test_extrapolation_runs_backwards_and_stops_at_a_singularity():
+    there, back = extrapolate(lambda t, y: [y[0] ** 2], [1], ["0.5", 0], digits=30)
+    assert abs(there[0] - 2) < 1e-29
+    assert abs(back[0] - 1) < 1e-29
+    with pytest.raises(LimitExceeded, match="too short"):
+        extrapolate(lambda t, y: [y[0] ** 2], [1], [2], digits=15)
+
+
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-9, 1e-13])
+def test_energy_and_constraints_hold_to_the_tolerance(tolerance):
+    """The three constraints, with derivatives of the computed path; the energy, from the computed u', v' and n."""
+    sphere = BALLS["l > 0"].on_sphere(3)
+    motion = solve_motion(sphere, POTENTIAL, START, tolerance=tolerance)
+    nodes = np.cos((np.arange(64) + 0.5) * np.pi / 64)
+    phi = motion.phase(100.5 + nodes / 2)
+    place, (du, dv) = locate(motion, phi), motion.rates(phi)
+    (_, n), u, R1 = motion.rotation(phi), motion.band.colatitude(phi), 3.0
+    assert np.abs(motion.energies(phi) - motion.energy).max() < 1e-12
+
+    def rate(values):
+        fit = chebyshev.chebfit(nodes, np.unwrap(values), 40)
+        return 2 * chebyshev.chebval(nodes, chebyshev.chebder(fit))
+
+    dtheta, du1, dv1 = rate(place.theta), rate(place.u1), rate(place.v1)
+    s, c = np.sin(place.theta), np.cos(place.theta)
+    defects = (
+        R1 * du1 + du * s - np.sin(u) * dv * c,
+        R1 * dv1 * np.sin(place.u1) - du * c - np.sin(u) * dv * s,
+        n + dtheta + np.cos(u) * dv + dv1 * np.cos(place.u1),
+    )
+    assert max(np.abs(defect).max() for defect in defects) < 1e-9 + 1e3 * tolerance
+
+
+def test_a_coarse_tolerance_stays_one_over_ten_thousand_oscillations():
+    """What the number of oscillations multiplies, the period and the gain of v, doesn't depend on the tolerance."""
+    sphere = BALLS["l > 0"].on_sphere(3)
+    coarse, fine = (solve_motion(sphere, POTENTIAL, START, tolerance=tolerance) for tolerance in (1e-4, 1e-13))
+    times = 10_000 * fine.period + np.linspace(0, fine.period, 9)
+    errors = [
+        np.abs(f(coarse) - f(fine)).max()
+        for f in (lambda m: m.band.colatitude(m.phase(times)), lambda m: m.v(m.phase(times)))
+    ]
+    assert max(errors) < 1e-4
+
+
+def pendulum(sphere, gap):
+    """A start without spin at u = 2 whose kinetic energy falls short of the equilibrium u = 0 by the fraction `gap`."""
+    V = compiled(central_gravity(sphere, sp.Integer(1)))
+    speed = np.sqrt(2 * (V(0.0) - V(2.0)) / NumericBall.of(sphere, np).K11(np.cos(2.0)))
+    return State(2.0, 0.0, 0.3, 1.2, 0.2, -speed * np.sqrt(1 - gap), 0.0, 0.0)
+
+
+@pytest.mark.parametrize("radius", [3, "2/3"])
+@pytest.mark.parametrize("gap", [1e-2, 1e-5, -1e-5, -1e-2])
+def test_near_the_separatrix(radius, gap):
+    """The ball just swings back before it stands upright, or just goes over: against Newton and Euler's equations."""
+    sphere = BALLS["l > 0"].on_sphere(radius)
+    start = pendulum(sphere, gap)
+    motion = solve_motion(sphere, central_gravity(sphere, sp.Integer(1)), start)
+    assert motion.turning_points[1] == np.pi
+    assert (motion.turning_points[0] > 0) == (gap > 0)
+    times = np.linspace(0, 0.6 * motion.period, 40)
+    phi = motion.phase(times)
+    reference = newton_euler(sphere, 1.0, start, times)
+    assert np.abs(motion.energies(phi[1:]) - motion.energy).max() < 1e-9
+    # The equations themselves multiply an error by about 1/gap on the way past the equilibrium.
+    assert np.abs(motion.band.x(phi) - reference["x"]).max() < 1e-10 / abs(gap)
+
+
+@pytest.mark.parametrize("gap", [1e-9, 0.0, -1e-9])
+def test_motions_that_are_asymptotic_up_to_rounding_are_refused(gap):
+    sphere = BALLS["l > 0"].on_sphere(3)
+    with pytest.raises((InputError, LimitExceeded), match="asymptotic"):
+        solve_motion(sphere, central_gravity(sphere, sp.Integer(1)), pendulum(sphere, gap))
 
 
 def test_direct_integration_knows_other_bodies():
@@ -262,8 +361,69 @@ def test_what_is_refused():
         solve_motion(symbolic, POTENTIAL, START)
     with pytest.raises(InputError, match="numbers are needed"):
         equations(symbolic.body, POTENTIAL)
+    for value in (np.nan, np.inf, 1e60):
+        with pytest.raises(InputError, match="can start with"):
+            solve_motion(sphere, POTENTIAL, replace(START, du=value))
+    heavy = Ball(m=10**60, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
+    with pytest.raises(InputError, match="choose units"):
+        solve_motion(heavy, POTENTIAL, START)
     with pytest.raises(IntegrationFailed):  # the potential pulls u to 1 in a finite time, with infinite speed
         integrate(sphere.body, -1 / (U - 1) ** 4, replace(START, u=1.2, du=-1), np.array([0.0, 5.0]), rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("potential", "message"),
+    [
+        ("u", "smooth at the poles"),
+        ("sin(u)", "smooth at the poles"),
+        ("1/(1 - cos(u))", "isn't finite at u = 0;"),
+        ("sqrt(cos(u) - 2)", "isn't finite"),
+        ("sqrt(-1)*cos(u)", "real function"),
+        ("q*cos(u)", "can't contain q"),
+        ("__import__('os')", "unexpected character"),
+        ("cos(u", "never closed"),
+        ("cos(u)^0.5", "integers"),
+        ("cos(u, u)", "one argument"),
+        ("log(0)", "isn't finite"),
+        ("u' + 1", "derivative"),
+        ("V = u", "can't contain V"),
+        ("cos(u) = 1", "not an equation"),
+        ("", "empty"),
+        ("1/(u - u)", "division by zero"),
+    ],
+)
+def test_potentials_that_are_refused(potential, message):
+    with pytest.raises(InputError, match=message):
+        compiled(potential)
+
+
+@pytest.mark.parametrize("potential", ["9^9^9", "1e999", "(9^99)^99", "+".join(["cos(u)"] * 200)])
+def test_potentials_that_are_too_large(potential):
+    with pytest.raises(LimitExceeded):
+        potential_of(potential)
+
+
+@pytest.mark.parametrize(
+    "potential",
+    [
+        "0",
+        "3/2*cos(u)",
+        "exp(-cos(2u)) + pi",
+        "log(2 + cos(u))",
+        "1/(1.0001 - cos(u))",
+        "1/(cos(u) - 1/3)",
+        "cos(40u)/9",
+    ],
+)
+def test_motion_under_other_potentials(potential):
+    """Steep ones, with a barrier that isn't reached, with many equilibria: the turning points next to the start count."""
+    sphere = BALLS["l > 0"].on_sphere(3)
+    motion = solve_motion(sphere, potential, START)
+    times = np.linspace(0, 2 * motion.period, 30)
+    phi = motion.phase(times)
+    direct = integrate(sphere.body, potential, START, times, rtol=1e-11, atol=1e-13)
+    assert np.abs(motion.band.colatitude(phi) - direct.states[0]).max() < 1e-8
+    assert np.abs(motion.energies(phi) - motion.energy).max() < 1e-11 * max(1, abs(motion.energy))
 
 
 def test_series_tools():
@@ -312,6 +472,46 @@ def test_command_by_ratio(run):
     assert "dicyclic of order 8" in output.out
 
 
+@pytest.mark.parametrize("ratio", ["3/2", "1/3", "-2/5", "1/2"])
+def test_command_prints_n_in_closed_form(run, ratio):
+    """n and omega_3 as printed, read back, solve the linear equations derived from the profile; also in --json."""
+    status, output = run("--ratio", ratio, "--json")
+    data = json.loads(output.out)
+    assert status == 0
+    n, omega_3 = (sp.parse_expr(data[name]) for name in ("n", "omega_3"))
+    x = sp.Symbol("x")
+    assert n.free_symbols == set(sp.symbols("x x1 x2 c1 c2 A1 A3"))
+    rolling = ball_with_roots()
+    system, values = rolling.linear_system(), {"x1": -3, "x2": -2, "A1": 2, "A3": 3, "R": sp.Rational(ratio), "R1": 1}
+    at = {x: sp.Rational(1, 7), "c1": 2, "c2": -5}
+    rates = [
+        (entry / sp.sin(U)).subs(sp.cos(U), x).subs(values) for entry in (system.a1, system.a2, system.b1, system.b2)
+    ]
+    n, omega_3 = n.subs(values), omega_3.subs(values)
+    for derivative, first, second in ((sp.diff(n, x), *rates[:2]), (sp.diff(omega_3, x), *rates[2:])):
+        assert abs(sp.N((derivative + first * n + second * omega_3).subs(at), 30)) < 1e-25
+    text = run("--ratio", ratio)[1].out
+    for label in ("equation (12):", "case:", "group:", "omega_3:", "n:"):
+        assert label in text
+
+
+def test_command_with_an_irrational_ratio_and_latex(run):
+    status, output = run("--ratio", "sqrt(2)", "--json", "--latex")
+    data = json.loads(output.out)
+    assert (status, data["case"], data["group"], data["verified"]) == (0, 2, "N(T)", True)
+    assert set(data["latex"]) == {"12", "13"}
+
+
+def test_command_with_another_potential(run):
+    body = ("--mass", "1", "--radius", "1", "--offset", "1/5", "--A1", "1/4", "--A3", "1/3", "--sphere", "-4")
+    status, output = run(*body, "--simulate", "--potential", "3/2*cos(u)", "--time", "5", "--json")
+    motion = json.loads(output.out)["motion"]
+    assert status == 0
+    assert motion["potential"] == "3*cos(u)/2"
+    assert max(motion["difference"].values()) < 1e-9
+    assert motion["energy_drift"] < 1e-12
+
+
 def test_command_by_parameters_with_a_picture(run, tmp_path):
     body = ("--mass", "1", "--radius", "2", "--offset", "1/5", "--A1", "1", "--A3", "4/3", "--sphere", "3")
     picture = tmp_path / "path.png"
@@ -325,14 +525,32 @@ def test_command_by_parameters_with_a_picture(run, tmp_path):
     assert picture.stat().st_size > 20_000
 
 
+_BALL = ("--mass", "1", "--radius", "1", "--sphere", "3")
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (("--mass", "1", "--radius", "1", "--offset", "2", "--sphere", "1"), "|a| <= R"),
         (("--mass", "1", "--radius", "1"), "either --ratio"),
         (("--ratio", "1", "--mass", "1"), "stands alone"),
-        (("--ratio", "x"), "isn't a number"),
-        (("--ratio", "0"), "neither 0 nor -1"),
+        (("--ratio", "x"), "can't contain x"),
+        (("--ratio", "0"), "R/R1 = 0"),
+        (("--mass", "-1", "--radius", "1", "--sphere", "1"), "m > 0 fails, as m = -1"),
+        (("--mass", "1", "--radius", "0", "--sphere", "1"), "R > 0 fails"),
+        (("--mass", "1", "--radius", "1", "--sphere", "0"), "other than 0"),
+        (("--mass", "1", "--radius", "1", "--sphere", "-1/2"), "R < |R1| fails"),
+        (("--mass", "1", "--radius", "1", "--sphere", "1", "--A3", "2"), "A3 <= 2 A1 fails"),
+        (("--mass", "one", "--radius", "1", "--sphere", "1"), "can't contain one"),
+        ((*_BALL, "--potential", "cos(w)", "--simulate"), "can't contain w"),
+        ((*_BALL, "--potential", "cos(u)", "--gravity", "1"), "either --gravity"),
+        ((*_BALL, "--simulate", "--time", "nan"), "must be positive"),
+        ((*_BALL, "--simulate", "--time", "1e9"), "at most 1000 oscillations"),
+        ((*_BALL, "--simulate", "--start", "0", "1", "1", "1"), "between the poles"),
+        ((*_BALL, "--simulate", "--start", "inf", "1", "1", "1"), "can start with"),
+        ((*_BALL, "--plot", "a.gif"), "doesn't end in"),
+        ((*_BALL, "--plot", "/nowhere/a.png"), "can't be written"),
+        (("--ratio", "-3/2"), "R < |R1| fails"),
     ],
 )
 def test_command_refuses(run, arguments, message):

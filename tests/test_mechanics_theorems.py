@@ -11,15 +11,17 @@ import sympy as sp
 import kovacic
 from kovacic.errors import InputError
 from kovacic.mechanics import Ball, X, closed_form
-from kovacic.mechanics.closed import C1, C2, NumericBall
+from kovacic.mechanics.closed import C1, C2, NumericBall, closed_form_in_roots
 from kovacic.mechanics.decision import decide, degree_of_omega, group_of, normalised
 from kovacic.mechanics.field import Ring
 from kovacic.mechanics.theorems import (
     constant_coefficients,
     double_root,
     exponents,
+    printed_equations,
     rational_solutions,
     semi_invariant,
+    spin_in_the_roots,
     symbolic_ball,
     two_exponentials,
 )
@@ -59,6 +61,7 @@ def places(name):
         two_exponentials(),
         exponents(),
         double_root(),
+        spin_in_the_roots(),
     ],
     ids=lambda proof: proof.statement[:40],
 )
@@ -103,6 +106,41 @@ def test_theorem_1_printed_solutions():
     assert sp.diff(rational_solutions(2).expressions()[1], X) == 0  # R = R1: omega_3 = const
     with pytest.raises(InputError, match="positive integer"):
         rational_solutions(0)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_n_of_theorem_1_for_N_up_to_50(sign):
+    """The other linear equation, dn/du = a1 n + a2 omega_3, exactly, for R/R1 = N/2 and -N/2."""
+    for N in range(1, 51):
+        found = rational_solutions(N)
+        ring = found.factors[0].ring
+        alpha = ring.element(X)
+        beta = alpha + ring.element(sp.Symbol("delta"))
+        rho = ring.element(sp.Rational(sign * N, 2))
+        for P, Q, theta in zip(found.factors, found.spins(sign), found.thetas, strict=True):
+            slope = Q.partial() + (theta - (1 / alpha + 1 / beta) * 3 / 4) * Q
+            right = rho * (alpha + beta) * Q / 2 - (1 + rho) * (alpha - beta) * (alpha - beta) * P / 4
+            assert slope == right / (alpha * beta), N
+
+
+@pytest.mark.parametrize("ratio", ["1/2", "-1/2", "1", "3/2", "-3/4", "1/3", "17/5", "sqrt(2)"])
+@pytest.mark.parametrize("body", ["negative", "roots left"])
+def test_closed_form_in_the_roots_of_a_ball_solves_its_linear_equations(body, ratio):
+    """The two ways to write it, with the roots and with D, span the same space: both fitted to one initial state."""
+    rolling = ball(body)
+    sphere = rolling.on_sphere(rolling.R / sp.sympify(sp.Rational(ratio) if "s" not in ratio else sp.sqrt(2)))
+    x1, x2 = sphere.roots
+    values = {"A1": rolling.A1, "A3": rolling.A3, "x1": x1, "x2": x2}
+    in_roots = closed_form_in_roots(sphere.ratio)
+    with mpmath.workdps(40):
+        numeric = NumericBall.of(sphere, mpmath)
+        parts = [part.subs(values) for part in (in_roots.omega_3, in_roots.n)]
+        rows = [sp.Matrix([part.subs(X, at) for part in parts]) for at in (sp.Rational(4, 5), sp.Rational(-3, 5))]
+        before, after = (row.jacobian([C1, C2]).evalf(60) for row in rows)
+        expected = (after * before.inv() * sp.Matrix([-1, 3])).evalf(35)
+        got = numeric.transport(mpmath.mpf(-3) / 5, mpmath.mpf(4) / 5, -1, 3)
+        for value, reference in zip(got, expected, strict=True):
+            assert abs(value - mpmath.mpmathify(sp.re(reference))) < mpmath.mpf(10) ** -30
 
 
 def test_theorem_1_by_the_engine_for_N_up_to_50():
@@ -151,6 +189,28 @@ def test_theorem_2_by_the_engine():
 def test_groups_are_dicyclic(ratio, order):
     S = normalised(sp.Rational(ratio))
     assert kovacic.solve(S.expression()).group.order == order
+
+
+def test_quaternion_group():
+    """The dicyclic group of order 8: every solution is algebraic, of degree 8 over C(x)."""
+    group = kovacic.solve(normalised(sp.Rational(1, 4)).expression()).group
+    assert (group.name, group.order) == ("dicyclic of order 8", 8)
+
+
+@pytest.mark.parametrize("ratio", [sp.sqrt(2), 1 + sp.sqrt(2), sp.sqrt(3) / 2])
+def test_irrational_ratios_have_the_normaliser_of_the_torus(ratio):
+    (S,) = printed_equations(ratio)[1].coefficients
+    answer = kovacic.solve(S.subs({"x1": 1, "x2": -1}))
+    assert (answer.case, answer.group.name, answer.verified) == (2, "N(T)", True)
+
+
+@pytest.mark.parametrize("ratio", ["1414213562/1000000007", "665857/470832", "10000000001/20000000000"])
+def test_ratios_that_are_nearly_irrational_or_nearly_of_theorem_1(ratio):
+    rho = sp.Rational(ratio)
+    verdict = decide(normalised(rho), rho)
+    assert (verdict.degree, verdict.verified) == (2, True)
+    answer = kovacic.solve(normalised(rho).expression())
+    assert answer.group.order == 4 * sp.denom(2 * rho)
 
 
 def test_normalised_equation_is_the_general_one():

@@ -11,6 +11,11 @@ if TYPE_CHECKING:
     from kovacic.mechanics.ball import BallOnSphere
 
 
+_PICTURES = (".png", ".pdf", ".svg")
+#: Oscillations that the command integrates directly, for comparison.
+_LONGEST = 1000
+
+
 @click.command()
 @click.option("--ratio", metavar="R/R1", help="The ratio of the radii alone: the equation in x1, x2, the roots of D.")
 @click.option("--mass", metavar="M", help="The ball's mass.")
@@ -23,10 +28,13 @@ if TYPE_CHECKING:
 @click.option("--latex", is_flag=True, help="The equations in LaTeX.")
 @click.option("--simulate", is_flag=True, help="The motion, by quadratures and by direct integration.")
 @click.option(
-    "--gravity", metavar="g", default="1", show_default=True, help="Strength of the pull to the sphere's centre."
+    "--gravity", metavar="g", help="Strength of the pull to the sphere's centre, or to the plane (default: 1)."
+)
+@click.option(
+    "--potential", metavar="V", help='Another potential in place of gravity, such as "3/2*cos(u) + sin(u)^2".'
 )
 @click.option("--start", nargs=4, type=float, default=(1.0, 0.5, 0.3, 2.0), show_default=True, metavar="u u' v' n")
-@click.option("--time", "end", type=click.FloatRange(min=0, min_open=True), default=20.0, show_default=True)
+@click.option("--time", "end", type=float, default=20.0, show_default=True, help="The motion from 0 to this time.")
 @click.option(
     "--plot", metavar="FILE", type=click.Path(dir_okay=False, writable=True), help="A picture (png, pdf, svg)."
 )
@@ -41,36 +49,42 @@ def command(
     as_json: bool,
     latex: bool,
     simulate: bool,
-    gravity: str,
+    gravity: str | None,
+    potential: str | None,
     start: tuple[float, float, float, float],
     end: float,
     plot: str | None,
 ) -> None:
     """A ball with an axially symmetric mass distribution that rolls on a sphere.
 
-    Numbers are exact: 3/2, 0.25, 7.  Any consistent units; moments are mass * length^2, angles radians.
+    Numbers are exact: 3/2, 0.25, sqrt(2).  Any consistent units; moments are mass * length^2, angles radians.  A potential
+    is a function of cos(u), u being the angle between the ball's axis and the normal at the contact; a uniform field over a
+    sphere isn't one.
 
     \b
     kovacic ball --ratio 3/2
     kovacic ball --mass 1 --radius 2 --offset 1/5 --A1 1 --A3 4/3 --sphere 3
     kovacic ball --mass 1 --radius 1 --offset 1/5 --A1 1/4 --A3 1/3 --sphere 3 --simulate --plot path.png
     """
-    physical = (mass, radius, sphere)
+    moving = simulate or plot is not None
     if ratio is not None:
-        if any(value is not None for value in (*physical, a1, a3)) or simulate or plot:
+        if any(value is not None for value in (mass, radius, sphere, a1, a3)) or moving:
             raise click.UsageError("--ratio stands alone: a mass, moments or a motion need --mass, --radius, --sphere")
-        data = _by_ratio(ratio)
+        data = _by_ratio(ratio, latex)
     else:
         if mass is None or radius is None or sphere is None:
             raise click.UsageError("either --ratio, or --mass, --radius and --sphere")
+        if gravity is not None and potential is not None:
+            raise click.UsageError("either --gravity or --potential")
+        if plot is not None and not plot.lower().endswith(_PICTURES):
+            raise click.BadParameter(f"{plot} doesn't end in one of {', '.join(_PICTURES)}", param_hint="--plot")
         from kovacic.mechanics.ball import Ball, exact
 
         standard = exact(mass, "m") * exact(radius, "R") ** 2 * exact("2/5", "2/5")
         ball = Ball(m=mass, R=radius, a=offset, A1=standard if a1 is None else a1, A3=standard if a3 is None else a3)
         rolling = ball.on_plane() if sphere == "plane" else ball.on_sphere(sphere)
-        data = _by_parameters(rolling, latex)
-        if simulate or plot:
-            data["motion"] = _simulate(rolling, exact(gravity, "gravity"), start, end, plot)
+        motion = _simulate(rolling, gravity, potential, start, end, plot) if moving else {}
+        data = {**_by_parameters(rolling, latex), **motion}
     click.echo(json.dumps(data, ensure_ascii=False) if as_json else _text(data))
 
 
@@ -87,47 +101,33 @@ def _answer(S: Any) -> dict[str, Any]:
     }
 
 
-def _by_ratio(text: str) -> dict[str, Any]:
-    import sympy as sp
-
+def _by_ratio(text: str, latex: bool) -> dict[str, Any]:
     from kovacic.errors import InputError
     from kovacic.mechanics.ball import exact
-    from kovacic.mechanics.decision import normalised
-    from kovacic.mechanics.meridian import X
-    from kovacic.mechanics.theorems import rational_solutions
+    from kovacic.mechanics.closed import closed_form_in_roots
+    from kovacic.mechanics.theorems import printed_equations
 
     rho = exact(text, "R/R1")
-    if rho in (0, -1):
-        raise InputError(
-            "R/R1 is neither 0 nor -1 (a plane is --sphere plane; a ball that fills its sphere can't roll)"
-        )
-    x1, x2 = sp.symbols("x1 x2")
-    twice = abs(2 * rho)
-    if twice.is_integer:
-        first, second = rational_solutions(int(twice)).expressions()
-        omega_3 = f"c1*{_factor(first)} + c2*{_factor(second)}"
-    else:
-        omega_3 = (
-            f"(c1*(sqrt(x - x1) + sqrt(x - x2))**({2 * rho}) + c2*(sqrt(x - x1) + sqrt(x - x2))**({-2 * rho}))"
-            "/sqrt((x - x1)*(x - x2))"
-        )
-    answer = _answer(normalised(rho).expression())
-    k = (1 + 8 * rho**2) / (8 * (x1 - x2))
-    S = k / (X - x1) - k / (X - x2) - sp.Rational(3, 16) * ((X - x1) ** -2 + (X - x2) ** -2)
-    return {
+    if rho == 0:
+        raise InputError("R/R1 = 0 has no R1", hint="a plane is --sphere plane, with --mass and --radius")
+    if rho <= -1:
+        raise InputError(f"the ball doesn't fit inside the sphere: R < |R1| fails, as R/R1 = {rho}")
+    twelve, thirteen = printed_equations(rho)
+    (S,) = thirteen.coefficients
+    solution = closed_form_in_roots(rho)
+    data = {
         "ratio": str(rho),
-        "equation": "omega_3'' + 3*(2*x - x1 - x2)/(2*(x - x1)*(x - x2))*omega_3'"
-        f" + ({1 - rho**2})/((x - x1)*(x - x2))*omega_3 = 0",
+        "equation": twelve.text(),
         "S": str(S),
-        **answer,
-        "omega_3": omega_3,
-        "n": f"-(D*omega_3' + ({1 + rho})*D'/2*omega_3)/(({rho})*m*R**2*A1)",
-        "note": "x = cos u, ' = d/dx, D = m*R^2*(A3 - A1)*(x - x1)*(x - x2) with two different roots x1, x2",
+        # The case and the group don't change when x1 and x2 are carried to 1 and -1.
+        **_answer(S.subs({"x1": 1, "x2": -1})),
+        "omega_3": str(solution.omega_3),
+        "n": str(solution.n),
+        "note": "x = cos u; x1, x2 are the roots of D(x) = A1 A3 + A1 m R^2 (1 - x^2) + A3 m (R x + a)^2, two different ones",
     }
-
-
-def _factor(expression: Any) -> str:
-    return f"({expression})" if expression.is_Add else str(expression)
+    if latex:
+        data["latex"] = {str(equation.number): equation.latex() for equation in (twelve, thirteen)}
+    return data
 
 
 def _by_parameters(sphere: BallOnSphere, latex: bool) -> dict[str, Any]:
@@ -151,30 +151,55 @@ def _by_parameters(sphere: BallOnSphere, latex: bool) -> dict[str, Any]:
 
 
 def _simulate(
-    sphere: BallOnSphere, g: Any, start: tuple[float, float, float, float], end: float, plot: str | None
+    sphere: BallOnSphere,
+    gravity: str | None,
+    potential: str | None,
+    start: tuple[float, float, float, float],
+    end: float,
+    plot: str | None,
 ) -> dict[str, Any]:
-    import numpy as np
+    from kovacic.errors import InputError
 
-    from kovacic.mechanics.closed import central_gravity
-    from kovacic.mechanics.direct import State
-    from kovacic.mechanics.motion import solve_motion
-    from kovacic.mechanics.plot import compare, draw
+    try:
+        import numpy as np
+
+        from kovacic.mechanics.direct import State
+        from kovacic.mechanics.motion import solve_motion
+        from kovacic.mechanics.plot import compare, draw
+        from kovacic.mechanics.potential import central_gravity, potential_of
+    except ModuleNotFoundError as error:
+        raise click.ClickException(f"a motion needs NumPy and SciPy: pip install kovacic[numeric] ({error})") from error
+    from kovacic.mechanics.ball import exact
 
     u, du, dv, n = start
-    potential = central_gravity(sphere, g)
-    motion = solve_motion(sphere, potential, State(u, 0.0, 0.0, 1.0, 0.0, du, dv, n))
-    comparison = compare(sphere, potential, motion, end)
+    V = central_gravity(sphere, exact(gravity or "1", "g")) if potential is None else potential_of(potential)
+    motion = solve_motion(sphere, V, State(u, 0.0, 0.0, 1.0, 0.0, du, dv, n))
+    if not 0 < end <= _LONGEST * motion.period:
+        raise InputError(
+            f"the time must be positive and at most {_LONGEST} oscillations, {_LONGEST * motion.period:.6g}, not {end:g}",
+            hint="the quadratures reach any time, but the direct integration that they're compared with doesn't",
+        )
+    comparison = compare(sphere, V, motion, end, samples=1200 + int(60 * end / motion.period))
     if plot:
         place = "on the plane" if sphere.R1.is_infinite else f"on the sphere, R/R1 = {sphere.ratio}"
-        draw(comparison, plot, title=f"Ball {place}")
+        try:
+            draw(comparison, plot, title=f"Ball {place}")
+        except ModuleNotFoundError as error:
+            raise click.ClickException(f"a picture needs Matplotlib: pip install kovacic[plot] ({error})") from error
+        except OSError as error:
+            raise click.ClickException(f"{plot} can't be written: {error.strerror}") from error
     energy = comparison.direct.energy
     return {
-        "turning_points": list(motion.turning_points),
-        "period": motion.period,
-        "time": end,
-        "difference": {name: float(error.max()) for name, error in comparison.errors.items()},
-        "energy_drift_of_the_direct_integration": float(np.abs(energy - energy[0]).max()),
-        "plot": plot,
+        "motion": {
+            "potential": str(V),
+            "turning_points": list(motion.turning_points),
+            "period": motion.period,
+            "time": end,
+            "difference": {name: float(error.max()) for name, error in comparison.errors.items()},
+            "energy_drift": float(np.abs(motion.energies(motion.phase(comparison.times)) - motion.energy).max()),
+            "energy_drift_of_the_direct_integration": float(np.abs(energy - energy[0]).max()),
+            "plot": plot,
+        }
     }
 
 
@@ -197,6 +222,7 @@ def _text(data: dict[str, Any]) -> str:
     motion = data.get("motion")
     if motion:
         low, high = motion["turning_points"]
+        lines.append(f"{'potential:':<20}V = {motion['potential']}")
         lines.append(f"{'turning points:':<20}u = {low:.12g} and {high:.12g}")
         lines.append(f"{'period:':<20}{motion['period']:.15g}")
         for name, value in motion["difference"].items():

@@ -23,8 +23,9 @@ from typing import TypeAlias
 
 import sympy as sp
 
-from kovacic.errors import InputError
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.mechanics.meridian import Profile, U, X
+from kovacic.mechanics.reading import LIMITS, read_expression
 from kovacic.mechanics.woronetz import Body, LinearSystem, RationalEquation, SecondOrder
 
 Scalar: TypeAlias = "int | Fraction | str | sp.Expr"
@@ -32,26 +33,30 @@ _KAPPA = sp.Symbol("kappa")
 
 
 def exact(value: Scalar, name: str) -> sp.Expr:
-    """An exact SymPy number or expression; text is read as a fraction ("3/2", "0.25") and never evaluated.
+    """An exact real number, or an expression in symbols; text is read as a number ("3/2", "0.25", "sqrt(2)").
 
     Symbols lose their assumptions, for the equations identify them by name.
+    Raises `InputError` for anything else, and `LimitExceeded` for numbers of more than 500 bits.
 
     >>> exact("0.25", "m")
     1/4
     """
     if isinstance(value, str):
-        try:
-            return sp.Rational(Fraction(value))
-        except (ValueError, ZeroDivisionError) as error:
-            raise InputError(f"{name} = {value!r} isn't a number", hint="write it as 3/2, 0.25 or 7") from error
-    if isinstance(value, Fraction | int) and not isinstance(value, bool):
-        return sp.Rational(value)
-    if isinstance(value, sp.Expr) and not value.has(sp.Float):
-        return value.xreplace({symbol: sp.Symbol(symbol.name) for symbol in value.free_symbols})
-    raise InputError(
-        f"{name} = {value!r} isn't an exact number or a SymPy expression",
-        hint='a floating-point number decides nothing here: pass Fraction("0.4") or the text "0.4"',
-    )
+        result = read_expression(value, what=f"the number {name}", names={})
+    elif isinstance(value, Fraction | int) and not isinstance(value, bool):
+        result = sp.Rational(value)
+    elif isinstance(value, sp.Expr) and not value.has(sp.Float):
+        result = value.xreplace({symbol: sp.Symbol(symbol.name) for symbol in value.free_symbols})
+    else:
+        raise InputError(
+            f"{name} = {value!r} isn't an exact number or a SymPy expression",
+            hint='a floating-point number decides nothing here: pass Fraction("0.4") or the text "0.4"',
+        )
+    if result.is_Rational and max(int(result.p).bit_length(), int(result.q).bit_length()) > LIMITS.bits:
+        raise LimitExceeded(f"{name} has more than {LIMITS.bits} bits, the limit", limit="bits")
+    if result.is_number and not (result.is_real and result.is_finite):
+        raise InputError(f"{name} = {result} isn't a real number")
+    return result
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +86,7 @@ class Ball:
             object.__setattr__(self, name, exact(getattr(self, name), name))
         m, R, a, A1, A3 = self.parameters
         for name, value in (("m", m), ("R", R), ("A1", A1), ("A3", A3)):
-            if value.is_positive is False or (value.is_number and not value > 0):
+            if value.is_number and not value > 0:
                 raise InputError(f"there is no such body: {name} > 0 fails, as {name} = {value}")
         for text, small, large in (
             ("|a| <= R", sp.Abs(a), R),

@@ -15,8 +15,11 @@ import sympy as sp
 from kovacic.errors import InputError
 from kovacic.mechanics.ball import BallOnSphere
 from kovacic.mechanics.meridian import X
+from kovacic.mechanics.theorems import rational_solutions
 
 C1, C2 = sp.symbols("c1 c2")
+#: The range of numbers in a motion: products of several of them are still floats.
+LEAST, LARGEST = 1e-50, 1e50
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +74,30 @@ def closed_form(sphere: BallOnSphere) -> ClosedForm:
     return ClosedForm(omega_3, (zeta - half * omega_3) / (m * R**2 * A1))
 
 
+def closed_form_in_roots(rho: sp.Expr) -> ClosedForm:
+    """The general solution for a ratio R/R1 = rho other than 0, in the roots x1, x2 of D, the body otherwise arbitrary.
+
+    Of the body, only A3/A1 occurs besides the roots.  For an integer 2 rho both solutions are polynomials times powers of
+    sqrt(x - x1) and sqrt(x - x2).
+
+    >>> closed_form_in_roots(sp.Rational(-1, 2)).n
+    (A1 - A3)*(c1*(-x1/2 + x2/2)/sqrt(x - x2) + c2*(x1/2 - x2/2)/sqrt(x - x1))/A1
+    """
+    A1, A3, x1, x2 = sp.symbols("A1 A3 x1 x2")
+    twice = sp.Abs(2 * rho)
+    if twice.is_Integer:
+        solutions = rational_solutions(int(twice))
+        first, second = solutions.expressions()
+        spin_1, spin_2 = solutions.expressions(solutions.spins(1 if rho > 0 else -1))
+    else:
+        alpha, beta = X - x1, X - x2
+        z, power = sp.sqrt(alpha) * sp.sqrt(beta), (sp.sqrt(alpha) + sp.sqrt(beta)) ** (2 * rho)
+        first, second = power / z, 1 / (power * z)
+        slope = (alpha + beta) / (2 * z)
+        spin_1, spin_2 = (slope + 1) * power, (slope - 1) / power
+    return ClosedForm(C1 * first + C2 * second, -(A3 - A1) / A1 * (C1 * spin_1 + C2 * spin_2))
+
+
 @dataclass(frozen=True, slots=True)
 class NumericBall:
     """The ball's numbers in one arithmetic: `functions` is numpy (arrays of floats) or mpmath (its current precision).
@@ -94,7 +121,13 @@ class NumericBall:
         for value in (*sphere.ball.parameters, kappa):
             if not value.is_number:
                 raise InputError(f"numbers are needed for a motion, and {value} isn't one")
-            values.append(functions.mpf(value.p) / value.q if hasattr(functions, "mpf") else float(value))
+            precise = hasattr(functions, "mpf")
+            number = functions.mpmathify(sp.N(value, functions.mp.dps + 5)) if precise else float(value)
+            if value and not LEAST <= abs(number) <= LARGEST:
+                raise InputError(
+                    f"{sp.N(value, 3)} isn't between {LEAST:g} and {LARGEST:g}", hint="choose units that bring it there"
+                )
+            values.append(number)
         m, R, a, A1, A3, curvature = values
         return cls(m, R, a, A1, A3, curvature, functions)
 
@@ -151,18 +184,3 @@ class NumericBall:
 
 def _call(functions: ModuleType, *names: str) -> Any:
     return next(getattr(functions, name) for name in names if hasattr(functions, name))
-
-
-def central_gravity(sphere: BallOnSphere, g: sp.Expr) -> sp.Expr:
-    """The potential V(u) of a force m g of constant strength towards the centre of the sphere (on the plane: downwards).
-
-    The distance of the centre of mass from the sphere's centre is sqrt(R1^2 + 2 R1 eps + |rho|^2), eps = R + a cos u; V
-    is m g times its excess over |R1|.
-    """
-    u = sp.Symbol("u")
-    m, R, a, _, _ = sphere.ball.parameters
-    eps = R + a * sp.cos(u)
-    if sphere.R1.is_infinite:
-        return m * g * eps
-    square = sphere.R1**2 + 2 * sphere.R1 * eps + R**2 + a**2 + 2 * R * a * sp.cos(u)
-    return m * g * (sp.sqrt(square) - sp.Abs(sphere.R1))

@@ -18,8 +18,10 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from kovacic.errors import InputError, KovacicError
+from kovacic.mechanics.extrapolation import extrapolate
 from kovacic.mechanics.field import Element
 from kovacic.mechanics.meridian import U, X
+from kovacic.mechanics.potential import Potential, potential_of
 from kovacic.mechanics.woronetz import Body, Quantities
 
 Array = NDArray[np.float64]
@@ -56,17 +58,14 @@ class Equations:
     omega_3: Callable[[Sequence[Any]], Any]
 
 
-def equations(body: Body, potential: sp.Expr, module: str = "math") -> Equations:
+def equations(body: Body, potential: Potential, module: str = "math") -> Equations:
     """Woronetz's equations for a body with numeric parameters under V(u) = `potential`; `module` is math or mpmath.
 
     Raises `InputError` if a parameter is still a symbol or V depends on anything but u.
     """
     if body.names:
         raise InputError(f"numbers are needed for a motion; still symbols: {', '.join(body.names)}")
-    V = sp.sympify(potential)
-    if V.free_symbols - {U}:
-        raise InputError(f"the potential depends on u alone, not on {V.free_symbols - {U}}")
-    compiled = sp.lambdify(U, _coefficients(body.quantities(), V), modules=module, cse=True)
+    compiled = sp.lambdify(U, _coefficients(body.quantities(), potential_of(potential)), modules=module, cse=True)
     functions: Any = {"math": __import__("math"), "mpmath": mpmath}[module]
     sin, cos = functions.sin, functions.cos
     flat = body.R1.is_infinite
@@ -132,7 +131,7 @@ class DirectSolution:
 
 def integrate(
     body: Body,
-    potential: sp.Expr,
+    potential: Potential,
     state: State,
     times: Array,
     *,
@@ -147,7 +146,7 @@ def integrate(
     system = equations(body, potential)
     start = [float(value) for value in astuple(state)]
     # SciPy's own differences overflow in the columns of v and v1, on which nothing depends.
-    extra: dict[str, Any] = {"jac": _jacobian(system)} if method in {"Radau", "BDF"} else {}
+    extra: dict[str, Any] = {"jac": jacobian(system)} if method in {"Radau", "BDF"} else {}
     span = (0.0, float(times[-1]))
     result = solve_ivp(system.rates, span, start, method=method, t_eval=times, rtol=rtol, atol=atol, **extra)
     if not result.success:
@@ -162,10 +161,10 @@ def integrate(
     )
 
 
-def _jacobian(system: Equations) -> Callable[[float, Array], Array]:
+def jacobian(system: Equations) -> Callable[[float, Array], Array]:
     """Central differences of the rates, with steps relative to max(1, |y_i|)."""
 
-    def jacobian(time: float, y: Array) -> Array:
+    def matrix(time: float, y: Array) -> Array:
         columns = []
         for i, value in enumerate(y):
             step = 1e-6 * max(1.0, abs(value))
@@ -175,14 +174,15 @@ def _jacobian(system: Equations) -> Callable[[float, Array], Array]:
             columns.append((np.array(ahead, dtype=float) - np.array(behind, dtype=float)) / (2 * step))
         return np.array(columns).T
 
-    return jacobian
+    return matrix
 
 
-def integrate_precisely(body: Body, potential: sp.Expr, state: State, time: Any, *, digits: int = 50) -> list[Any]:
-    """The state at one time by mpmath's Taylor method with `digits` decimal digits (a few seconds for a few periods)."""
+def integrate_precisely(
+    body: Body, potential: Potential, state: State, times: Sequence[Any], *, digits: int = 50
+) -> list[State]:
+    """The states at `times` (monotonic from 0, backwards too) in mpmath's arithmetic, with about `digits` right digits.
+
+    A few seconds per unit of time at 50 digits; see `kovacic.mechanics.extrapolation` for the method.
+    """
     system = equations(body, potential, "mpmath")
-    with mpmath.workdps(digits + 10):
-        solution = mpmath.odefun(
-            system.rates, 0, [mpmath.mpf(value) for value in astuple(state)], tol=mpmath.mpf(10) ** -digits
-        )
-        return list(solution(mpmath.mpf(time)))
+    return [State(*values) for values in extrapolate(system.rates, astuple(state), times, digits=digits)]

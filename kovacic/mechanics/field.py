@@ -47,7 +47,8 @@ class Ring:
             polynomial = sp.Poly(plain, *symbols, domain=sp.QQ)
         except (sp.PolynomialError, sp.CoercionFailed) as error:
             raise InputError(
-                f"{expression} isn't a polynomial in {', '.join(self.names)} over the rationals"
+                f"{expression} isn't a polynomial in {', '.join(self.names)} over the rationals",
+                hint="an irrational parameter has to be a symbol" if expression.is_number else None,
             ) from error
         scale, integral = polynomial.clear_denoms()
         terms = {monomial: int(c) for monomial, c in integral.terms() if c}

@@ -16,12 +16,11 @@ carry it on.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import astuple, dataclass
+from dataclasses import asdict, astuple, dataclass
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
-import sympy as sp
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 from scipy.optimize import brentq
@@ -29,12 +28,17 @@ from scipy.optimize import brentq
 from kovacic.errors import InputError
 from kovacic.mechanics import series
 from kovacic.mechanics.ball import BallOnSphere
-from kovacic.mechanics.closed import NumericBall
+from kovacic.mechanics.closed import LARGEST, NumericBall
 from kovacic.mechanics.direct import State
-from kovacic.mechanics.meridian import U
+from kovacic.mechanics.potential import Potential, compiled
 from kovacic.mechanics.series import Primitive
 
 Array = NDArray[np.float64]
+
+#: For the series whose error is one of the period or of the gain of v, which the number of oscillations multiplies.
+_FINEST = 1e-14
+#: Of one piece of W, as a function of u, on the way to a turning point.
+_NODES = 32
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +77,7 @@ class Motion:
     """
 
     ball: NumericBall
+    potential: Callable[[Any], Any]
     start: State
     energy: float
     band: Band
@@ -120,26 +125,40 @@ class Motion:
         du = self.band.amp * np.sin(phi) * self.phase_speed(phi) / sine
         return du, (x * n - omega_3) / ((1 + self.ball.rho) * sine**2)
 
+    def energies(self, phi: Array) -> Array:
+        """The energy from u, u', v' and n at phi, not at a pole: `energy` up to the errors of the series."""
+        sine2, x = self.band.sine(phi) ** 2, self.band.x(phi)
+        omega_3, n = self.rotation(phi)
+        du, _ = self.rates(phi)
+        twice = self.ball.K11(x) * du**2 + self.ball.transverse_energy(x, sine2, omega_3, n) / sine2
+        result: Array = twice / 2 + self.potential(self.band.colatitude(phi))
+        return result
 
-def solve_motion(sphere: BallOnSphere, potential: sp.Expr, state: State, *, tolerance: float = 1e-13) -> Motion:
-    """The motion with V(u) = `potential` (a SymPy expression in u, even and smooth at the poles) from `state` at t = 0.
 
-    `tolerance` bounds the relative truncation error of every series (1e-13 is about the rounding of floats).
+def solve_motion(sphere: BallOnSphere, potential: Potential, state: State, *, tolerance: float = 1e-13) -> Motion:
+    """The motion with V(u) = `potential` (text or SymPy: a smooth function of cos u) from `state` at t = 0.
+
+    `tolerance` bounds the relative error of t(phi) and of the attitude (1e-13 is about the rounding of floats); what the
+    number of oscillations multiplies is always as exact as floats allow.
     Raises `InputError` for symbolic parameters, for a start at a pole of the body (u = 0 or pi: v isn't defined), and for
-    a steady motion, where u stays constant; `LimitExceeded` for a motion that takes almost forever to turn.
+    a steady motion, where u stays constant; `LimitExceeded` for a motion that takes
+    almost forever to turn (less than about 1e-6 of its energy away from an asymptotic one).
 
     >>> from kovacic.mechanics.ball import Ball
     >>> sphere = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
-    >>> motion = solve_motion(sphere, sp.cos(U), State(1.0, 0, 0, 1, 0, 0.5, 0.3, 2.0))
+    >>> motion = solve_motion(sphere, "cos(u)", State(1.0, 0, 0, 1, 0, 0.5, 0.3, 2.0))
     >>> 0 < motion.turning_points[0] < 1 < motion.turning_points[1]
     True
     """
     ball = NumericBall.of(sphere, np)
-    u0, du, dv, n0 = (float(value) for value in (state.u, state.du, state.dv, state.n))
+    start = State(*(float(value) for value in astuple(state)))
+    for name, value in asdict(start).items():
+        if not abs(value) <= LARGEST:
+            raise InputError(f"{name} = {value} isn't a number that a motion can start with")
+    u0, du, dv, n0 = start.u, start.du, start.dv, start.n
     if not 0 < u0 < np.pi:
         raise InputError(f"the motion must start between the poles, 0 < u < pi, not at u = {u0}")
-    start = State(*(float(value) for value in astuple(state)))
-    V = _compiled(potential)
+    V = compiled(potential)
     x0, s0 = np.cos(u0), np.sin(u0)
     omega0 = x0 * n0 - (1 + ball.rho) * s0**2 * dv
     transverse = ball.transverse_energy(x0, s0**2, omega0, n0)
@@ -150,19 +169,20 @@ def solve_motion(sphere: BallOnSphere, potential: sp.Expr, state: State, *, tole
         u = np.arctan2(np.sqrt(sine2), x)
         return 2 * (energy - V(u)) * sine2 - ball.transverse_energy(x, sine2, omega_3, n)
 
-    band = _turning_points(lambda x, sine2: numerator(x, sine2) / ball.K11(x), x0, u0, du)
+    cancelling = 2 * (abs(energy) + abs(float(V(u0)))) * s0**2 + transverse
+    band = _turning_points(lambda x, sine2: numerator(x, sine2) / ball.K11(x), u0, float(cancelling / ball.K11(x0)))
 
     def speed(phi: Array) -> Array:
         x = band.x(phi)
         W = numerator(x, band.sine(phi) ** 2) / ball.K11(x)
         square: Array = W / (band.amp * np.sin(phi)) ** 2
         if square.min() <= 0:
-            raise InputError("the motion is asymptotic: W has a double zero at a turning point")
+            raise InputError("the motion is asymptotic, or nearly: W has a double zero at a turning point")
         root: Array = np.sqrt(square)
         return root
 
     # The quotient is 0/0 at the turning points, so it is sampled once, coarsely, and continued as a Chebyshev series.
-    Q = series.cosine_series(speed, max(tolerance, 1e-14))
+    Q = series.cosine_series(speed, _FINEST)
 
     def longitude_numerator(phi: Array) -> Array:
         x = band.x(phi)
@@ -171,62 +191,78 @@ def solve_motion(sphere: BallOnSphere, potential: sp.Expr, state: State, *, tole
         return quotient
 
     time = Primitive.of(series.cosine_series(lambda phi: 1 / chebyshev.chebval(np.cos(phi), Q), tolerance))
-    longitude = _longitude(band, longitude_numerator, tolerance)
+    longitude = _longitude(band, longitude_numerator)
     height = np.clip((x0 - (band.bottom - band.top) / 2) / band.amp, -1.0, 1.0)
     phi_0 = float(np.arccos(height)) if du >= 0 else -float(np.arccos(height))
-    return Motion(ball, start, energy, band, float(omega0), Q, time, longitude, phi_0, tolerance)
+    return Motion(ball, V, start, energy, band, float(omega0), Q, time, longitude, phi_0, tolerance)
 
 
-def _compiled(potential: sp.Expr) -> Callable[[Any], Any]:
-    V = sp.sympify(potential)
-    if V.free_symbols - {U}:
-        raise InputError(f"the potential depends on u alone, not on {V.free_symbols - {U}}")
-    compiled: Callable[[Any], Any] = sp.lambdify(U, V, modules="numpy", cse=True)
-    return compiled
+def _turning_points(W: Callable[[Any, Any], Any], u0: float, scale: float) -> Band:
+    """The zeros of W(x, 1 - x^2) on both sides of u0; `scale` is the size of what cancels in W at u0."""
 
+    def from_pole(sign: int) -> Callable[[float], float]:
+        """W as a function of the angle from the pole x = `sign`, exact near it."""
+        return lambda w: float(W(sign * np.cos(w), np.sin(w) ** 2))
 
-def _turning_points(W: Callable[[Any, Any], Any], x0: float, u0: float, du: float) -> Band:
-    """The zeros of W on both sides of x0, each to full relative accuracy as a distance from its pole."""
-    scale = max(abs(float(W(z, 1 - z * z))) for z in np.linspace(-0.99, 0.99, 41))
-    coefficients = series.chebyshev_interpolant(lambda z: W(z, 1 - z * z))
-    roots = chebyshev.chebroots(chebyshev.chebtrim(coefficients, 1e-15 * scale))
-    real = np.sort(roots.real[(np.abs(roots.imag) < 1e-7) & (np.abs(roots.real) < 1)])
-    step = 1e-6 * np.sin(u0)
-    slope = float(W(x0 + step, 1 - (x0 + step) ** 2) - W(x0 - step, 1 - (x0 - step) ** 2)) / (2 * step)
-    here = float(W(x0, np.sin(u0) ** 2))
-    at_rest = abs(here) <= 1e-13 * scale
+    along = from_pole(1)
+    at_rest = along(u0) <= 1e-13 * scale
+    step = 1e-6 * min(u0, np.pi - u0)
+    slope = (along(u0 + step) - along(u0 - step)) / (2 * step)
     if at_rest and abs(slope) <= 1e-9 * scale:
         raise InputError(f"the motion is steady: u = {u0} stays constant")
-    half = 2 * np.sin(u0 / 2) ** 2, 2 * np.cos(u0 / 2) ** 2
-    top = half[0] if at_rest and slope < 0 else _distance(W, x0, half[0], real, 1, scale, at_rest)
-    bottom = half[1] if at_rest and slope > 0 else _distance(W, x0, half[1], real, -1, scale, at_rest)
+
+    def distance(sign: int, begin: float) -> float:
+        """The distance 1 - cos w of the turning point from the pole x = `sign`, from which the start is at an angle `begin`."""
+        F = from_pole(sign)
+        if at_rest and sign * slope > 0:
+            return float(2 * np.sin(begin / 2) ** 2)
+
+        def deflated(w: float) -> float:
+            return abs(slope) if w == begin else F(w) / (begin - w)
+
+        w = _largest_zero(deflated if at_rest else F, begin, 1e-30 * scale)
+        return float(2 * np.sin(w / 2) ** 2)
+
+    top, bottom = distance(1, u0), distance(-1, np.pi - u0)
     return Band(top, bottom, 1 - (top + bottom) / 2)
 
 
-def _distance(
-    W: Callable[[Any, Any], Any], x0: float, begin: float, roots: Array, sign: int, scale: float, at_rest: bool
-) -> float:
-    """The distance of the turning point from the pole x = `sign`; `begin` is that of the start."""
+def _largest_zero(F: Callable[[float], float], begin: float, negligible: float) -> float:
+    """The largest zero in [0, begin] of F, which is positive at `begin`; 0 where there is none before the pole w = 0.
 
-    def value(distance: float) -> float:
-        return float(W(sign * (1 - distance), distance * (2 - distance)))
+    F is interpolated piece by piece, and looked at between the real zeros of the interpolants: a zero is where F turns
+    negative.  At the pole itself F is minus a square, and counts as negative beyond `negligible`.
+    """
+    nodes = np.cos((np.arange(_NODES) + 0.5) * np.pi / _NODES)
+    above = end = length = begin
+    while end > 0:
+        start = max(0.0, end - length)
+        middle, half = (start + end) / 2, (end - start) / 2
+        coefficients = chebyshev.chebfit(nodes, [F(middle + half * z) for z in nodes], _NODES - 1)
+        size = np.abs(coefficients)
+        if size[-4:].max() > 1e-9 * size.max():
+            length = (end - start) / 2
+            if length < 1e-6:
+                raise InputError(
+                    f"the potential isn't smooth: its part near an angle {end:.4g} from a pole isn't resolved"
+                )
+            continue
+        roots = chebyshev.chebroots(chebyshev.chebtrim(coefficients, 1e-15 * size.max()))
+        near = roots.real[(np.abs(roots.imag) < 1e-7) & (np.abs(roots.real) < 1)]
+        stops = [end, *(middle + half * np.sort(near)[::-1]), start]
+        for gate in [*((p + q) / 2 for p, q in pairwise(stops)), start]:
+            value = F(gate)
+            if value < (0 if gate > 0 else -negligible):
+                return float(brentq(F, gate, above, xtol=1e-300, rtol=1e-15, maxiter=500))
+            if value > 0:
+                above = gate
+        end, length = start, 2 * (end - start)
+    return 0.0
 
-    if at_rest:
-        begin -= 1e-5 * min(begin, 1.0)
-    ahead = np.sort(sign * roots[sign * roots > 1 - begin - 1e-9])
-    gates = [1 - (a + b) / 2 for a, b in pairwise([*ahead, 1.0])]
-    for gate in [g for g in gates if g < begin]:
-        if value(gate) < 0:
-            return float(brentq(value, gate, begin, xtol=1e-300, rtol=1e-15, maxiter=500))
-    # At the pole itself W is minus a square of (n - omega_3), exact to the square of a rounding error.
-    if value(0.0) >= -1e-30 * scale:
-        return 0.0
-    return float(brentq(value, 0.0, begin, xtol=1e-300, rtol=1e-15, maxiter=500))
 
-
-def _longitude(band: Band, numerator: Callable[[Array], Array], tolerance: float) -> Primitive:
+def _longitude(band: Band, numerator: Callable[[Array], Array]) -> Primitive:
     """The primitive of numerator/(1 - x^2) over phi, as half the sum of numerator/(1 - x) and numerator/(1 + x)."""
-    G = series.cosine_series(numerator, tolerance)
+    G = series.cosine_series(numerator, _FINEST)
     regular = np.zeros(1)
     near: list[tuple[float, float, float]] = []
     for sign, gap in ((1, band.top), (-1, band.bottom)):
@@ -236,7 +272,7 @@ def _longitude(band: Band, numerator: Callable[[Array], Array], tolerance: float
                 lambda phi, pole=pole, sign=sign: (  # type: ignore[misc]
                     chebyshev.chebval(np.cos(phi), G) / (2 * band.amp * sign * (pole - np.cos(phi)))
                 ),
-                tolerance,
+                _FINEST,
             )
         else:
             H, value = series.divide(G, pole)

@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import sympy as sp
 from numpy.typing import NDArray
 
 from kovacic.mechanics.attitude import Place, locate
 from kovacic.mechanics.ball import BallOnSphere
 from kovacic.mechanics.direct import DirectSolution, integrate
 from kovacic.mechanics.motion import Motion
+from kovacic.mechanics.potential import Potential
 
 Array = NDArray[np.float64]
 _BLUE, _ORANGE, _GREY, _GREEN = "#1f5f99", "#d9731a", "#8a8a8a", "#2f7d4f"
@@ -51,7 +51,7 @@ class Comparison:
 
 
 def compare(
-    sphere: BallOnSphere, potential: sp.Expr, motion: Motion, end: float, *, samples: int = 1200, rtol: float = 1e-12
+    sphere: BallOnSphere, potential: Potential, motion: Motion, end: float, *, samples: int = 1200, rtol: float = 1e-12
 ) -> Comparison:
     """Sample the motion on [0, end] and integrate Woronetz's equations directly (DOP853) to the same times."""
     times = np.linspace(0.0, end, samples)

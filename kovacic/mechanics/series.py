@@ -20,7 +20,7 @@ from kovacic.errors import LimitExceeded
 Array = NDArray[np.float64]
 
 #: The largest number of sample points; beyond it the motion is as good as asymptotic to a steady one.
-MAX_SAMPLES = 1 << 16
+MAX_SAMPLES = 1 << 14
 
 
 def cosine_series(function: Callable[[Any], Any], tolerance: float) -> Array:
@@ -42,7 +42,8 @@ def cosine_series(function: Callable[[Any], Any], tolerance: float) -> Array:
             return coefficients[: int(kept[-1]) + 1 if kept.size else 1]
         samples *= 2
     raise LimitExceeded(
-        f"the integrand needs more than {MAX_SAMPLES} samples: the motion is nearly asymptotic", limit="samples"
+        f"the integrand needs more than {MAX_SAMPLES} samples: the motion is nearly asymptotic, or the potential rough",
+        limit="samples",
     )
 
 
@@ -122,8 +123,3 @@ def invert(primitive: Primitive, values: Array, tolerance: float) -> Array:
         if np.abs(change).max(initial=0.0) <= max(tolerance, 4e-16 * 2 * np.pi):
             break
     return phi + 2 * np.pi * turns
-
-
-def chebyshev_interpolant(function: Callable[[Array], Any], tolerance: float = 1e-13) -> Array:
-    """The Chebyshev series of a smooth function on [-1, 1]."""
-    return cosine_series(lambda phi: np.asarray(function(np.cos(phi)), dtype=float), tolerance)

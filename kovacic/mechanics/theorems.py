@@ -23,7 +23,7 @@ from typing import Any
 import sympy as sp
 
 from kovacic.errors import InputError
-from kovacic.mechanics.ball import Ball, BallOnSphere, ball_with_roots
+from kovacic.mechanics.ball import Ball, BallOnSphere, Equation, ball_with_roots
 from kovacic.mechanics.field import Extension, Quotient, Ring, Surd, base_part, differentiate
 from kovacic.mechanics.meridian import X
 
@@ -101,22 +101,58 @@ def semi_invariant(sphere: BallOnSphere) -> Proof:
     )
 
 
+def printed_equations(rho: sp.Expr) -> tuple[Equation, Equation]:
+    """(12) and (13) as the paper prints them, in the roots x1, x2 of D, for R/R1 = rho."""
+    x1, x2 = sp.symbols("x1 x2")
+    d1 = sp.Rational(3, 2) * (2 * X - x1 - x2) / ((X - x1) * (X - x2))
+    d2 = (1 - rho**2) / ((X - x1) * (X - x2))
+    k = sp.Rational(1, 8) * (1 + 8 * rho**2) / (x1 - x2)
+    S = k / (X - x1) - k / (X - x2) - sp.Rational(3, 16) * ((X - x1) ** -2 + (X - x2) ** -2)
+    return Equation(12, X, (d1, d2)), Equation(13, X, (S,))
+
+
 def printed_forms() -> Proof:
-    """(12) and (13) as the paper prints them, with the roots x1, x2 of D, derived from the profile."""
+    """The printed (12) and (13) are the ones that are derived from the profile."""
     equation = ball_with_roots().rational_form()
     element = equation.first.ring.element
-    R, R1, x1, x2 = sp.symbols("R R1 x1 x2")
-    d1 = 3 * (2 * X - x1 - x2) / (2 * (X - x1) * (X - x2))
-    d2 = (R1**2 - R**2) / ((X - x1) * (X - x2) * R1**2)
-    k = (R1**2 + 8 * R**2) / (8 * R1**2 * (x1 - x2))
-    S = k / (X - x1) - k / (X - x2) - sp.Rational(3, 16) * ((X - x1) ** -2 + (X - x2) ** -2)
+    twelve, thirteen = printed_equations(sp.Symbol("R") / sp.Symbol("R1"))
+    d1, d2 = map(element, twelve.coefficients)
+    (S,) = map(element, thirteen.coefficients)
     return Proof(
         "equations (12) and (13) in the roots x1, x2",
         (
-            Step("(12): d1 = 3(2x - x1 - x2)/(2(x - x1)(x - x2))", equation.first == element(d1)),
-            Step("(12): d2 = (R1^2 - R^2)/((x - x1)(x - x2) R1^2)", equation.second == element(d2)),
-            Step("(13): S as printed", equation.normal_form() == element(S)),
+            Step("(12): d1 = 3(2x - x1 - x2)/(2(x - x1)(x - x2))", equation.first == d1),
+            Step("(12): d2 = (R1^2 - R^2)/((x - x1)(x - x2) R1^2)", equation.second == d2),
+            Step("(13): S as printed", equation.normal_form() == S),
         ),
+    )
+
+
+def spin_in_the_roots() -> Proof:
+    """n that goes with omega_3 = t^(+-rho)/sqrt(alpha beta): both solve the derived linear equations, for all parameters.
+
+    With z = sqrt(alpha beta): n = -((A3 - A1)/A1) t^(+-rho) (+-1 + (alpha + beta)/(2 z)).
+    """
+    sphere = ball_with_roots()
+    system = sphere.linear_system()
+    ring, s = system.meridian.ring, -system.meridian.rate
+    a1, a2, b1, b2 = (base_part(entry / s) for entry in system.elements)
+    element = ring.element
+    x, x1, x2, A1, A3 = (element(sp.Symbol(name)) for name in (X.name, "x1", "x2", "A1", "A3"))
+    rho, alpha, beta, zero = element(sphere.ratio), x - x1, x - x2, x * 0
+    z = Surd(Extension(alpha * beta, sp.Symbol("z"), 1), zero, zero + 1)
+    steps = []
+    for sign in (1, -1):
+        power: Any = sign * rho / z  # the logarithmic derivative of t^(+-rho)
+        omega: Any = 1 / z
+        n: Any = -((A3 - A1) / A1) * (sign + (alpha + beta) / (2 * z))
+        label = "+" if sign > 0 else "-"
+        for name, value, right in (("n", n, a1 * n + a2 * omega), ("omega_3", omega, b1 * n + b2 * omega)):
+            # d/du = -sin u d/dx
+            holds = not (differentiate(value, zero + 1) + power * value + right)
+            steps.append(Step(f"the equation for d {name}/du, with t^({label}rho)", holds))
+    return Proof(
+        "n = -((A3 - A1)/A1) (+-1 + (alpha + beta)/(2 sqrt(alpha beta))) t^(+-rho) goes with omega_3", tuple(steps)
     )
 
 
@@ -141,13 +177,28 @@ class RationalSolutions:
         first, second = (theta + P.partial() / P for theta, P in zip(self.thetas, self.factors, strict=True))
         return first, second
 
-    def expressions(self) -> tuple[sp.Expr, sp.Expr]:
-        """The two solutions omega_3 with the paper's x1 and x2."""
+    def spins(self, sign: int) -> tuple[Quotient, Quotient]:
+        """The Q of n = -((A3 - A1)/A1) Q (x-x1)^e1 (x-x2)^e2 that go with the two omega_3, for R/R1 = sign N/2.
+
+        They come from the linear equation for omega_3: rho Q = alpha beta (P' + theta P) + (2 rho - 1)/4 (alpha + beta) P.
+        """
+        ring = self.factors[0].ring
+        alpha = ring.element(X)
+        beta = alpha + ring.element(sp.Symbol("delta"))
+        rho = ring.element(sp.Rational(sign * self.N, 2))
+        first, second = (
+            (alpha * beta * (P.partial() + theta * P) + (2 * rho - 1) / 4 * (alpha + beta) * P) / rho
+            for P, theta in zip(self.factors, self.thetas, strict=True)
+        )
+        return first, second
+
+    def expressions(self, factors: tuple[Quotient, Quotient] | None = None) -> tuple[sp.Expr, sp.Expr]:
+        """The two solutions omega_3 with the paper's x1 and x2, or other factors with the same powers."""
         x1, x2 = sp.symbols("x1 x2")
         shift = {sp.Symbol("delta"): x1 - x2, X: X - x1}
         first, second = (
             sp.expand(P.expression().subs(shift, simultaneous=True)) * (X - x1) ** e1 * (X - x2) ** e2
-            for P, (e1, e2) in zip(self.factors, self.exponents, strict=True)
+            for P, (e1, e2) in zip(factors or self.factors, self.exponents, strict=True)
         )
         return first, second
 
