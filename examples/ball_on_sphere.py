@@ -24,6 +24,7 @@ from kovacic.mechanics.theorems import (
     printed_forms,
     rational_solutions,
     semi_invariant,
+    spin_in_the_roots,
     symbolic_ball,
     two_exponentials,
 )
@@ -42,6 +43,7 @@ def main() -> int:
         two_exponentials(),
         exponents(),
         double_root(),
+        spin_in_the_roots(),
     ]
     for proof in proofs:
         print(proof.text(), end="\n\n")

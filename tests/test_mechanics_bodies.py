@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 import sympy as sp
 
@@ -37,3 +39,26 @@ def test_a_profile_without_a_rational_form_is_refused_with_the_reason() -> None:
     equation = Body(BODIES["ellipsoid"][0], sp.Integer(1), HALF, THIRD, sp.Integer(5)).linear_system().second_order()
     with pytest.raises(kovacic.InputError, match="square root"):
         equation.rational_form()
+
+
+def test_thin_disk_on_a_plane_with_all_parameters_symbolic() -> None:
+    """k = A3 m R^2/(A1 (A3 + m R^2)) > 0 for every body, and the solvable values of k aren't positive."""
+    m, R, A1, A3 = sp.symbols("m R A1 A3")
+    equation = Body(Profile(R, sp.Integer(0), edge=True), m, A1, A3, sp.oo).linear_system().second_order()
+    statement = kovacic.conditions(equation.rational_form().normal_form().factored(), var="x")
+    assert statement.complete is True
+    assert statement.generic.case is None
+    hoop = {"m": 1, "R": 1, "A1": Fraction(1, 2), "A3": 1}
+    assert statement.case_at(hoop) is None
+    assert statement.case_at({**hoop, "A1": Fraction(-1, 4)}) == 1  # k = -2, no body: Legendre's equation with nu = 1
+
+
+def test_torus_on_a_plane_with_a_symbolic_moment() -> None:
+    """No moment A3 > 0 has a closed form: proven for all of them at once."""
+    A3 = sp.Symbol("A3")
+    equation = Body(BODIES["torus"][0], sp.Integer(1), sp.Integer(3), A3, sp.oo).linear_system().second_order()
+    statement = kovacic.conditions(equation.rational_form(half_angle=True).normal_form().factored(), var="x")
+    assert statement.complete is True
+    assert statement.generic.case is None
+    for value in (Fraction(1, 2), 4, 6):
+        assert statement.case_at({"A3": value}) is None
