@@ -74,14 +74,10 @@ def exponentials(problem: NumericProblem) -> list[Exponential]:
 
 def _companion(closed: ClosedForm) -> tuple[RatFunc, Poly] | None:
     """(theta, P) of y2 = y1 int y1^-2 where y1^2 is rational, of small degree, and the integral is rational too."""
-    residues = decompose(closed.theta).residues
-    sizes = [r.value.field.rational_value(r.value) if r.is_constant else None for r in residues]
-    degree = sum(_SMALL if v is None else abs(v) * r.factor.degree for r, v in zip(residues, sizes, strict=True))
-    if degree + closed.P.degree > _SMALL:  # before the square is written out: it may be x^1000000
+    if closed.square_size is None or closed.square_size // 2 + closed.P.degree > _SMALL:
         return None
     square = closed.rational_square
-    if square is None:
-        return None
+    assert square is not None
     inverse = decompose(1 / (square * RatFunc(closed.P) ** 2))
     if inverse.residues:
         return None

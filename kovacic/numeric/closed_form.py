@@ -53,6 +53,9 @@ if TYPE_CHECKING:
 _CHEAP_DEGREE = 60
 """Degree of P up to which its evaluation costs less than the Taylor steps."""
 
+_LARGEST_SQUARE = 1_000
+"""Degree up to which y1^2 is written out; it may be x^1000000."""
+
 
 @dataclass(frozen=True)
 class ClosedForm:
@@ -104,16 +107,24 @@ class ClosedForm:
         return A, RatFunc(quotient, theta.den)
 
     @cached_property
-    def rational_square(self) -> RatFunc | None:
-        """A rational function with the logarithmic derivative 2 theta; None if that isn't one."""
+    def square_size(self) -> int | None:
+        """The degrees together of numerator and denominator of a rational function with the logarithmic derivative 2 theta;
+        None where there is none."""
         parts = decompose(self.theta * 2)
-        if parts.exact:
+        values = [r.value.field.rational_value(r.value) if r.is_constant else None for r in parts.residues]
+        if parts.exact or any(value is None or value.denominator != 1 for value in values):
+            return None
+        return sum(abs(int(v)) * r.factor.degree for r, v in zip(parts.residues, values, strict=True) if v is not None)
+
+    @cached_property
+    def rational_square(self) -> RatFunc | None:
+        """A rational function with the logarithmic derivative 2 theta; None if there is none, or one too large to write out."""
+        if self.square_size is None or self.square_size > _LARGEST_SQUARE:
             return None
         total = RatFunc(self.P.field.poly([1]))
-        for residue in parts.residues:
-            value = residue.value.field.rational_value(residue.value) if residue.is_constant else None
-            if value is None or value.denominator != 1:
-                return None
+        for residue in decompose(self.theta * 2).residues:
+            value = residue.value.field.rational_value(residue.value)
+            assert value is not None
             total = total * RatFunc(residue.factor) ** int(value)
         return total
 
@@ -121,7 +132,9 @@ class ClosedForm:
     def is_cheap(self) -> bool:
         """Case 1: does a leg cost less than Taylor steps (measured): no quadrature, and no polynomial of a high degree?"""
         two = len(conjugates(self.P.field)) == 2 or self.second is not None
-        return self.P.degree <= _CHEAP_DEGREE and (two or self.rational_square is not None)
+        return self.P.degree <= _CHEAP_DEGREE and (
+            two or (self.square_size is not None and self.square_size <= 2 * _CHEAP_DEGREE)
+        )
 
     @cached_property
     def charts(self) -> tuple[Chart, ...]:

@@ -1,10 +1,8 @@
 """Numerical values of solutions as enclosures: one point, many points, complex paths, any number of digits.
 
-The guarantee: the exact value of the solution (in its homotopy class of paths) lies in the returned ball.  The radius
-is at most
-10^-digits relative to the value, unless the problem forbids it (a value that is zero or can't be told from zero,
-initial values
-that are balls themselves, a limit that was reached); then the ball is wide and an `AccuracyWarning` says why.
+The guarantee: the exact value of the solution (in its homotopy class of paths) lies in the returned ball.  The radius is at
+most 10^-digits relative to the value, unless the problem forbids it (a value that is zero or can't be told from zero, initial
+values that are balls themselves, a limit that was reached); then the ball is wide and an `AccuracyWarning` says why.
 
 Two independent routes: "taylor" (the equation itself, `kovacic.numeric.transport`; every S) and "closed form"
 (the certificate of a decision, `kovacic.numeric.closed_form`; Liouvillian solutions only).
@@ -50,17 +48,13 @@ def evaluate(
 ) -> Ball | tuple[Ball, ...]:
     """The solution with y(x0) = y0, y'(x0) = dy0 at x: a ball that contains the exact value.
 
-    `equation` is S (text, SymPy expression, rational function, or a pair of coefficient lists from low to high, of
-    y'' = S y), an
-    equation a z'' + b z' + c z = 0, or a solution of this package.  `x` is a number or a sequence of numbers (a tuple
-    of balls is returned, in
-    the same order).  Numbers are exact: int, Fraction, float and complex (their binary values), Decimal and decimal
-    text,
-    mpmath and SymPy numbers; y0 and dy0 may be balls as well.
+    `equation` is S of y'' = S y (text, SymPy expression, rational function, or a pair of coefficient lists from low to high),
+    an equation a z'' + b z' + c z = 0, or a solution of this package.  `x` is a number or a sequence of numbers (a tuple of
+    balls is returned, in the same order).  Numbers are exact: int, Fraction, float and complex (their binary values), Decimal
+    and decimal text, mpmath and SymPy numbers; y0 and dy0 may be balls as well.
 
-    The path is the straight line from x0 to each x; `path=[v1, v2, ...]` goes through these vertices first;
-    `path="chain"` visits the
-    points of x one after the other.  A path through a singular point is refused.
+    The path is the straight line from x0 to each x; `path=[v1, v2, ...]` goes through these vertices first; `path="chain"`
+    visits the points of x one after the other.  A path through a singular point is refused.
 
     Raises InputError (a singular point at an end or on the path, with its distance; digits out of range; a number that
     isn't finite; an unknown method) and LimitExceeded (nothing could be said within the limits).
