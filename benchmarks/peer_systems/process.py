@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -14,6 +15,8 @@ from pathlib import Path
 from queue import Empty, Queue
 
 _START_SECONDS = 120.0
+#: Bytes of address space; FriCAS reserves eight GiB at its start.
+_ADDRESS_SPACE = 12 << 30
 
 
 @dataclass(frozen=True)
@@ -38,6 +41,11 @@ class Answer:
     form: str = "y"
     syntax: str = ""
     expressions: tuple[str, ...] = ()
+
+
+def _limit_memory() -> None:
+    """In the child: a system that wants more address space than this fails, and not the machine."""
+    resource.setrlimit(resource.RLIMIT_AS, (_ADDRESS_SPACE, _ADDRESS_SPACE))
 
 
 class System:
@@ -103,6 +111,7 @@ class System:
             text=True,
             errors="replace",
             start_new_session=True,
+            preexec_fn=_limit_memory,
             env={**os.environ, "TERM": "dumb", "COLUMNS": "1000"},
         )
         threading.Thread(target=self._read, args=(self._process, self._lines), daemon=True).start()
