@@ -207,9 +207,9 @@ def _vanishes(functions: list[Callable[[Any], Any]], point: Any) -> bool | None:
     except (ZeroDivisionError, ValueError, TypeError, NameError, OverflowError, KeyError, mpmath.libmp.NoConvergence):
         return None
     size = max(abs(value) for value in values)
-    if not mpmath.isfinite(size) or size == 0:
+    if not mpmath.isfinite(size):
         return None
-    return bool(abs(sum(values)) < size * mpmath.mpf(10) ** -DIGITS)
+    return bool(abs(sum(values)) <= size * mpmath.mpf(10) ** -DIGITS)
 
 
 def _riccati_holds(S_text: str, coefficients: list[Any], constant: str, points: list[Any]) -> list[bool]:
@@ -227,7 +227,7 @@ def _riccati_holds(S_text: str, coefficients: list[Any], constant: str, points: 
                 change = -mpmath.polyval(d, root) / mpmath.polyval(derivative, root)
                 terms = [change, root**2, -scalar(point, 0)]
                 size = max(abs(t) for t in terms)
-                result.append(bool(abs(sum(terms)) < size * mpmath.mpf(10) ** -DIGITS))
+                result.append(bool(abs(sum(terms)) <= size * mpmath.mpf(10) ** -DIGITS))
     return result if all(result) else [False]
 
 

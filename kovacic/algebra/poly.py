@@ -404,6 +404,14 @@ class RationalPoly(Poly):
             raise TypeError("both polynomials must lie over the same field")
         return RationalPoly(self.rep.gcd(other.rep))
 
+    def inverse_modulo(self, modulus: Poly) -> RationalPoly:
+        if not isinstance(modulus, RationalPoly):
+            raise TypeError("both polynomials must lie over the same field")
+        common, cofactor, _ = self.rep.xgcd(modulus.rep)
+        if common != 1:
+            raise ZeroDivisionError("not invertible: the polynomials have a common factor")
+        return RationalPoly(cofactor % modulus.rep)
+
     def derivative(self) -> RationalPoly:
         return RationalPoly(self.rep.derivative())
 
