@@ -243,3 +243,14 @@ def test_a_resonance_is_resolved() -> None:
     assert polynomial_solution(w2, w1, w0, 1, lambda: None) == other.monic()
     assert polynomial_solution(w2, w1, w0, 2, lambda: None) is None
     assert x.degree == 1
+
+
+@pytest.mark.parametrize("degree", [17, 25, 40])
+def test_inverses_modulo_a_polynomial_of_high_degree_are_those_of_euclid(degree: int) -> None:
+    modulus = QQ.poly([*range(1, degree + 1), Fraction(7, 3)])
+    element = modulus.derivative() * Fraction(1, 5) + 1
+    inverse = element.inverse_modulo(modulus)
+    assert inverse == Poly.inverse_modulo(element, modulus)
+    assert (inverse * element - 1) % modulus == 0
+    with pytest.raises(ZeroDivisionError):
+        (modulus * element).inverse_modulo(modulus)

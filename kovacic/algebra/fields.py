@@ -237,6 +237,27 @@ class RationalField(Field):
     def from_scalars(self, coefficients: Sequence[Any]) -> Poly:
         return RationalPoly(fmpq_poly(list(coefficients)))
 
+    def inverse_modulo(self, element: RationalPoly, modulus: RationalPoly) -> Poly:
+        """The inverse modulo a polynomial of a high degree, from inverses modulo primes: as many as the result needs.
+
+        Euclid's algorithm over Q, and flint's, work with numbers as large as resultants.
+        """
+        if element.gcd(modulus).degree > 0:
+            raise ZeroDivisionError("not invertible: the polynomials have a common factor")
+        lifter = self.lifter()
+        for bundle in self.bundles():
+            try:
+                image, reduced = bundle[0](element), bundle[0].keeping_degree(modulus)
+            except BadPrimeError:
+                continue
+            common, cofactor, _ = image.xgcd(reduced)
+            if common.degree() > 0:
+                continue
+            proposal = lifter.add(bundle, [[cofactor % reduced]])
+            if proposal is not None and (proposal[0] * element - 1) % modulus == 0:
+                return proposal[0]
+        raise AssertionError("there are infinitely many primes")
+
     def sqrt(self, constant: Poly) -> Poly | None:
         value = constant.rep[0]  # type: ignore[attr-defined]
         if value < 0 or not value.p.is_square() or not value.q.is_square():

@@ -285,6 +285,10 @@ class Poly(ABC):
         return f"<{type(self).__name__} {self.to_str()}>"
 
 
+#: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
+_EUCLID_DEGREE = 16
+
+
 class RationalPoly(Poly):
     """A polynomial over the rational numbers, on flint's `fmpq_poly`."""
 
@@ -405,12 +409,8 @@ class RationalPoly(Poly):
         return RationalPoly(self.rep.gcd(other.rep))
 
     def inverse_modulo(self, modulus: Poly) -> RationalPoly:
-        if not isinstance(modulus, RationalPoly):
-            raise TypeError("both polynomials must lie over the same field")
-        common, cofactor, _ = self.rep.xgcd(modulus.rep)
-        if common != 1:
-            raise ZeroDivisionError("not invertible: the polynomials have a common factor")
-        return RationalPoly(cofactor % modulus.rep)
+        small = modulus.degree <= _EUCLID_DEGREE
+        return super().inverse_modulo(modulus) if small else self.rationals.inverse_modulo(self, modulus)  # type: ignore[attr-defined]
 
     def derivative(self) -> RationalPoly:
         return RationalPoly(self.rep.derivative())
