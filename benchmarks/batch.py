@@ -56,6 +56,10 @@ class Run:
     memory: list[tuple[int, float, float]] = field(default_factory=list)
 
 
+#: Equations for each process before the clock starts: modules are imported when they are first used.
+_WARM_UP = 100
+
+
 def equations(count: int) -> Iterator[str]:
     """The mixed equations, in an order in which long and short ones alternate."""
     published = [read_input(json.loads(line)["S"]).S for line in CASES.read_text().splitlines()]
@@ -82,7 +86,8 @@ def _shifted(S: RatFunc, k: int) -> RatFunc:
 
 def bare_loop(texts: list[str]) -> tuple[float, float]:
     """Wall-clock and processor seconds of a loop that does the same without any process."""
-    kovacic.solve("x^2 + 3").to_json()
+    for text in equations(_WARM_UP):
+        kovacic.solve(text).to_json()
     start, processor = time.perf_counter(), time.process_time()
     for text in texts:
         kovacic.solve(text).to_json()
@@ -96,7 +101,7 @@ def run(texts: Iterator[str] | list[str], jobs: int, count: int, *, samples: int
     summary = Summary()
     pool = Pool(jobs, Job(timeout=60.0, memory=1000))
     with pool:
-        list(pool.run([Item(-k, "x^2 + 3") for k in range(1, 1 + 4 * jobs)]))
+        list(pool.run([Item(-k, text) for k, text in enumerate(equations(jobs * _WARM_UP), start=1)]))
         before = sum(_processor_seconds(pid) for pid in pool.pids())
         start, processor = time.perf_counter(), time.process_time()
         items = (Item(number, text) for number, text in enumerate(texts, start=1))
