@@ -280,7 +280,7 @@ def _value_at(expression: Any, x: Any, point: Any) -> Any:
     """The value at an ordinary point, where the expression may be of the form 0/0."""
     import sympy
 
-    expression = sympy.sympify(expression)
+    expression = sympy.sympify(expression, strict=True)
     value = expression.subs(x, point)
     if value.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):
         value = sympy.limit(expression, x, point)

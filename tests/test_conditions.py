@@ -137,6 +137,10 @@ def test_algebraic_points(answers: dict[str, Conditions]) -> None:
     assert answers["whittaker"].case_at({"k": sympy.sqrt(2), "m": sympy.Rational(1, 2) - sympy.sqrt(2)}) == 1
     assert answers["whittaker"].case_at({"k": "sqrt(2)", "m": "1/2 + sqrt(2)"}) == 1
     assert answers["whittaker"].case_at({"k": "sqrt(2)", "m": "1/2"}) is None
+    assert answers["whittaker"].case_at({"k": sympy.sqrt(2), "m": "1/2 + sqrt(2)"}) == 1
+    for values in ({"k": sympy.sqrt(2), "m": None}, {"k": sympy.pi, "m": 1}, {"k": "__import__('os')", "m": 1}):
+        with pytest.raises(kovacic.InputError):
+            answers["whittaker"].case_at(values)
 
 
 def test_a_polynomial_of_degree_two_in_all_its_coefficients() -> None:
@@ -266,9 +270,9 @@ def test_assumptions_of_symbols_and_wrong_ones() -> None:
     x, n = sympy.Symbol("x"), sympy.Symbol("n", odd=True)
     assert kovacic.conditions(x**2 + n, var=x).generic.case == 1
     assert kovacic.conditions(x**2 + n, var=x, assume={n: "positive"}).to_dict()["assumptions"] == {"n": "odd positive"}
-    for assume in ({"mu": "prime"}, {"nu": "integer"}, {"mu": ""}):
+    for assume in ({"mu": "prime"}, {"nu": "integer"}, {"mu": ""}, ["mu"], "mu"):
         with pytest.raises(kovacic.InputError):
-            kovacic.conditions("x^2 + mu", assume=assume, var="x")
+            kovacic.conditions("x^2 + mu", assume=assume, var="x")  # type: ignore[arg-type]
 
 
 def test_solve_under_assumptions() -> None:

@@ -62,3 +62,12 @@ def test_torus_on_a_plane_with_a_symbolic_moment() -> None:
     assert statement.generic.case is None
     for value in (Fraction(1, 2), 4, 6):
         assert statement.case_at({"A3": value}) is None
+
+
+@pytest.mark.parametrize("value", ["__import__('os').getcwd()", "1", None, [1]])
+def test_text_and_other_objects_never_become_expressions_of_a_body(value: object) -> None:
+    """Nothing that isn't an expression is interpreted: SymPy would execute text."""
+    with pytest.raises(kovacic.InputError, match="can't be"):
+        Body(Profile(sp.Symbol("R"), sp.Integer(0), edge=True), value, 1, 1, sp.oo)  # type: ignore[arg-type]
+    with pytest.raises(kovacic.InputError, match="can't be"):
+        Profile(value, sp.Integer(0))  # type: ignore[arg-type]

@@ -27,6 +27,17 @@ U = sp.Symbol("u")
 X = sp.Symbol("x")
 
 
+def as_expression(value: Any, what: str) -> sp.Expr:
+    """A number or a SymPy expression as the latter.  Raises `InputError` for anything else, text included."""
+    try:
+        expression = sp.sympify(value, strict=True)
+    except sp.SympifyError:
+        raise InputError(f"{what} is a number or a SymPy expression, it can't be {value!r}") from None
+    if not isinstance(expression, sp.Expr):
+        raise InputError(f"{what} is a number or a SymPy expression, it can't be {value!r}")
+    return expression
+
+
 @dataclass(frozen=True, slots=True)
 class Profile:
     """A meridian as the user writes it: SymPy expressions f, g in `u`, rational in cos u and sin u or in u itself.
@@ -42,6 +53,10 @@ class Profile:
     f: sp.Expr
     g: sp.Expr
     edge: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "f", as_expression(self.f, "f(u)"))
+        object.__setattr__(self, "g", as_expression(self.g, "g(u)"))
 
     @property
     def trigonometric(self) -> bool:
@@ -133,13 +148,13 @@ def _square_root(E: Any, s: Surd | None) -> Any:
 
 
 def _at_x(expression: sp.Expr) -> sp.Expr:
-    return sp.sympify(expression).subs(U, X)
+    return expression.subs(U, X)
 
 
 def _trigonometric(expression: sp.Expr, ring: Ring, s: Surd) -> Any:
     """An expression in cos u and sin u as an element of K1."""
     sine = sp.Dummy("s")
-    plain = sp.expand_trig(sp.sympify(expression)).replace(sp.tan, lambda z: sp.sin(z) / sp.cos(z))
+    plain = sp.expand_trig(expression).replace(sp.tan, lambda z: sp.sin(z) / sp.cos(z))
     plain = plain.subs({sp.cos(U): X, sp.sin(U): sine})
     if plain.has(U):
         raise InputError(

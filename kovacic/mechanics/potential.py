@@ -14,7 +14,7 @@ import sympy as sp
 
 from kovacic.errors import InputError
 from kovacic.mechanics.ball import BallOnSphere
-from kovacic.mechanics.meridian import U
+from kovacic.mechanics.meridian import U, as_expression
 from kovacic.mechanics.reading import read_expression
 
 Potential: TypeAlias = "sp.Expr | str | float"
@@ -29,8 +29,11 @@ def potential_of(value: Potential) -> sp.Expr:
     >>> potential_of("3/2*cos(u)")
     3*cos(u)/2
     """
-    V = read_expression(value, what="the potential", names={U.name: U}) if isinstance(value, str) else sp.sympify(value)
-    if not isinstance(V, sp.Expr) or V.free_symbols - {U} or V.has(sp.I):
+    if isinstance(value, str):
+        V = read_expression(value, what="the potential", names={U.name: U})
+    else:
+        V = as_expression(value, "the potential")
+    if V.free_symbols - {U} or V.has(sp.I):
         raise InputError(f"the potential is a real function that depends on u alone, it can't be {value}")
     return V
 

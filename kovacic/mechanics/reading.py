@@ -61,7 +61,7 @@ class _Expressions(Arithmetic):
         return self._checked(left / right)
 
     def power(self, base: Any, exponent: Any) -> Any:
-        n = sp.sympify(exponent)
+        n = sp.sympify(exponent, strict=True)
         if not n.is_Integer:
             raise NotAnInteger
         if abs(n) > self.limits.exponent:

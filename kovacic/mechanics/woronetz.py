@@ -22,7 +22,7 @@ import sympy as sp
 
 from kovacic.errors import InputError
 from kovacic.mechanics.field import Element, Quotient, Surd, base_part
-from kovacic.mechanics.meridian import Meridian, Profile, U, X, read_meridian
+from kovacic.mechanics.meridian import Meridian, Profile, U, X, as_expression, read_meridian
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,10 +45,14 @@ class Body:
     A3: sp.Expr
     R1: sp.Expr
 
+    def __post_init__(self) -> None:
+        for name in ("m", "A1", "A3", "R1"):
+            object.__setattr__(self, name, as_expression(getattr(self, name), name))
+
     @property
     def names(self) -> tuple[str, ...]:
         """The names of all parameters, sorted."""
-        symbols = set().union(*(sp.sympify(value).free_symbols for value in (self.m, self.A1, self.A3, self.R1)))
+        symbols = set().union(*(value.free_symbols for value in (self.m, self.A1, self.A3, self.R1)))
         return tuple(sorted(self.profile.parameters | {symbol.name for symbol in symbols}))
 
     def quantities(self) -> Quantities:
@@ -56,7 +60,7 @@ class Body:
         meridian = read_meridian(self.profile, self.names)
         element = meridian.ring.element
         zero = element(sp.Integer(0))
-        kappa = zero if sp.sympify(self.R1).is_infinite else 1 / element(self.R1)
+        kappa = zero if self.R1.is_infinite else 1 / element(self.R1)
         return Quantities.of(meridian, element(self.m), element(self.A1), element(self.A3), kappa)
 
     def linear_system(self) -> LinearSystem:

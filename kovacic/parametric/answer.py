@@ -278,11 +278,15 @@ def _point(names: tuple[str, ...], values: list[Any], constant: Point, limits: L
 
 def _constants(values: list[Any], limits: Limits) -> tuple[list[Poly], Field]:
     """The values in one field: the coefficients of one polynomial."""
-    if any(type(value).__module__.startswith("sympy") for value in values):
+    is_symbolic = any(type(value).__module__.startswith("sympy") for value in values)
+    if is_symbolic and not any(isinstance(value, str) for value in values):
         import sympy
 
         x = sympy.Symbol("x")
-        together: Any = sum((sympy.sympify(v, strict=True) * x**i for i, v in enumerate(values)), sympy.Integer(0))
+        try:
+            together: Any = sum((sympy.sympify(v, strict=True) * x**i for i, v in enumerate(values)), sympy.Integer(0))
+        except sympy.SympifyError as error:
+            raise InputError(f"the values of parameters are numbers, not {error.expr!r}") from None
     else:
         together = " + ".join(f"({value})*x^{i}" for i, value in enumerate(values))
     polynomial = read_input(together, var="x", limits=limits).S

@@ -241,6 +241,8 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     for symbol in getattr(S, "free_symbols", ()):
         if symbol.name in names:
             found[symbol.name] = _words_of(symbol)
+    if assume is not None and not isinstance(assume, Mapping):
+        raise InputError(f"assumptions are a mapping, not {assume!r}", hint='assume={"n": "integer"}')
     for name, what in (assume or {}).items():
         if str(name) not in names:
             raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
