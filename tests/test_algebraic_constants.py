@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import pickle
-import time
 from fractions import Fraction
-from statistics import median
 
 import pytest
 import sympy
@@ -51,17 +49,6 @@ def test_decided_and_verified(S: str, case: int | None) -> None:
     assert again == answer
     assert again.verify()
     assert pickle.loads(pickle.dumps(answer)) == answer
-
-
-def test_speed_class() -> None:
-    """The median over the entries, after a first run that finds the primes; the benchmark has the exact figure."""
-    times = []
-    for S, _ in ENTRIES:
-        kovacic.solve(S, var="x")
-        start = time.perf_counter()
-        kovacic.solve(S, var="x")
-        times.append(time.perf_counter() - start)
-    assert median(times) < 0.2
 
 
 def test_the_sextic_oscillator_of_the_literature() -> None:

@@ -74,7 +74,7 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
 
 
 def test_dask_answers_in_order_and_limits_hold_there(cluster: Cluster) -> None:
-    texts = [*QUICK, "(x + 1)^15000/(x^3 + 1)"]
+    texts = [*QUICK, "(x + 1)^15000/(x^3000 - x - 1)"]
     records = list(
         kovacic.solve_many(texts, timeout=2, memory=500, group=True, backend="dask", scheduler=cluster.address)
     )

@@ -344,7 +344,7 @@ def test_wrong_input_and_limits() -> None:
         kovacic.conditions("x^2 + mu", var="x").case_at({"nu": 1})
     with pytest.raises(kovacic.LimitExceeded, match="parameters"):
         kovacic.conditions("a*x + b", var="x", limits=Limits(parameters=1))
-    partial = kovacic.conditions("x^6 + a*x^2 + b", var="x", limits=Limits(seconds=0.3))
+    partial = kovacic.conditions("x^6 + a*x^2 + b", var="x", limits=Limits(seconds=0.05))
     assert isinstance(partial.complete, str)
     assert "limits" in partial.complete
 

@@ -100,7 +100,8 @@ class ExpressionBuilder:
         """The error of the arithmetic, with its place in the text."""
         if isinstance(error, LimitExceeded):
             where = f"{_shortened(site.piece_of_all())} at position {site.span()[0]}"
-            return LimitExceeded(f"{where} would have {error}", limit=error.limit)
+            said = f"{error} while {where} was read" if error.limit == "seconds" else f"{where} would have {error}"
+            return LimitExceeded(said, limit=error.limit)
         if "power" in str(error):
             return _not_rational(str(error), site, hint="0^0 isn't defined")
         position, length = site.span(len(site.begins) - 1)
