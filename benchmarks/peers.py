@@ -28,7 +28,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import families
 import textbook
-from peer_systems.process import Answer, System
+from peer_systems.process import Answer, Reply, System
 from peer_systems.systems import ALL, Dsolve, SolveRiccati
 
 import kovacic
@@ -121,23 +121,31 @@ _SMALLEST = {
 
 
 def run(system: System, checker: Checker, equations: list[Equation], limit: float, patience: int) -> list[Row]:
-    """The rows of one system; after `patience` time-outs in a row within a family, its larger sizes are time-outs as well."""
-    rows: list[Row] = []
+    """The rows of one system; after `patience` time-outs in a row within a family, its larger sizes are time-outs as well.
+
+    The system gets its equations one after the other without a pause, so that no system is slowed down by memory that
+    another process used meanwhile; the answers are checked afterwards.
+    """
+    replies: list[Reply | None] = []
     given_up: Counter[str] = Counter()
     for equation in equations:
         if equation.family and given_up[equation.family] >= patience:
-            rows.append(_row(system, equation, "time-out", "not tried", limit))
+            replies.append(None)
             continue
         reply = system.solve(equation.S, limit)
-        if reply.outcome == "text":
-            answer = system.understand(reply.text)
-            outcome = answer.kind
-            check = checker.check(equation.S, answer) if outcome == "solved" else ""
-        else:
-            outcome, check = ("time-out" if reply.outcome == "time-out" else "error"), ""
-        given_up[equation.family] = given_up[equation.family] + 1 if outcome == "time-out" else 0
-        rows.append(_row(system, equation, outcome, check, reply.seconds))
+        given_up[equation.family] = given_up[equation.family] + 1 if reply.outcome == "time-out" else 0
+        replies.append(reply)
     system.close()
+    rows: list[Row] = []
+    for equation, given in zip(equations, replies, strict=True):
+        if given is None:
+            rows.append(_row(system, equation, "time-out", "not tried", limit))
+        elif given.outcome != "text":
+            rows.append(_row(system, equation, "time-out" if given.outcome == "time-out" else "error", "", given.seconds))
+        else:
+            answer = system.understand(given.text)
+            check = checker.check(equation.S, answer) if answer.kind == "solved" else ""
+            rows.append(_row(system, equation, answer.kind, check, given.seconds))
     return rows
 
 
