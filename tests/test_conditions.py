@@ -16,7 +16,7 @@ from kovacic.algebra.fields import QQ
 from kovacic.galois.group import Kind
 from kovacic.limits import Limits
 from kovacic.parametric.answer import Conditions
-from kovacic.parametric.partition import Verdict
+from kovacic.parametric.regions import Verdict
 from kovacic.parametric.riemann import kimura
 from kovacic.solution import Structure
 from tests.parametric_cases import FAMILIES, Family
@@ -392,6 +392,43 @@ def test_other_families_agree_with_the_engine(S: str) -> None:
     report = answer.check(40)
     assert report, report.disagreements
     assert answer.complete is True or "not proven" in str(answer.complete)
+
+
+@pytest.mark.parametrize(
+    ("S", "points"),
+    [
+        # a b = c d is solved for one of them where its coefficient isn't zero; at these points it is.
+        (
+            "(a*b-c*d)*x^2 + a*x + d",
+            [(5, 0, 0, 1), (0, 0, 0, 1), (0, 0, 3, 0), (0, 5, 3, 0), (0, 1, 1, 1), (1, 1, 0, 1)],
+        ),
+        ("(a*b-c*d)*x^4 + a*x^2 + b/x^2 + d", [(5, 0, 0, 5), (4, 0, 0, 10), (0, 0, 0, 1), (1, 2, 2, 1)]),
+        ("(a*b-c)*x^2 + a/x^2 + b", [(0, 0, 0), (2, 0, 0), (0, 3, 0), (2, 1, 2)]),
+        ("(a*b-c*a-d)*x^2 + c*x + b", [(0, 1, 2, 0), (0, 1, 0, 0), (3, 1, 1, 0), (3, 0, 0, 0)]),
+        ("(a*b-1)*x^2 + b", [(1, 1), (F(1, 2), 2), (0, 0), (0, 3)]),
+    ],
+)
+def test_values_at_which_a_parameter_cannot_be_eliminated(S: str, points: list[tuple[Fraction | int, ...]]) -> None:
+    answer = kovacic.conditions(S, var="x", max_degree=1)
+    for values in points:
+        point = dict(zip(answer.parameters, values, strict=True))
+        assert answer.case_at(point) == answer.solve_at(point).case, point
+    assert answer.check(60)
+
+
+@pytest.mark.parametrize(
+    ("S", "undefined"),
+    [
+        ("1/((a^2-b^3)*x^2)", (8, 4)),
+        ("1/((a^2-b^3)*x^2 + a + b - 2)^2", (1, 1)),
+        ("x/((a^2-b^3)*x^2 + a + b - 2)", (1, 1)),
+    ],
+)
+def test_S_is_undefined_where_its_denominator_vanishes(S: str, undefined: tuple[int, int]) -> None:
+    answer = kovacic.conditions(S, var="x")
+    with pytest.raises(kovacic.InputError, match="isn't defined"):
+        answer.case_at(dict(zip("ab", undefined, strict=True)))
+    assert answer.case_at({"a": 1, "b": 2}) == answer.solve_at({"a": 1, "b": 2}).case
 
 
 def test_the_answer_at_a_point_has_its_omega(answers: dict[str, Conditions]) -> None:

@@ -18,7 +18,7 @@ from kovacic.limits import Budget, Limits
 from kovacic.parametric import sampling
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.parametric.formulas import as_latex, shown
-from kovacic.parametric.partition import Verdict
+from kovacic.parametric.regions import Verdict
 from kovacic.parametric.restriction import UndefinedError, at_point
 from kovacic.parametric.slices import NO_CONSTANT
 from kovacic.parametric.statements import Point, Statement
@@ -146,6 +146,10 @@ class Conditions:
 
     def predicted(self, point: Point) -> Verdict | None:
         """What the regions claim; None where S isn't defined."""
+        try:
+            at_point(self.S, point)
+        except UndefinedError:
+            return None
         for region in self.regions:
             if region.statement.holds(point):
                 if not region.defined:

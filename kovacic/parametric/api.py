@@ -14,7 +14,8 @@ from kovacic.io.read import read_input
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.answer import Condition, Conditions
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
-from kovacic.parametric.partition import Partition, Region, Settings, Verdict, partition, verdict_of
+from kovacic.parametric.partition import partition, verdict_of
+from kovacic.parametric.regions import Partition, Region, Settings, Verdict
 from kovacic.parametric.slices import reduced, with_free_constant
 from kovacic.parametric.statements import Both, Statement
 from kovacic.solution import Decision, Status
@@ -148,8 +149,8 @@ def _outer(region: Region) -> Condition:
 
 
 def _both(first: Statement, second: Statement) -> Statement:
-    parts = second.parts if isinstance(second, Both) else (second,)
-    return Both((first, *parts))
+    parts = [part for one in (first, second) for part in (one.parts if isinstance(one, Both) else (one,))]
+    return Both(tuple(parts))
 
 
 __all__ = ["conditions", "conditions_of", "under_assumptions"]

@@ -12,7 +12,7 @@ defined, one in case 2 is in case 1 or 2, and one that has Liouvillian solutions
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from kovacic import engine
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
@@ -21,7 +21,6 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.io.text import omega_lines
-from kovacic.limits import Budget
 from kovacic.parametric import confluent, riemann
 from kovacic.parametric.bounded import (
     degrees_that_decide,
@@ -32,9 +31,10 @@ from kovacic.parametric.bounded import (
     union,
 )
 from kovacic.parametric.degenerate import confluence, structure_changes, undefined
-from kovacic.parametric.restriction import Restriction, UndefinedError, on_hypersurface
+from kovacic.parametric.regions import Partition, Region, Settings, Verdict
+from kovacic.parametric.restriction import UndefinedError, leading_factors, missed, on_hypersurface
 from kovacic.parametric.search import search
-from kovacic.parametric.statements import Point, Statement, Vanishes, either
+from kovacic.parametric.statements import Both, Statement, Vanishes, either
 from kovacic.places import Problem, analyse
 from kovacic.result import Solution
 from kovacic.solution import Decision, Status, Structure
@@ -43,91 +43,6 @@ from kovacic.solution import Decision, Status, Structure
 _WRITTEN_OUT = 2
 #: Characters of an omega that is written out.
 _LONGEST_OMEGA = 300
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """The case (None: no Liouvillian solution), the structure, and whether that is known at all.
-
-    `family` says more about the group than the structure does.
-    """
-
-    structure: Structure | None
-    known: bool = True
-    family: str | None = field(default=None, compare=False)
-
-    @property
-    def case(self) -> int | None:
-        return None if self.structure is None else self.structure.case
-
-    @property
-    def group(self) -> str:
-        """The family of the Galois group."""
-        return (self.family or _GROUPS[self.structure]) if self.known else "not determined"
-
-
-_GROUPS = {
-    Structure.REDUCIBLE: "reducible: a subgroup of the triangular group",
-    Structure.IMPRIMITIVE: "imprimitive: dicyclic, or the infinite dihedral group",
-    Structure.TETRAHEDRAL: "binary tetrahedral, order 24",
-    Structure.OCTAHEDRAL: "binary octahedral, order 48",
-    Structure.ICOSAHEDRAL: "binary icosahedral, order 120",
-    None: "SL2(C)",
-}
-
-
-@dataclass(frozen=True)
-class Region:
-    """Where the statement holds, and no earlier region's: one verdict, or a partition of its own.
-
-    `complete` is True where it is proven that the statement describes all such values and nothing else, else a sentence.
-    `defined` is False where S itself isn't defined.  `omega` shows what becomes possible.
-    """
-
-    statement: Statement
-    verdict: Verdict
-    complete: bool | str = True
-    defined: bool = True
-    omega: str | None = None
-    inner: Partition | None = None
-    restriction: Restriction | None = None
-
-
-@dataclass(frozen=True)
-class Partition:
-    """Regions, tried in order; `generic` holds where none of them does, `complete` as for a region."""
-
-    S: RatFunc
-    names: tuple[str, ...]
-    regions: tuple[Region, ...]
-    generic: Verdict
-    complete: bool | str
-    theory: str
-
-    def locate(self, point: Point) -> tuple[Region | None, Verdict]:
-        """The region that contains the point (None: the generic one), and the verdict, `known` or not.
-
-        Raises `UndefinedError` where S isn't defined.
-        """
-        for region in self.regions:
-            if not region.statement.holds(point):
-                continue
-            if not region.defined:
-                raise UndefinedError
-            if region.inner is None:
-                return region, region.verdict
-            inner, verdict = region.inner.locate(point)
-            return (region if inner is None else inner), verdict
-        return None, self.generic if self.complete is True else replace(self.generic, known=False)
-
-
-@dataclass(frozen=True)
-class Settings:
-    """How far to go: where no theorem covers all degrees up to `max_degree` (None: then no search at all)."""
-
-    max_degree: int | None
-    budget: Budget
-    variable: str = "x"
 
 
 def partition(S: RatFunc, settings: Settings) -> Partition:
@@ -258,9 +173,7 @@ def _by_candidates(problem: Problem, generic: Verdict, settings: Settings, max_d
                     verdict = Verdict(Structure.REDUCIBLE)
                     regions.append(Region(Vanishes(function), verdict, omega=_RATIONAL_OMEGA))  # type: ignore[arg-type]
                     continue
-                region = _region_where_zero(problem, function, generic, settings)
-                if region is not None:
-                    regions.append(region)
+                regions += _regions_where_zero(problem, function, generic, settings)
     except LimitExceeded as limit:
         complete = f"only as far as the limits allowed: {limit}"
     if complete is True:
@@ -292,23 +205,63 @@ def _degenerate(problem: Problem, functions: list[Poly], settings: Settings) -> 
     """Regions for the values at which the generic theory doesn't apply."""
     regions = []
     for function in functions:
-        settings.budget.check()
-        regions.append(_inside(problem, function, settings))
+        regions += _pieces(problem.S, function, settings)
     return regions
 
 
-def _inside(problem: Problem, function: Poly, settings: Settings) -> Region:
-    """The region where a polynomial vanishes, with its own partition."""
+def _pieces(S: RatFunc, function: Poly, settings: Settings) -> list[Region]:
+    """The regions that make up the zeros of a polynomial, in their order."""
+    settings.budget.check()
+    last = _inside(S, function, settings)
+    return [*_missed(S, function, settings), last] if last.defined else [last]
+
+
+def _missed(S: RatFunc, function: Poly, settings: Settings) -> list[Region]:
+    """Regions for the zeros of a polynomial at which the parameter to be eliminated can have any value.
+
+    There a second polynomial g vanishes, so that they are the zeros of the first one on g = 0, and those that are missed there.
+    """
+    assert isinstance(function, FunctionPoly)
+    regions: list[Region] = []
+    for other in missed(function):
+        first, second = Vanishes(function), Vanishes(other)
+        try:
+            restriction = on_hypersurface(S, other)
+        except UndefinedError:
+            regions.append(Region(Both((first, second)), Verdict(None, known=False), defined=False))
+            continue
+        if restriction is None:
+            statement = Both((first, second))
+            unexamined = f"the values with {statement.text()} aren't examined"
+            regions.append(Region(statement, Verdict(None, known=False), complete=unexamined))
+            continue
+        regions += [_also(deeper, first) for deeper in _missed(S, other, settings)]
+        rest = function.value_at(list(restriction.values), restriction.field)
+        for factor in irreducible_factors(rest) if isinstance(rest, FunctionPoly) else []:
+            regions += [_also(piece, first, second) for piece in _pieces(restriction.S, factor, settings)]
+    return regions
+
+
+def _also(region: Region, *conditions: Statement) -> Region:
+    """The part of a region where more conditions hold."""
+    own = region.statement.parts if isinstance(region.statement, Both) else (region.statement,)
+    return replace(region, statement=Both((*conditions, *own)))
+
+
+def _inside(S: RatFunc, function: Poly, settings: Settings) -> Region:
+    """The region where a polynomial vanishes, with its own partition, except for the points that `missed` is about."""
     assert isinstance(function, FunctionPoly)
     statement = Vanishes(function)
     unknown = Verdict(None, known=False)
     try:
-        restriction = on_hypersurface(problem.S, function)
+        restriction = on_hypersurface(S, function)
     except UndefinedError:
         return Region(statement, unknown, defined=False)
     if restriction is None:
         return Region(statement, unknown, complete=f"the values with {statement.text()} aren't examined")
     inner = partition(restriction.S, settings)
+    elsewhere = {Vanishes(factor).text() for factor in leading_factors(function)}
+    inner = replace(inner, regions=tuple(r for r in inner.regions if r.statement.text() not in elsewhere))
     omega, verdict = None, inner.generic
     if verdict.structure is not None:
         decision = engine.decide(restriction.S, settings.budget)
@@ -328,15 +281,22 @@ def omega_text(S: RatFunc, decision: Decision, variable: str) -> str | None:
     return text if len(text) <= _LONGEST_OMEGA else _SEMI_INVARIANTS[decision.structure]
 
 
-def _region_where_zero(problem: Problem, function: Poly, generic: Verdict, settings: Settings) -> Region | None:
-    """The region for a candidate, or None if nothing changes there."""
-    region = _inside(problem, function, settings)
-    same = region.verdict.known and region.verdict.case == generic.case
-    if same and (region.inner is None or not region.inner.regions) and region.complete is True:
-        return None
-    if region.omega is not None or region.verdict.structure is None:
-        return region
-    return replace(region, omega=_SEMI_INVARIANTS[region.verdict.structure])
+def _regions_where_zero(problem: Problem, function: Poly, generic: Verdict, settings: Settings) -> list[Region]:
+    """The regions for a candidate; none if nothing changes there."""
+    regions = _pieces(problem.S, function, settings)
+    if all(_is_generic(region, generic) for region in regions):
+        return []
+    return [
+        region
+        if region.omega is not None or region.verdict.structure is None
+        else replace(region, omega=_SEMI_INVARIANTS[region.verdict.structure])
+        for region in regions
+    ]
 
 
-__all__ = ["Partition", "Region", "Settings", "Verdict", "partition", "verdict_of"]
+def _is_generic(region: Region, generic: Verdict) -> bool:
+    same = region.verdict.known and region.verdict.case == generic.case and region.complete is True
+    return same and (region.inner is None or not region.inner.regions)
+
+
+__all__ = ["partition", "verdict_of"]

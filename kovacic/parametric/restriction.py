@@ -10,6 +10,7 @@ from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.parametric.bounded import irreducible_factors
 from kovacic.parametric.formulas import shown
 from kovacic.parametric.statements import Point
 
@@ -52,18 +53,20 @@ def substituted(S: RatFunc, values: list[Poly], field: Field) -> RatFunc:
 def on_hypersurface(S: RatFunc, function: Poly) -> Restriction | None:
     """S where an irreducible polynomial in the parameters vanishes; None where it can't be solved rationally.
 
-    A parameter that occurs linearly is eliminated; with one parameter alone it becomes an algebraic number.
+    A parameter that occurs linearly is eliminated, which misses the zeros of its coefficient (`missed`); with one parameter
+    alone it becomes an algebraic number.  Raises `UndefinedError` where S isn't defined.
     """
     field = S.field
     if not isinstance(field, FunctionField) or not isinstance(function, FunctionPoly):
         raise TypeError("parameters are expected")
-    degrees = [int(k) for k in function.num.degrees()[1:]]
-    linear = [i for i, k in enumerate(degrees) if k == 1]
-    if len(field.names) == 1 and degrees[0] > 1:
+    if len(field.names) == 1 and int(function.num.degrees()[1]) > 1:
         return _algebraic(S, function, field)
-    if not linear:
+    i = _eliminated(function)
+    if i is None:
+        below = S.cleared()[1]
+        if isinstance(below, FunctionPoly) and (below.num % function.num).is_zero():
+            raise UndefinedError
         return None
-    i = min(linear, key=lambda k: sum(1 for e in function.num.to_dict() if e[1 + k]))
     rest = tuple(name for k, name in enumerate(field.names) if k != i)
     smaller: Field = FunctionField(rest) if rest else QQ
     above, below = (_part(function, i, k, smaller) for k in (0, 1))
@@ -74,6 +77,40 @@ def on_hypersurface(S: RatFunc, function: Poly) -> Restriction | None:
     ]
     text = f"{field.names[i]} = {shown(RatFunc(-above, below))}" if below.degree >= 0 else ""
     return Restriction(substituted(S, values, smaller), smaller, field.names, tuple(values), text)
+
+
+def leading_factors(function: Poly) -> list[FunctionPoly]:
+    """The irreducible factors of A where `on_hypersurface` solves A t + B = 0 by t = -B/A.
+
+    It covers the zeros at which none of them vanishes.
+    """
+    assert isinstance(function, FunctionPoly)
+    i = _eliminated(function)
+    if i is None or not _depends(function, i):
+        return []
+    field = function.field
+    A = {(*e[: 1 + i], 0, *e[2 + i :]): c for e, c in function.num.to_dict().items() if e[1 + i]}
+    factors = irreducible_factors(field.make(field.context.from_dict(A), field.context.constant(1)))
+    return [factor for factor in factors if isinstance(factor, FunctionPoly)]
+
+
+def missed(function: Poly) -> list[FunctionPoly]:
+    """Those leading factors that can vanish at a zero of the function."""
+    assert isinstance(function, FunctionPoly)
+    used = sum(1 for k in function.num.degrees()[1:] if int(k))
+    return leading_factors(function) if used > 2 else []  # else A and B are coprime polynomials in one parameter
+
+
+def _eliminated(function: FunctionPoly) -> int | None:
+    """The parameter that is eliminated: one that occurs linearly, with a constant coefficient if there is such a one."""
+    linear = [i for i, k in enumerate(function.num.degrees()[1:]) if int(k) == 1]
+    terms = function.num.to_dict()
+    return min(linear, key=lambda i: (_depends(function, i), sum(1 for e in terms if e[1 + i])), default=None)
+
+
+def _depends(function: FunctionPoly, i: int) -> bool:
+    """Does the coefficient of a parameter that occurs linearly depend on the others?"""
+    return any(e[1 + i] and sum(e) > 1 for e in function.num.to_dict())
 
 
 def _algebraic(S: RatFunc, function: FunctionPoly, field: FunctionField) -> Restriction:
