@@ -70,7 +70,8 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     result = partition(lifted, Settings(max_degree, budget, parsed.variable))
     different: dict[str, Condition] = {}
     for region in _flattened(result):
-        region = replace(region, statement=reduced(region.statement, constant))
+        statement = reduced(region.statement, constant).avoiding((parsed.variable, *parameters_of(lifted.field)))
+        region = replace(region, statement=statement)
         different.setdefault(region.statement.text(), region)
     regions = [region for region in different.values() if region.statement.decided(assumptions) is not False]
     always = next((k for k, r in enumerate(regions) if r.statement.decided(assumptions) is True), None)

@@ -7,9 +7,10 @@ has an integer root N in given classes.  Nothing here is numerical.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import count
 from math import gcd
 from typing import Any
 
@@ -18,7 +19,7 @@ from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.parametric.assumptions import Assumptions, Coset, common_multiple
-from kovacic.parametric.formulas import as_latex, factored, shown
+from kovacic.parametric.formulas import as_latex, factored, shown, symbol
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,10 @@ class Statement(ABC):
     def decided(self, assumptions: Assumptions) -> bool | None:
         """True or False where that follows from what is known about the parameters; None otherwise."""
         return None
+
+    def avoiding(self, names: Collection[str]) -> Statement:
+        """The same statement, in which no integer is called like one of the names."""
+        return self
 
     def __str__(self) -> str:
         return self.text()
@@ -146,11 +151,18 @@ class Classes(Statement):
 
 @dataclass(frozen=True)
 class IntegerRoot(Statement):
-    """`equation`, a polynomial in N over Q(t), has an integer root N congruent to one of `residues` modulo `modulus`."""
+    """`equation`, a polynomial in N over Q(t), has an integer root N congruent to one of `residues` modulo `modulus`.
+
+    `letter` is what N is called.
+    """
 
     equation: FunctionPoly
     residues: tuple[int, ...]
     modulus: int
+    letter: str = field(default="N", compare=False)
+
+    def avoiding(self, names: Collection[str]) -> Statement:
+        return replace(self, letter=next(name for name in _letters() if name not in names))
 
     def holds(self, point: Point) -> bool:
         try:
@@ -166,23 +178,23 @@ class IntegerRoot(Statement):
 
     def _classes(self) -> str:
         if self.modulus == 1:
-            return "an integer N"
+            return f"an integer {self.letter}"
         if self.modulus == 2:
-            return f"an {'odd' if self.residues == (1,) else 'even'} integer N"
-        return f"an integer N = {', '.join(map(str, self.residues))} mod {self.modulus}"
+            return f"an {'odd' if self.residues == (1,) else 'even'} integer {self.letter}"
+        return f"an integer {self.letter} = {', '.join(map(str, self.residues))} mod {self.modulus}"
 
     def text(self) -> str:
         family = self.family()
         if family is not None:
-            return f"{family[0]} = {factored(family[1], 'N')} for {self._classes()}"
-        return f"{shown(self._numerator(), 'N')} = 0 for {self._classes()}"
+            return f"{family[0]} = {factored(family[1], self.letter)} for {self._classes()}"
+        return f"{shown(self._numerator(), self.letter)} = 0 for {self._classes()}"
 
     def latex(self) -> str:
         family = self.family()
         formula = (
-            f"{family[0]} = {as_latex(family[1], 'N')}"
+            f"{symbol(family[0])} = {as_latex(family[1], self.letter)}"
             if family is not None
-            else f"{as_latex(self._numerator(), 'N')} = 0"
+            else f"{as_latex(self._numerator(), self.letter)} = 0"
         )
         return rf"{formula} \text{{ for {self._classes()}}}"
 
@@ -220,6 +232,9 @@ class Either(Statement):
             return True
         return False if all(d is False for d in decisions) else None
 
+    def avoiding(self, names: Collection[str]) -> Statement:
+        return Either(tuple(part.avoiding(names) for part in self.parts))
+
     def text(self) -> str:
         return " or ".join(part.text() for part in self.parts)
 
@@ -241,6 +256,9 @@ class Both(Statement):
         if any(d is False for d in decisions):
             return False
         return True if all(decisions) else None
+
+    def avoiding(self, names: Collection[str]) -> Statement:
+        return Both(tuple(part.avoiding(names) for part in self.parts))
 
     def text(self) -> str:
         return ", and ".join(f"({part.text()})" if isinstance(part, Either) else part.text() for part in self.parts)
@@ -309,6 +327,11 @@ def rational_roots(polynomial: Poly) -> list[Fraction]:
 def rational(constant: Poly) -> Fraction | None:
     """A constant as a rational number, or None."""
     return constant.field.rational_value(constant)
+
+
+def _letters() -> Iterator[str]:
+    yield from "NMKJ"
+    yield from (f"N{k}" for k in count())
 
 
 def _shifted(form: str, residue: Fraction) -> str:
