@@ -313,6 +313,61 @@ def test_algebraic_constants_and_parameters(S: str, known: dict[object, int | No
     assert answer.check(60)
 
 
+def test_an_integer_is_not_called_like_a_parameter() -> None:
+    statement = kovacic.conditions("N^3 + N/x + 1/x^2", var="x").regions[-1].statement
+    assert "M^2" in str(statement)
+    assert "for an odd integer M" in str(statement)
+    assert "M^{2}" in statement.latex()
+    assert "for an integer N" in str(kovacic.conditions("x^2 - E/x^2 + 1", var="x").regions[-1].statement)
+    latex = kovacic.conditions("mu/x^2 + 1/x", var="x").regions[-1].statement.latex()
+    assert latex.startswith(r"\mu = ")
+
+
+@pytest.mark.parametrize(
+    ("S", "curve", "points"),
+    [
+        # The anharmonic oscillator: P of degree 1 exists on a curve of genus 1 that no parameter can be eliminated from.
+        (
+            "x^4 + a*x^2 + b*x + c",
+            "a^4 - 8*a^2*c + 32*a + 16*c^2 = 0",
+            [(0, 4, 0), (8, -4, "16 + 4*I"), (2, 4, 1), (0, 4, 1)],
+        ),
+        ("(n^2-2)*x^3 + m", "n^2 - 2 = 0", [("sqrt(2)", 1), ("-sqrt(2)", 0), (1, 1), (1, 0)]),
+        ("(n^2-2)*x^4 + m*x", "n^2 - 2 = 0", [("sqrt(2)", 1), ("sqrt(2)", 0), (1, 1), (1, 2)]),
+        ("(n^2-m^3)*x^4 + n*x + m", "n^2 - m^3 = 0", [(1, 1), (0, 0), (8, 4)]),
+    ],
+)
+def test_hypersurfaces_from_which_no_parameter_is_eliminated(
+    S: str, curve: str, points: list[tuple[object, ...]]
+) -> None:
+    answer = kovacic.conditions(S, var="x", max_degree=2)
+    regions = [region for region in answer.regions if curve in str(region.statement)]
+    assert regions
+    for region in regions:
+        assert region.case == 1 or not region.verdict.known
+        assert region.complete is True or "special values" in str(region.complete)
+    for values in points:
+        point = dict(zip(answer.parameters, values, strict=True))
+        assert answer.case_at(point) == answer.solve_at(point).case, point
+    assert answer.check(60)
+
+
+def test_with_a_fixed_degree_and_several_parameters_one_determinant_is_complete() -> None:
+    answer = kovacic.conditions("x^4 + a*x^2 + b*x + c", var="x", max_degree=3)
+    found = {str(region.statement): region for region in answer.regions}
+    for b in (2, 4, 6, 8):
+        assert found[f"b - {b} = 0"].complete is True
+        assert found[f"b - {b} = 0"].verdict.known
+    point = answer.point({"a": 1, "b": 4, "c": 5})
+    verdict = answer.predicted(point)
+    assert verdict is not None
+    assert verdict.known
+    assert verdict.case is None
+    report = answer.check(200)
+    assert report, report.disagreements
+    assert report.inside > 60
+
+
 def test_views(answers: dict[str, Conditions]) -> None:
     answer = answers["whittaker"]
     data = json.loads(answer.to_json())

@@ -68,7 +68,8 @@ def least_valuation(place: Place, m: int) -> int | None:
 class RankConditions:
     """Irreducible polynomials that vanish where a rank drops; `complete` False where it may drop elsewhere too.
 
-    With several parameters the minors may have common zeros where their common divisor doesn't vanish.
+    With several parameters the minors may have common zeros where their common divisor doesn't vanish, unless there is one
+    minor only.
     """
 
     polynomials: list[Poly]
@@ -106,8 +107,12 @@ def rank_conditions(images: list[Poly], problem: Problem) -> RankConditions:
     zero = field.context.constant(0)
     rows = [[zero if entry is None else entry for entry in row] for row in matrix]
     rank = _generic_rank(images, field)
+    if len(field.names) > 1:
+        rows, eliminated = _without_constant_pivots(rows, problem)
+        rank -= eliminated
     if rank == 0:
         return _NEVER
+    is_exact = len(field.names) == 1 or len(rows) == len(rows[0]) == rank
     random = Random(20240229)
     common = zero
     for _ in range(_DETERMINANTS):
@@ -117,7 +122,37 @@ def rank_conditions(images: list[Poly], problem: Problem) -> RankConditions:
             return _NEVER
         common = common.gcd(determinant)
     factors = irreducible_factors(FunctionPoly(field, common, field.context.constant(1)))
-    return RankConditions(factors, complete=len(field.names) == 1)
+    return RankConditions(factors, complete=is_exact)
+
+
+def _without_constant_pivots(rows: list[list[Any]], problem: Problem) -> tuple[list[list[Any]], int]:
+    """A smaller matrix, and by how much its rank is smaller at all values of the parameters.
+
+    A constant entry clears its column; its row and column are left out then, and so are zero rows and columns.
+    """
+    eliminated = 0
+    while True:
+        problem.budget.check()
+        rows = [row for row in rows if any(row)]
+        used = [k for k in range(len(rows[0]) if rows else 0) if any(row[k] for row in rows)]
+        rows = [[row[k] for k in used] for row in rows]
+        fill = [sum(1 for row in rows if row[k]) for k in range(len(used))]
+        pivots = [
+            (sum(map(bool, row)) * fill[k], i, k)
+            for i, row in enumerate(rows)
+            for k, entry in enumerate(row)
+            if entry and entry.is_constant()
+        ]
+        if not pivots:
+            return rows, eliminated
+        _, i, k = min(pivots)
+        chosen = rows[i]
+        others = [row for number, row in enumerate(rows) if number != i]
+        rows = [
+            [a * chosen[k] - row[k] * b for a, b in zip(row, chosen, strict=True)] if row[k] else row for row in others
+        ]
+        rows = [[*row[:k], *row[k + 1 :]] for row in rows]
+        eliminated += 1
 
 
 def rank_drops(images: list[Poly], function: Poly) -> bool | None:

@@ -15,6 +15,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kovacic import engine
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.fields import QQ
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -32,7 +34,7 @@ from kovacic.parametric.bounded import (
 )
 from kovacic.parametric.degenerate import confluence, structure_changes, undefined
 from kovacic.parametric.regions import Partition, Region, Settings, Verdict
-from kovacic.parametric.restriction import UndefinedError, leading_factors, missed, on_hypersurface
+from kovacic.parametric.restriction import Restriction, UndefinedError, leading_factors, missed, on_hypersurface
 from kovacic.parametric.search import search
 from kovacic.parametric.statements import Both, Statement, Vanishes, either
 from kovacic.places import Problem, analyse
@@ -50,8 +52,12 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
     constants = S.field
     decision = engine.decide(S, settings.budget, certify=False)
     generic = verdict_of(decision)
-    if not isinstance(constants, FunctionField):
+    if constants.ground == QQ:
         return Partition(S, (), (), generic, generic.known or str(decision.undecided), "the engine")
+    if not isinstance(constants, FunctionField):
+        # Functions on a hypersurface; see the head of this module for case 1.
+        reducible = generic.known and generic.structure is Structure.REDUCIBLE
+        return Partition(S, (), (), generic, reducible or "for generic values only", "the engine")
     try:
         return _by_theory(S, generic, settings)
     except LimitExceeded as limit:
@@ -230,14 +236,12 @@ def _missed(S: RatFunc, function: Poly, settings: Settings) -> list[Region]:
         except UndefinedError:
             regions.append(Region(Both((first, second)), Verdict(None, known=False), defined=False))
             continue
-        if restriction is None:
-            statement = Both((first, second))
-            unexamined = f"the values with {statement.text()} aren't examined"
-            regions.append(Region(statement, Verdict(None, known=False), complete=unexamined))
-            continue
         regions += [_also(deeper, first) for deeper in _missed(S, other, settings)]
         rest = function.value_at(list(restriction.values), restriction.field)
-        for factor in irreducible_factors(rest) if isinstance(rest, FunctionPoly) else []:
+        if not isinstance(rest, FunctionPoly):
+            regions.append(_also(_inside(S, other, settings), first))
+            continue
+        for factor in irreducible_factors(rest):
             regions += [_also(piece, first, second) for piece in _pieces(restriction.S, factor, settings)]
     return regions
 
@@ -257,9 +261,10 @@ def _inside(S: RatFunc, function: Poly, settings: Settings) -> Region:
         restriction = on_hypersurface(S, function)
     except UndefinedError:
         return Region(statement, unknown, defined=False)
-    if restriction is None:
-        return Region(statement, unknown, complete=f"the values with {statement.text()} aren't examined")
     inner = partition(restriction.S, settings)
+    field = restriction.field
+    if isinstance(field, AlgebraicField) and field.ground != QQ:
+        return _on_algebraic(statement, restriction, inner, settings)
     elsewhere = {Vanishes(factor).text() for factor in leading_factors(function)}
     inner = replace(inner, regions=tuple(r for r in inner.regions if r.statement.text() not in elsewhere))
     omega, verdict = None, inner.generic
@@ -270,6 +275,18 @@ def _inside(S: RatFunc, function: Poly, settings: Settings) -> Region:
             verdict = replace(verdict, family=str(group_of(restriction.S, decision)))
     whole = inner if inner.names else None
     return Region(statement, verdict, inner.complete, omega=omega, inner=whole, restriction=restriction)
+
+
+def _on_algebraic(statement: Vanishes, restriction: Restriction, inner: Partition, settings: Settings) -> Region:
+    """The region of a hypersurface that no parameter can be eliminated from: decided where all of it is in case 1."""
+    if inner.complete is not True:
+        unknown = replace(inner.generic, known=False)
+        return Region(statement, unknown, f"except for special values with {statement.text()}", restriction=restriction)
+    omega = _RATIONAL_OMEGA
+    if _height(statement.function) <= _WRITTEN_OUT:
+        decision = engine.decide(restriction.S, settings.budget)
+        omega = omega_text(restriction.S, decision, settings.variable) or omega
+    return Region(statement, inner.generic, omega=omega, restriction=restriction)
 
 
 def omega_text(S: RatFunc, decision: Decision, variable: str) -> str | None:

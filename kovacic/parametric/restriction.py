@@ -50,31 +50,22 @@ def substituted(S: RatFunc, values: list[Poly], field: Field) -> RatFunc:
     return RatFunc(above.value_at(values, field), den)
 
 
-def on_hypersurface(S: RatFunc, function: Poly) -> Restriction | None:
-    """S where an irreducible polynomial in the parameters vanishes; None where it can't be solved rationally.
+def on_hypersurface(S: RatFunc, function: Poly) -> Restriction:
+    """S where an irreducible polynomial in the parameters vanishes.
 
-    A parameter that occurs linearly is eliminated, which misses the zeros of its coefficient (`missed`); with one parameter
-    alone it becomes an algebraic number.  Raises `UndefinedError` where S isn't defined.
+    A parameter that occurs linearly is eliminated, which misses the zeros of its coefficient (`missed`); else one becomes
+    algebraic over the others: a number, if there are none.  Raises `UndefinedError` where S isn't defined.
     """
     field = S.field
     if not isinstance(field, FunctionField) or not isinstance(function, FunctionPoly):
         raise TypeError("parameters are expected")
-    if len(field.names) == 1 and int(function.num.degrees()[1]) > 1:
-        return _algebraic(S, function, field)
     i = _eliminated(function)
     if i is None:
-        below = S.cleared()[1]
-        if isinstance(below, FunctionPoly) and (below.num % function.num).is_zero():
-            raise UndefinedError
-        return None
-    rest = tuple(name for k, name in enumerate(field.names) if k != i)
-    smaller: Field = FunctionField(rest) if rest else QQ
+        return _algebraic(S, function, field)
+    smaller = _without(field, i)
     above, below = (_part(function, i, k, smaller) for k in (0, 1))
     value = -above / below
-    values = [
-        value if k == i else smaller.generator(name)  # type: ignore[attr-defined]
-        for k, name in enumerate(field.names)
-    ]
+    values = [value if k == i else _variable(smaller, name) for k, name in enumerate(field.names)]
     text = f"{field.names[i]} = {shown(RatFunc(-above, below))}" if below.degree >= 0 else ""
     return Restriction(substituted(S, values, smaller), smaller, field.names, tuple(values), text)
 
@@ -114,15 +105,25 @@ def _depends(function: FunctionPoly, i: int) -> bool:
 
 
 def _algebraic(S: RatFunc, function: FunctionPoly, field: FunctionField) -> Restriction:
-    coefficients = [0] * (int(function.num.degrees()[1]) + 1)
-    for exponents, coefficient in function.num.to_dict().items():
-        coefficients[int(exponents[1])] = int(coefficient)
-    modulus = QQ.poly(coefficients).monic()
-    extension = AlgebraicField(QQ, modulus, field.names[0])
-    values = (extension.generator,)
-    return Restriction(
-        substituted(S, list(values), extension), extension, field.names, values, f"{shown(function)} = 0"
-    )
+    degrees = [int(k) for k in function.num.degrees()[1:]]
+    i = min((k for k, degree in enumerate(degrees) if degree), key=lambda k: degrees[k])
+    smaller = _without(field, i)
+    coefficients = [_part(function, i, power, smaller) for power in range(degrees[i] + 1)]
+    extension = AlgebraicField(smaller, smaller.poly([c / coefficients[-1] for c in coefficients]), field.names[i])
+    values: list[Poly] = [extension.generator if k == i else _variable(smaller, n) for k, n in enumerate(field.names)]
+    values = [value.over(extension) for value in values]
+    text = f"{shown(function)} = 0"
+    return Restriction(substituted(S, values, extension), extension, field.names, tuple(values), text)
+
+
+def _without(field: FunctionField, i: int) -> Field:
+    rest = tuple(name for k, name in enumerate(field.names) if k != i)
+    return FunctionField(rest) if rest else QQ
+
+
+def _variable(field: Field, name: str) -> Poly:
+    assert isinstance(field, FunctionField)
+    return field.generator(name)
 
 
 def _part(function: FunctionPoly, index: int, power: int, smaller: Field) -> Poly:
