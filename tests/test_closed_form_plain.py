@@ -95,3 +95,10 @@ def test_polynomials(coefficients: list[Any]) -> None:
 @pytest.mark.parametrize("argument", [x, -x, 1 / x, x**2 / 2 + 3, (x + 1) / (x - 1), 3 * x / 2 - 1 / x**2])
 def test_exponentials(argument: Any) -> None:
     assert_same(plain.exponential(argument), exp(argument))
+
+
+@pytest.mark.parametrize("z", [x, x**2 / (x - 2) ** 2, (x**2 + n) / x, sqrt(2) * x])
+@pytest.mark.parametrize("a", [Rational(-1, 24), Rational(11, 24), Rational(13, 7)])
+def test_hypergeometric_functions(a: Any, z: Any) -> None:
+    b, c = Rational(5, 24), Rational(3, 4)
+    assert_same(plain.hypergeometric(a, b, c, z), sympy.hyper((a, b), (c,), z))

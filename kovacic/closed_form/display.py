@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from sympy import hyper
-
 from kovacic.closed_form.atoms import Atoms, rational
 from kovacic.closed_form.curve_display import exponentials
 from kovacic.closed_form.integrals import second_solution
 from kovacic.closed_form.klein import Hypergeometric
-from kovacic.closed_form.plain import Expr
+from kovacic.closed_form.plain import Expr, hypergeometric, times
 from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
 
@@ -32,4 +30,4 @@ def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[
 
 def _hypergeometric(y: Hypergeometric, J: Expr, atoms: Atoms) -> Expr:
     a, b, c = (rational(value) for value in (y.a, y.b, y.c))
-    return atoms.product(y.factor) * hyper((a, b), (c,), J)
+    return times(atoms.product(y.factor), hypergeometric(a, b, c, J))

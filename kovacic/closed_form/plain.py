@@ -11,8 +11,9 @@ from collections.abc import Sequence
 from functools import cmp_to_key
 from typing import Any
 
-from sympy import Add, Basic, Integer, Mul, Pow, S, exp
+from sympy import Add, Basic, Integer, Mul, Pow, S, exp, hyper
 from sympy.core.function import Function
+from sympy.functions.special.hyper import TupleArg
 
 Expr = Any  # SymPy publishes no types
 _order = cmp_to_key(Basic.compare)
@@ -110,3 +111,8 @@ def polynomial(coefficients: Sequence[Expr], variable: Expr) -> Expr:
 def exponential(rational_function: Expr) -> Expr:
     """`exp(f)` for a rational function that isn't a constant."""
     return exp(rational_function, evaluate=False)
+
+
+def hypergeometric(a: Expr, b: Expr, c: Expr, z: Expr) -> Expr:
+    """`hyper((a, b), (c,), z)` for rational a, b and c, c neither a nor b, and an argument that isn't a constant."""
+    return Function.__new__(hyper, TupleArg(min(a, b), max(a, b)), TupleArg(c), z, evaluate=False)
