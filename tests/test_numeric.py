@@ -357,7 +357,7 @@ def test_an_exhausted_limit_is_an_error_when_nothing_is_known() -> None:
 
 def test_a_value_that_is_zero_is_a_tiny_ball_with_a_warning() -> None:
     with pytest.warns(AccuracyWarning, match="can't be told from zero"):
-        ball = evaluate(([0], [1]), 1, x0=0, y0=1, dy0=-1)
+        ball = evaluate(([2], [0, 0, 1]), 1, x0=2, y0="7/2", dy0="17/4")  # x^2 - 1/x
     assert ball.contains_zero()
     assert ball.radius < 1e-300
 

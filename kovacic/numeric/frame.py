@@ -26,6 +26,7 @@ Parts = tuple[list[int], list[int] | None]
 
 SLACK = 1 + 2.0**-20
 _PIECES = 8
+_SHORT = 2.0**-300
 _FAR = 900
 """Zeros beyond 2^900 scales are treated as being there: |zero - u| is then bounded from the safe side separately."""
 
@@ -151,6 +152,22 @@ def ray_bound(frame: Frame, u: complex, log2_norm_p: float | None = None) -> Ray
         if not growth + slope_growth < 2.0**900:
             return None
     return RayBound(error, slope, log2_min_q, math.log2(max(growth, slope_growth)))
+
+
+def ray_to(system: System, frame: Frame, target: Point) -> RayBound:
+    """Bounds along the ray from the centre to `target`; raises ArithmeticError where they can't be given."""
+    offset = (target - frame.centre).scaled(1 / frame.scale)
+    u = complex(float(offset.re), float(offset.im))
+    if abs(u) < _SHORT:  # its powers would underflow; the bounds grow with the length of the ray
+        u = complex(_SHORT)
+    norm_p = None
+    if frame.zeros is None:
+        shifted = shift_system(system, frame)
+        norm_p = log2_norm(shifted.p) - log2_lead(shifted.q)
+    bound = ray_bound(frame, u, norm_p)
+    if bound is None:
+        raise ArithmeticError("the target lies outside of its disc")
+    return bound
 
 
 def _log_error(logs: list[float]) -> float:

@@ -43,6 +43,11 @@ class Point:
         """The point times a rational number."""
         return Point(self.re * factor, self.im * factor)
 
+    def rounded(self, e: int) -> Point:
+        """The nearest multiple of 2^e, in both parts."""
+        unit = Fraction(2) ** e
+        return Point(round(self.re / unit) * unit, round(self.im / unit) * unit)
+
     def norm_squared(self) -> Fraction:
         """|z|^2, exactly."""
         return self.re * self.re + self.im * self.im

@@ -43,7 +43,7 @@ from kovacic.numeric.points import Point, to_acb
 from kovacic.numeric.singular import System
 
 if TYPE_CHECKING:
-    from flint import acb, fmpz_poly
+    from flint import acb, arb, fmpz_poly
 Matrix = tuple["acb", "acb", "acb", "acb"]
 """(m11, m12, m21, m22) of a 2x2 matrix of flint balls, acting on (y, y')."""
 
@@ -201,15 +201,22 @@ def transition(expansion: Expansion, target: Point, bound: RayBound) -> Matrix:
         entries, unit = [], acb(arb((1, -expansion.w)))
         for column, defect in zip(expansion.columns, expansion.defect, strict=True):
             value, slope = _values(column, exact)
-            size = arb((defect + 1, -expansion.w)) * arb(2) ** arb(-(bound.log2_min_q + expansion.log2_lead_q) + 1e-6)
-            for number, gain in ((value, bound.gain), (slope, bound.gain_derivative)):
-                radius = (size * arb(gain * SLACK)).upper()
+            radii = error_radii(arb((defect + 1, -expansion.w)), expansion.log2_lead_q, bound)
+            for number, radius in zip((value, slope), radii, strict=True):
                 ball = arb(0, radius)
                 both = acb(ball) if column[1] is None and exact.is_real() else acb(ball, ball)
                 entries.append(number * unit + both)
         h = acb(arb((frame.h, frame.e)))
         y1, d1, y2, d2 = entries
         return y1, y2 * h, d1 / h, d2
+
+
+def error_radii(defect: arb, log2_lead_q: float, bound: RayBound) -> tuple[arb, arb]:
+    """Bounds of |e| and |de/du| at the end of the ray for a defect q Y'' - p Y whose coefficients have the sum `defect`."""
+    from flint import arb
+
+    size = defect * arb(2) ** arb(-(bound.log2_min_q + log2_lead_q) + 1e-6)
+    return (size * arb(bound.gain * SLACK)).upper(), (size * arb(bound.gain_derivative * SLACK)).upper()
 
 
 def _values(column: tuple[fmpz_poly, fmpz_poly | None], u: Point) -> tuple[acb, acb]:

@@ -13,6 +13,9 @@ since
 det = 1 exactly.  Products are formed as a balanced tree: with k factors one after the other ball arithmetic would lose
 up to k bits ("wrapping"), the tree loses O(log k).
 
+The matrices E_i come from one expansion, summed term by term (`kovacic.numeric.taylor`), or at thousands of digits from
+binary splitting (`kovacic.numeric.splitting`).
+
 Step size: half the distance from the centre to the nearest singular point (the terms then fall like 2^-n on both
 sides), and less
 where the solutions grow by more than a fixed share of the working precision.
@@ -28,10 +31,11 @@ from typing import TYPE_CHECKING
 
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
-from kovacic.numeric.frame import Frame, RayBound, log2_lead, log2_norm, make_frame, ray_bound, shift_system
+from kovacic.numeric.frame import Frame, RayBound, log2_lead, log2_norm, make_frame, ray_bound, ray_to, shift_system
 from kovacic.numeric.points import Point
 from kovacic.numeric.singular import System, check_segment, distance_lower
-from kovacic.numeric.taylor import Expansion, Matrix, expand, transition
+from kovacic.numeric.splitting import is_split, legs
+from kovacic.numeric.taylor import Matrix, expand, transition
 
 if TYPE_CHECKING:
     from flint import acb
@@ -118,26 +122,25 @@ def piece_matrices(system: System, a: Point, b: Point, prec: int, budget: Budget
             enter = piece.at(t)
             continue
         guess = disc.frame.e
-        frame = disc.frame
-        expansion = expand(system, frame, prec, disc.bound, budget)
-        start, stop = _leg(expansion, disc.enter, disc), _leg(expansion, disc.leave, disc) or identity()
-        result.append(stop if start is None else multiply(stop, adjugate(start)))
+        start, stop = _legs(system, disc, prec, budget)
+        result.append(multiply(product(stop), adjugate(product(start))) if start else product(stop))
         t, enter = disc.stop, disc.leave
         if len(result) > _MAX_DISCS:
             raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
     return result
 
 
-def _leg(expansion: Expansion, target: Point, disc: Disc) -> Matrix | None:
-    """The matrix from the centre to a junction; None for the centre itself (the identity)."""
-    frame = expansion.frame
-    offset = (target - frame.centre).scaled(1 / frame.scale)
-    if offset.norm_squared() == 0:
-        return None
-    bound = ray_bound(frame, complex(float(offset.re), float(offset.im)), disc.norm_p)
-    if bound is None:
-        raise ArithmeticError("a junction lies outside of its disc")
-    return transition(expansion, target, bound)
+def _legs(system: System, disc: Disc, prec: int, budget: Budget) -> tuple[list[Matrix], list[Matrix]]:
+    """Factors, in order, of the matrices from the centre to the junctions where the disc is entered and left."""
+    frame = disc.frame
+    if is_split(system, prec):
+        return legs(system, frame, disc.enter, disc.leave, disc.bound, prec, budget)
+    expansion = expand(system, frame, prec, disc.bound, budget)
+    start, stop = (
+        [] if point == frame.centre else [transition(expansion, point, ray_to(system, frame, point))]
+        for point in (disc.enter, disc.leave)
+    )
+    return start, stop
 
 
 @dataclass(frozen=True)
@@ -192,7 +195,7 @@ def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int
     size = step.norm_squared()
     last = (1 - t) ** 2 * size <= (2 * unit) ** 2 * Fraction(9, 10)
     forward = (1 - t) / 2 if last else _ratio_down(unit, size) * (1 if piece.real else Fraction(15, 16))
-    centre = _rounded(piece.at(t + forward), e - 4)
+    centre = piece.at(t + forward).rounded(e - 4)
     if system.is_singular(centre):
         return None
     near = distance_lower(system, centre)
@@ -206,7 +209,7 @@ def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int
         stop = (leave.re - piece.a.re) / step.re
     else:
         stop = t + _dyadic_down(2 * forward * Fraction(31, 32))
-        leave = _rounded(piece.at(stop), e - 4)
+        leave = piece.at(stop).rounded(e - 4)
     if stop <= t or stop > 1:
         return None
     if any((p - centre).norm_squared() > unit * unit for p in (piece.at(t), piece.at(stop), enter, leave)):
@@ -254,12 +257,6 @@ def _dyadic_down(value: Fraction) -> Fraction:
     """A dyadic number of at most 8 significant bits just below a positive value."""
     e = value.numerator.bit_length() - value.denominator.bit_length() - 8
     return Fraction(math.floor(value / Fraction(2) ** e)) * Fraction(2) ** e
-
-
-def _rounded(point: Point, e: int) -> Point:
-    """The nearest multiple of 2^e, in both parts."""
-    unit = Fraction(2) ** e
-    return Point(round(point.re / unit) * unit, round(point.im / unit) * unit)
 
 
 def transport(system: System, vertices: list[Point], prec: int, budget: Budget) -> Matrix:

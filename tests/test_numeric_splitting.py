@@ -1,0 +1,284 @@
+"""Binary splitting and the bit-burst method against the way term by term, and against FLINT's own special functions."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from fractions import Fraction
+
+import flint
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import Budget, Limits
+from kovacic.numeric import transport
+from kovacic.numeric.ball import ball_to_flint
+from kovacic.numeric.evaluate import evaluate, evaluate_states, transition_matrix
+from kovacic.numeric.frame import Frame, make_frame, ray_to
+from kovacic.numeric.points import Point
+from kovacic.numeric.problem import as_problem
+from kovacic.numeric.recurrence import LEAF, Recurrence, make_block, recurrence
+from kovacic.numeric.singular import System
+from kovacic.numeric.splitting import bit_burst, is_split, split_legs
+from kovacic.numeric.taylor import Matrix, expand, transition
+from tests.strategies import Example, examples, fractions, integers, nonzero
+
+AIRY = System.make((0, 1), (1,))
+LEGENDRE = System.make((-13, 0, 4), (9, 0, -18, 0, 9))  # nu = 1/3: S = -(4/9 (1 - x^2) + 1)/(1 - x^2)^2
+DIGITS = 5000
+
+
+def both_ways(system: System, path: list[Point], prec: int) -> tuple[Matrix, Matrix]:
+    """The transition matrix term by term, and by splitting."""
+    matrices = []
+    with flint.ctx.workprec(prec + 40), pytest.MonkeyPatch.context() as patch:
+        for split in (False, True):
+            patch.setattr(transport, "is_split", lambda system, prec, split=split: split)
+            try:
+                matrices.append(transport.transport(system, path, prec, Budget()))
+            except InputError:
+                assume(False)
+    return matrices[0], matrices[1]
+
+
+def overlap(m: Matrix, n: Matrix) -> bool:
+    return all(x.overlaps(y) for x, y in zip(m, n, strict=True))
+
+
+def lost_bits(m: Matrix, prec: int) -> int:
+    """How many of `prec` bits, relative to the largest entry, the worst entry lacks."""
+    exponent = max(_exponent(x.abs_upper()) for x in m)
+    return max(_exponent(r) for x in m for r in (x.real.rad(), x.imag.rad())) - exponent + prec
+
+
+def _exponent(x: flint.arb) -> int:
+    mantissa, exponent = x.man_exp()
+    return int(exponent) + int(mantissa).bit_length() if mantissa else -(10**9)
+
+
+# --- the recurrence ---------------------------------------------------------------------------------------------------
+
+short_points = st.builds(Point, fractions(4), fractions(4))
+
+
+@st.composite
+def equations(draw: st.DrawFn) -> Recurrence:
+    """Q y'' = P y over Z[i], seen from a short point z."""
+
+    def polynomial(size: int, first: int | None) -> tuple[list[int], list[int] | None]:
+        re, im = ([draw(integers(9)) for _ in range(size)] for _ in (0, 1))
+        if first is not None:
+            re[0], im[0] = first, 0
+        return re, im if draw(st.booleans()) else None
+
+    p, q = polynomial(draw(st.integers(0, 3)), None), polynomial(draw(st.integers(1, 5)), abs(draw(nonzero(9))))
+    z = draw(short_points)
+    assume(z.norm_squared() > 0)
+    return recurrence(p, q, z)
+
+
+def coefficients(equation: Recurrence, start: int, count: int) -> list[Point]:
+    """b_0, ..., b_(count-1) one by one, exactly."""
+    P, Q = (
+        [Point(Fraction(x), Fraction(y)) for x, y in zip(re, im or [0] * len(re), strict=True)]
+        for re, im in (equation.P, equation.Q)
+    )
+    b = [Point(Fraction(1 - start)), Point(Fraction(start))]
+    for m in range(2, count):
+        total = Point(Fraction(0))
+        for j, c in enumerate(P):
+            total += c * b[m - 2 - j] if m - 2 - j >= 0 else Point(Fraction(0))
+        for j, c in enumerate(Q[1:], 1):
+            total -= (c * b[m - j]).scaled(Fraction((m - j) * (m - 1 - j))) if m - j >= 0 else Point(Fraction(0))
+        b.append(total.scaled(1 / (Q[0].re * m * (m - 1))))
+    return b
+
+
+@given(equations(), st.integers(1, 5), st.booleans())
+def test_a_run_gives_the_same_sums_as_step_by_step(equation: Recurrence, leaves: int, mirror: bool) -> None:
+    run = make_block(equation.leaf(mirror), 2, leaves, Budget())
+    r, count = equation.order, 2 + leaves * LEAF
+    for start in (0, 1):
+        b = coefficients(equation, start, count)
+        state = [Point(Fraction(0))] * (r - 2) + b[:2]
+        for matrix, expected in ((run.C, b[-r:]), (run.R, sums_from_2(b, mirror))):
+            found = [product_row(matrix, i, state).scaled(Fraction(1, int(run.D))) for i in range(matrix[0].nrows())]
+            assert found == expected
+
+
+def product_row(matrix: tuple[flint.fmpz_mat, flint.fmpz_mat | None], i: int, state: list[Point]) -> Point:
+    re, im = matrix
+    row = [Point(Fraction(int(re[i, k])), Fraction(0 if im is None else int(im[i, k]))) for k in range(len(state))]
+    return sum((x * y for x, y in zip(row, state, strict=True)), Point(Fraction(0)))
+
+
+def sums_from_2(b: list[Point], mirror: bool) -> list[Point]:
+    """sum b_m v^m and sum m b_m v^(m-1) over m >= 2 at v = 1 (and at v = -1)."""
+    return [
+        sum(
+            (b[m].scaled(Fraction(v**m if slope == 0 else m * v ** (m - 1))) for m in range(2, len(b))),
+            Point(Fraction(0)),
+        )
+        for v in ((1, -1) if mirror else (1,))
+        for slope in (0, 1)
+    ]
+
+
+# --- both ways --------------------------------------------------------------------------------------------------------
+
+points = st.builds(Point, fractions(3, (1, 2, 7, 10**9)), fractions(2, (1, 3, 8)))
+
+
+@settings(max_examples=8)
+@given(examples().filter(lambda example: example.size <= 5), points, points)
+def test_both_ways_agree_for_equations_of_every_case(example: Example, a: Point, b: Point) -> None:
+    m, n = both_ways(as_problem(example.S).system, [a, b], 300)
+    assert overlap(m, n)
+    assert lost_bits(n, 300) <= max(8, lost_bits(m, 300))
+
+
+def random_system(rng: random.Random) -> System:
+    den = [rng.choice([-3, -1, 1, 2, 7]) for _ in range(rng.randint(0, 3))] + [rng.choice([1, 2, 5])]
+    return System.make(tuple(rng.choice([-9, -1, 0, 1, 4, 99]) for _ in range(rng.randint(0, 3))), tuple(den))
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_both_ways_agree_at_a_thousand_digits_with_end_points_of_any_length(seed: int) -> None:
+    """Short ends (mirrored legs), decimal ones, and ones of a thousand digits; real and complex."""
+    rng = random.Random(seed)
+    system, denominator = random_system(rng), (7, 10**16, 10**1000)[seed % 3]
+
+    def end() -> Point:
+        re, im = (Fraction(rng.randint(-denominator, denominator), denominator) for _ in (0, 1))
+        return Point(re, im if seed % 2 else Fraction(0))
+
+    a = end()
+    b = a + end().scaled(Fraction(1, 4))
+    try:
+        m, n = both_ways(system, [a, b], 3400)
+    except InputError:
+        pytest.skip("the random path meets a singular point")
+    assert overlap(m, n)
+    assert lost_bits(n, 3400) <= 8
+
+
+@pytest.fixture(params=["real", "complex"])
+def disc(request: pytest.FixtureRequest) -> Iterator[tuple[Frame, Point]]:
+    """A disc for Legendre's equation and a point near its edge."""
+    im = Fraction(request.param == "complex", 4)
+    with flint.ctx.workprec(3000):
+        yield make_frame(LEGENDRE, Point(Fraction(1, 8), im), 1, -2), Point(Fraction(5, 16), im)
+
+
+def test_mirrored_legs_are_two_legs(disc: tuple[Frame, Point]) -> None:
+    frame, target = disc
+    other = frame.centre + frame.centre - target
+    bounds = [ray_to(LEGENDRE, frame, point) for point in (target, other)]
+    worst = max(bounds, key=lambda bound: bound.gain)
+    there, back = split_legs(LEGENDRE, frame, target, worst, 2500, Budget(), mirror=True)
+    for point, bound, matrix in zip((target, other), bounds, (there, back), strict=True):
+        (alone,) = split_legs(LEGENDRE, frame, point, bound, 2500, Budget())
+        assert overlap(alone, matrix)
+        assert lost_bits(matrix, 2500) <= 8
+
+
+@pytest.mark.parametrize("tiny", [Fraction(1, 3**40), Fraction(1, 10**400), Fraction(3**250, 7**350)])
+def test_a_chain_of_doubling_steps_is_one_step(disc: tuple[Frame, Point], tiny: Fraction) -> None:
+    frame, target = disc
+    target = target + Point(tiny, tiny if frame.centre.im else Fraction(0))
+    (alone,) = split_legs(LEGENDRE, frame, target, ray_to(LEGENDRE, frame, target), 2500, Budget())
+    chain = bit_burst(LEGENDRE, frame, target, 2500, Budget())
+    matrix = transport.product(chain)
+    assert len(chain) > 1
+    assert overlap(alone, matrix)
+    assert lost_bits(matrix, 2500) <= 8
+    assert bit_burst(LEGENDRE, frame, frame.centre, 2500, Budget()) == []
+
+
+def test_the_slopes_of_the_short_last_steps_of_a_chain_lose_nothing() -> None:
+    frame, target, prec = make_frame(AIRY, Point(Fraction(0)), 1, 0), Point(Fraction(7**8000, 7**8001 + 1)), 30_000
+    with flint.ctx.workprec(prec + 40):
+        chain = bit_burst(AIRY, frame, target, prec, Budget())
+        bound = ray_to(AIRY, frame, target)
+        alone = transition(expand(AIRY, frame, prec, bound, Budget()), target, bound)
+        assert overlap(transport.product(chain), alone)
+    assert all(lost_bits(matrix, prec) <= 0 for matrix in chain)
+
+
+def test_a_target_closer_to_the_centre_than_any_double_keeps_its_error_bound() -> None:
+    frame = make_frame(LEGENDRE, Point(Fraction(0)), 1, 0)
+    bound = ray_to(LEGENDRE, frame, Point(Fraction(1, 10**400)))
+    assert bound.gain > 0
+    assert bound.gain_derivative > 0
+
+
+def test_a_polynomial_solution_comes_out_exactly() -> None:
+    ball = evaluate(([0], [1]), "1/3", x0=0, y0=1, dy0=-1, digits=2000)
+    assert ball.contains(Fraction(2, 3))
+    assert ball.radius < 1e-300
+
+
+# --- against FLINT ----------------------------------------------------------------------------------------------------
+
+
+def carried(matrix: object, y: flint.arb, dy: flint.arb) -> flint.arb:
+    (a, b), _ = matrix  # type: ignore[misc]
+    return ball_to_flint(a).real * y + ball_to_flint(b).real * dy
+
+
+def test_five_thousand_digits_of_airy_functions() -> None:
+    assert is_split(AIRY, 3 * DIGITS)
+    matrix = transition_matrix(AIRY, [0, 1], digits=DIGITS)
+    with flint.ctx.workdps(DIGITS + 20):
+        zero, one = flint.arb(0), flint.arb(1)
+        for name in ("airy_ai", "airy_bi"):
+            value, start = getattr(one, name)(), (getattr(zero, name)(), getattr(zero, name)(derivative=1))
+            assert carried(matrix, *start).overlaps(value)
+            assert carried(matrix, *start).rel_accuracy_bits() > 3.32 * DIGITS - 8
+
+
+def test_five_thousand_digits_of_a_bessel_function_of_order_one_third() -> None:
+    S = ([-5, 0, -36], [0, 0, 36])  # y = sqrt(x) J_(1/3)(x)
+    matrix = transition_matrix(S, [1, Fraction(3, 2)], digits=DIGITS)
+    with flint.ctx.workdps(DIGITS + 20):
+        nu, x, end = flint.arb(1) / 3, flint.arb(1), flint.arb(3) / 2
+        J = x.bessel_j(nu)
+        slope = (x.bessel_j(nu - 1) - x.bessel_j(nu + 1)) / 2
+        assert carried(matrix, J, J / 2 + slope).overlaps(end.sqrt() * end.bessel_j(nu))
+
+
+@pytest.mark.parametrize("x", ["1/3", "0.3141592653589793"])
+def test_five_thousand_digits_of_a_legendre_function_of_order_one_third(x: str) -> None:
+    assert is_split(LEGENDRE, 3 * DIGITS)
+    matrix = transition_matrix(LEGENDRE, [0, x], digits=DIGITS)
+    with flint.ctx.workdps(DIGITS + 20):
+        nu, end = flint.arb(1) / 3, flint.arb(flint.fmpq(*Fraction(x).as_integer_ratio()))
+        start = (flint.arb(0).legendre_p(nu), nu * flint.arb(0).legendre_p(nu - 1))
+        assert carried(matrix, *start).overlaps((1 - end * end).sqrt() * end.legendre_p(nu))
+
+
+def test_the_goal_is_met_in_one_run_above_the_crossover() -> None:
+    (state,) = evaluate_states(LEGENDRE, ["2/5"], x0="-1/7", y0=1, dy0=2, digits=3000)
+    assert state.reached
+    assert state.runs == 1
+
+
+# --- limits -----------------------------------------------------------------------------------------------------------
+
+
+def test_an_exhausted_limit_and_an_interruption_leave_the_precision_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    before = flint.ctx.prec
+    with pytest.raises(LimitExceeded):
+        evaluate(LEGENDRE, "1/3", x0=0, y0=1, dy0=0, digits=50_000, limits=Limits(seconds=0.1))
+    assert flint.ctx.prec == before
+
+    def interrupt(self: Budget) -> None:
+        if flint.ctx.prec > 15_000:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(Budget, "check", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        evaluate(LEGENDRE, "1/3", x0=0, y0=1, dy0=0, digits=5000)
+    assert flint.ctx.prec == before
