@@ -38,11 +38,13 @@ def main() -> None:
     job = Job.loads(sys.stdin.readline())
     limits = job.engine_limits
     solve_item(Item(0, "x**2 + 3"), job, limits)  # the modules are loaded before the clock of the first equation starts
+    memory = None if job.memory is None else _MemoryLimit(job)
     gc.freeze()  # what is loaded stays: the collector needn't look at it again
     _write(answers, READY)
     for line in sys.stdin:
         item = decode_item(line)
-        _limit_memory(job)
+        if memory is not None:
+            memory.renew()
         _set_alarm(job)
         record = solve_item(item, job, limits)
         _clear_alarm(job)
@@ -97,15 +99,26 @@ def _leave_with_parent() -> None:
     threading.Thread(target=watch, daemon=True).start()
 
 
-def _limit_memory(job: Job) -> None:
-    if job.memory is None:
-        return
-    resource: Any = __import__("resource")
-    with open("/proc/self/statm", encoding="ascii") as statm:
-        pages = int(statm.read().split()[0])
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    wanted = pages * resource.getpagesize() + job.memory * _MIB
-    resource.setrlimit(resource.RLIMIT_AS, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard))
+class _MemoryLimit:
+    """The job's bound on the address space, moved along with what the process has when an equation begins."""
+
+    def __init__(self, job: Job) -> None:
+        assert job.memory is not None
+        self._resource: Any = __import__("resource")  # not on every system; `Job` with `memory` needs it
+        self._page = self._resource.getpagesize()
+        self._allowed = job.memory * _MIB
+        self._hard = self._resource.getrlimit(self._resource.RLIMIT_AS)[1]
+        self._statm = os.open("/proc/self/statm", os.O_RDONLY)
+        self._pages = -1
+
+    def renew(self) -> None:
+        pages = int(os.pread(self._statm, 32, 0).split(maxsplit=1)[0])
+        if pages == self._pages:
+            return
+        self._pages = pages
+        wanted = pages * self._page + self._allowed
+        wanted = wanted if self._hard == self._resource.RLIM_INFINITY else min(wanted, self._hard)
+        self._resource.setrlimit(self._resource.RLIMIT_AS, (wanted, self._hard))
 
 
 def _set_alarm(job: Job) -> None:
