@@ -245,8 +245,3 @@ def test_numbers_that_are_too_large_are_refused_before_they_are_computed():
     for value in ("1e999999999", "9^9^9", "((9^100)^100)^100", 10**400, Fraction(1, 10**400)):
         with pytest.raises(LimitExceeded):
             exact(value, "m")
-
-
-def test_irrational_parameters_have_to_be_symbols():
-    with pytest.raises(InputError, match="has to be a symbol"):
-        Ball(m=1, R=1, a=0, A1="1/4", A3="1/3").on_sphere("sqrt(2)").second_order()

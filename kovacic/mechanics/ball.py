@@ -24,6 +24,7 @@ from typing import TypeAlias
 import sympy as sp
 
 from kovacic.errors import InputError, LimitExceeded
+from kovacic.mechanics.irrational import settled, sign
 from kovacic.mechanics.meridian import Profile, U, X
 from kovacic.mechanics.reading import LIMITS, read_expression
 from kovacic.mechanics.woronetz import Body, LinearSystem, RationalEquation, SecondOrder
@@ -52,10 +53,11 @@ def exact(value: Scalar, name: str) -> sp.Expr:
             f"{name} = {value!r} isn't an exact number or a SymPy expression",
             hint='a floating-point number decides nothing here: pass Fraction("0.4") or the text "0.4"',
         )
-    if result.is_Rational and max(int(result.p).bit_length(), int(result.q).bit_length()) > LIMITS.bits:
-        raise LimitExceeded(f"{name} has more than {LIMITS.bits} bits, the limit", limit="bits")
     if result.is_number and not (result.is_real and result.is_finite):
         raise InputError(f"{name} = {result} isn't a real number")
+    result = settled(result)
+    if result.is_Rational and max(int(result.p).bit_length(), int(result.q).bit_length()) > LIMITS.bits:
+        raise LimitExceeded(f"{name} has more than {LIMITS.bits} bits, the limit", limit="bits")
     return result
 
 
@@ -86,15 +88,17 @@ class Ball:
             object.__setattr__(self, name, exact(getattr(self, name), name))
         m, R, a, A1, A3 = self.parameters
         for name, value in (("m", m), ("R", R), ("A1", A1), ("A3", A3)):
-            if value.is_number and not value > 0:
+            if value.is_number and sign(value) <= 0:
                 raise InputError(f"there is no such body: {name} > 0 fails, as {name} = {value}")
         for text, small, large in (
             ("|a| <= R", sp.Abs(a), R),
             ("A3 <= 2 A1", A3, 2 * A1),
             ("A1 + A3/2 <= m (R^2 - a^2)", A1 + A3 / 2, m * (R**2 - a**2)),
         ):
-            if (small - large).is_number and small > large:
+            if (small - large).is_number and sign(small - large) > 0:
                 raise InputError(f"there is no such body: {text} fails, as {small} > {large}")
+        if (A3 - A1).is_number and sign(A3 - A1) == 0:
+            object.__setattr__(self, "A3", A1)  # however they are written
 
     @property
     def parameters(self) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
@@ -109,7 +113,7 @@ class Ball:
         radius = exact(R1, "R1")
         if radius == 0:
             raise InputError("the fixed sphere needs a radius R1 other than 0", hint="on_plane() is R1 = infinity")
-        if radius.is_number and radius < 0 and (self.R + radius).is_number and -radius <= self.R:
+        if radius.is_number and radius < 0 and (self.R + radius).is_number and sign(self.R + radius) >= 0:
             raise InputError(f"the ball doesn't fit inside the sphere: R < |R1| fails, as {self.R} >= {-radius}")
         return BallOnSphere(self, radius)
 
@@ -128,7 +132,7 @@ class BallOnSphere:
     @property
     def ratio(self) -> sp.Expr:
         """rho = R/R1, 0 on the plane."""
-        return sp.Integer(0) if self.R1.is_infinite else sp.cancel(self.ball.R / self.R1)
+        return sp.Integer(0) if self.R1.is_infinite else settled(sp.cancel(self.ball.R / self.R1))
 
     @property
     def body(self) -> Body:
@@ -152,7 +156,8 @@ class BallOnSphere:
     def discriminant(self) -> sp.Expr:
         """The discriminant of D, -4 m R^2 A1 B with B = (A3 + m R^2)(A3 - A1) - A3 m a^2; 0: a double root."""
         m, R, a, A1, A3 = self.ball.parameters
-        return sp.factor(-4 * m * R**2 * A1 * ((A3 + m * R**2) * (A3 - A1) - A3 * m * a**2))
+        result = sp.factor(-4 * m * R**2 * A1 * ((A3 + m * R**2) * (A3 - A1) - A3 * m * a**2))
+        return sp.Integer(0) if result.is_number and sign(result) == 0 else result
 
     @property
     def roots(self) -> tuple[sp.Expr, ...]:
@@ -168,7 +173,7 @@ class BallOnSphere:
             return "D has a double root"
         if not self.discriminant.is_number:
             return "generic: D has two simple roots"
-        place = "real, outside of [-1, 1]" if self.discriminant > 0 else "a complex conjugate pair"
+        place = "real, outside of [-1, 1]" if sign(self.discriminant) > 0 else "a complex conjugate pair"
         return f"D has two simple roots, {place}" + (", with a = 0" if self.ball.a == 0 else "")
 
     def linear_system(self) -> LinearSystem:

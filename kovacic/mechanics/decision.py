@@ -16,8 +16,9 @@ from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Budget
-from kovacic.mechanics.ball import BallOnSphere
+from kovacic.mechanics.ball import BallOnSphere, Scalar, exact
 from kovacic.mechanics.field import Quotient, Ring
+from kovacic.mechanics.irrational import generators
 from kovacic.mechanics.meridian import X
 from kovacic.mechanics.theorems import normal_form
 from kovacic.solution import Decision
@@ -37,22 +38,27 @@ class Verdict:
 def decide(equation: Quotient, ratio: sp.Expr) -> Verdict:
     """Run the engine on y'' = S y with a numeric S, and verify its decision.
 
-    Raises `InputError` if S still contains a symbol.
+    Raises `InputError` if S still contains a symbol or an irrational number.
     """
     sides = equation.coefficients()
     if sides is None:
-        raise InputError("the engine decides equations without parameters: every one of them needs a value")
+        raise InputError(
+            "the engine decides equations over Q here: every parameter needs a rational value",
+            hint="kovacic.solve(equation.expression()) takes irrational numbers too, kovacic.conditions symbols",
+        )
     S = RatFunc(*(QQ.poly([Fraction(value) for value in side]) for side in sides))
     decision = engine.decide(S, Budget(DEFAULT_LIMITS))
     degree = decision.riccati.degree if decision.riccati is not None else None
     return Verdict(ratio, degree, decision, bool(verify(S, decision)))
 
 
-def normalised(ratio: sp.Rational) -> Quotient:
-    """(13) with x1 = 1, x2 = -1, which is the general case up to an affine change of x."""
-    ring = Ring((X.name,))
+def normalised(ratio: Scalar) -> Quotient:
+    """(13) with x1 = 1, x2 = -1, which is the general case up to an affine change of x, for R/R1 = `ratio`."""
+    rho = exact(ratio, "R/R1")
+    names = sorted(symbol.name for symbol in rho.free_symbols)
+    ring = Ring((*names, X.name), generators([rho]))
     x = ring.element(X)
-    return normal_form(x - 1, x + 1, ring.element(sp.Rational(ratio) ** 2))
+    return normal_form(x - 1, x + 1, ring.element(rho) * ring.element(rho))
 
 
 def degree_of_omega(sphere: BallOnSphere) -> int | None:
@@ -65,7 +71,8 @@ def degree_of_omega(sphere: BallOnSphere) -> int | None:
 
 
 def group_of(sphere: BallOnSphere) -> str | None:
-    """The differential Galois group of (13) by step (d) and its degenerate counterparts; None if symbols leave it open.
+    """The differential Galois group of (13) by step (d) and its degenerate counterparts; None if symbols leave it open
+    (or a ratio such as e^pi/pi^e, of which nobody knows whether it is rational).
 
     For real rho, D with two simple roots (the constants are C): rho = 0: G_a extended by mu_4; 2 rho an integer: mu_4;
     2 rho = p/q: dicyclic of order 4q; irrational: N(T).  A1 = A3: mu_4 (a = 0: trivial, y'' = 0).  A double root:
@@ -74,7 +81,7 @@ def group_of(sphere: BallOnSphere) -> str | None:
     rho = sphere.ratio
     if sphere.leading == 0:
         return "trivial" if sphere.ball.a == 0 else "mu_4"
-    if not rho.is_number or not (sphere.discriminant == 0 or sphere.discriminant.is_number):
+    if not rho.is_number or rho.is_rational is None or not sphere.discriminant.is_number:
         return None
     if sphere.discriminant == 0:
         if rho == 0:

@@ -8,7 +8,7 @@ The coordinates are singular where f(u) = 0 and where sin(u1) = 0.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import mpmath
@@ -18,18 +18,23 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from kovacic.errors import InputError, KovacicError
-from kovacic.mechanics.extrapolation import extrapolate
+from kovacic.mechanics.extrapolation import GUARD, extrapolate
 from kovacic.mechanics.field import Element
 from kovacic.mechanics.meridian import U, X
 from kovacic.mechanics.potential import Potential, potential_of
+from kovacic.mechanics.quantity import as_float, as_mpf, as_times, as_tolerance
 from kovacic.mechanics.woronetz import Body, Quantities
 
 Array = NDArray[np.float64]
+
+METHODS = ("DOP853", "Radau", "RK45", "RK23", "BDF", "LSODA")
 
 
 @dataclass(frozen=True, slots=True)
 class State:
     """Position and velocity at one instant: angles in radians, rates in radians per unit of time, n the spin.
+
+    Floats, or exact numbers: Fraction, SymPy's, or text such as "sqrt(2)/2".
 
     v is the longitude of the contact point on the body, theta the angle between the meridians, u1 and v1 colatitude
     and longitude on the sphere (Cartesian coordinates on the plane).
@@ -141,19 +146,28 @@ def integrate(
 ) -> DirectSolution:
     """The motion from `state` at time 0 by SciPy's `solve_ivp`, at increasing `times` >= 0.
 
-    Raises `IntegrationFailed` with the solver's message if it stops early.
+    Raises `InputError` for what isn't a state, a time, a tolerance or a method of `solve_ivp`, and `IntegrationFailed`
+    with the solver's message if it stops early.
     """
+    if method not in METHODS:
+        raise InputError(f"{method!r} isn't one of SciPy's methods {', '.join(METHODS)}")
+    times, rtol, atol = as_times(times), as_tolerance(rtol, "rtol"), as_tolerance(atol, "atol")
+    start = [as_float(value, name) for name, value in asdict(state).items()]
+    if not np.isfinite(start).all():
+        raise InputError("a motion can't start with numbers that aren't finite")
     system = equations(body, potential)
-    start = [float(value) for value in astuple(state)]
     # SciPy's own differences overflow in the columns of v and v1, on which nothing depends.
     extra: dict[str, Any] = {"jac": jacobian(system)} if method in {"Radau", "BDF"} else {}
     span = (0.0, float(times[-1]))
-    result = solve_ivp(system.rates, span, start, method=method, t_eval=times, rtol=rtol, atol=atol, **extra)
+    try:
+        result = solve_ivp(system.rates, span, start, method=method, t_eval=times, rtol=rtol, atol=atol, **extra)
+    except OverflowError as error:  # of the math module, where NumPy has an infinity
+        raise IntegrationFailed(f"the forces are beyond the range of floats ({error})") from error
     if not result.success:
         raise IntegrationFailed(str(result.message))
     columns = list(result.y.T)
     return DirectSolution(
-        times=np.asarray(times, dtype=float),
+        times=times,
         states=np.asarray(result.y, dtype=float),
         omega_3=np.array([system.omega_3(column) for column in columns]),
         energy=np.array([system.energy(column) for column in columns]),
@@ -184,5 +198,12 @@ def integrate_precisely(
 
     A few seconds per unit of time at 50 digits; see `kovacic.mechanics.extrapolation` for the method.
     """
+    if digits < 1:
+        raise InputError(f"at least one digit, not {digits}")
     system = equations(body, potential, "mpmath")
-    return [State(*values) for values in extrapolate(system.rates, astuple(state), times, digits=digits)]
+    with mpmath.workdps(digits + GUARD):
+        start = [as_mpf(value, name) for name, value in asdict(state).items()]
+        instants = [as_mpf(value, "a time") for value in times]
+    if not all(map(mpmath.isfinite, (*start, *instants))):
+        raise InputError("a motion can't start with, or go on to, numbers that aren't finite")
+    return [State(*values) for values in extrapolate(system.rates, start, instants, digits=digits)]

@@ -18,7 +18,7 @@ from kovacic.errors import LimitExceeded
 Rates = Callable[[Any, Sequence[Any]], list[Any]]
 
 #: Digits carried beyond those asked for: the extrapolation's weights add up to a few powers of ten for each row.
-_GUARD = 25
+GUARD = 25
 _SMALLEST_STEP = mpmath.mpf(2) ** -40
 
 
@@ -35,7 +35,7 @@ def extrapolate(rates: Rates, start: Sequence[Any], times: Sequence[Any], *, dig
     """
     rows = max(6, 3 * digits // 5)
     states = []
-    with mpmath.workdps(digits + _GUARD):
+    with mpmath.workdps(digits + GUARD):
         tolerance = mpmath.mpf(10) ** -(digits + 3)
         t, y, size = mpmath.mpf(0), [mpmath.mpf(value) for value in start], mpmath.mpf(1) / 4
         for end in map(mpmath.mpf, times):

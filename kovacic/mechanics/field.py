@@ -20,35 +20,60 @@ from flint import Ordering, fmpz_mpoly_ctx
 from flint.utils.flint_exceptions import DomainError
 
 from kovacic.errors import InputError
+from kovacic.mechanics.irrational import sign
 
 Element: TypeAlias = "Quotient | Surd"
 
 
 @dataclass(frozen=True, slots=True)
 class Ring:
-    """Z[p1, ..., pk, x]: the names of the parameters and, last, of the variable."""
+    """Z[p1, ..., pk, x]: the names of the parameters and, last, of the variable.
+
+    `constants` are irrational numbers that belong to the field: generators under hidden names, before those of the
+    parameters.  They may be algebraically dependent: an element is zero where its value is (`vanishes`).
+    """
 
     names: tuple[str, ...]
+    constants: tuple[sp.Expr, ...] = ()
+
+    @property
+    def generators(self) -> tuple[str, ...]:
+        """The names of all generators, those of the constants first."""
+        longer = "_" * max(map(len, self.names))
+        return (*(f"c{longer}{k}" for k in range(len(self.constants))), *self.names)
 
     @property
     def context(self) -> Any:
-        return fmpz_mpoly_ctx.get(self.names, Ordering.lex)
+        return fmpz_mpoly_ctx.get(self.generators, Ordering.lex)
+
+    def vanishes(self, polynomial: Any) -> bool:
+        """Whether a polynomial is zero, the constants having their values."""
+        if polynomial.is_zero() or not self.constants:
+            return bool(polynomial.is_zero())
+        size = len(self.constants)
+        values: dict[tuple[int, ...], sp.Expr] = {}
+        for monomial, coefficient in polynomial.to_dict().items():
+            powers = (base ** int(e) for base, e in zip(self.constants, monomial, strict=False) if e)
+            rest = tuple(map(int, monomial[size:]))
+            values[rest] = values.get(rest, sp.Integer(0)) + sp.Mul(int(coefficient), *powers)
+        return all(sign(value) == 0 for value in values.values())
 
     def element(self, expression: sp.Expr) -> Quotient:
-        """The quotient that a SymPy expression, rational in the names, stands for."""
+        """The quotient that a SymPy expression, rational in the names and the constants, stands for."""
+        expression = expression.xreplace(dict(zip(self.constants, map(sp.Symbol, self.generators), strict=False)))
         numerator, denominator = sp.fraction(sp.together(expression))
         return Quotient.make(self, self._polynomial(numerator), self._polynomial(denominator))
 
     def _polynomial(self, expression: sp.Expr) -> tuple[Any, int]:
         """An integral polynomial and the positive integer by which it is to be divided."""
-        symbols = [sp.Symbol(name) for name in self.names]
+        symbols = [sp.Symbol(name) for name in self.generators]
         plain = expression.xreplace({symbol: sp.Symbol(symbol.name) for symbol in expression.free_symbols})
         try:
             polynomial = sp.Poly(plain, *symbols, domain=sp.QQ)
         except (sp.PolynomialError, sp.CoercionFailed) as error:
             raise InputError(
                 f"{expression} isn't a polynomial in {', '.join(self.names)} over the rationals",
-                hint="an irrational parameter has to be a symbol" if expression.is_number else None,
+                hint="irrational numbers have to be real, and parameters of the body" if expression.is_number else None,
             ) from error
         scale, integral = polynomial.clear_denoms()
         terms = {monomial: int(c) for monomial, c in integral.terms() if c}
@@ -69,7 +94,7 @@ class Quotient:
 
     @classmethod
     def make(cls, ring: Ring, num: tuple[Any, int], den: tuple[Any, int]) -> Quotient:
-        if den[0].is_zero():
+        if ring.vanishes(den[0]):
             raise ZeroDivisionError("the denominator is zero")
         return cls(ring, num[0] * den[1], den[0] * num[1])
 
@@ -117,18 +142,22 @@ class Quotient:
         return self.inverse() * other
 
     def __bool__(self) -> bool:
-        return not self._num.is_zero()
+        return not self.ring.vanishes(self._num)
 
     def __eq__(self, other: object) -> bool:
         o = self._other(other)
-        return NotImplemented if o is None else bool(self._num == o._num and self._den == o._den)
+        if o is None:
+            return NotImplemented
+        if self.ring.constants:
+            return not self - o
+        return bool(self._num == o._num and self._den == o._den)
 
     def __hash__(self) -> int:
-        return hash((self.ring, str(self._num), str(self._den)))
+        return hash(self.ring) if self.ring.constants else hash((self.ring, str(self._num), str(self._den)))
 
     def partial(self) -> Quotient:
         """The derivative with respect to the variable, the last name."""
-        index = len(self.ring.names) - 1
+        index = len(self.ring.generators) - 1
         num, den = self._num, self._den
         return Quotient(self.ring, num.derivative(index) * den - num * den.derivative(index), den * den)
 
@@ -178,11 +207,11 @@ class Quotient:
     def factors(self) -> list[tuple[sp.Expr, int]]:
         """Irreducible factors over Z with their (possibly negative) exponents, the content first."""
         result: list[tuple[sp.Expr, int]] = []
-        for side, sign in ((self._num, 1), (self._den, -1)):
+        for side, power in ((self._num, 1), (self._den, -1)):
             content, parts = _factors(self.ring, side)
             if content != 1:
-                result.append((sp.Integer(content), sign))
-            result += [(part, sign * exponent) for part, exponent in parts]
+                result.append((sp.Integer(content), power))
+            result += [(part, power * exponent) for part, exponent in parts]
         return result
 
     def factored(self) -> sp.Expr:
@@ -194,9 +223,18 @@ class Quotient:
 
 
 def _expression(ring: Ring, polynomial: Any) -> sp.Expr:
-    symbols = [sp.Symbol(name) for name in ring.names]
+    return _valued(ring, _plain(ring, polynomial))
+
+
+def _plain(ring: Ring, polynomial: Any) -> sp.Expr:
+    """The polynomial in all generators, the constants under their hidden names."""
+    symbols = [sp.Symbol(name) for name in ring.generators]
     terms = {tuple(monomial): int(c) for monomial, c in polynomial.to_dict().items()}
     return sp.Poly.from_dict(terms or {(0,) * len(symbols): 0}, *symbols).as_expr()
+
+
+def _valued(ring: Ring, expression: sp.Expr) -> sp.Expr:
+    return expression.xreplace(dict(zip(map(sp.Symbol, ring.generators), ring.constants, strict=False)))
 
 
 def _factors(ring: Ring, polynomial: Any) -> tuple[int, list[tuple[sp.Expr, int]]]:
@@ -205,9 +243,9 @@ def _factors(ring: Ring, polynomial: Any) -> tuple[int, list[tuple[sp.Expr, int]
     except (
         OverflowError
     ):  # python-flint 0.9.0 sorts the factors by machine integers and stumbles over larger coefficients
-        symbols = [sp.Symbol(name) for name in ring.names]
-        content, factors = sp.factor_list(_expression(ring, polynomial), *symbols)
-        return int(content), [(factor, int(exponent)) for factor, exponent in factors]
+        symbols = [sp.Symbol(name) for name in ring.generators]
+        content, factors = sp.factor_list(_plain(ring, polynomial), *symbols)
+        return int(content), [(_valued(ring, factor), int(exponent)) for factor, exponent in factors]
     return int(content), [(_expression(ring, part), int(exponent)) for part, exponent in parts]
 
 

@@ -38,6 +38,19 @@ def as_expression(value: Any, what: str) -> sp.Expr:
     return expression
 
 
+def as_exact(value: Any, what: str) -> sp.Expr:
+    """`as_expression` without floating-point numbers, infinities and complex numbers."""
+    expression = as_expression(value, what)
+    if expression.has(sp.Float):
+        raise InputError(
+            f"{what} contains a floating-point number, which isn't exact: {value}",
+            hint='pass Fraction("0.4"), or sympy.Rational("0.4")',
+        )
+    if expression.has(sp.nan, sp.oo, -sp.oo, sp.zoo, sp.I):
+        raise InputError(f"{what} is real and finite, it can't be {value}")
+    return expression
+
+
 @dataclass(frozen=True, slots=True)
 class Profile:
     """A meridian as the user writes it: SymPy expressions f, g in `u`, rational in cos u and sin u or in u itself.
@@ -55,8 +68,8 @@ class Profile:
     edge: bool = False
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "f", as_expression(self.f, "f(u)"))
-        object.__setattr__(self, "g", as_expression(self.g, "g(u)"))
+        object.__setattr__(self, "f", as_exact(self.f, "f(u)"))
+        object.__setattr__(self, "g", as_exact(self.g, "g(u)"))
 
     @property
     def trigonometric(self) -> bool:
@@ -99,14 +112,16 @@ class Meridian:
         return element.factored().subs(X, sp.cos(U)) * sp.sin(U) ** (2 * k)
 
 
-def read_meridian(profile: Profile, names: tuple[str, ...]) -> Meridian:
-    """The meridian of a profile over Q(names)(x); `names` are all parameters of the problem at hand.
+def read_meridian(profile: Profile, names: tuple[str, ...], constants: tuple[sp.Expr, ...] = ()) -> Meridian:
+    """The meridian of a profile over Q(constants)(names)(x).
+
+    `names` are all parameters of the problem at hand, `constants` the irrational numbers (`irrational.generators`).
 
     Raises `InputError` for a profile outside the field, and for a parameter called x or u.
     """
     if {X.name, U.name} & set(names):
         raise InputError("x and u are the variables of the equations, no parameter can have these names")
-    ring = Ring((*names, X.name))
+    ring = Ring((*names, X.name), constants)
     x = ring.element(X)
     if not profile.trigonometric:
         return _from_functions(ring, x * 0 + 1, ring.element(_at_x(profile.f)), ring.element(_at_x(profile.g)), None)

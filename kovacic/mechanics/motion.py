@@ -16,7 +16,7 @@ carry it on.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, astuple, dataclass
+from dataclasses import asdict, dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -31,6 +31,7 @@ from kovacic.mechanics.ball import BallOnSphere
 from kovacic.mechanics.closed import LARGEST, NumericBall
 from kovacic.mechanics.direct import State
 from kovacic.mechanics.potential import Potential, compiled
+from kovacic.mechanics.quantity import as_float, as_tolerance
 from kovacic.mechanics.series import Primitive
 
 Array = NDArray[np.float64]
@@ -99,9 +100,12 @@ class Motion:
         return float(ends[0]), float(ends[1])
 
     def phase(self, times: Array) -> Array:
-        """phi at the given times; time 0 is the initial state."""
+        """phi at the given times, negative ones too; time 0 is the initial state."""
+        instants = np.asarray(times, dtype=float)
+        if not np.isfinite(instants).all():
+            raise InputError("times must be finite")
         begin = float(self.time(np.array(self.phi_0)))
-        return series.invert(self.time, np.asarray(times, dtype=float) + begin, self.tolerance)
+        return series.invert(self.time, instants + begin, self.tolerance)
 
     def rotation(self, phi: Array) -> tuple[Array, Array]:
         """(omega_3, n) at phi, from the closed form."""
@@ -140,9 +144,10 @@ def solve_motion(sphere: BallOnSphere, potential: Potential, state: State, *, to
 
     `tolerance` bounds the relative error of t(phi) and of the attitude (1e-13 is about the rounding of floats); what the
     number of oscillations multiplies is always as exact as floats allow.
-    Raises `InputError` for symbolic parameters, for a start at a pole of the body (u = 0 or pi: v isn't defined), and for
-    a steady motion, where u stays constant; `LimitExceeded` for a motion that takes
-    almost forever to turn (less than about 1e-6 of its energy away from an asymptotic one).
+    Raises `InputError` for symbolic parameters, for a start at a pole of the body (u = 0 or pi: v isn't defined), for
+    a steady motion, where u stays constant, and for an asymptotic one, which never turns and so has no phase;
+    `LimitExceeded` for a motion that takes almost forever to turn (less than about 1e-6 of its energy away from an
+    asymptotic one).  `kovacic.mechanics.direct` integrates all of these but the start at a pole.
 
     >>> from kovacic.mechanics.ball import Ball
     >>> sphere = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
@@ -150,8 +155,9 @@ def solve_motion(sphere: BallOnSphere, potential: Potential, state: State, *, to
     >>> 0 < motion.turning_points[0] < 1 < motion.turning_points[1]
     True
     """
+    tolerance = as_tolerance(tolerance, "the tolerance")
     ball = NumericBall.of(sphere, np)
-    start = State(*(float(value) for value in astuple(state)))
+    start = State(*(as_float(value, name) for name, value in asdict(state).items()))
     for name, value in asdict(start).items():
         if not abs(value) <= LARGEST:
             raise InputError(f"{name} = {value} isn't a number that a motion can start with")
@@ -177,7 +183,9 @@ def solve_motion(sphere: BallOnSphere, potential: Potential, state: State, *, to
         W = numerator(x, band.sine(phi) ** 2) / ball.K11(x)
         square: Array = W / (band.amp * np.sin(phi)) ** 2
         if square.min() <= 0:
-            raise InputError("the motion is asymptotic, or nearly: W has a double zero at a turning point")
+            raise InputError(
+                "the motion is asymptotic, or nearly: W has a double zero at a turning point", hint=series.ASYMPTOTIC
+            )
         root: Array = np.sqrt(square)
         return root
 

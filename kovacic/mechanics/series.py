@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 
 #: The largest number of sample points; beyond it the motion is as good as asymptotic to a steady one.
 MAX_SAMPLES = 1 << 14
+#: The way out where the quadratures over the phase don't converge.
+ASYMPTOTIC = "change the initial velocity by 1e-5 of itself, or follow it by kovacic.mechanics.direct.integrate"
 
 
 def cosine_series(function: Callable[[Any], Any], tolerance: float) -> Array:
@@ -42,7 +44,8 @@ def cosine_series(function: Callable[[Any], Any], tolerance: float) -> Array:
             return coefficients[: int(kept[-1]) + 1 if kept.size else 1]
         samples *= 2
     raise LimitExceeded(
-        f"the integrand needs more than {MAX_SAMPLES} samples: the motion is nearly asymptotic, or the potential rough",
+        f"the integrand needs more than {MAX_SAMPLES} samples: the motion is nearly asymptotic, or the potential rough\n"
+        f"  hint: {ASYMPTOTIC}",
         limit="samples",
     )
 

@@ -22,7 +22,8 @@ import sympy as sp
 
 from kovacic.errors import InputError
 from kovacic.mechanics.field import Element, Quotient, Surd, base_part
-from kovacic.mechanics.meridian import Meridian, Profile, U, X, as_expression, read_meridian
+from kovacic.mechanics.irrational import generators, settled, sign
+from kovacic.mechanics.meridian import Meridian, Profile, U, X, as_exact, read_meridian
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,8 +31,11 @@ class Body:
     """A rolling body of revolution: mass m, moments A1 = A2 and A3 about the centre of mass, and its meridian.
 
     `R1` is the radius of the fixed sphere: positive for rolling outside, negative for rolling inside, SymPy's `oo` for
-    the plane.  All of them are SymPy expressions, rational in any symbols; units are any consistent ones (moments in
-    mass * length^2).
+    the plane.  All of them are SymPy expressions, rational in any symbols, or exact numbers, such as sqrt(2); units are
+    any consistent ones (moments in mass * length^2).
+
+    Raises `InputError` for anything else (floating-point numbers aren't exact), and for a number that is impossible:
+    m > 0, A1 > 0, A3 > 0, A3 <= 2 A1, R1 other than 0.
 
     >>> m, A1, A3, R = sp.symbols("m A1 A3 R")
     >>> disk = Body(Profile(R, sp.Integer(0), edge=True), m, A1, A3, sp.oo)
@@ -46,8 +50,17 @@ class Body:
     R1: sp.Expr
 
     def __post_init__(self) -> None:
-        for name in ("m", "A1", "A3", "R1"):
-            object.__setattr__(self, name, as_expression(getattr(self, name), name))
+        for name in ("m", "A1", "A3"):
+            object.__setattr__(self, name, settled(as_exact(getattr(self, name), name)))
+        object.__setattr__(self, "R1", self.R1 if self.R1 is sp.oo else settled(as_exact(self.R1, "R1")))
+        for name, value in (("m", self.m), ("A1", self.A1), ("A3", self.A3)):
+            if value.is_number and sign(value) <= 0:
+                raise InputError(f"there is no such body: {name} > 0 fails, as {name} = {value}")
+        excess = self.A3 - 2 * self.A1
+        if excess.is_number and sign(excess) > 0:
+            raise InputError(f"there is no such body: A3 <= 2 A1 fails, as {self.A3} > {2 * self.A1}")
+        if self.R1 == 0:
+            raise InputError("the fixed surface needs a radius R1 other than 0", hint="sympy.oo is the plane")
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -57,7 +70,8 @@ class Body:
 
     def quantities(self) -> Quantities:
         """Everything that the equations are made of, as elements of the field."""
-        meridian = read_meridian(self.profile, self.names)
+        given = (self.profile.f, self.profile.g, self.m, self.A1, self.A3, *(() if self.R1.is_infinite else (self.R1,)))
+        meridian = read_meridian(self.profile, self.names, generators(given))
         element = meridian.ring.element
         zero = element(sp.Integer(0))
         kappa = zero if self.R1.is_infinite else 1 / element(self.R1)
