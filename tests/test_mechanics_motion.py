@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import json
+import signal
+import subprocess
+import sys
+import time
 from dataclasses import astuple, replace
 
 import mpmath
@@ -16,13 +20,15 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.mechanics import Ball, Body, Profile, U
 from kovacic.mechanics.attitude import follow, locate
 from kovacic.mechanics.ball import ball_with_roots
-from kovacic.mechanics.closed import NumericBall
+from kovacic.mechanics.closed import NumericBall, closed_form_in_roots
+from kovacic.mechanics.decision import normalised
 from kovacic.mechanics.direct import IntegrationFailed, State, equations, integrate, integrate_precisely
 from kovacic.mechanics.extrapolation import extrapolate
 from kovacic.mechanics.motion import solve_motion
 from kovacic.mechanics.plot import compare, draw
 from kovacic.mechanics.potential import central_gravity, compiled, potential_of
 from kovacic.mechanics.series import Primitive, cosine_series, divide, invert
+from kovacic.mechanics.theorems import rational_solutions
 
 POTENTIAL = sp.Rational(3, 2) * sp.cos(U)
 START = State(1.0, 0.1, 0.3, 1.2, 0.2, 0.5, 0.3, 2.0)
@@ -544,10 +550,12 @@ _BALL = ("--mass", "1", "--radius", "1", "--sphere", "3")
         (("--mass", "one", "--radius", "1", "--sphere", "1"), "can't contain one"),
         ((*_BALL, "--potential", "cos(w)", "--simulate"), "can't contain w"),
         ((*_BALL, "--potential", "cos(u)", "--gravity", "1"), "either --gravity"),
-        ((*_BALL, "--simulate", "--time", "nan"), "must be positive"),
+        ((*_BALL, "--simulate", "--time", "nan"), "can't contain nan"),
+        ((*_BALL, "--simulate", "--time", "-1"), "must be positive"),
         ((*_BALL, "--simulate", "--time", "1e9"), "at most 1000 oscillations"),
         ((*_BALL, "--simulate", "--start", "0", "1", "1", "1"), "between the poles"),
-        ((*_BALL, "--simulate", "--start", "inf", "1", "1", "1"), "can start with"),
+        ((*_BALL, "--simulate", "--start", "inf", "1", "1", "1"), "can't contain inf"),
+        ((*_BALL, "--simulate", "--start", "1", "1e60", "1", "1"), "can start with"),
         ((*_BALL, "--plot", "a.gif"), "doesn't end in"),
         ((*_BALL, "--plot", "/nowhere/a.png"), "can't be written"),
         (("--ratio", "-3/2"), "R < |R1| fails"),
@@ -557,3 +565,142 @@ def test_command_refuses(run, arguments, message):
     status, output = run(*arguments)
     assert status == 2
     assert message in output.err
+
+
+def test_command_with_irrational_numbers_everywhere(run):
+    body = ("--mass", "sqrt(2)", "--radius", "1", "--offset", "1/5", "--A1", "sqrt(2)/4", "--A3", "sqrt(2)/3")
+    motion = ("--sphere", "2*sqrt(2)", "--simulate", "--start", "sqrt(2)/2", "1/2", "-0.3", "2", "--time", "sqrt(5)")
+    status, output = run(*body, *motion, "--json")
+    data = json.loads(output.out)
+    assert (status, data["ratio"], data["case"], data["group"]) == (0, "sqrt(2)/4", 2, "N(T)")
+    assert data["motion"]["time"] == np.sqrt(5)
+    assert max(data["motion"]["difference"].values()) < 1e-9
+
+
+def test_ctrl_c_during_a_simulation_is_status_130_and_leaves_no_picture(tmp_path):
+    """A run of minutes, interrupted when it has begun to integrate; an older picture stays what it was."""
+    picture, started = tmp_path / "path.png", tmp_path / "started"
+    picture.write_bytes(b"an older one")
+    script = f"""
+import sys
+from pathlib import Path
+from kovacic.cli import main
+from kovacic.mechanics import plot
+compare = plot.compare
+def marked(*arguments, **options):
+    Path({str(started)!r}).touch()
+    return [compare(*arguments, **options) for _ in range(1000)]
+plot.compare = marked
+main.main(sys.argv[1:])
+"""
+    arguments = ["ball", *_BALL, "--offset", "1/5", "--simulate", "--time", "500", "--plot", str(picture)]
+    process = subprocess.Popen(
+        [sys.executable, "-c", script, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    while process.poll() is None and not started.exists():
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=60)
+    assert (process.returncode, output, errors) == (130, "", "kovacic: interrupted\n")
+    assert picture.read_bytes() == b"an older one"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["path.png", "started"]
+
+
+def test_a_picture_is_written_whole_or_not_at_all(tmp_path, monkeypatch):
+    sphere = BALLS["l > 0"].on_sphere(3)
+    comparison = compare(sphere, POTENTIAL, solve_motion(sphere, POTENTIAL, START), 1.0, samples=20, rtol=1e-8)
+    picture = tmp_path / "path.svg"
+    picture.write_bytes(b"an older one")
+
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(type(picture), "replace", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            draw(comparison, picture)
+    assert picture.read_bytes() == b"an older one"
+    draw(comparison, picture)
+    assert picture.read_text(encoding="utf-8").startswith("<?xml")
+    assert [path.name for path in tmp_path.iterdir()] == ["path.svg"]
+
+
+EVIL = "print('executed') or 1#"
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda text: closed_form_in_roots(text),
+        lambda text: normalised(text),
+        lambda text: rational_solutions(text),
+        lambda text: central_gravity(BALLS["l > 0"].on_sphere(3), text),
+        lambda text: solve_motion(BALLS["l > 0"].on_sphere(3), text, START),
+        lambda text: solve_motion(BALLS["l > 0"].on_sphere(3), POTENTIAL, replace(START, n=text)),
+        lambda text: solve_motion(BALLS["l > 0"].on_sphere(3), POTENTIAL, START, tolerance=text),
+        lambda text: BALLS["l > 0"].on_sphere(text),
+        lambda text: Body(Profile(sp.sin(U), sp.cos(U)), text, 1, 1, sp.oo),
+        lambda text: integrate(BALLS["l > 0"].on_sphere(3).body, POTENTIAL, replace(START, u=text), np.array([1.0])),
+        lambda text: integrate_precisely(BALLS["l > 0"].on_sphere(3).body, POTENTIAL, START, [text]),
+    ],
+)
+@pytest.mark.parametrize("text", [EVIL, "__import__('os').getcwd()"])
+def test_text_is_never_executed(call, text, capsys):
+    with pytest.raises(InputError):
+        call(text)
+    assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize("value", [0.1, sp.Float("0.1"), sp.nan, sp.zoo, -sp.oo, sp.I, True, None])
+def test_bodies_refuse_what_is_not_exact_real_and_finite(value):
+    for field in ("m", "A1", "A3", "R1"):
+        with pytest.raises(InputError):
+            Body(Profile(sp.sin(U), sp.cos(U)), **{"m": 1, "A1": 1, "A3": 1, "R1": 3, field: value})
+    with pytest.raises(InputError):
+        Profile(value * sp.sin(U) if isinstance(value, float | sp.Expr) else value, sp.cos(U))
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [({"m": -1}, "m > 0"), ({"A1": 0}, "A1 > 0"), ({"A3": 3}, "A3 <= 2 A1"), ({"R1": 0}, "other than 0")],
+)
+def test_impossible_bodies_are_refused_with_the_inequality(change, message):
+    with pytest.raises(InputError, match=message):
+        Body(Profile(sp.sin(U), sp.cos(U)), **{"m": 1, "A1": 1, "A3": 1, "R1": 3, **change})
+
+
+def test_numerical_settings_are_checked():
+    sphere = BALLS["l > 0"].on_sphere(3)
+    body, times = sphere.body, np.array([0.0, 0.1])
+    for wrong in ([], [3, 2], [-1, 1], [0, np.nan], [np.inf], [0], "a", [None]):
+        with pytest.raises(InputError):
+            integrate(body, POTENTIAL, START, wrong)
+    for options in ({"rtol": -1}, {"atol": np.nan}, {"method": "Euler"}):
+        with pytest.raises(InputError):
+            integrate(body, POTENTIAL, START, times, **options)
+    for tolerance in (0, -1, np.nan, np.inf, None):
+        with pytest.raises(InputError, match="tolerance"):
+            solve_motion(sphere, POTENTIAL, START, tolerance=tolerance)
+    for value in (None, 1j, True, sp.Symbol("q"), [1.0], sp.I):
+        for solve in (solve_motion, lambda s, V, start: integrate(s.body, V, start, times)):
+            with pytest.raises(InputError):
+                solve(sphere, POTENTIAL, replace(START, dv=value))
+    with pytest.raises(InputError, match="finite"):
+        integrate(body, POTENTIAL, replace(START, dv=np.nan), times)
+    with pytest.raises(InputError, match="finite"):
+        solve_motion(sphere, POTENTIAL, START).phase(np.array([np.inf]))
+    with pytest.raises(InputError, match="digit"):
+        integrate_precisely(body, POTENTIAL, START, [1], digits=0)
+    with pytest.raises(InputError, match="finite"):
+        integrate_precisely(body, POTENTIAL, START, [mpmath.nan])
+    with pytest.raises(IntegrationFailed, match="range of floats"):
+        integrate(body, "exp(exp(exp(exp(5))))", START, times)
+
+
+@pytest.mark.parametrize(
+    "potential",
+    [sp.Function("f")(U), sp.Function("exit")(U), sp.Abs(sp.cos(U)), sp.Integral(sp.cos(U), U), sp.zoo, sp.oo, sp.nan],
+)
+def test_potentials_that_are_not_elementary(potential):
+    with pytest.raises(InputError, match="elementary"):
+        potential_of(potential)

@@ -33,8 +33,15 @@ _LONGEST = 1000
 @click.option(
     "--potential", metavar="V", help='Another potential in place of gravity, such as "3/2*cos(u) + sin(u)^2".'
 )
-@click.option("--start", nargs=4, type=float, default=(1.0, 0.5, 0.3, 2.0), show_default=True, metavar="u u' v' n")
-@click.option("--time", "end", type=float, default=20.0, show_default=True, help="The motion from 0 to this time.")
+@click.option(
+    "--start",
+    nargs=4,
+    default=("1", "0.5", "0.3", "2"),
+    show_default=True,
+    metavar="u u' v' n",
+    help="Numbers at time 0: 1, 0.5, sqrt(2)/2, pi/4.",
+)
+@click.option("--time", "end", metavar="T", default="20", show_default=True, help="The motion from 0 to this time.")
 @click.option(
     "--plot", metavar="FILE", type=click.Path(dir_okay=False, writable=True), help="A picture (png, pdf, svg)."
 )
@@ -51,15 +58,15 @@ def command(
     simulate: bool,
     gravity: str | None,
     potential: str | None,
-    start: tuple[float, float, float, float],
-    end: float,
+    start: tuple[str, str, str, str],
+    end: str,
     plot: str | None,
 ) -> None:
     """A ball with an axially symmetric mass distribution that rolls on a sphere.
 
-    Numbers are exact: 3/2, 0.25, sqrt(2).  Any consistent units; moments are mass * length^2, angles radians.  A potential
-    is a function of cos(u), u being the angle between the ball's axis and the normal at the contact; a uniform field over a
-    sphere isn't one.
+    Numbers are exact: 3/2, 0.25, sqrt(2), and only the motion is computed in floating point.  Any consistent units; moments
+    are mass * length^2, angles radians.  A potential is a function of cos(u), u being the angle between the ball's axis and
+    the normal at the contact; a uniform field over a sphere isn't one.
 
     \b
     kovacic ball --ratio 3/2
@@ -154,8 +161,8 @@ def _simulate(
     sphere: BallOnSphere,
     gravity: str | None,
     potential: str | None,
-    start: tuple[float, float, float, float],
-    end: float,
+    start: tuple[str, str, str, str],
+    end: str,
     plot: str | None,
 ) -> dict[str, Any]:
     from kovacic.errors import InputError
@@ -167,19 +174,20 @@ def _simulate(
         from kovacic.mechanics.motion import solve_motion
         from kovacic.mechanics.plot import compare, draw
         from kovacic.mechanics.potential import central_gravity, potential_of
+        from kovacic.mechanics.quantity import as_float
     except ModuleNotFoundError as error:
         raise click.ClickException(f"a motion needs NumPy and SciPy: pip install kovacic[numeric] ({error})") from error
-    from kovacic.mechanics.ball import exact
 
-    u, du, dv, n = start
-    V = central_gravity(sphere, exact(gravity or "1", "g")) if potential is None else potential_of(potential)
+    u, du, dv, n = (as_float(value, name) for value, name in zip(start, ("u", "u'", "v'", "n"), strict=True))
+    time = as_float(end, "the time")
+    V = central_gravity(sphere, gravity or "1") if potential is None else potential_of(potential)
     motion = solve_motion(sphere, V, State(u, 0.0, 0.0, 1.0, 0.0, du, dv, n))
-    if not 0 < end <= _LONGEST * motion.period:
+    if not 0 < time <= _LONGEST * motion.period:
         raise InputError(
-            f"the time must be positive and at most {_LONGEST} oscillations, {_LONGEST * motion.period:.6g}, not {end:g}",
+            f"the time must be positive and at most {_LONGEST} oscillations, {_LONGEST * motion.period:.6g}, not {time:g}",
             hint="the quadratures reach any time, but the direct integration that they're compared with doesn't",
         )
-    comparison = compare(sphere, V, motion, end, samples=1200 + int(60 * end / motion.period))
+    comparison = compare(sphere, V, motion, time, samples=1200 + int(60 * time / motion.period))
     if plot:
         place = "on the plane" if sphere.R1.is_infinite else f"on the sphere, R/R1 = {sphere.ratio}"
         try:
@@ -194,7 +202,7 @@ def _simulate(
             "potential": str(V),
             "turning_points": list(motion.turning_points),
             "period": motion.period,
-            "time": end,
+            "time": time,
             "difference": {name: float(error.max()) for name, error in comparison.errors.items()},
             "energy_drift": float(np.abs(motion.energies(motion.phase(comparison.times)) - motion.energy).max()),
             "energy_drift_of_the_direct_integration": float(np.abs(energy - energy[0]).max()),

@@ -13,7 +13,7 @@ from typing import Any
 import sympy as sp
 
 from kovacic.errors import InputError
-from kovacic.mechanics.ball import BallOnSphere
+from kovacic.mechanics.ball import BallOnSphere, Scalar, exact
 from kovacic.mechanics.meridian import X
 from kovacic.mechanics.theorems import rational_solutions
 
@@ -74,7 +74,7 @@ def closed_form(sphere: BallOnSphere) -> ClosedForm:
     return ClosedForm(omega_3, (zeta - half * omega_3) / (m * R**2 * A1))
 
 
-def closed_form_in_roots(rho: sp.Expr) -> ClosedForm:
+def closed_form_in_roots(rho: Scalar) -> ClosedForm:
     """The general solution for a ratio R/R1 = rho other than 0, in the roots x1, x2 of D, the body otherwise arbitrary.
 
     Of the body, only A3/A1 occurs besides the roots.  For an integer 2 rho both solutions are polynomials times powers of
@@ -83,6 +83,7 @@ def closed_form_in_roots(rho: sp.Expr) -> ClosedForm:
     >>> closed_form_in_roots(sp.Rational(-1, 2)).n
     (A1 - A3)*(c1*(-x1/2 + x2/2)/sqrt(x - x2) + c2*(x1/2 - x2/2)/sqrt(x - x1))/A1
     """
+    rho = exact(rho, "R/R1")
     A1, A3, x1, x2 = sp.symbols("A1 A3 x1 x2")
     twice = sp.Abs(2 * rho)
     if twice.is_Integer:

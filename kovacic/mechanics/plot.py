@@ -5,6 +5,8 @@ Drawn with Matplotlib's Agg canvas; nothing is ever shown on a screen.
 
 from __future__ import annotations
 
+import io
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -61,7 +63,10 @@ def compare(
 
 
 def draw(comparison: Comparison, path: Path | str, *, title: str = "") -> None:
-    """Write the picture; the format follows from the suffix (png, pdf, svg)."""
+    """Write the picture; the format follows from the suffix (png, pdf, svg).
+
+    The file is there whole or, after an error or an interruption, not at all (an older one stays as it was).
+    """
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(12.5, 7.4), dpi=110)
@@ -92,7 +97,26 @@ def draw(comparison: Comparison, path: Path | str, *, title: str = "") -> None:
         axes.title.set_fontsize(10)
     if title:
         figure.suptitle(title)
-    figure.savefig(str(path))
+    picture = io.BytesIO()
+    figure.savefig(picture, format=Path(path).suffix.lower().removeprefix(".") or None)
+    _write_whole(Path(path), picture.getvalue())
+
+
+def _write_whole(path: Path, content: bytes) -> None:
+    """Write beside the file first, and put that in its place; a device or a pipe is written to."""
+    if path.exists() and not path.is_file():
+        path.write_bytes(content)
+        return
+    target = path.resolve()  # through a symbolic link, which stays one
+    beside = target.with_name(f"{target.name}.{os.getpid()}.tmp")
+    try:
+        beside.write_bytes(content)
+        if target.exists():
+            beside.chmod(target.stat().st_mode)
+        beside.replace(target)
+    except BaseException:
+        beside.unlink(missing_ok=True)
+        raise
 
 
 def _draw_sphere(axes: Any, comparison: Comparison) -> None:

@@ -11,20 +11,38 @@ from typing import Any, TypeAlias
 
 import numpy as np
 import sympy as sp
+from sympy.functions.elementary.hyperbolic import HyperbolicFunction, InverseHyperbolicFunction
+from sympy.functions.elementary.trigonometric import InverseTrigonometricFunction, TrigonometricFunction
 
 from kovacic.errors import InputError
-from kovacic.mechanics.ball import BallOnSphere
+from kovacic.mechanics.ball import BallOnSphere, Scalar, exact
 from kovacic.mechanics.meridian import U, as_expression
 from kovacic.mechanics.reading import read_expression
 
 Potential: TypeAlias = "sp.Expr | str | float"
 _SAMPLES = 32
+_ELEMENTARY = (
+    sp.Symbol,
+    sp.Number,
+    sp.NumberSymbol,
+    sp.CRootOf,
+    sp.Add,
+    sp.Mul,
+    sp.Pow,
+    sp.exp,
+    sp.log,
+    TrigonometricFunction,
+    InverseTrigonometricFunction,
+    HyperbolicFunction,
+    InverseHyperbolicFunction,
+)
 
 
 def potential_of(value: Potential) -> sp.Expr:
     """V as a SymPy expression in u; text is read by `kovacic.mechanics.reading`.
 
-    Raises `InputError` for anything but a function of u.
+    A potential is only ever evaluated, so it may contain floats, which are taken as they are; decimals in text are exact.
+    Raises `InputError` for anything but an elementary function of u.
 
     >>> potential_of("3/2*cos(u)")
     3*cos(u)/2
@@ -35,16 +53,20 @@ def potential_of(value: Potential) -> sp.Expr:
         V = as_expression(value, "the potential")
     if V.free_symbols - {U} or V.has(sp.I):
         raise InputError(f"the potential is a real function that depends on u alone, it can't be {value}")
+    for part in sp.preorder_traversal(V):
+        if not isinstance(part, _ELEMENTARY) or part in (sp.oo, -sp.oo, sp.zoo, sp.nan):
+            raise InputError(f"the potential is an elementary function of u, it can't contain {part}")
     return V
 
 
-def central_gravity(sphere: BallOnSphere, g: sp.Expr) -> sp.Expr:
+def central_gravity(sphere: BallOnSphere, g: Scalar) -> sp.Expr:
     """The potential V(u) of a force m g of constant strength towards the centre of the sphere (on the plane: downwards).
 
     The distance of the centre of mass from the sphere's centre is sqrt(R1^2 + 2 R1 eps + |rho|^2), eps = R + a cos u; V
     is m g times its excess over |R1|.
     """
     m, R, a, _, _ = sphere.ball.parameters
+    g = exact(g, "g")
     eps = R + a * sp.cos(U)
     if sphere.R1.is_infinite:
         return m * g * eps

@@ -216,8 +216,8 @@ def rational_solutions(N: int) -> RationalSolutions:
     >>> rational_solutions(3).expressions()[0]
     (4*x - x1 - 3*x2)/sqrt(x - x2)
     """
-    if N < 1:
-        raise InputError(f"N = 2R/R1 must be a positive integer here, not {N}")
+    if not isinstance(N, int) or N < 1:
+        raise InputError(f"N = 2R/R1 must be a positive integer here, not {N!r}")
     ring = Ring(("delta", X.name))
     alpha = ring.element(X)
     beta = alpha + ring.element(sp.Symbol("delta"))
