@@ -6,16 +6,22 @@ import json
 import pickle
 from dataclasses import replace
 from fractions import Fraction
+from random import Random
+from typing import Any
 
 import pytest
 import sympy
+from flint import fmpz_mat
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import kovacic
 from kovacic.algebra.fields import QQ
+from kovacic.algebra.function_field import FunctionField
 from kovacic.galois.group import Kind
-from kovacic.limits import Limits
+from kovacic.limits import Budget, Limits
 from kovacic.parametric.answer import Conditions
+from kovacic.parametric.pivots import without_constant_pivots
 from kovacic.parametric.regions import Verdict
 from kovacic.parametric.riemann import kimura
 from kovacic.solution import Structure
@@ -366,6 +372,46 @@ def test_with_a_fixed_degree_and_several_parameters_one_determinant_is_complete(
     report = answer.check(200)
     assert report, report.disagreements
     assert report.inside > 60
+
+
+def test_a_polynomial_of_high_degree() -> None:
+    """P of degree 150 for 76 values of b, the roots of a polynomial that only the recurrence gives quickly."""
+    answer = kovacic.conditions("x^6 - 303*x^2 + b", var="x")
+    assert answer.complete is True
+    assert [region.case for region in answer.regions] == [1]
+    assert str(answer.regions[0].statement).startswith("b^76 - ")
+    assert answer.case_at({"b": 1}) is None
+
+
+@given(matrices=st.integers(0, 10**9))
+@settings(max_examples=30)
+def test_constant_pivots_lower_the_rank_by_one_each(matrices: int) -> None:
+    random = Random(matrices)
+    field = FunctionField(("a", "b"))
+    a, b = (field.generator(name).num for name in "ab")
+    one = field.context.constant(1)
+    choices = [0 * one, 0 * one, one, -2 * one, 3 * one, a, b - 1, a * b + 2, a**2 - b]
+    columns = [{i: random.choice(choices) for i in range(5)} for _ in range(4)]
+    rows, eliminated = without_constant_pivots(columns, Budget())
+    assert not any(entry.is_constant() and entry for row in rows for entry in row)
+    for values in ((0, 0), (1, 1), (2, 1), (-1, 2), (1, 2), (5, 7)):
+
+        def rank(matrix: list[list[Any]]) -> int:
+            if not matrix:
+                return 0
+            entries = [int(entry(0, *values)) for row in matrix for entry in row]  # noqa: B023
+            return int(fmpz_mat(len(matrix), len(matrix[0]), entries).rank())
+
+        assert rank([[column[i] for column in columns] for i in range(5)]) == rank(rows) + eliminated
+
+
+def test_an_incomplete_answer_is_for_generic_values() -> None:
+    answer = kovacic.conditions("x^6 + a*x^2 + b", var="x", max_degree=1)
+    assert "otherwise, for generic values: no Liouvillian solution" in str(answer)
+    assert "otherwise, for generic values" in answer.latex()
+    unfinished = kovacic.conditions("x^6 - 200000003*x^2 + b", var="x", limits=Limits(seconds=0.5))
+    assert not unfinished.within_limits
+    assert "always" not in str(unfinished)
 
 
 def test_views(answers: dict[str, Conditions]) -> None:

@@ -240,11 +240,17 @@ class Conditions:
         }
 
     def latex(self) -> str:
-        """The partition as a LaTeX `cases` environment."""
+        """The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values."""
         rows = [rf"\text{{{_case_text(r.verdict)}}} & {r.statement.latex()}" for r in self.regions if r.defined]
-        rows.append(rf"\text{{{_case_text(self.generic)}}} & \text{{otherwise}}")
+        rows.append(rf"\text{{{_case_text(self.generic)}}} & \text{{{self._where_generic}}}")
         left = f"y'' = \\left({as_latex(self.S, self.variable)}\\right) y"
         return left + r"\colon\quad \begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
+
+    @property
+    def _where_generic(self) -> str:
+        if self.complete is True:
+            return "otherwise" if self.regions else "always"
+        return "otherwise, for generic values" if self.regions else "for generic values"
 
     def _repr_latex_(self) -> str:
         return f"${self.latex()}$"
@@ -260,7 +266,7 @@ class Conditions:
         lines = [f"y'' = ({shown(self.S, self.variable)}) y, parameters {', '.join(self.parameters)}{known}"]
         lines += [f"  note: {notice}" for notice in self.notices]
         lines += [f"  {region}" for region in self.regions]
-        lines.append(f"  {'otherwise' if self.regions else 'always'}: {_case_text(self.generic)}")
+        lines.append(f"  {self._where_generic}: {_case_text(self.generic)}")
         complete = "proven to be complete" if self.complete is True else f"complete {self.complete}"
         lines.append(f"  ({complete}; {self.theory})")
         return "\n".join(lines)

@@ -9,7 +9,7 @@ common factors contain every such value; which of these values really are specia
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import reduce
 from math import lcm
@@ -22,6 +22,7 @@ from kovacic.algebra.fields import BadPrimeError
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.invariants import singular_part
+from kovacic.parametric.pivots import without_constant_pivots
 from kovacic.places import Kind, Place, Problem
 from kovacic.riccati import Form
 
@@ -69,10 +70,11 @@ class RankConditions:
     """Irreducible polynomials that vanish where a rank drops; `complete` False where it may drop elsewhere too.
 
     With several parameters the minors may have common zeros where their common divisor doesn't vanish, unless there is one
-    minor only.
+    minor only.  `certain` are those polynomials at whose zeros the rank is known to drop.
     """
 
     polynomials: list[Poly]
+    certain: list[Poly] = field(default_factory=list)
     complete: bool = True
 
 
@@ -101,58 +103,27 @@ def rank_conditions(images: list[Poly], problem: Problem) -> RankConditions:
     """Where do the polynomials span less than generically?"""
     field = problem.field
     assert isinstance(field, FunctionField)
-    columns = [_integral(image) for image in images]
-    height = max((image.degree for image in images), default=-1) + 1
-    matrix = [[column.get(i) for column in columns] for i in range(height)]
-    zero = field.context.constant(0)
-    rows = [[zero if entry is None else entry for entry in row] for row in matrix]
-    rank = _generic_rank(images, field)
-    if len(field.names) > 1:
-        rows, eliminated = _without_constant_pivots(rows, problem)
-        rank -= eliminated
+    columns = []
+    for image in images:
+        problem.budget.check()
+        columns.append(_integral(image))
+    rows, eliminated = without_constant_pivots(columns, problem.budget)
+    rank = _generic_rank(images, field) - eliminated
     if rank == 0:
         return _NEVER
-    is_exact = len(field.names) == 1 or len(rows) == len(rows[0]) == rank
+    single = len(rows) == len(rows[0]) == rank
+    zero = common = field.context.constant(0)
     random = Random(20240229)
-    common = zero
-    for _ in range(_DETERMINANTS):
+    for _ in range(1 if single else _DETERMINANTS):
         problem.budget.check()
         determinant = _determinant(_mixed(rows, rank, random, zero), problem)
         if determinant.is_constant() and not determinant.is_zero():
             return _NEVER
         common = common.gcd(determinant)
     factors = irreducible_factors(FunctionPoly(field, common, field.context.constant(1)))
-    return RankConditions(factors, complete=is_exact)
-
-
-def _without_constant_pivots(rows: list[list[Any]], problem: Problem) -> tuple[list[list[Any]], int]:
-    """A smaller matrix, and by how much its rank is smaller at all values of the parameters.
-
-    A constant entry clears its column; its row and column are left out then, and so are zero rows and columns.
-    """
-    eliminated = 0
-    while True:
-        problem.budget.check()
-        rows = [row for row in rows if any(row)]
-        used = [k for k in range(len(rows[0]) if rows else 0) if any(row[k] for row in rows)]
-        rows = [[row[k] for k in used] for row in rows]
-        fill = [sum(1 for row in rows if row[k]) for k in range(len(used))]
-        pivots = [
-            (sum(map(bool, row)) * fill[k], i, k)
-            for i, row in enumerate(rows)
-            for k, entry in enumerate(row)
-            if entry and entry.is_constant()
-        ]
-        if not pivots:
-            return rows, eliminated
-        _, i, k = min(pivots)
-        chosen = rows[i]
-        others = [row for number, row in enumerate(rows) if number != i]
-        rows = [
-            [a * chosen[k] - row[k] * b for a, b in zip(row, chosen, strict=True)] if row[k] else row for row in others
-        ]
-        rows = [[*row[:k], *row[k + 1 :]] for row in rows]
-        eliminated += 1
+    undefined = union([irreducible_factors(denominator) for image in images for denominator in denominators(image)])
+    certain = [factor for factor in factors if factor not in undefined] if single else []
+    return RankConditions(factors, certain, complete=single or len(field.names) == 1)
 
 
 def rank_drops(images: list[Poly], function: Poly) -> bool | None:

@@ -150,16 +150,16 @@ def _with_constant_degree(problem: Problem, degrees: set[int], findings: Finding
         common = theta.den * zeroth.den
         images = []
         for j in range(int(d) + 1):
+            problem.budget.check()
             P = x**j
             value = (P.derivative().derivative() + zeroth * P + 2 * theta * P.derivative()) * common
             images.append(value.num)
-        problem.budget.check()
         found = rank_conditions(images, problem)
         if not found.complete:
             findings.unproven.append(_SEVERAL)
         for function in found.polynomials:
             findings.candidates.append(function)
-            if rank_drops(images, function):
+            if function in found.certain or rank_drops(images, function):
                 findings.reducible.append(function)
     return True
 
