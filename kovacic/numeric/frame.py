@@ -154,17 +154,19 @@ def ray_bound(frame: Frame, u: complex, log2_norm_p: float | None = None) -> Ray
     return RayBound(error, slope, log2_min_q, math.log2(max(growth, slope_growth)))
 
 
-def ray_to(system: System, frame: Frame, target: Point) -> RayBound:
-    """Bounds along the ray from the centre to `target`; raises ArithmeticError where they can't be given."""
+def ray_to(system: System, frame: Frame, target: Point, log2_norm_p: float | None = None) -> RayBound:
+    """Bounds along the ray from the centre to `target`; raises ArithmeticError where they can't be given.
+
+    `log2_norm_p` as for `ray_bound`; computed where it's needed and not given.
+    """
     offset = (target - frame.centre).scaled(1 / frame.scale)
     u = complex(float(offset.re), float(offset.im))
     if abs(u) < _SHORT:  # its powers would underflow; the bounds grow with the length of the ray
         u = complex(_SHORT)
-    norm_p = None
-    if frame.zeros is None:
+    if frame.zeros is None and log2_norm_p is None:
         shifted = shift_system(system, frame)
-        norm_p = log2_norm(shifted.p) - log2_lead(shifted.q)
-    bound = ray_bound(frame, u, norm_p)
+        log2_norm_p = log2_norm(shifted.p) - log2_lead(shifted.q)
+    bound = ray_bound(frame, u, log2_norm_p)
     if bound is None:
         raise ArithmeticError("the target lies outside of its disc")
     return bound

@@ -137,7 +137,7 @@ def _legs(system: System, disc: Disc, prec: int, budget: Budget) -> tuple[list[M
         return legs(system, frame, disc.enter, disc.leave, disc.bound, prec, budget)
     expansion = expand(system, frame, prec, disc.bound, budget)
     start, stop = (
-        [] if point == frame.centre else [transition(expansion, point, ray_to(system, frame, point))]
+        [] if point == frame.centre else [transition(expansion, point, ray_to(system, frame, point, disc.norm_p))]
         for point in (disc.enter, disc.leave)
     )
     return start, stop
