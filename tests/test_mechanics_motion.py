@@ -501,6 +501,14 @@ def test_command_prints_n_in_closed_form(run, ratio):
         assert label in text
 
 
+def test_command_with_a_large_ratio(run):
+    """Theorem 1 with N = 401: decided, and the solutions in powers instead of pages of coefficients."""
+    status, output = run("--ratio", "401/2", "--json")
+    data = json.loads(output.out)
+    assert (status, data["case"], data["verified"]) == (0, 1, True)
+    assert "(sqrt(x - x1) + sqrt(x - x2))**401" in data["omega_3"]
+
+
 def test_command_with_an_irrational_ratio_and_latex(run):
     status, output = run("--ratio", "sqrt(2)", "--json", "--latex")
     data = json.loads(output.out)

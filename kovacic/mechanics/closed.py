@@ -20,6 +20,8 @@ from kovacic.mechanics.theorems import rational_solutions
 C1, C2 = sp.symbols("c1 c2")
 #: The range of numbers in a motion: products of several of them are still floats.
 LEAST, LARGEST = 1e-50, 1e50
+#: The largest |2R/R1| for which the solutions in the roots are written as polynomials.
+_EXPANDED = 50
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +80,7 @@ def closed_form_in_roots(rho: Scalar) -> ClosedForm:
     """The general solution for a ratio R/R1 = rho other than 0, in the roots x1, x2 of D, the body otherwise arbitrary.
 
     Of the body, only A3/A1 occurs besides the roots.  For an integer 2 rho both solutions are polynomials times powers of
-    sqrt(x - x1) and sqrt(x - x2).
+    sqrt(x - x1) and sqrt(x - x2), and written so up to |2 rho| = 50; beyond, the polynomials are longer than a page.
 
     >>> closed_form_in_roots(sp.Rational(-1, 2)).n
     (A1 - A3)*(c1*(-x1/2 + x2/2)/sqrt(x - x2) + c2*(x1/2 - x2/2)/sqrt(x - x1))/A1
@@ -86,7 +88,7 @@ def closed_form_in_roots(rho: Scalar) -> ClosedForm:
     rho = exact(rho, "R/R1")
     A1, A3, x1, x2 = sp.symbols("A1 A3 x1 x2")
     twice = sp.Abs(2 * rho)
-    if twice.is_Integer:
+    if twice.is_Integer and twice <= _EXPANDED:
         solutions = rational_solutions(int(twice))
         first, second = solutions.expressions()
         spin_1, spin_2 = solutions.expressions(solutions.spins(1 if rho > 0 else -1))
