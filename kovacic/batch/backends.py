@@ -10,18 +10,25 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterable, Iterator
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from itertools import islice
+from itertools import chain, islice
 from typing import Any
 
 from kovacic.batch.items import Item, Job, Record
 from kovacic.batch.pool import Pool
-from kovacic.errors import InputError
+from kovacic.errors import InputError, KovacicError
 
 BACKENDS = ("loky", "dask", "ray")
 
 # Items that travel together.  At 5 ms each they keep a worker busy for half a second, and a lost worker loses little.
 CHUNK = 100
+
+# Chunks that Ray gets at a time.
+_RAY_ROUND = 64
+
+# Worker processes that may be lost one after the other, without an answer in between.
+_LOSSES = 4
 
 
 class _Kept(threading.local):
@@ -61,24 +68,60 @@ def run_on_backend(
 
     `jobs` is the number of chunks that are worked on at a time: by default, all that the engine has room for.  `scheduler`
     is the address of a running Dask scheduler ("tcp://host:8786") or Ray cluster; without it, loky and Ray start on this
-    machine, and Dask uses the client that the program has made.  What a lost Dask worker had is done by another one, and a
-    record is passed on once.  Raises `InputError` where the engine isn't installed or can't be reached.
+    machine, and Dask uses the client that the program has made.  What a lost worker had is done by another one, and a
+    record is passed on once.  Raises `InputError` where the engine isn't installed or can't be reached, and `KovacicError`
+    where its workers are lost one after the other.
+    """
+    with _configured(backend, jobs, scheduler):
+        chunks = _chunks(items)
+        if backend != "ray":
+            yield from _run(chunks, job, backend, "generator" if ordered else "generator_unordered")
+            return
+        while some := list(islice(chunks, _RAY_ROUND)):  # its joblib backend returns lists only
+            yield from _run(iter(some), job, backend, "list")
+
+
+def _run(chunks: Iterator[list[Item]], job: Job, backend: str, return_as: str) -> Iterator[Record]:
+    """The records of all chunks; what a lost worker process had is done again, and a record is passed on once.
+
+    Dask does it by itself; loky and Ray give up all that is on its way.
     """
     from joblib import Parallel, delayed
 
-    with _configured(backend, jobs, scheduler):
-        options: dict[str, Any] = {"batch_size": 1, "pre_dispatch": "2*n_jobs"}
-        if backend == "ray":
-            # Its joblib backend returns lists only, so the chunks go in rounds.
-            parallel = Parallel(**options)
-            chunks = _chunks(items)
-            while some := list(islice(chunks, 4 * parallel.n_jobs if parallel.n_jobs > 0 else 64)):
-                for records in parallel(delayed(run_chunk)(job, chunk) for chunk in some):
-                    yield from records
-            return
-        parallel = Parallel(**options, return_as="generator" if ordered else "generator_unordered")
-        for records in parallel(delayed(run_chunk)(job, chunk) for chunk in _chunks(items)):
-            yield from records
+    on_their_way: dict[int, list[Item]] = {}
+
+    def sent(chunks: Iterable[list[Item]]) -> Iterator[list[Item]]:
+        for chunk in chunks:
+            on_their_way[chunk[0].number] = chunk
+            yield chunk
+
+    losses = 0
+    while True:
+        again = list(on_their_way.values())
+        on_their_way.clear()
+        parallel = Parallel(batch_size=1, pre_dispatch="2*n_jobs", return_as=return_as)
+        try:
+            for records in parallel(delayed(run_chunk)(job, chunk) for chunk in sent(chain(again, chunks))):
+                del on_their_way[records[0].number]
+                losses = 0
+                yield from records
+            if not on_their_way:
+                return
+            reason = "no answer, and no error"
+        except _losses(backend) as error:
+            reason = str(error)
+        losses += 1
+        if losses == _LOSSES:
+            raise KovacicError(f"{backend} has lost {_LOSSES} worker processes in a row: {reason}")
+
+
+def _losses(backend: str) -> tuple[type[Exception], ...]:
+    """What the engine raises when one of its processes, or a machine, is gone."""
+    if backend != "ray":
+        return (BrokenProcessPool,)
+    from ray.exceptions import NodeDiedError, RayActorError, WorkerCrashedError
+
+    return (NodeDiedError, RayActorError, WorkerCrashedError)
 
 
 def _chunks(items: Iterable[Item]) -> Iterator[list[Item]]:
