@@ -22,6 +22,7 @@ from hypothesis import assume
 from hypothesis import strategies as st
 
 from kovacic import transform
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -479,6 +480,19 @@ def examples(*families: str) -> st.SearchStrategy[Example]:
     """Disguised examples of the families whose names start with one of these (all, without any)."""
     chosen = [make() for name, make in GENERATORS.items() if not families or name.startswith(families)]
     return disguised(st.one_of(*chosen))
+
+
+@st.composite
+def over_number_fields(draw: st.DrawFn, *families: str, largest: int = 8) -> Example:
+    """Examples moved by a Moebius map with coefficients in a number field: its coefficients aren't rational any more."""
+    example = draw(examples(*families).filter(lambda e: e.size <= largest))
+    K = AlgebraicField(QQ, QQ.poly(draw(st.sampled_from([[-2, 0, 1], [1, 0, 1], [-5, -1, 1], [-2, 0, 0, 1]]))), "a")
+    numbers = st.tuples(integers(3), integers(3)).map(lambda pair: K.poly([pair[0]]) + K.generator * pair[1])
+    a, b, c, d = (draw(numbers) for _ in range(4))
+    c = c if draw(st.booleans()) else K.poly([])
+    assume(a * d - b * c)
+    S = RatFunc(K.embed(example.S.num), K.embed(example.S.den))
+    return replace(example, S=transform.moebius(S, a, b, c, d))
 
 
 # ---------------------------------------------------------------------------- without a known answer

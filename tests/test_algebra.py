@@ -254,3 +254,14 @@ def test_inverses_modulo_a_polynomial_of_high_degree_are_those_of_euclid(degree:
     assert (inverse * element - 1) % modulus == 0
     with pytest.raises(ZeroDivisionError):
         (modulus * element).inverse_modulo(modulus)
+
+
+@given(over(SQRT5))
+def test_homomorphisms_of_a_tower_agree_on_the_fields_below(f: Poly) -> None:
+    c = SQRT5.generator
+    tower = AlgebraicField(SQRT5, SQRT5.poly([c + 3, 0, 1]), "d")
+    higher = AlgebraicField(tower, tower.poly([tower.generator + 1, 0, 0, 1]), "e")
+    homomorphism = next(higher.homomorphisms())
+    assert homomorphism(f) == homomorphism(tower.embed(f)) == homomorphism(higher.embed(f))
+    assert homomorphism(tower.generator) ** 2 == homomorphism(-c - 3)
+    assert homomorphism(higher.generator) ** 3 == homomorphism(-tower.generator - 1)

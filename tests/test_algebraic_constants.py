@@ -6,7 +6,10 @@ import pickle
 from fractions import Fraction
 
 import pytest
+import strategies
 import sympy
+from hypothesis import given, settings
+from strategies import Example
 
 import kovacic
 from kovacic.algebra.embedding import RATIONAL_NUMBERS
@@ -72,6 +75,38 @@ def test_moved_by_an_algebraic_number(exponents: tuple[int, int, int], case: int
     answer = kovacic.solve(moved)
     assert answer.case == case
     assert answer.verified
+
+
+def _has_the_right_case(example: Example) -> None:
+    answer = kovacic.solve(example.S)
+    assert answer.case == example.case, example
+    assert answer.verified
+
+
+@settings(max_examples=60)
+@given(strategies.over_number_fields())
+def test_moved_by_a_moebius_map_over_a_number_field(example: Example) -> None:
+    _has_the_right_case(example)
+
+
+@pytest.mark.slow
+@settings(max_examples=2000)
+@given(strategies.over_number_fields())
+def test_moved_by_moebius_maps_over_number_fields_in_the_long_run(example: Example) -> None:
+    _has_the_right_case(example)
+
+
+@settings(max_examples=20)
+@given(strategies.over_number_fields("case 1: diagonal"))
+def test_two_omegas_over_a_number_field(example: Example) -> None:
+    """Their constant is a square root over the field."""
+    _has_the_right_case(example)
+
+
+def test_a_square_root_beside_an_irrational_coefficient() -> None:
+    answer = kovacic.solve("1/(x^2 + sqrt(2)*x + 3)^2")
+    assert str(answer.omega) == "(2*x + c + sqrt(2))/(2*x**2 + 2*sqrt(2)*x + 6)"
+    assert str(answer.constants) == "x**2 + 6"
 
 
 def test_constants_of_the_answer_over_the_field() -> None:

@@ -36,8 +36,13 @@ class ExtensionHomomorphism(Homomorphism):
     def ground(self) -> Homomorphism:
         return self.base.ground
 
+    @property
+    def height(self) -> int:
+        """How many extensions the tower has."""
+        return self.base.height + 1 if isinstance(self.base, ExtensionHomomorphism) else 1
+
     def __call__(self, polynomial: Poly) -> Any:
-        if not isinstance(polynomial, ExtensionPoly):
+        if not isinstance(polynomial, ExtensionPoly) or polynomial.field.height < self.height:
             return self.base(polynomial)
         result = nmod_poly([], self.p)
         for part in reversed(polynomial.parts):
@@ -61,6 +66,11 @@ class AlgebraicField(Field):
     @property
     def dimension(self) -> int:
         return self.modulus.degree
+
+    @property
+    def height(self) -> int:
+        """How many extensions the tower has."""
+        return self.base.height + 1 if isinstance(self.base, AlgebraicField) else 1
 
     @property
     def ground(self) -> Field:
