@@ -9,7 +9,7 @@ from math import prod
 
 import pytest
 import sympy
-from flint import nmod_poly
+from flint import Ordering, fmpz_mpoly_ctx, nmod_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -21,6 +21,7 @@ from kovacic.algebra.norms import norm
 from kovacic.algebra.poly import Poly, RationalPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.recurrence import polynomial_solution
+from kovacic.algebra.sparse import _factored_over_q, factorisation
 from kovacic.algebra.traces import characteristic_polynomial, is_provably_not_a_square, trace_of_square_root
 
 P = prime(0)
@@ -265,3 +266,19 @@ def test_homomorphisms_of_a_tower_agree_on_the_fields_below(f: Poly) -> None:
     assert homomorphism(f) == homomorphism(tower.embed(f)) == homomorphism(higher.embed(f))
     assert homomorphism(tower.generator) ** 2 == homomorphism(-c - 3)
     assert homomorphism(higher.generator) ** 3 == homomorphism(-tower.generator - 1)
+
+
+@given(st.lists(st.tuples(st.integers(-(10**25), 10**25), st.integers(-3, 3), small), min_size=1, max_size=4), small)
+def test_sparse_polynomials_factor_whatever_their_coefficients_are(
+    rows: list[tuple[int, int, int]], content: int
+) -> None:
+    context = fmpz_mpoly_ctx.get(("x", "t"), Ordering.lex)
+    x, t = context.gens()
+    whole = context.constant(content or 1) * prod((x * c + t * b + a for a, b, c in rows), start=context.constant(1))
+    if whole == 0:
+        return
+    constant, factors = factorisation(whole)
+    assert prod((f**k for f, k in factors), start=context.constant(constant)) == whole
+    assert all(f.total_degree() == 1 for f, _ in factors)
+    assert _factored_over_q(whole)[0] == constant
+    assert sorted(_factored_over_q(whole)[1], key=str) == sorted(factors, key=str)

@@ -18,7 +18,7 @@ from flint import Ordering, fmpz_mpoly_ctx, nmod_poly
 from kovacic.algebra.fields import BadPrimeError, CoordinateLifter, Field, Homomorphism
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Poly, RationalPoly, Scalar
-from kovacic.algebra.sparse import constant_term, format_terms, laurent_constant, square_root
+from kovacic.algebra.sparse import constant_term, factorisation, format_terms, laurent_constant, square_root
 
 #: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.
 _FIRST_PRIME_RUN, _QUOTA = 3, 32
@@ -127,8 +127,8 @@ class FunctionField(Field):
         assert isinstance(polynomial, FunctionPoly)
         one = self.context.constant(1)
         factors = [
-            (FunctionPoly(self, factor, one).monic(), int(k))
-            for factor, k in polynomial.num.factor()[1]
+            (FunctionPoly(self, factor, one).monic(), k)
+            for factor, k in factorisation(polynomial.num)[1]
             if factor.degrees()[0] > 0
         ]
         return sorted(factors, key=lambda pair: (pair[0].degree, str(pair[0])))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import gcd, isqrt, lcm
 from typing import Any
 
-from flint import fmpq
+from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
 
 def laurent_constant(num: Any, den: Any, variable: int) -> Any:
@@ -43,15 +44,41 @@ def constant_term(polynomial: Any) -> int:
     return next((int(c) for e, c in polynomial.to_dict().items() if not any(e)), 0)
 
 
+def factorisation(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
+    """The content with its sign, and the primitive irreducible factors with their multiplicities."""
+    try:
+        content, factors = polynomial.factor()
+    except OverflowError:  # python-flint 0.9.0 sorts factors of one shape by coefficients that must be machine integers
+        return _factored_over_q(polynomial)
+    return int(content), [(factor, int(k)) for factor, k in factors]
+
+
+def _factored_over_q(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
+    context = polynomial.context()
+    rational = fmpq_mpoly_ctx.get(context.names(), Ordering.lex)
+    _, parts = rational.from_dict({e: fmpq(c) for e, c in polynomial.to_dict().items()}).factor()
+    factors: list[tuple[Any, int]] = []
+    rest = polynomial
+    for part, k in parts:
+        terms = part.to_dict()
+        denominator = lcm(*(int(c.q) for c in terms.values()))
+        numerators = {e: int(c.p) * (denominator // int(c.q)) for e, c in terms.items()}
+        content = gcd(*numerators.values())
+        factor = context.from_dict({e: n // content for e, n in numerators.items()})
+        factor = -factor if int(factor.leading_coefficient()) < 0 else factor
+        factors.append((factor, int(k)))
+        rest = rest / factor ** int(k)
+    return constant_term(rest), factors
+
+
 def square_root(polynomial: Any, context: Any) -> Any | None:
-    constant, factors = polynomial.factor()
-    value = int(constant)
-    root = int(constant.isqrt()) if value >= 0 else -1
-    if root < 0 or root * root != value or any(int(k) % 2 for _, k in factors):
+    constant, factors = factorisation(polynomial)
+    root = isqrt(constant) if constant >= 0 else -1
+    if root < 0 or root * root != constant or any(k % 2 for _, k in factors):
         return None
     result = context.constant(root)
     for factor, k in factors:
-        result = result * factor ** (int(k) // 2)
+        result = result * factor ** (k // 2)
     return -result if int(result.leading_coefficient()) < 0 else result
 
 

@@ -19,6 +19,7 @@ import sympy as sp
 from flint import Ordering, fmpz_mpoly_ctx
 from flint.utils.flint_exceptions import DomainError
 
+from kovacic.algebra.sparse import factorisation
 from kovacic.errors import InputError
 from kovacic.mechanics.irrational import sign
 
@@ -223,30 +224,16 @@ class Quotient:
 
 
 def _expression(ring: Ring, polynomial: Any) -> sp.Expr:
-    return _valued(ring, _plain(ring, polynomial))
-
-
-def _plain(ring: Ring, polynomial: Any) -> sp.Expr:
-    """The polynomial in all generators, the constants under their hidden names."""
+    """The polynomial with its constants, which have hidden names in the ring."""
     symbols = [sp.Symbol(name) for name in ring.generators]
     terms = {tuple(monomial): int(c) for monomial, c in polynomial.to_dict().items()}
-    return sp.Poly.from_dict(terms or {(0,) * len(symbols): 0}, *symbols).as_expr()
-
-
-def _valued(ring: Ring, expression: sp.Expr) -> sp.Expr:
+    expression = sp.Poly.from_dict(terms or {(0,) * len(symbols): 0}, *symbols).as_expr()
     return expression.xreplace(dict(zip(map(sp.Symbol, ring.generators), ring.constants, strict=False)))
 
 
 def _factors(ring: Ring, polynomial: Any) -> tuple[int, list[tuple[sp.Expr, int]]]:
-    try:
-        content, parts = polynomial.factor()
-    except (
-        OverflowError
-    ):  # python-flint 0.9.0 sorts the factors by machine integers and stumbles over larger coefficients
-        symbols = [sp.Symbol(name) for name in ring.generators]
-        content, factors = sp.factor_list(_plain(ring, polynomial), *symbols)
-        return int(content), [(_valued(ring, factor), int(exponent)) for factor, exponent in factors]
-    return int(content), [(_expression(ring, part), int(exponent)) for part, exponent in parts]
+    content, parts = factorisation(polynomial)
+    return content, [(_expression(ring, part), exponent) for part, exponent in parts]
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,6 +21,7 @@ from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
 from kovacic.algebra.fields import BadPrimeError
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.sparse import factorisation
 from kovacic.invariants import singular_part
 from kovacic.parametric.pivots import without_constant_pivots
 from kovacic.places import Kind, Place, Problem
@@ -177,7 +178,7 @@ def irreducible_factors(function: Poly) -> list[Poly]:
     """The irreducible factors over Q of the numerator of an element of Q(t)."""
     assert isinstance(function, FunctionPoly)
     one = function.field.context.constant(1)
-    return [FunctionPoly(function.field, factor, one) for factor, _ in function.num.factor()[1]]
+    return [FunctionPoly(function.field, factor, one) for factor, _ in factorisation(function.num)[1]]
 
 
 def _integral(image: Poly) -> dict[int, Any]:

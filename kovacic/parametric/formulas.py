@@ -8,6 +8,7 @@ from typing import Any
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.sparse import factorisation
 
 _GREEK = frozenset(
     {"alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu", "xi"}
@@ -50,13 +51,13 @@ def factored(function: RatFunc, variable: str) -> str:
 
 def _factors(polynomial: FunctionPoly, variable: str) -> list[str]:
     """The content, unless it is 1, and the powers of the factors."""
-    content, factors = polynomial.num.factor()
+    content, factors = factorisation(polynomial.num)
     one = polynomial.field.context.constant(1)
     parts = []
     for factor, power in factors:
         text = shown(FunctionPoly(polynomial.field, factor, one), variable)
         parts.append(_in_parentheses(text, " -") + (f"^{power}" if power > 1 else ""))
-    return parts if int(content) == 1 and parts else [str(int(content)), *parts]
+    return parts if content == 1 and parts else [str(content), *parts]
 
 
 def _in_parentheses(text: str, when: str) -> str:
