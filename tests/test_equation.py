@@ -275,3 +275,12 @@ def test_E_is_the_energy_and_not_the_base_of_the_exponential_function() -> None:
     assert any("energy" in notice for notice in schroedinger.notices)
     with pytest.raises(kovacic.NotLinear, match=r"write exp"):
         kovacic.solve("y'' - y = E^x")
+
+
+@pytest.mark.parametrize("number", ["e", "pi", "e^2"])
+def test_transcendental_coefficients_are_refused_with_the_way_out(number: str) -> None:
+    with pytest.raises(kovacic.NotRational, match="isn't an algebraic number") as caught:
+        kovacic.solve(f"(1-x)*y'' + {number}*y = 0")
+    assert "a parameter with generic values" in (caught.value.hint or "")
+    (notice,) = [n for n in kovacic.solve("x^2 + e").notices if "Euler" in n]
+    assert "one of its generic values" in notice

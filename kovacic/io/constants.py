@@ -90,10 +90,9 @@ class Constants:
             found.append(
                 f"{names} {'is taken as a parameter' if one else 'are taken as parameters'} with generic values"
             )
-        if ENERGY in self.parameters:
-            found.append(
-                "E is a parameter here, an energy; Euler's number, being transcendental, is one of its generic values"
-            )
+        for name, meaning in ((ENERGY, "a parameter here, an energy"), ("e", "a parameter here")):
+            if name in self.parameters:
+                found.append(f"{name} is {meaning}; Euler's number, being transcendental, is one of its generic values")
         algebraic = self.numbers.field
         if isinstance(algebraic, AlgebraicField) and algebraic.name == "alpha":
             where = self.numbers.located()

@@ -83,6 +83,15 @@ class LinearArithmetic(Arithmetic):
         others = [h for h in (first.other, second.other) if h is not None]
         return LinearForm(parts, rest, sum(others[1:], others[0]) if others else None)
 
+    def _not_rational(self, coefficient: Any) -> NotRational:
+        if coefficient.free_symbols:
+            return NotRational(f"a coefficient that isn't a rational function of {self.variable}: {coefficient}")
+        shown = str(coefficient).replace("E", "e")
+        return NotRational(
+            f"{shown} isn't an algebraic number",
+            hint="write a letter instead: a parameter with generic values, as every transcendental number is one",
+        )
+
     def multiply(self, left: Any, right: Any) -> Any:
         if not isinstance(left, LinearForm) and not isinstance(right, LinearForm):
             return super().multiply(left, right)
@@ -91,7 +100,7 @@ class LinearArithmetic(Arithmetic):
             raise NotLinear(f"a product of {self.unknown} or its derivatives: the equation isn't linear")
         form, factor = (first, second) if first.parts else (second, first)
         if form.parts and factor.other is not None:
-            raise NotRational(f"a coefficient that isn't a rational function of {self.variable}: {factor.other}")
+            raise self._not_rational(factor.other)
         if factor.other is not None or form.other is not None:
             # Without coefficients; or a rational factor of a form with a part that isn't rational.
             other: Any = self.expression(factor) * self.expression(LinearForm({}, form.rest, form.other))
