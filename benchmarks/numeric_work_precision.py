@@ -2,7 +2,8 @@
 
 Regenerate:  python benchmarks/numeric_work_precision.py
 writes results/numeric_work_precision.{json,md,png} (about eight minutes).  Errors are relative, against the Taylor route
-at twice the digits; times are processor times, the best of several runs, of one call from x0 to x.
+at twice the digits; times are processor times, the best of several runs, of one call from x0 to x.  Thousands of digits:
+`numeric_long_series.py`.
 """
 
 from __future__ import annotations
@@ -209,20 +210,6 @@ def goals(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     return result
 
 
-def long_series() -> list[dict[str, Any]]:
-    """The Taylor route up to 10,000 digits."""
-    from kovacic.numeric.evaluate import evaluate
-
-    rows = []
-    for name, S, x0, x in PROBLEMS:
-        if name in ("Airy", "tetrahedral", "Legendre, degree 500"):
-            for digits in (50, 100, 300, 1000, 3000, 10000):
-                seconds, _ = best(partial(evaluate, S, x, x0=x0, y0=1, dy0=0, digits=digits), 0.05)
-                rows.append({"problem": name, "digits": digits, "seconds": seconds})
-                print(rows[-1], flush=True)
-    return rows
-
-
 def crossover() -> list[dict[str, Any]]:
     """Both routes over families whose closed form has a polynomial of growing degree, and the one that is chosen."""
     import kovacic
@@ -287,13 +274,6 @@ def markdown(data: dict[str, list[dict[str, Any]]]) -> str:
             )
             for g in data["goals"]
         ],
-    )
-    parts += ["", "## Long series", "", "The Taylor route, seconds by digits.", ""]
-    digits = sorted({row["digits"] for row in data["long series"]})
-    names = list(dict.fromkeys(row["problem"] for row in data["long series"]))
-    seconds = {(row["problem"], row["digits"]): row["seconds"] for row in data["long series"]}
-    parts += table(
-        ("problem", *(f"{d:,}" for d in digits)), [(n, *(f"{seconds[n, d]:.2g}" for d in digits)) for n in names]
     )
     parts += [
         "",
@@ -361,7 +341,7 @@ def main() -> None:
     for name, S, x0, x in PROBLEMS:
         print(name, flush=True)
         rows += rows_of(name, ball_normal_form(S) if name.startswith("ball") else S, x0, x)
-    data = {"goals": goals(rows), "long series": long_series(), "crossover": crossover(), "rows": rows}
+    data = {"goals": goals(rows), "crossover": crossover(), "rows": rows}
     RESULTS.mkdir(exist_ok=True)
     (RESULTS / "numeric_work_precision.json").write_text(json.dumps(data, indent=1) + "\n")
     (RESULTS / "numeric_work_precision.md").write_text(markdown(data))

@@ -47,7 +47,7 @@ _BLOCK = 3.0
 """Length of the integers of a block, by the bits that are still needed (the first block: 1)."""
 
 _LOWEST = 3500
-_ENTIRE = 50
+_ENTIRE = 65
 _SINGULAR = 130
 """Splitting pays above max(3500, factor * order^3) bits; the factor without and with singular points."""
 
