@@ -13,7 +13,7 @@ from math import prod
 from typing import Any
 
 import sympy
-from flint import acb, arb, ctx, fmpq, fmpz_poly
+from flint import acb, acb_poly, arb, ctx, fmpq, fmpz_poly
 
 Number = Any  # flint's acb
 Jet = tuple[Number, Number, Number]
@@ -104,13 +104,23 @@ class _Evaluator:
 
     def _root_sum(self, e: Any) -> Jet:
         a = e.fun.variables[0]
-        coefficients = e.poly.clear_denoms()[1].all_coeffs()
         total = _constant(_ZERO)
-        for root, _ in fmpz_poly([int(c) for c in coefficients[::-1]]).complex_roots():
+        for root in self._roots(e.poly):
             inner = _Evaluator(self.variable, self.bindings[self.variable][0])
             inner.bindings[a] = _constant(root)
             total = _plus(total, inner(e.fun.expr))
         return total
+
+    def _roots(self, polynomial: Any) -> list[Number]:
+        """The complex roots, which are simple."""
+        coefficients = polynomial.all_coeffs()[::-1]
+        if not all(c.is_Rational for c in coefficients):
+            tolerance = arb(2) ** -ctx.prec
+            with ctx.workprec(3 * ctx.prec):  # the roots of a polynomial are less exact than its coefficients
+                precise = _Evaluator(self.variable, self.bindings[self.variable][0])
+                return list(acb_poly([precise(c)[0] for c in coefficients]).roots(tol=tolerance))
+        integers = polynomial.clear_denoms()[1].all_coeffs()[::-1]
+        return [root for root, _ in fmpz_poly([int(c) for c in integers]).complex_roots()]
 
     def _incomplete_gamma(self, e: Any) -> Jet:
         s = self(e.args[0])[0]
