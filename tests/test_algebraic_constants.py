@@ -109,6 +109,36 @@ def test_a_square_root_beside_an_irrational_coefficient() -> None:
     assert str(answer.constants) == "x**2 + 6"
 
 
+@settings(max_examples=40)
+@given(strategies.over_number_fields("case 1", "case 2", "odd"))
+def test_closed_forms_over_a_number_field(example: Example) -> None:
+    """Each is checked, exactly and to 50 digits, before it is returned."""
+    assert len(kovacic.solve(example.S).solutions) == (2 if example.case else 0)
+
+
+SUMS_OVER_ROOTS = {
+    "one sum": "(5*x^2 - 10*a*x + 30)/(x^6 - 6*a*x^5 + 32*x^4 - 48*a*x^3 + 85*x^2 - 42*a*x + 18)",
+    "in a cosine": "(-30*a - 45)/(64*x^4 + (16*a - 224)*x^3 + (-12*a + 342)*x^2 + (-10*a - 248)*x + 18*a + 83)",
+    "real roots on a curve": "(551124*x^6 + (-2204496*a - 236196)*x^5 + (787320*a + 6471333)*x^4 + (-4193208*a - 1819584)*x^3"
+    " + (839808*a + 2254068)*x^2 + (-195696*a - 232560)*x - 10848*a - 29964)/(419904*x^8 + (-2239488*a - 139968)*x^7"
+    " + (653184*a + 9622800)*x^6 + (-10622016*a - 2379456)*x^5 + (2125440*a + 12773376)*x^4 + (-4147200*a - 1921536)*x^3"
+    " + (414720*a + 1412928)*x^2 + (-114432*a - 77568)*x + 2560*a + 6912)",
+    "two sums": "(210827008*x^4 + (1182137152*a - 673893472)*x^3 + (-3065058976*a + 5259111984)*x^2"
+    " + (6091734880*a - 8533829024)*x - 3647406336*a + 6229521116)/(3764768*x^6 + (33345088*a - 17210368)*x^5"
+    " + (-137913440*a + 254409960)*x^4 + (586118400*a - 815050320)*x^3 + (-1136651040*a + 1727911990)*x^2"
+    " + (1366836632*a - 1647693278)*x - 514913230*a + 874489557)",
+}
+
+
+@pytest.mark.parametrize("S", SUMS_OVER_ROOTS.values(), ids=SUMS_OVER_ROOTS)
+def test_sums_over_the_roots_of_irrational_polynomials(S: str) -> None:
+    x = sympy.Symbol("x")
+    for y in kovacic.solve(S.replace("a", "sqrt(2)"), var="x").solutions:
+        assert pickle.loads(pickle.dumps(y)) == y
+        assert y.subs(x, 2 * x).subs(x, x / 2) == y
+        assert sympy.latex(y.diff(x)) + str(y.diff(x))
+
+
 def test_constants_of_the_answer_over_the_field() -> None:
     answer = kovacic.solve("sqrt(2)", var="x")
     assert answer.constants is not None

@@ -19,7 +19,7 @@ from kovacic.algebra.poly import Poly, RationalPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form import plain
 from kovacic.closed_form.partial_fractions import Decomposition, Residue
-from kovacic.closed_form.plain import Expr
+from kovacic.closed_form.plain import Expr, RootSum
 from kovacic.closed_form.product import Product
 
 
@@ -174,8 +174,13 @@ class Atoms:
             angle = -slope * root * sympy.atan(sympy.expand_mul(2 * (self.x - centre) / root))
             return angle + (mean * log(self.primitive(p)[1]) if mean else 0)
         a = self.root
-        body = self.in_root(value, a) * log(self.x - a)
-        return sympy.RootSum(sympy.Poly(self.poly(p, a), a), sympy.Lambda(a, body), auto=False)
+        return self.root_sum(self.poly(p, a), self.in_root(value, a) * log(self.x - a))
+
+    def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
+        """The sum of the body over the roots of a polynomial, both in the symbol `root`."""
+        over = sympy.Poly(polynomial, self.root)
+        kind = RootSum if over.domain.is_EX else sympy.RootSum
+        return kind(over, sympy.Lambda(self.root, body), auto=False)
 
     def integral(self, parts: Decomposition) -> Expr:
         """The integral of a decomposed rational function: rational part and logarithms."""

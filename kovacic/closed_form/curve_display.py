@@ -177,4 +177,4 @@ def _root_sum(integral: CurveIntegral, residue: Residue, root: Expr, atoms: Atom
         centre, discriminant, width = atoms.quadratic_roots(p)
         if discriminant > 0:
             return Add(*(body.subs(a, value) for value in (centre - width / 2, centre + width / 2)))
-    return sympy.RootSum(sympy.Poly(atoms.poly(p, a), a), sympy.Lambda(a, body), auto=False)
+    return atoms.root_sum(atoms.poly(p, a), body)

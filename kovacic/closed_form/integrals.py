@@ -113,7 +113,7 @@ def _exponential(form: Triangular, primitive: ExponentialPrimitive, atoms: Atoms
         else:
             a = atoms.root
             body = atoms.in_root(rho, a) * exp(beta * (a - centre)) * Ei(beta * (atoms.x - a))
-            value = sympy.RootSum(sympy.Poly(atoms.poly(p, a), a), sympy.Lambda(a, body), auto=False)
+            value = atoms.root_sum(atoms.poly(p, a), body)
             terms.append(_scaled(scale, [*factors, shift, value]))
     return _sum(terms)
 
@@ -131,7 +131,7 @@ def _power(form: Triangular, primitive: PowerPrimitive, atoms: Atoms) -> Expr:
     z = atoms.root
     for residue in primitive.poles.residues:
         body = atoms.in_root(residue.value, z**n) * z ** int(alpha * n) * sympy.log(v - z)
-        value = sympy.RootSum(sympy.Poly(atoms.poly(residue.factor, z**n), z), sympy.Lambda(z, body), auto=False)
+        value = atoms.root_sum(atoms.poly(residue.factor, z**n), body)
         terms.append(_scaled(scale, [*factors, value]))
     return _sum(terms)
 

@@ -118,7 +118,7 @@ class _Evaluator:
             tolerance = arb(2) ** -ctx.prec
             with ctx.workprec(3 * ctx.prec):  # the roots of a polynomial are less exact than its coefficients
                 precise = _Evaluator(self.variable, self.bindings[self.variable][0])
-                return list(acb_poly([precise(c)[0] for c in coefficients]).roots(tol=tolerance))
+                return _with_real_roots(acb_poly([precise(c)[0] for c in coefficients]), tolerance)
         integers = polynomial.clear_denoms()[1].all_coeffs()[::-1]
         return [root for root, _ in fmpz_poly([int(c) for c in integers]).complex_roots()]
 
@@ -144,6 +144,19 @@ class _Evaluator:
             return values[0], values[1], values[2]
 
         return _chain(self(e.argument), unary)
+
+
+def _with_real_roots(polynomial: Any, tolerance: Any) -> list[Number]:
+    """The roots, those of a real polynomial that are certainly real as real balls."""
+    roots = polynomial.roots(tol=tolerance)
+    if not all(c.imag == 0 for c in polynomial.coeffs()):
+        return list(roots)
+    # The conjugate of a root is a root: itself if no other ball meets the mirror image of its own.
+    mirrored = [root.conjugate() for root in roots]
+    return [
+        acb(root.real) if [other for other in roots if other.overlaps(mirror)] == [root] else root
+        for root, mirror in zip(roots, mirrored, strict=True)
+    ]
 
 
 def _number(e: Any) -> Number:

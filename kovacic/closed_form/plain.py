@@ -11,12 +11,20 @@ from collections.abc import Sequence
 from functools import cmp_to_key
 from typing import Any
 
+import sympy
 from sympy import Add, Basic, Integer, Mul, Pow, S, exp, hyper
 from sympy.core.function import Function
 from sympy.functions.special.hyper import TupleArg
 
 Expr = Any  # SymPy publishes no types
 _order = cmp_to_key(Basic.compare)
+
+
+class RootSum(sympy.RootSum):  # type: ignore[misc]
+    """SymPy's, for polynomials with irrational coefficients: SymPy compares these with a TypeError, and so can't add two."""
+
+    def _hashable_content(self) -> tuple[Expr, ...]:
+        return self.poly.as_expr(), self.poly.gen, self.fun
 
 
 def _is_sum_or_symbol(e: Expr) -> bool:
