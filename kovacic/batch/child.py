@@ -7,6 +7,7 @@ and in scripts without a main guard, and it can be killed at any moment without 
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -23,6 +24,14 @@ from kovacic.batch.worker import encode_item
 _START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.batch.worker import main; main()"
 _SHOWN_ERROR_BYTES = 20_000
 
+# A process has work for so many seconds in its pipe, if its equations are quick; so many items at most, and at least.
+_SECONDS_AHEAD, _MOST_AHEAD, _LEAST_AHEAD = 0.05, 32, 8
+
+# Its answers are fetched once in so many seconds at most: to wake up for each one costs more than to read it.
+_SECONDS_BETWEEN_READS = 0.005
+
+_PIPE_BYTES = 1 << 16
+
 # (child, line), the line None at the end of the process
 Event = tuple["Child", str | None]
 
@@ -34,13 +43,13 @@ class Child:
         self.assigned: deque[Item] = deque()
         self.ready = False
         self.busy_since = time.monotonic()
+        self._pace = _SECONDS_AHEAD / _LEAST_AHEAD
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed by kill()
         self._process = subprocess.Popen(
             [sys.executable, "-P", "-c", _START, json.dumps(sys.path)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=self._errors,
-            encoding="utf-8",
         )
         self._reader = threading.Thread(target=self._read, args=(events,), daemon=True)
         self._reader.start()
@@ -57,10 +66,16 @@ class Child:
         self.assigned.append(item)
         self._send(encode_item(item))
 
-    def finished_one(self) -> Item:
-        """The item that the process has just answered."""
+    def finished_one(self, seconds: float) -> Item:
+        """The item that the process has just answered, in so many seconds."""
         self.busy_since = time.monotonic()
+        self._pace += (seconds - self._pace) / (2 if seconds < self._pace else 16)  # near that of the quick ones
         return self.assigned.popleft()
+
+    @property
+    def room(self) -> int:
+        """How many items it should have, that it works on included: more of them if they are quick."""
+        return max(_LEAST_AHEAD, min(_MOST_AHEAD, int(_SECONDS_AHEAD / max(self._pace, 1e-6))))
 
     def kill(self) -> None:
         """End the process at once and wait for it; its reader thread ends as well."""
@@ -84,11 +99,17 @@ class Child:
     def _send(self, line: str) -> None:
         assert self._process.stdin is not None
         with suppress(BrokenPipeError):  # the end of the process arrives as an event
-            self._process.stdin.write(line)
+            self._process.stdin.write(line.encode())
             self._process.stdin.flush()
 
     def _read(self, events: SimpleQueue[Event | None]) -> None:
         assert self._process.stdout is not None
-        for line in self._process.stdout:
-            events.put((self, line))
+        descriptor, rest = self._process.stdout.fileno(), b""
+        while data := os.read(descriptor, _PIPE_BYTES):
+            start = time.monotonic()
+            *lines, rest = (rest + data).split(b"\n")
+            for line in lines:
+                events.put((self, line.decode()))
+            if len(self.assigned) > 1:
+                time.sleep(max(0.0, start + _SECONDS_BETWEEN_READS - time.monotonic()))
         events.put((self, None))

@@ -1,7 +1,7 @@
 """A pool of worker processes that can be killed: every item gets exactly one record.
 
 One loop in the caller's thread waits for events (a record, the end of a process, an item from a stream) and for the next
-deadline.  A busy process has one small item waiting in its pipe, so that it needn't wait for the parent; such an item is
+deadline.  A busy process has some small items waiting in its pipe, so that it needn't wait for the parent; such an item is
 given to another process when that one has nothing to do.  A record counts only if it comes from the item's owner.
 
 A process that is over its time is killed, and its item gets a record.  So does the item of a process that has ended with an
@@ -36,8 +36,8 @@ _START_ATTEMPTS = 4
 # In order of the input, at most so many items are read beyond the first one that has no answer.
 ORDERED_WINDOW = 10_000
 
-# A longer item could fill the pipe of a busy process, and make the parent wait.
-_WAITING_CHARACTERS = 10_000
+# More text could fill the pipe of a busy process, and make the parent wait.
+_WAITING_CHARACTERS = 30_000
 
 # The last words of Python, GMP, flint and the C++ library.
 _OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_alloc", re.IGNORECASE)
@@ -119,17 +119,18 @@ class Pool:
             yield from self._handle(self._wait())
 
     def _hand_out(self, feed: Feed, order: deque[int], window: int | None) -> Iterator[Record]:
-        for depth in (1, 2):
+        for depth in range(1, max(child.room for child in self._children) + 1):
             for child in self._children:
-                if not child.ready or len(child.assigned) != depth - 1:
+                if not child.ready or len(child.assigned) != depth - 1 or depth > child.room:
                     continue
-                if depth == 2 and len(child.assigned[0].text) > _WAITING_CHARACTERS:
+                waiting = sum(len(item.text) for item in child.assigned)
+                if depth > 1 and waiting > _WAITING_CHARACTERS:
                     continue
                 while (entry := self._next(feed, order, window)) is not None:
                     item = entry.item
                     if item.error is not None:
                         yield refused(item, item.error)
-                    elif depth == 2 and len(item.text) > _WAITING_CHARACTERS:
+                    elif depth > 1 and waiting + len(item.text) > _WAITING_CHARACTERS:
                         self._entries[item.number] = entry
                         self._again.appendleft(entry)
                         return
@@ -198,7 +199,8 @@ class Pool:
                 child.ready = True
                 self._failed_starts = 0
             else:
-                record, item = decode_record(line), child.finished_one()
+                record = decode_record(line)
+                item = child.finished_one(record.seconds)
                 assert record.number == item.number, (record, item)
                 if self._owned(item, child):
                     del self._entries[item.number]
