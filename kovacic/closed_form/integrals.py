@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import gcd, lcm
 
 import sympy
-from sympy import Add, Ei, Integer, Mul, Pow, erf, erfi, exp, pi, sqrt
+from sympy import Add, Ei, Integer, Mul, erf, erfi, exp, pi, sqrt
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -31,8 +31,7 @@ def second_solution(form: Triangular, atoms: Atoms) -> tuple[Expr, tuple[str, ..
     """y1 int y1^-2 up to a constant factor and a multiple of y1, and notes about what was left as an integral."""
     primitive = form.primitive
     if isinstance(primitive, OpenPrimitive):
-        bare = atoms.product(form.bare, around_zero=True)
-        integral = sympy.Integral(Pow(bare, -2), atoms.x)
+        integral = sympy.Integral(atoms.product(form.bare.to_power(-2), around_zero=True), atoms.x)
         return atoms.product(form.first, around_zero=True) * integral, (f"integral left because {primitive.reason}",)
     if isinstance(primitive, RationalPrimitive):
         return _rational(form, primitive, atoms), ()

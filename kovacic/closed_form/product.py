@@ -64,6 +64,12 @@ class Product:
             and all(power.rational_exponent is not None for power in self.powers)
         )
 
+    def to_power(self, n: int) -> Product:
+        """y^n."""
+        powers = tuple(Power(power.base, power.exponent * n) for power in self.powers)
+        roots = tuple(Residue(residue.factor, residue.value * n) for residue in self.roots)
+        return Product(powers, roots, self.exponential * n)
+
     def rational_square(self) -> RatFunc | None:
         """y^2 if that is a rational function, else None."""
         if not self.is_radical:
