@@ -32,7 +32,8 @@ def second_solution(form: Triangular, atoms: Atoms) -> tuple[Expr, tuple[str, ..
     primitive = form.primitive
     if isinstance(primitive, OpenPrimitive):
         integral = sympy.Integral(atoms.product(form.bare.to_power(-2), around_zero=True), atoms.x)
-        return atoms.product(form.first, around_zero=True) * integral, (f"integral left because {primitive.reason}",)
+        second = plain.times(atoms.product(form.first, around_zero=True), integral)
+        return second, (f"integral left because {primitive.reason}",)
     if isinstance(primitive, RationalPrimitive):
         return _rational(form, primitive, atoms), ()
     if isinstance(primitive, CurvePrimitive):

@@ -12,7 +12,7 @@ from functools import cmp_to_key
 from typing import Any
 
 import sympy
-from sympy import Add, Basic, Integer, Mul, Pow, S, exp, hyper
+from sympy import Add, Basic, Integer, Integral, Mul, Pow, S, exp, hyper
 from sympy.core.function import Function
 from sympy.functions.special.hyper import TupleArg
 
@@ -53,6 +53,8 @@ def _base(factor: Expr) -> Expr:
         return base if base is S.Pi or not base.is_number else None
     if isinstance(factor, exp):
         return S.Exp1 if not factor.args[0].is_number else None
+    if isinstance(factor, Integral):  # an indefinite one: no number
+        return factor
     if _is_sum_or_symbol(factor) or (isinstance(factor, Function) and not factor.is_number):
         return factor
     return None
