@@ -18,7 +18,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.io.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.io.constants import Constants, read_with_constants
-from kovacic.io.parsed import DEFAULT_VARIABLE, Parsed
+from kovacic.io.parsed import DEFAULT_VARIABLE, TRANSCENDENTAL_HINT, Parsed
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
 #: Digits of the approximation that tells an algebraic number from its conjugates.
@@ -147,7 +147,7 @@ class Walker:
             is_root = isinstance(exact, sympy.CRootOf)
             minimal = exact.poly if is_root else sympy.minimal_polynomial(exact, sympy.Dummy(), polys=True)
         except NotImplementedError:
-            raise self._refused(node, None) from None
+            raise self._refused(node, TRANSCENDENTAL_HINT) from None
         coefficients = [Fraction(index(c.p), index(c.q)) for c in reversed(minimal.all_coeffs())]
         real, imaginary = sympy.N(exact, _DIGITS).as_real_imag()
         approximation = acb(arb(str(real)), arb(str(imaginary)))

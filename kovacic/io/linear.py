@@ -13,6 +13,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import NotLinear, NotRational
 from kovacic.io.arithmetic import Arithmetic, NotAnInteger, Value
+from kovacic.io.parsed import TRANSCENDENTAL_HINT
 from kovacic.limits import Limits
 
 #: The largest integer power of an expression that isn't rational.
@@ -87,10 +88,7 @@ class LinearArithmetic(Arithmetic):
         if coefficient.free_symbols:
             return NotRational(f"a coefficient that isn't a rational function of {self.variable}: {coefficient}")
         shown = str(coefficient).replace("E", "e")
-        return NotRational(
-            f"{shown} isn't an algebraic number",
-            hint="write a letter instead: a parameter with generic values, as every transcendental number is one",
-        )
+        return NotRational(f"{shown} isn't an algebraic number", hint=TRANSCENDENTAL_HINT)
 
     def multiply(self, left: Any, right: Any) -> Any:
         if not isinstance(left, LinearForm) and not isinstance(right, LinearForm):

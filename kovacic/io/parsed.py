@@ -37,5 +37,8 @@ NUMBER_NAMES = {
 # Not the variable unless the caller says so: the energy, a parameter.
 ENERGY = "E"
 
+#: What to do with a transcendental number.
+TRANSCENDENTAL_HINT = "write a letter instead: a parameter with generic values, as every transcendental number is one"
+
 # The unknown function of y'' = S y: a variable only where the caller says so.
 UNKNOWN = "y"
