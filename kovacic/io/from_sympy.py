@@ -147,7 +147,7 @@ class Walker:
             is_root = isinstance(exact, sympy.CRootOf)
             minimal = exact.poly if is_root else sympy.minimal_polynomial(exact, sympy.Dummy(), polys=True)
         except NotImplementedError:
-            raise self._refused(node, TRANSCENDENTAL_HINT) from None
+            raise self._refused(node, None) from None
         coefficients = [Fraction(index(c.p), index(c.q)) for c in reversed(minimal.all_coeffs())]
         real, imaginary = sympy.N(exact, _DIGITS).as_real_imag()
         approximation = acb(arb(str(real)), arb(str(imaginary)))
@@ -155,7 +155,8 @@ class Walker:
 
     def _refused(self, node: Any, hint: str | None) -> NotRational:
         if node.is_number:
-            return NotRational(f"{_shown(node)} isn't a rational number, nor known to be an algebraic one", hint=hint)
+            message = f"{_shown(node)} isn't a rational number, nor known to be an algebraic one"
+            return NotRational(message, hint=hint or TRANSCENDENTAL_HINT)
         return NotRational(f"{_shown(node)} isn't a rational function of {self.variable}", hint=hint)
 
 
