@@ -270,6 +270,12 @@ class FunctionPoly(Poly):
         below = scale * self.den
         return field.make(quotient * other.den, below), field.make(remainder, below)
 
+    def __floordiv__(self, other: Poly | Scalar) -> FunctionPoly:
+        """The quotient; the division is exact in most cases, and then flint's is faster by far."""
+        value = self._coerce(other)
+        exact = self.exact_quotient(value) if value else None
+        return super().__floordiv__(other) if exact is None else exact
+
     def exact_quotient(self, divisor: Poly) -> FunctionPoly | None:
         value = self._coerce(divisor)
         if value is None or not value:

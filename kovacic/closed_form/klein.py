@@ -35,6 +35,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -118,17 +119,6 @@ class PowerPolynomial:
 
 
 @dataclass(frozen=True)
-class KleinForm:
-    """The two solutions (1) and J; `polynomial` is (2), None if it is too long to be written."""
-
-    structure: Structure
-    J: RatFunc
-    first: Hypergeometric
-    second: Hypergeometric
-    polynomial: PowerPolynomial | None
-
-
-@dataclass(frozen=True)
 class Covariants:
     """The invariant F, H and T of the head of this module, the forms v and t of the vertices and edges, and J."""
 
@@ -139,6 +129,27 @@ class Covariants:
     vertices: Form
     edges: Form
     J: RatFunc
+
+
+@dataclass(frozen=True)
+class KleinForm:
+    """The two solutions (1) and J, with the forms that they are made of; `normal` says that there is no gauge factor."""
+
+    structure: Structure
+    forms: Covariants
+    first: Hypergeometric
+    second: Hypergeometric
+    normal: bool
+
+    @property
+    def J(self) -> RatFunc:
+        return self.forms.J
+
+    @cached_property
+    def polynomial(self) -> PowerPolynomial | None:
+        """(2); None with a gauge factor, or if it is too long to be written."""
+        forms = self.forms
+        return _polynomial(forms.problem, self.structure, forms.F, forms.H, forms.T) if self.normal else None
 
 
 def covariants(S: RatFunc, structure: Structure, invariant: SemiInvariant) -> Covariants:
@@ -170,10 +181,10 @@ def klein_form(S: RatFunc, structure: Structure, invariant: SemiInvariant, gauge
     second = _product(problem, gauge, (edges, Fraction(1, n) - nu * 2), (vertices, Fraction(1)))
     return KleinForm(
         structure,
-        forms.J,
+        forms,
         Hypergeometric(first, a, b, 1 - nu),
         Hypergeometric(second, a + nu, b + nu, 1 + nu),
-        None if gauge else _polynomial(problem, structure, forms.F, forms.H, forms.T),
+        normal=not gauge,
     )
 
 
