@@ -1,6 +1,6 @@
 """Values with first and second derivatives of SymPy expressions in ball arithmetic: the numerical check of what is shown.
 
-The balls contain the values, except that algebraic numbers without radicals (`CRootOf`) are taken from SymPy as points.
+The balls contain the values.
 
 An unevaluated integral counts as an antiderivative with an arbitrary constant: its value is taken as 1, and its derivatives
 are those of the integrand.  In y1 int y1^-2 and exp(int ...) the constant changes the solution into another one.
@@ -9,6 +9,7 @@ are those of the integrand.  In y1 int y1^-2 and exp(int ...) the constant chang
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from math import prod
 from typing import Any
 
@@ -159,12 +160,23 @@ def _with_real_roots(polynomial: Any, tolerance: Any) -> list[Number]:
     ]
 
 
+@lru_cache(maxsize=256)
+def _coarse_value(root: Any) -> complex:
+    """A root of a polynomial to a few digits: which one it is."""
+    return complex(root.evalf(15))
+
+
 def _number(e: Any) -> Number:
     """A constant that isn't made of the functions above."""
     if e is sympy.I:
         return acb(0, 1)
     if e is sympy.pi:
         return acb.pi()
+    if isinstance(e, sympy.CRootOf):
+        near = acb(_coarse_value(e))
+        integers = e.poly.clear_denoms()[1].all_coeffs()[::-1]
+        roots = fmpz_poly([int(c) for c in integers]).complex_roots()
+        return min((root for root, _ in roots), key=lambda root: float(abs(root - near).mid()))
     number = e._to_mpmath(ctx.prec)
     parts = number._mpc_ if hasattr(number, "_mpc_") else (number._mpf_,)
     return acb(*(arb((-mantissa if sign else mantissa, exponent)) for sign, mantissa, exponent, _ in parts))
