@@ -113,10 +113,10 @@ _SMALLEST = {
     "case 1, unique, quintics": 5,
     "case 1, diagonal": 2,
     "case 2": 2,
-    "case 3, tetrahedral": 4,
-    "case 3, octahedral": 4,
-    "case 3, icosahedral": 4,
-    "none, pull-back": 4,
+    "case 3, tetrahedral": 5,
+    "case 3, octahedral": 5,
+    "case 3, icosahedral": 5,
+    "none, pull-back": 5,
     "none, accessory parameters": 4,
 }
 
