@@ -58,8 +58,10 @@ def normalised(form: Form, problem: Problem) -> Form:
     D = problem.D.over(P.field)
     for place in problem.finite_places:
         # Over K(c) the factor of a place may split, and P may contain a part of it.
+        problem.budget.check()
         factor = place.factor.over(P.field).gcd(P)
         while factor.degree > 0:
+            problem.budget.check()
             P, k = P.remove(factor)
             R = R + k * (D // factor) * factor.derivative()
             factor = factor.gcd(P)
@@ -72,6 +74,7 @@ def root(form: Form, n: int, problem: Problem) -> Form:
     The caller knows that it exists; an AssertionError says that it doesn't.
     """
     form = normalised(form, problem)
+    problem.budget.check()
     P = form.P.root(n)
     if P is None or form.degree % n:
         raise AssertionError("the form isn't a perfect power")
