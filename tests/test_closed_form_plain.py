@@ -103,3 +103,10 @@ def test_exponentials(argument: Any) -> None:
 def test_hypergeometric_functions(a: Any, z: Any) -> None:
     b, c = Rational(5, 24), Rational(3, 4)
     assert_same(plain.hypergeometric(a, b, c, z), sympy.hyper((a, b), (c,), z))
+
+
+@pytest.mark.parametrize("exponent", [Rational(-2, 3), Rational(1, 2), Rational(-7, 4), Integer(-2), Rational(5, 3)])
+@pytest.mark.parametrize("factor", [Rational(2, 3), Rational(-2, 3), Integer(1), Integer(-1), Integer(8), sqrt(2), n])
+@pytest.mark.parametrize("base", [x, x - 1, x**3, x**2, (x - 1) ** 2, (x + sqrt(2)) ** 5])
+def test_powers_of_multiples(factor: Any, base: Any, exponent: Any) -> None:
+    assert_same(plain.power_of_multiple(factor, base, exponent), (factor * base) ** exponent)

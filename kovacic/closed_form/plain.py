@@ -42,6 +42,14 @@ def power(base: Expr, exponent: Expr) -> Expr:
     return Pow(base, exponent)
 
 
+def power_of_multiple(factor: Expr, base: Expr, exponent: Expr) -> Expr:
+    """`(factor * base)**exponent` for a power `base` of a symbol or a sum."""
+    if factor.is_Rational and not exponent.is_Integer:
+        signed = base if factor > 0 else Mul(-1, base, evaluate=False)
+        return abs(factor) ** exponent * Pow(signed, exponent, evaluate=False)
+    return (factor * base) ** exponent
+
+
 def _base(factor: Expr) -> Expr:
     """The base of a factor that stays as it is beside factors with other bases; None for other factors."""
     if factor.is_Pow:
