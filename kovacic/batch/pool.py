@@ -11,6 +11,7 @@ item goes back to the front.
 
 from __future__ import annotations
 
+import math
 import re
 import signal
 import time
@@ -38,6 +39,9 @@ ORDERED_WINDOW = 10_000
 
 # More text could fill the pipe of a busy process, and make the parent wait.
 _WAITING_CHARACTERS = 30_000
+
+# What waits behind an item that takes longer than this is given to an idle process.
+_PATIENCE_SECONDS = 0.1
 
 # The last words of Python, GMP, flint and the C++ library.
 _OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_alloc", re.IGNORECASE)
@@ -154,15 +158,20 @@ class Pool:
 
     def _share_waiting(self) -> None:
         """Give what waits behind a slow item to a process that has nothing to do."""
-        for idle in self._children:
-            if idle.assigned or not idle.ready:
-                continue
+        now = time.monotonic()
+        for idle in self._idle():
             for child in self._children:
-                waiting = [item for item in list(child.assigned)[1:] if self._owned(item, child)]
-                if waiting:
+                waiting = self._waiting(child)
+                if waiting and child.busy_since + _PATIENCE_SECONDS <= now:
                     self._entries[waiting[0].number].owner = idle
                     idle.give(waiting[0])
                     break
+
+    def _idle(self) -> list[Child]:
+        return [child for child in self._children if child.ready and not child.assigned]
+
+    def _waiting(self, child: Child) -> list[Item]:
+        return [item for item in list(child.assigned)[1:] if self._owned(item, child)]
 
     def _owned(self, item: Item, child: Child) -> bool:
         entry = self._entries.get(item.number)
@@ -170,10 +179,13 @@ class Pool:
 
     def _wait(self) -> list[Event | None]:
         """The events that have arrived, at least one unless a deadline comes first."""
-        deadline = min((self._deadline(child) for child in self._children), default=None)
+        moments = [self._deadline(child) for child in self._children]
+        if self._idle():
+            moments += [child.busy_since + _PATIENCE_SECONDS for child in self._children if self._waiting(child)]
+        deadline = min(moments, default=math.inf)
         events: list[Event | None] = []
         try:
-            wait = None if deadline is None or deadline == float("inf") else max(0.0, deadline - time.monotonic())
+            wait = None if deadline == math.inf else max(0.0, deadline - time.monotonic())
             events.append(self._events.get(timeout=wait))
             while True:
                 events.append(self._events.get_nowait())
@@ -184,7 +196,7 @@ class Pool:
         if not child.ready:
             return child.busy_since + _START_SECONDS
         if self._job.timeout is None or not child.assigned:
-            return float("inf")
+            return math.inf
         return child.busy_since + self._job.timeout + GRACE_SECONDS
 
     def _handle(self, events: list[Event | None]) -> Iterator[Record]:

@@ -44,7 +44,7 @@ def power(base: Expr, exponent: Expr) -> Expr:
 
 def power_of_multiple(factor: Expr, base: Expr, exponent: Expr) -> Expr:
     """`(factor * base)**exponent` for a power `base` of a symbol or a sum."""
-    if factor.is_Rational and not exponent.is_Integer:
+    if factor.is_Rational and not exponent.is_Integer and not base.is_Add:
         signed = base if factor > 0 else Mul(-1, base, evaluate=False)
         return abs(factor) ** exponent * Pow(signed, exponent, evaluate=False)
     return (factor * base) ** exponent
