@@ -170,9 +170,8 @@ def _special(alpha: Fraction, beta: Expr, n: int, power: int, t: Expr) -> Scaled
         return -((-beta) ** -order), sympy.uppergamma(order, z)
     # z^(-s) gamma(s, z) is entire; with Gamma(s, z) the powers of z and of t would differ in some sectors.
     exponent = rational(power + alpha + 1)
-    return sympy.Rational(1, n), plain.power(t, exponent) * plain.power_of_multiple(-beta, t**n, -order) * _lower(
-        order, z
-    )
+    powers = plain.power(t, exponent) * plain.power_of_multiple(-beta, t**n, -order)
+    return sympy.Rational(1, n), powers * _lower(order, z)
 
 
 def _lower(order: Expr, z: Expr) -> Expr:

@@ -85,9 +85,11 @@ class LinearArithmetic(Arithmetic):
         return LinearForm(parts, rest, sum(others[1:], others[0]) if others else None)
 
     def _not_rational(self, coefficient: Any) -> NotRational:
+        from sympy import E, Symbol
+
+        shown = coefficient.xreplace({E: Symbol("e")})  # E is the energy in texts
         if coefficient.free_symbols:
-            return NotRational(f"a coefficient that isn't a rational function of {self.variable}: {coefficient}")
-        shown = str(coefficient).replace("E", "e")
+            return NotRational(f"a coefficient that isn't a rational function of {self.variable}: {shown}")
         return NotRational(f"{shown} isn't an algebraic number", hint=TRANSCENDENTAL_HINT)
 
     def multiply(self, left: Any, right: Any) -> Any:
