@@ -25,6 +25,7 @@ from kovacic.algebra.modular import (
     power_series,
     translate,
 )
+from kovacic.algebra.poly import Poly
 from kovacic.expansion import polynomial_invariant
 from kovacic.places import Kind, Place, Problem
 from kovacic.riccati import Form
@@ -51,7 +52,11 @@ def least_valuation(place: Place, m: int) -> int | None:
     # With Delta = a/b the valuations are (m b + 2 j a) / (2 b).
     a, b = place.delta.numerator, place.delta.denominator
     multiples = [m * a] if place.logarithm else range(-m * a, m * a + 1, 2 * a or 1)
-    return min(((m * b + k) // (2 * b) for k in multiples if (m * b + k) % (2 * b) == 0), default=None)
+    for k in multiples:
+        v, rest = divmod(m * b + k, 2 * b)
+        if not rest:
+            return v
+    return None
 
 
 @dataclass(frozen=True)
@@ -65,11 +70,15 @@ class Bounds:
 
 def bounds(problem: Problem, m: int) -> Bounds:
     """Where an invariant of degree m may have zeros and poles."""
-    valuations = [least_valuation(place, m) for place in problem.places]
-    if any(v is None for v in valuations):
-        return Bounds((), 0, None)
-    *finite, infinite = [v for v in valuations if v is not None]
-    N = m - infinite - sum(v * place.degree for v, place in zip(finite, problem.finite_places, strict=True))
+    valuations: list[int] = []
+    N = m
+    for place in problem.places:
+        v = least_valuation(place, m)
+        if v is None:
+            return Bounds((), 0, None)
+        valuations.append(v)
+        N -= v * place.degree
+    *finite, infinite = valuations
     return Bounds(tuple(finite), infinite, N if N >= 0 else None)
 
 
@@ -92,16 +101,14 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
                 return NoInvariant(m, prime=h.p, point=point, degree=bound.N)
         if len({len(space) for space, _ in spaces}) > 1:
             continue
-        if not all(
-            _closes(h, problem, Form(m, R0, P), P) for h, (space, _) in zip(bundle, spaces, strict=True) for P in space
-        ):
-            margin *= 2
-            continue
         proposal = lifter.add(bundle, [space for space, _ in spaces])
         if proposal:
             forms = [Form(m, R0, P) for P in proposal]
             if all(form.is_form(problem) for form in forms):
                 return forms
+        if not all(_closes(h, problem, m, R0, P) for h, (space, _) in zip(bundle, spaces, strict=True) for P in space):
+            margin, lifter = 2 * margin, problem.field.lifter()
+            continue
         if (
             not recurrence_tried
             and len(spaces[0][0]) == 1
@@ -161,10 +168,10 @@ def invariants_modulo(h: Homomorphism, problem: Problem, m: int, bound: Bounds, 
     return echelon_by_degree(space), point
 
 
-def _closes(h: Homomorphism, problem: Problem, form: Form, P: Any) -> bool:
+def _closes(h: Homomorphism, problem: Problem, m: int, R0: Poly, P: Any) -> bool:
     """Equation (2) of `riccati`, modulo p: is P really an invariant there, beyond the terms that were looked at?"""
-    D, T, R = h(problem.D), h(problem.T), h(form.R)
-    slope, m = D.derivative(), form.degree
+    D, T, R = h(problem.D), h(problem.T), h(R0)
+    slope = D.derivative()
     previous, current = P * 0, P
     for k in range(m + 1):
         following = D * current.derivative() + (R - slope * k) * current - T * previous * (m - k + 1)

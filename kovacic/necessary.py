@@ -31,8 +31,9 @@ def excluded_by_local_data(problem: Problem) -> dict[Structure, NecessaryConditi
     excluded: dict[Structure, NecessaryCondition] = {}
 
     def exclude(rule: Rule, culprits: list[Place], *structures: Structure) -> None:
+        condition = NecessaryCondition(rule, tuple([place.name for place in culprits]))
         for structure in structures:
-            excluded.setdefault(structure, NecessaryCondition(rule, tuple(str(place) for place in culprits)))
+            excluded.setdefault(structure, condition)
 
     ramified = [place for place in places if place.kind is Kind.RAMIFIED]
     if ramified:
@@ -40,17 +41,16 @@ def excluded_by_local_data(problem: Problem) -> dict[Structure, NecessaryConditi
     logarithmic = [place for place in places if place.logarithm]
     if logarithmic:
         exclude(Rule.LOGARITHM, logarithmic, Structure.IMPRIMITIVE, *_PRIMITIVE)
-    branched = [
-        place for place in places if place in ramified or (place.delta is not None and place.delta.denominator == 2)
-    ]
+    branched = ramified + [place for place in places if place.delta is not None and place.delta.denominator == 2]
     if sum(place.degree for place in branched) < 2:
         exclude(Rule.TOO_FEW_BRANCH_POINTS, branched, Structure.IMPRIMITIVE)
     irregular = [place for place in places if place.kind in (Kind.RAMIFIED, Kind.UNRAMIFIED)]
     if irregular:
         exclude(Rule.IRREGULAR, irregular, *_PRIMITIVE)
+    regular = [place for place in places if place.kind is Kind.REGULAR]
     for structure, orders in _ORDERS.items():
-        regular = (place for place in places if place.kind is Kind.REGULAR)
-        culprits = [place for place in regular if place.delta is None or place.delta.denominator not in orders]
-        if culprits:
-            exclude(Rule.EXPONENTS, culprits, structure)
+        if structure not in excluded:
+            culprits = [place for place in regular if place.delta is None or place.delta.denominator not in orders]
+            if culprits:
+                exclude(Rule.EXPONENTS, culprits, structure)
     return excluded

@@ -64,6 +64,11 @@ class Place:
         """How many points of the Riemann sphere the place stands for."""
         return self.factor.degree
 
+    @cached_property
+    def name(self) -> str:
+        """The factor as a text, or "infinity"."""
+        return "infinity" if self.at_infinity else str(self.factor)
+
     @property
     def kind(self) -> Kind:
         if self.order == 0:
@@ -85,7 +90,7 @@ class Place:
         return self.delta is not None and self.delta.denominator == 1 and not self.logarithm
 
     def __str__(self) -> str:
-        return "infinity" if self.at_infinity else str(self.factor)
+        return self.name
 
 
 @dataclass(frozen=True)
@@ -141,11 +146,8 @@ def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:
     field = S.field
     if not S.num:
         return S.num, field.poly([1]), 0
-    order = S.num.degree - S.den.degree + 4
-    num = field.poly(list(S.num)[::-1])
-    den = field.poly(list(S.den)[::-1])
-    z = field.poly([0, 1])
-    return (num, den * z**order, order) if order >= 0 else (num * z**-order, den, 0)
+    order = S.degree + 4
+    return S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0)), max(order, 0)
 
 
 def _place(num: Poly, den: Poly, factor: Poly, order: int, budget: Budget, *, at_infinity: bool) -> Place:
@@ -174,10 +176,12 @@ def rational_square_root(constant: Poly) -> Fraction | None:
 
 def _delta_squared(num: Poly, den: Poly, factor: Poly) -> Poly | None:
     """1 + 4b for a pole of order 2, b = num/(p'^2 q) mod p with den = p^2 q; None if b isn't constant modulo p."""
-    bottom = factor.derivative() ** 2 * (den // factor**2) % factor
+    bottom = den // (factor * factor) % factor
+    if factor.degree > 1:
+        bottom = factor.derivative() ** 2 * bottom % factor
     top = num % factor
     b = top[bottom.degree] / bottom.lc
-    return 1 + 4 * b if top == bottom * b else None
+    return 4 * b + 1 if factor.degree == 1 or top == bottom * b else None
 
 
 def _has_logarithm(num: Poly, den: Poly, factor: Poly, delta: int, budget: Budget) -> bool:

@@ -219,8 +219,9 @@ class RationalField(Field):
 
     def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
         factors = polynomial.rep.numer().factor()[1]  # type: ignore[attr-defined]
-        ordered = sorted(factors, key=lambda pair: (pair[0].degree(), [int(c) for c in pair[0].coeffs()]))
-        return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), int(k)) for f, k in ordered]
+        if len(factors) > 1:
+            factors.sort(key=lambda pair: (pair[0].degree(), [int(c) for c in pair[0].coeffs()]))
+        return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), k) for f, k in factors]
 
     def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
         return ((RationalHomomorphism(p),) for p in primes() if allowed is None or allowed(p))

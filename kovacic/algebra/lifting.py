@@ -89,8 +89,11 @@ class _Residues:
         flat: list[Any] = []
         for image in images:
             flat.extend(image.coeffs())
-        step = (nmod_poly(flat, p) - nmod_poly(self._residue, p)) * pow(self._modulus, -1, p)
-        self._residue += _to_integers(step) * self._modulus
+        if self.primes_used:
+            step = (nmod_poly(flat, p) - nmod_poly(self._residue, p)) * pow(self._modulus, -1, p)
+            self._residue += _to_integers(step.coeffs()) * self._modulus
+        else:
+            self._residue = _to_integers(flat)
         self._modulus *= p
         self.primes_used += 1
         if self.primes_used < self._next_attempt:
@@ -133,5 +136,5 @@ def reconstruct_vector(residues: Sequence[int], modulus: int) -> tuple[list[int]
     return numerators, denominator
 
 
-def _to_integers(polynomial: Any) -> Any:
-    return fmpz_poly([int(c) for c in polynomial.coeffs()])
+def _to_integers(residues: Sequence[Any]) -> Any:
+    return fmpz_poly([int(c) for c in residues])

@@ -32,17 +32,28 @@ def ordinary_point(den: Any) -> int:
     return point
 
 
+#: Terms of a fundamental system up to which Picard's iteration is faster than Newton's.
+_PICARD_TERMS = 8
+
+
 def fundamental_system(num: Any, den: Any, order: int) -> tuple[Any, Any]:
     """y1 = 1 + O(t^2) and y2 = t + O(t^2) with `y'' = (num/den) y`, to `order` terms; den(0) must not vanish.
 
-    Newton's iteration: with residuals r_i = S y_i - y_i'' the corrections are those of the variation of constants,
-    y2 int(y1 r_i) - y1 int(y2 r_i), for the Wronskian y1 y2' - y1' y2 is 1.  From k right terms the
-    Wronskian is 1 + O(t^(k-1)), so that a step gives 2k - 1 terms.
+    Picard's iteration, which gives two terms a step, for the first ones; then Newton's: with residuals r_i = S y_i - y_i''
+    the corrections are those of the variation of constants, y2 int(y1 r_i) - y1 int(y2 r_i), for the Wronskian
+    y1 y2' - y1' y2 is 1.  From k right terms the Wronskian is 1 + O(t^(k-1)), so that a step gives 2k - 1 terms.
     """
     p = num.modulus()
     order = max(order, 2)
     coefficient = num.truncate(order).mul_low(den.truncate(order).inverse_series_trunc(order), order)
-    y1, y2, known = nmod_poly([1], p), nmod_poly([0, 1], p), 2
+    start1, start2 = y1, y2 = nmod_poly([1], p), nmod_poly([0, 1], p)
+    known = 2
+    while known < min(order, _PICARD_TERMS):
+        y1 = start1 + coefficient.mul_low(y1, known).integral().integral()
+        y2 = start2 + coefficient.mul_low(y2, known).integral().integral()
+        known += 2
+    if known > order:
+        return y1.truncate(order), y2.truncate(order)
     while known < order:
         known = min(2 * known - 1, order)
         corrections = []
@@ -119,6 +130,7 @@ def series_solution(second: Any, first: Any, zeroth: Any, order: int, *, start: 
     a, b, c = ([int(v) for v in f.coeffs()] for f in (second, first, zeroth))
     a1, b0 = (a[1] if len(a) > 1 else 0), (b[0] if b else 0)
     tail_a, tail_b = a[2:], b[1:]
+    back_a, back_b, back_c = -len(tail_a) - 1, -len(tail_b) - 1, -len(c) - 1
     u = [1]
     weighted = [0]  # k u_k
     twice_weighted = [0]  # k (k - 1) u_k
@@ -126,18 +138,15 @@ def series_solution(second: Any, first: Any, zeroth: Any, order: int, *, start: 
         pivot = j * (a1 * (j - 1) + b0) % p
         if pivot == 0:
             raise BadPrimeError(f"{p} meets an indicial factor")
-        total = _dot(tail_a, twice_weighted) + _dot(tail_b, weighted) + _dot(c, u)
+        # Scalar products of the coefficients with the last terms, backwards.
+        total = sum(map(mul, c, u[:back_c:-1]))
+        total += sum(map(mul, tail_b, weighted[:back_b:-1]))
+        total += sum(map(mul, tail_a, twice_weighted[:back_a:-1]))
         value = -total * pow(pivot, -1, p) % p
         u.append(value)
         weighted.append(j * value % p)
-        twice_weighted.append(j * (j - 1) % p * value % p)
+        twice_weighted.append(j * (j - 1) * value % p)
     return nmod_poly(u, p)
-
-
-def _dot(coefficients: list[int], sequence: list[int]) -> int:
-    """`sum_i coefficients[i] * sequence[-1 - i]`."""
-    n = len(coefficients)
-    return sum(map(mul, coefficients, sequence[: -n - 1 : -1])) if n else 0
 
 
 def square_root(value: int, p: int) -> int | None:

@@ -223,6 +223,10 @@ class Poly(ABC):
             rest, count = quotient, count + 1
         return rest, count
 
+    def reversed(self, shift: int = 0) -> Self:
+        """`x**(degree + shift) * self(1/x)`."""
+        return self.field.poly([*[0] * shift, *list(self)[::-1]])  # type: ignore[return-value]
+
     def root(self, n: int) -> Self | None:
         """The monic r with `r**n == self` for a monic polynomial that is the n-th power of a squarefree one, else None."""
         radical = self if n == 1 or self.degree <= 0 else self // self.gcd(self.derivative())
@@ -256,18 +260,18 @@ class Poly(ABC):
 
             return RatFunc(self, self.field.poly([1]), reduced=True).to_str(variable)
         denominator = self.common_denominator()
-        text = (self * denominator).integer_str(variable)
         if denominator == 1:
-            return text
+            return self.integer_str(variable)
+        text = (self * denominator).integer_str(variable)
         return f"({text})/{denominator}" if " " in text else f"{text}/{denominator}"
 
     def integer_str(self, variable: str) -> str:
         """Python syntax for a polynomial whose coefficients have integer coordinates."""
         terms: list[str] = []
         for power in range(self.degree, -1, -1):
-            if not self[power]:
-                continue
             coefficient = self.coefficient_str(power)
+            if coefficient == "0":
+                continue
             if power == 0:
                 terms.append(coefficient)
                 continue
@@ -320,13 +324,17 @@ class RationalPoly(Poly):
 
     @property
     def degree(self) -> int:
-        return int(self.rep.degree())
+        degree: int = self.rep.degree()
+        return degree
 
     def __getitem__(self, power: int) -> RationalPoly:
         return RationalPoly(fmpq_poly([self.rep[power]]))
 
     def __eq__(self, other: object) -> bool:
-        return bool(self.rep == other.rep) if isinstance(other, RationalPoly) else super().__eq__(other)
+        kind = type(other)
+        if kind is RationalPoly:
+            return bool(self.rep == other.rep)  # type: ignore[attr-defined]
+        return bool(self.rep == other) if kind is int else super().__eq__(other)
 
     __hash__ = Poly.__hash__
 
@@ -345,12 +353,18 @@ class RationalPoly(Poly):
     # Python's overhead is most of the time for small polynomials: hence these besides the methods of `Poly`.
     # The operators of `Poly` with a short way for the common cases.
     def __add__(self, other: Poly | Scalar) -> RationalPoly:
-        return RationalPoly(self.rep + other.rep) if type(other) is RationalPoly else super().__add__(other)
+        kind = type(other)
+        if kind is RationalPoly:
+            return RationalPoly(self.rep + other.rep)  # type: ignore[union-attr]
+        return RationalPoly(self.rep + other) if kind is int else super().__add__(other)
 
     __radd__ = __add__
 
     def __sub__(self, other: Poly | Scalar) -> RationalPoly:
-        return RationalPoly(self.rep - other.rep) if type(other) is RationalPoly else super().__sub__(other)
+        kind = type(other)
+        if kind is RationalPoly:
+            return RationalPoly(self.rep - other.rep)  # type: ignore[union-attr]
+        return RationalPoly(self.rep - other) if kind is int else super().__sub__(other)
 
     def __mul__(self, other: Poly | Scalar) -> RationalPoly:
         kind = type(other)
@@ -378,6 +392,8 @@ class RationalPoly(Poly):
         return RationalPoly(self.rep * other.rep)
 
     def __call__(self, point: Poly | Scalar) -> Poly:
+        if type(point) is int:
+            return RationalPoly(fmpq_poly([self.rep(point)]))
         value = self._coerce(point)
         if value is None:
             return super().__call__(point)
@@ -408,6 +424,9 @@ class RationalPoly(Poly):
             raise TypeError("both polynomials must lie over the same field")
         return RationalPoly(self.rep.gcd(other.rep))
 
+    def reversed(self, shift: int = 0) -> RationalPoly:
+        return RationalPoly(fmpq_poly([0] * shift + self.rep.coeffs()[::-1]))
+
     def inverse_modulo(self, modulus: Poly) -> RationalPoly:
         small = modulus.degree <= _EUCLID_DEGREE
         return super().inverse_modulo(modulus) if small else self.rationals.inverse_modulo(self, modulus)  # type: ignore[attr-defined]
@@ -419,6 +438,10 @@ class RationalPoly(Poly):
         if self.degree > 0:
             raise ValueError("only constants have an inverse")
         return RationalPoly(fmpq_poly([1 / self.rep[0]]))
+
+    @property
+    def lc(self) -> RationalPoly:
+        return RationalPoly(fmpq_poly([self.rep.leading_coefficient()]))
 
     def coefficients(self) -> tuple[Fraction, ...]:
         """The coefficients from low to high."""

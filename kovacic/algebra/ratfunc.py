@@ -160,9 +160,9 @@ class RatFunc:
             return cleared(self.num, self.den, ground)
         top, bottom = self.num.common_denominator(), self.den.common_denominator()
         common = gcd(top, bottom)
-        num, den = self.num * (top * (bottom // common)), self.den * (bottom * (top // common))
+        num, den = _times(self.num, top * (bottom // common)), _times(self.den, bottom * (top // common))
         content = gcd(_content(num), _content(den))
-        return num * Fraction(1, content), den * Fraction(1, content)
+        return _times(num, Fraction(1, content)), _times(den, Fraction(1, content))
 
     def __str__(self) -> str:
         return self.to_str()
@@ -183,6 +183,10 @@ def _homogenise(polynomial: Poly, point: RatFunc, degree: int) -> Poly:
         result = result * point.num + polynomial[k] * power
         power = power * point.den
     return result
+
+
+def _times(polynomial: Poly, factor: Scalar) -> Poly:
+    return polynomial if factor == 1 else polynomial * factor
 
 
 def _content(polynomial: Poly) -> int:

@@ -7,7 +7,9 @@ root.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
+from typing import Any
 
 from kovacic.algebra.poly import Poly, to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
@@ -30,7 +32,8 @@ def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
 def _leading_coefficient(place: Place) -> Poly:
     """E with S = num / (t^order E) to leading order at the class of x in K[x]/p."""
     p = place.factor
-    return p.derivative() ** place.order * (place.den // p**place.order) % p
+    cofactor = place.den // p**place.order % p
+    return cofactor if p.degree == 1 else p.derivative() ** place.order * cofactor % p
 
 
 def largest_degree(problem: Problem) -> int | NecessaryCondition:
@@ -85,28 +88,39 @@ def irregular_difference_squared(place: Place) -> Poly:
     Here S = s(t)/t^(2 nu) with t = x - c, c the class of x modulo p.
     """
     p, nu, field = place.factor, place.order // 2, place.factor.field
-    N = _taylor(place.num, p, nu)
-    E = _taylor(place.den, p, nu + place.order)[place.order :]
-    inverse = E[0].inverse_modulo(p)
-    s: list[Poly] = []
+    N = _taylor(place.num, p, 0, nu)
+    E = _taylor(place.den, p, place.order, nu)
+    if p.degree == 1:  # K[x]/p is K
+        one = field.scalar(field.poly([1]), 0)
+        s0, rho = _square_root_term(N, E, nu, lambda element: element, lambda element: one / element)
+        return field.from_scalars([4 * s0 * rho * rho])
+    s0, rho = _square_root_term(N, E, nu, lambda element: element % p, lambda element: element.inverse_modulo(p))
+    square: Poly = 4 * s0 * rho * rho % p
+    return square
+
+
+def _square_root_term(
+    N: list[Any], E: list[Any], nu: int, reduced: Callable[[Any], Any], inverse: Callable[[Any], Any]
+) -> tuple[Any, Any]:
+    """s_0 and the coefficient of t^(nu-1) in sqrt(s/s_0) for s = N/E, over the ring that the two functions describe."""
+    unit = inverse(E[0])
+    s: list[Any] = []
     for i in range(nu):
-        value = N[i] - sum((E[j] * s[i - j] for j in range(1, i + 1)), field.poly([]))
-        s.append(value * inverse % p)
-    lead = s[0].inverse_modulo(p)
-    rho: list[Poly] = [field.poly([1])]
+        s.append(reduced((N[i] - sum([E[j] * s[i - j] for j in range(1, i + 1)])) * unit))
+    half = inverse(2 * s[0])
+    rho: list[Any] = [1]
     for i in range(1, nu):
-        value = s[i] * lead - sum((rho[j] * rho[i - j] for j in range(1, i)), field.poly([]))
-        rho.append(value * Fraction(1, 2) % p)
-    return 4 * s[0] * rho[nu - 1] ** 2 % p
+        rho.append(reduced((s[i] - s[0] * sum([rho[j] * rho[i - j] for j in range(1, i)])) * half))
+    return s[0], rho[nu - 1]
 
 
-def _taylor(polynomial: Poly, p: Poly, count: int) -> list[Poly]:
-    """The first Taylor coefficients at the class of x in K[x]/p."""
+def _taylor(polynomial: Poly, p: Poly, start: int, count: int) -> list[Any]:
+    """Taylor coefficients at the class of x in K[x]/p, from number `start` on: classes, or scalars of K for a linear p."""
     if p.degree == 1:
         shifted = polynomial(p.field.poly([-p[0], 1])) if p[0] else polynomial
-        return [shifted[i] for i in range(count)]
+        return [p.field.scalar(shifted, i) for i in range(start, start + count)]
     coefficients, current = [], polynomial
-    for i in range(count):
+    for i in range(start + count):
         coefficients.append(current % p)
         current = current.derivative() * Fraction(1, i + 1)
-    return coefficients
+    return coefficients[start:]

@@ -16,11 +16,11 @@ def singular_factor(problem: Problem, R: Poly, power: int) -> Poly:
 
 def residue(problem: Problem, R: Poly, place: Place) -> int:
     """The integer residue v of R/D at the roots of a factor p: R/D = v p'/p + something regular at p."""
-    rest = R.exact_quotient(place.factor ** (place.weight - 1))
+    p = place.factor
+    rest = R if place.weight == 1 else R.exact_quotient(p ** (place.weight - 1))
     if rest is None:
         raise AssertionError("the logarithmic derivative of a rational function has simple poles")
-    cofactor = problem.D // place.factor**place.weight * place.factor.derivative() % place.factor
-    rest = rest % place.factor
+    rest, cofactor = rest % p, problem.D // p**place.weight * p.derivative() % p
     value = rest[cofactor.degree] / cofactor.lc
     rational = problem.field.rational_value(value)
     if rest != cofactor * value or rational is None or rational.denominator != 1:
