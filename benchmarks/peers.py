@@ -121,12 +121,13 @@ _SMALLEST = {
 }
 
 
-# Cases 1 (exponentials, with the error function, an incomplete gamma function, an integral), 2, 3 and none; none of them is
-# in a corpus.
+# Cases 1 (exponentials, with the error function, an incomplete gamma function, an integral, irrational powers), 2, 3 and
+# none; none of them is in a corpus.
 _WARM_UP = (
     "x^2 + 19",
     "25*x^4 + 10*x",
     "9*x^4 + 6*x^2 + 6*x + 1",
+    "11/x^2",
     "3/x - 3/(16*x^2)",
     "(-128*x^2 + 54*x - 27)/(576*x^4 - 576*x^3 + 144*x^2)",
     "x^3 + 5*x",

@@ -169,6 +169,7 @@ POWERS = [
     Fraction(2, 3) / X + 1 + 1 / (X - 2),
     Fraction(1, 2) / X + Fraction(1, 2) / X**2 + 1 / (X + 1),
     1 - 3 / X - 2 * X / (X**2 - 2) + 1 / (X - 3),
+    Fraction(-1, 2) / X + Fraction(1, 2) / (X + 2) - 4 / (X - 3),
 ]
 
 

@@ -42,6 +42,9 @@ factors = st.one_of(
             Rational(2, 3),
             sqrt(2),
             sqrt(3),
+            Pow(2, Rational(1, 3)),
+            Pow(6, Rational(2, 3)),
+            1 / sqrt(3),
             sqrt(pi),
             pi,
             sympy.I,
@@ -74,7 +77,10 @@ def test_sums(chosen: list[Any]) -> None:
 
 
 @settings(max_examples=200)
-@given(st.one_of(bases, st.builds(Mul, bases, bases)), exponents)
+@given(
+    st.one_of(bases, st.builds(Mul, bases, st.builds(Pow, bases, exponents))),
+    st.one_of(exponents, st.sampled_from([sqrt(2), -sqrt(3) / 3, (1 + sqrt(5)) / 2, sympy.I, log(2), 2 * log(3), pi])),
+)
 def test_powers(base: Any, exponent: Any) -> None:
     assert_same(plain.power(base, exponent), Pow(base, exponent))
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 from sympy import Add, Integer, Mul, Pow, Rational, Symbol, exp, log, sqrt
@@ -28,8 +27,7 @@ def rational(value: Fraction | int) -> Expr:
     return Rational(value.numerator, value.denominator)
 
 
-@dataclass(frozen=True)
-class _Factor:
+class _Factor(NamedTuple):
     """base^exponent; factors with the same fractional `key` share a root."""
 
     base: Expr
@@ -135,7 +133,7 @@ class Atoms:
         if r.is_polynomial:
             return self.poly(r.num)
         polynomial, rest = divmod(r.num, r.den)
-        return self.poly(polynomial) + self.ratio(RatFunc(rest, r.den))
+        return plain.plus(self.poly(polynomial), self.ratio(RatFunc(rest, r.den)))
 
     def factored(self, r: RatFunc) -> Expr:
         """A rational function as a product of powers of irreducible polynomials."""
@@ -164,7 +162,7 @@ class Atoms:
         """sum over the roots a of p of residue(a) log(x - a) up to a constant; real for quadratic p over Q."""
         p, value = residue.factor, residue.value
         if residue.is_constant:
-            return self.constant(value) * log(self.primitive(p)[1])
+            return plain.times(self.constant(value), plain.logarithm(self.primitive(p)[1]))
         if p.degree == 2 and p.field == QQ:
             centre, discriminant, root = self.quadratic_roots(p)
             if discriminant > 0:
@@ -202,9 +200,8 @@ class Atoms:
             top, bottom = self.primitive(first.factor)[1], self.primitive(partner.factor)[1]
             at_zero = first.factor.field.rational_value(first.factor[0] * partner.factor[0])
             if at_zero is not None and at_zero < 0:
-                bottom = Add(*(-term for term in bottom.args))
-            # SymPy would search the argument for special values.
-            terms.append(plain.times(self.constant(first.value), log(plain.quotient(top, bottom), evaluate=False)))
+                bottom = plain.times(Integer(-1), bottom)
+            terms.append(plain.times(self.constant(first.value), plain.logarithm(plain.quotient(top, bottom))))
         return terms[::-1]
 
     # ------------------------------------------------------------------------------------------- products
@@ -223,7 +220,8 @@ class Atoms:
         differ by integers.  With `around_zero` the roots of x^2 - a, a > 0, are written so that they are real around 0.
         """
         scale: Expr = Integer(1)
-        keys = {power.base: power.exponent for power in (like or y).powers}
+        alone = like is None and extra is None
+        keys = {} if alone else {power.base: power.exponent for power in (like or y).powers}
         exponents: list[_Factor] = []
         rest = extra
         for power in y.powers:
@@ -236,16 +234,19 @@ class Atoms:
             if exponent:
                 content, base = self.primitive(power.base)
                 index = self.constant(exponent)
-                scale = scale * rational(content) ** index
-                exponents.append(_Factor(base, index, self.constant(keys.get(power.base, exponent))))
+                if content != 1:
+                    scale = scale * rational(content) ** index
+                key = index if alone else self.constant(keys.get(power.base, exponent))
+                exponents.append(_Factor(base, index, key))
         for residue in y.roots:
             exponents += [_Factor(base, index, index) for base, index in self._root_powers(residue)]
         if rest is not None:
             (c, num), (d, den) = self.primitive(rest.num), self.primitive(rest.den)
-            scale = scale * rational(c / d)
+            if c != d:
+                scale = scale * rational(c / d)
             exponents += [_Factor(num, Integer(1), Integer(1)), _Factor(den, Integer(-1), Integer(-1))]
         sign, powers = self._grouped(exponents, around_zero)
-        return scale * sign, [*powers, self.exponential(y)]
+        return plain.times(scale, sign), [*powers, self.exponential(y)]
 
     def exponential(self, y: Product) -> Expr:
         """The factor exp(rational function) of a product, with the sums over roots that aren't written as powers."""
@@ -294,9 +295,13 @@ class Atoms:
                 if factor.exponent != exponent:
                     integers.setdefault(factor.exponent - exponent, []).append(factor.base)
             bases = self._joined([factor.base for factor in group])
-            turned = [-base if around_zero and self._is_negative_around_zero(base) else base for base in bases]
+            turned = [
+                plain.times(Integer(-1), base) if around_zero and self._is_negative_around_zero(base) else base
+                for base in bases
+            ]
             flips = sum(base != other for base, other in zip(bases, turned, strict=True))
-            scale = scale * Integer(-1) ** (exponent * flips)
+            if flips:
+                scale = plain.times(scale, Integer(-1) ** (exponent * flips))
             powers.append(plain.power(plain.times(*turned), exponent))
         powers += [plain.power(base, k) for k, bases in integers.items() for base in self._joined(bases)]
         return scale, powers
@@ -311,7 +316,10 @@ class Atoms:
 
     def _degree(self, monomial: Expr) -> int | None:
         """The degree of c x^k; None for anything else."""
-        power = monomial.as_independent(self.x, as_Add=False)[1].as_base_exp()
+        power = monomial.as_coeff_Mul()[1]
+        if power.is_Mul:  # with an irrational coefficient
+            power = power.as_independent(self.x, as_Add=False)[1]
+        power = power.as_base_exp()
         return int(power[1]) if power[0] == self.x and power[1].is_Integer else None
 
     def _joined(self, bases: list[Expr]) -> list[Expr]:
@@ -322,7 +330,8 @@ class Atoms:
             partner = next((other for other in pending if self._opposite(base, other)), None)
             if partner is not None:
                 pending.remove(partner)
-                base = sympy.expand_mul(base * partner)
+                b, ax = _constant_first(base)
+                base = plain.plus(-(b**2), plain.times(ax, ax))
             result.append(base)
         return result
 
@@ -330,8 +339,14 @@ class Atoms:
         """Are these a x - b and a x + b?"""
         if not (first.is_Add and second.is_Add and len(first.args) == len(second.args) == 2):
             return False
-        (b, ax), (c, other) = (e.args if e.args[0].is_number else e.args[::-1] for e in (first, second))
+        (b, ax), (c, other) = _constant_first(first), _constant_first(second)
         return bool(b.is_number and ax == other and b == -c and self._degree(ax) == 1)
+
+
+def _constant_first(binomial: Expr) -> tuple[Expr, Expr]:
+    """Its two terms, a number before the other one."""
+    first, second = binomial.args
+    return (first, second) if first.is_number else (second, first)
 
 
 def _is_the_smaller_root(field: AlgebraicField) -> bool:

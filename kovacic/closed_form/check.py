@@ -33,35 +33,46 @@ def is_exact_solution(form: ClosedStructure, S: RatFunc, gauge: RatFunc) -> bool
     and an integral is right if its derivative, computed from its parts, is the integrand.  Only for cases 1 and 2.
     """
     if isinstance(form, Diagonal):
-        first, second = form.first.logarithmic_derivative - gauge, form.second.logarithmic_derivative - gauge
-        return first != second and _riccati(first) == S and _riccati(second) == S
+        first, second = _without(gauge, form.first), _without(gauge, form.second)
+        return first != second and _is_riccati_solution(first, S) and _is_riccati_solution(second, S)
     if isinstance(form, Conjugate):
         return _conjugate(form, S, gauge)
     if isinstance(form, Triangular):
-        omega = form.first.logarithmic_derivative - gauge
-        bare = form.bare.logarithmic_derivative
-        return omega == bare and _riccati(omega) == S and _is_inverse_square(form.primitive, form.bare)
+        omega = _without(gauge, form.first)
+        same = omega == form.bare.logarithmic_derivative
+        return same and _is_riccati_solution(omega, S) and _is_inverse_square(form.primitive, form.bare)
     if isinstance(form, OnCurve):
         return _on_curve(form, S, gauge)
     raise TypeError("solutions of case 3 are checked numerically")
+
+
+def _without(gauge: RatFunc, y: Product) -> RatFunc:
+    """The logarithmic derivative of y divided by the gauge factor."""
+    return y.logarithmic_derivative - gauge if gauge else y.logarithmic_derivative
 
 
 def _riccati(omega: RatFunc) -> RatFunc:
     return omega.derivative() + omega * omega
 
 
+def _is_riccati_solution(omega: RatFunc, S: RatFunc) -> bool:
+    """omega' + omega^2 = S, multiplied by the denominators."""
+    n, d = omega.num, omega.den
+    return (n.derivative() * d - n * d.derivative() + n * n) * S.den == S.num * (d * d)
+
+
 def _conjugate(form: Conjugate, S: RatFunc, gauge: RatFunc) -> bool:
     A, B, delta = form.A, form.B, form.delta
     slope_a, slope_b = A.derivative(), B.derivative()
     norm = A * A - B * B * delta
-    u = form.common.logarithmic_derivative - gauge + RatFunc(A * slope_a - B * slope_b * delta, norm)
+    u = _without(gauge, form.common) + RatFunc(A * slope_a - B * slope_b * delta, norm)
     v = form.phase.derivative + RatFunc(A * slope_b - B * slope_a, norm)
     return bool(v) and _riccati(u) + v * v * delta == S and not v.derivative() + 2 * u * v
 
 
 def _on_curve(form: OnCurve, S: RatFunc, gauge: RatFunc) -> bool:
     """omega = u +- kappa r/sqrt(g): u' + u^2 + kappa^2 r^2/g = S and (r/sqrt(g))' + 2 u r/sqrt(g) = 0."""
-    u, r, g = form.common.logarithmic_derivative - gauge, form.integral.integrand, RatFunc(form.integral.g)
+    u, r, g = _without(gauge, form.common), form.integral.integrand, RatFunc(form.integral.g)
     rate = r.derivative() / r - g.derivative() / (2 * g)
     if not _is_complete(form.integral):
         return False
@@ -97,9 +108,11 @@ def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
 def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: Any) -> Any:
     """|y'' - 2 g y' + (g^2 - g' - S) y| relative to its terms, g the logarithmic derivative of the gauge factor: a ball."""
     y, first, second = jet(expression, variable, point)
-    S0, g0 = value_at(S, point), value_at(gauge, point)
-    slope = value_at(gauge.derivative(), point) if gauge else g0
-    terms = (second, -2 * g0 * first, (g0 * g0 - slope - S0) * y)
+    coefficient, g0 = -value_at(S, point), acb(0)
+    if gauge:
+        g0 = value_at(gauge, point)
+        coefficient += g0 * g0 - value_at(gauge.derivative(), point)
+    terms = (second, -2 * g0 * first, coefficient * y)
     scale = sum(map(abs, terms), abs(y) + abs(first))
     return abs(sum(terms)) / scale
 

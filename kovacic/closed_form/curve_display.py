@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import sympy
-from sympy import Add, Integer, Mul, Pow, atan, cos, exp, log, sin, sqrt
+from sympy import Add, Integer, atan, cos, log, sin, sqrt
 
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
@@ -53,16 +53,13 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
         )
         return plain.times(common, cos(angle)), plain.times(common, sin(angle)), terms.notes
     kappa = sqrt(square)
-    pair = []
-    for sign in (kappa, -kappa):
-        powers = [Pow(*_nested(base, _times(sign, c))) for c, base in terms.logarithms]
-        inner = Add(*(_times(sign, t) for t in terms.others))
-        pair.append(Mul(common, *powers, exp(inner)))
-    return pair[0], pair[1], terms.notes
-
-
-def _nested(base: Expr, exponent: Expr) -> tuple[Expr, Expr]:
-    return base, exponent
+    powers = [(base, _times(kappa, c)) for c, base in terms.logarithms]
+    inner = plain.plus(*(_times(kappa, t) for t in terms.others))
+    first, second = (
+        plain.times(common, *(plain.power(b, sign * e) for b, e in powers), plain.exponential(sign * inner))
+        for sign in (1, -1)
+    )
+    return first, second, terms.notes
 
 
 def _times(factor: Expr, term: Expr) -> Expr:
@@ -70,11 +67,14 @@ def _times(factor: Expr, term: Expr) -> Expr:
     coefficient, rest = (
         term.as_independent(*term.free_symbols, as_Add=False) if term.free_symbols else (term, Integer(1))
     )
-    return sympy.sqrtdenest(_radical_product(factor, coefficient)) * rest
+    constant = _radical_product(factor, coefficient)
+    return plain.times(constant if constant.is_Rational else sympy.sqrtdenest(constant), rest)
 
 
 def _radical_product(a: Expr, b: Expr) -> Expr:
     """The product of two constants; sqrt(p) sqrt(q) for rational p and q becomes sqrt(p q)."""
+    if a.is_Rational and b.is_Rational:
+        return a * b
     square = sympy.expand_mul(a**2 * b**2)
     if square.is_Rational and a.is_real and b.is_real:
         negative = (a.is_negative or False) != (b.is_negative or False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from kovacic.closed_form.atoms import Atoms, rational
 from kovacic.closed_form.curve_display import exponentials
-from kovacic.closed_form.integrals import second_solution
+from kovacic.closed_form.integrals import triangular
 from kovacic.closed_form.klein import Hypergeometric
 from kovacic.closed_form.plain import Expr, hypergeometric, times
 from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
@@ -19,8 +19,7 @@ def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[
         first, second = real_pair(form, atoms) if is_real_pair(form, atoms) else conjugate_roots(form, atoms)
         return first, second, ()
     if isinstance(form, Triangular):
-        second, notes = second_solution(form, atoms)
-        return atoms.product(form.first, around_zero=True), second, notes
+        return triangular(form, atoms)
     if isinstance(form, OnCurve):
         return exponentials(form, atoms)
     J = atoms.factored(form.J)

@@ -13,7 +13,6 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form import plain
 from kovacic.closed_form.atoms import Atoms, rational
-from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.curve_display import curve_integral
 from kovacic.closed_form.plain import Expr
 from kovacic.closed_form.primitive import (
@@ -26,31 +25,32 @@ from kovacic.closed_form.primitive import (
 from kovacic.closed_form.product import Power, Product
 from kovacic.closed_form.structure import Triangular
 
+Scaled = tuple[Expr, Expr]  # a constant and an expression, to be multiplied
+Factors = tuple[Expr, list[Expr]]  # a constant and factors: y1 as `Atoms.factors` gives it
 
-def second_solution(form: Triangular, atoms: Atoms) -> tuple[Expr, tuple[str, ...]]:
-    """y1 int y1^-2 up to a constant factor and a multiple of y1, and notes about what was left as an integral."""
-    primitive = form.primitive
+
+def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
+    """y1, and y1 int y1^-2 up to a constant factor and a multiple of y1; and notes about what was left as an integral."""
+    primitive, factors = form.primitive, atoms.factors(form.first)
+    first = plain.times(*factors[1])
     if isinstance(primitive, OpenPrimitive):
         integral = sympy.Integral(atoms.product(form.bare.to_power(-2), around_zero=True), atoms.x)
-        second = plain.times(atoms.product(form.first, around_zero=True), integral)
-        return second, (f"integral left because {primitive.reason}",)
-    if isinstance(primitive, RationalPrimitive):
-        return _rational(form, primitive, atoms), ()
+        return first, plain.times(first, integral), (f"integral left because {primitive.reason}",)
     if isinstance(primitive, CurvePrimitive):
-        return _on_curve(form, primitive.integral, atoms)
+        value, notes = curve_integral(primitive.integral, atoms)
+        return first, plain.plus(*(plain.times(first, term) for term in Add.make_args(value))), notes
+    if isinstance(primitive, RationalPrimitive):
+        return first, _rational(form, primitive, factors, atoms), ()
     if isinstance(primitive, PowerPrimitive):
-        return _power(form, primitive, atoms), ()
-    return _exponential(form, primitive, atoms), ()
-
-
-Scaled = tuple[Expr, Expr]  # a constant and an expression, to be multiplied
+        return first, _power(form, primitive, factors, atoms), ()
+    return first, _exponential(form, primitive, factors, atoms), ()
 
 
 def _sum(terms: list[Scaled]) -> Expr:
     """The sum up to a constant factor: coprime integer coefficients if they are commensurable, the last one positive."""
     if len(terms) == 1:
         return terms[0][1]
-    ratios = [c / terms[-1][0] for c, _ in terms]
+    ratios = [plain.ratio_of_constants(c, terms[-1][0]) for c, _ in terms]
     if all(ratio.is_Rational for ratio in ratios):
         content = sympy.Rational(gcd(*(int(r.p) for r in ratios)), lcm(*(int(r.q) for r in ratios)))
         ratios = [ratio / content for ratio in ratios]
@@ -60,16 +60,16 @@ def _sum(terms: list[Scaled]) -> Expr:
 def _scaled(scale: Expr, factors: list[Expr]) -> Scaled:
     """Rational factors of the product join the constant."""
     coefficient, rest = plain.times(*factors).as_coeff_Mul()
-    return scale * coefficient, rest
+    return plain.times(scale, coefficient), rest
 
 
-def _rational(form: Triangular, primitive: RationalPrimitive, atoms: Atoms) -> Expr:
+def _rational(form: Triangular, primitive: RationalPrimitive, first: Factors, atoms: Atoms) -> Expr:
     parts = primitive.parts
     exact = _normalised_constant(parts.exact) if not parts.residues else parts.exact
     terms = []
     if exact:
         terms.append(_scaled(*atoms.factors(form.first, exact)))
-    scale, factors = atoms.factors(form.first)
+    scale, factors = first
     terms += [_scaled(scale, [*factors, term]) for term in atoms.logarithms(parts.residues)]
     return _sum(terms)
 
@@ -86,20 +86,14 @@ def _normalised_constant(exact: RatFunc) -> RatFunc:
     return exact - exact.num.lc
 
 
-def _on_curve(form: Triangular, integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, tuple[str, ...]]:
-    first = atoms.product(form.first, around_zero=True)
-    value, notes = curve_integral(integral, atoms)
-    return plain.plus(*(plain.times(first, term) for term in Add.make_args(value))), notes
-
-
-def _exponential(form: Triangular, primitive: ExponentialPrimitive, atoms: Atoms) -> Expr:
+def _exponential(form: Triangular, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> Expr:
     """first * (W k e^constant + the special functions times e^constant)."""
     terms = []
     if primitive.W:
         terms.append(_algebraic_part(form, primitive, atoms))
     shift = exp(atoms.constant(primitive.constant)) if primitive.constant else Integer(1)
     t = atoms.x - atoms.constant(primitive.centre)
-    scale, factors = atoms.factors(form.first)
+    scale, factors = first
     for term in primitive.terms:
         c, value = _special(primitive.alpha, atoms.constant(primitive.beta), primitive.n, term.power, t)
         terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*factors, shift, value]))
@@ -118,14 +112,14 @@ def _exponential(form: Triangular, primitive: ExponentialPrimitive, atoms: Atoms
     return _sum(terms)
 
 
-def _power(form: Triangular, primitive: PowerPrimitive, atoms: Atoms) -> Expr:
+def _power(form: Triangular, primitive: PowerPrimitive, first: Factors, atoms: Atoms) -> Expr:
     """first * (W t^alpha + the logarithms of t^(1/n) - z)."""
     terms = []
     t, alpha = primitive.t, primitive.alpha
     if primitive.W:
         powers = _with_exponents(form.first, (t.num, alpha), (t.den, -alpha))
         terms.append(_scaled(*atoms.factors(replace(form.first, powers=powers), primitive.W(t), like=form.first)))
-    scale, factors = atoms.factors(form.first)
+    scale, factors = first
     n = alpha.denominator
     v = Mul(*(atoms.poly(p) ** e for p, e in ((t.num, rational(Fraction(1, n))), (t.den, rational(Fraction(-1, n))))))
     z = atoms.root
@@ -164,14 +158,15 @@ def _special(alpha: Fraction, beta: Expr, n: int, power: int, t: Expr) -> Scaled
         root = sqrt(beta if positive else -beta)
         u = root * t ** sympy.Rational(n, 2)
         return 1 / (root * n), sqrt(pi) * (erfi(u) if positive else erf(u))
-    order = sympy.Rational(s.numerator, s.denominator)
-    z = -beta * t**n
+    order = rational(s)
+    t_n = plain.power(t, Integer(n))
+    z = plain.times(-beta, t_n)
     if n == 1 and beta.is_negative:
         return -((-beta) ** -order), sympy.uppergamma(order, z)
     # z^(-s) gamma(s, z) is entire; with Gamma(s, z) the powers of z and of t would differ in some sectors.
     exponent = rational(power + alpha + 1)
-    powers = plain.power(t, exponent) * plain.power_of_multiple(-beta, t**n, -order)
-    return sympy.Rational(1, n), powers * _lower(order, z)
+    powers = plain.times(plain.power(t, exponent), plain.power_of_multiple(-beta, t_n, -order))
+    return sympy.Rational(1, n), plain.times(powers, _lower(order, z))
 
 
 def _lower(order: Expr, z: Expr) -> Expr:

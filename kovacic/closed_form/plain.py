@@ -12,7 +12,7 @@ from functools import cmp_to_key
 from typing import Any
 
 import sympy
-from sympy import Add, Basic, Integer, Integral, Mul, Pow, S, exp, hyper
+from sympy import Add, Basic, Integer, Integral, Mul, Pow, S, exp, hyper, log
 from sympy.core.function import Function
 from sympy.functions.special.hyper import TupleArg
 
@@ -31,37 +31,41 @@ def _is_sum_or_symbol(e: Expr) -> bool:
     return e.is_Symbol or (e.is_Add and not e.is_number)
 
 
+def _is_sum_symbol_or_power(e: Expr) -> bool:
+    return _is_sum_or_symbol(e.base if e.is_Pow and e.exp.is_Integer else e)
+
+
 def power(base: Expr, exponent: Expr) -> Expr:
     """`base**exponent`."""
     if exponent is S.One:
         return base
-    if exponent.is_Rational and exponent is not S.Zero:
-        product = base.is_Mul and not exponent.is_Integer and all(map(_is_sum_or_symbol, base.args))
-        if product or _is_sum_or_symbol(base):
-            return Pow(base, exponent, evaluate=False)
-    return Pow(base, exponent)
+    if exponent is S.Zero or not (exponent.is_Rational or (exponent.is_number and not exponent.has(log))):
+        return Pow(base, exponent)
+    product = base.is_Mul and not exponent.is_Integer and all(map(_is_sum_symbol_or_power, base.args))
+    return Pow(base, exponent, evaluate=not (product or _is_sum_or_symbol(base)))
 
 
 def power_of_multiple(factor: Expr, base: Expr, exponent: Expr) -> Expr:
     """`(factor * base)**exponent` for a power `base` of a symbol or a sum."""
     if factor.is_Rational and not exponent.is_Integer and not base.is_Add:
         signed = base if factor > 0 else Mul(-1, base, evaluate=False)
-        return abs(factor) ** exponent * Pow(signed, exponent, evaluate=False)
+        return times(abs(factor) ** exponent, Pow(signed, exponent, evaluate=False))
     return (factor * base) ** exponent
+
+
+def _is_radical(factor: Expr) -> bool:
+    """A root of a positive integer."""
+    return bool(factor.is_Pow and factor.base.is_Integer and factor.base.p > 0 and factor.exp.is_Rational)
 
 
 def _base(factor: Expr) -> Expr:
     """The base of a factor that stays as it is beside factors with other bases; None for other factors."""
     if factor.is_Pow:
         base = factor.base
-        if not factor.exp.is_Rational:
-            return None
-        if base.is_Integer and base > 0:
-            return S.Half  # the product of two roots of integers is one root
-        return base if base is S.Pi or not base.is_number else None
+        return base if factor.exp.is_Rational and (base is S.Pi or not base.is_number) else None
     if isinstance(factor, exp):
         return S.Exp1 if not factor.args[0].is_number else None
-    if isinstance(factor, Integral):  # an indefinite one: no number
+    if isinstance(factor, Integral) or factor is S.ImaginaryUnit:  # an indefinite one: no number
         return factor
     if _is_sum_or_symbol(factor) or (isinstance(factor, Function) and not factor.is_number):
         return factor
@@ -70,7 +74,8 @@ def _base(factor: Expr) -> Expr:
 
 def times(*factors: Expr) -> Expr:
     """`Mul(*factors)`."""
-    coefficient, rest, bases = S.One, [], set()
+    coefficient, radicals = S.One, []
+    powers: dict[Expr, Expr] = {}
     for product in factors:
         for factor in Mul.make_args(product):
             if factor is S.One:
@@ -78,11 +83,21 @@ def times(*factors: Expr) -> Expr:
             if factor.is_Rational:
                 coefficient = coefficient * factor
                 continue
+            if _is_radical(factor):
+                radicals.append(factor)
+                continue
             base = _base(factor)
-            if base is None or base in bases:
+            if base in powers and _is_sum_or_symbol(base):
+                factor = power(base, powers.pop(base).as_base_exp()[1] + factor.as_base_exp()[1])
+                if factor is S.One:
+                    continue
+            elif base is None or base in powers:
                 return Mul(*factors)
-            bases.add(base)
-            rest.append(factor)
+            powers[base] = factor
+    rest = list(powers.values())
+    if radicals:
+        coefficient, product = Mul(coefficient, *radicals).as_coeff_Mul()
+        rest += [factor for factor in Mul.make_args(product) if factor is not S.One]
     if coefficient is S.Zero or not rest:
         return coefficient
     if coefficient is S.One:
@@ -108,6 +123,12 @@ def plus(*terms: Expr) -> Expr:
     return Add._from_args([*([constant] if constant is not S.Zero else []), *sorted(rest, key=_order)], True)
 
 
+def ratio_of_constants(c: Expr, d: Expr) -> Expr:
+    """`c / d`."""
+    (p, unit), (q, other) = c.as_coeff_Mul(), d.as_coeff_Mul()
+    return p / q if unit == other else c / d
+
+
 def quotient(numerator: Expr, denominator: Expr) -> Expr:
     """`numerator / denominator`."""
     return numerator if denominator is S.One else times(numerator, power(denominator, S.NegativeOne))
@@ -126,9 +147,17 @@ def polynomial(coefficients: Sequence[Expr], variable: Expr) -> Expr:
     return Add._from_args(constant + sorted(terms, key=_order), True)
 
 
-def exponential(rational_function: Expr) -> Expr:
-    """`exp(f)` for a rational function that isn't a constant."""
-    return exp(rational_function, evaluate=False)
+def exponential(argument: Expr) -> Expr:
+    """`exp(argument)`."""
+    if argument is S.Zero:
+        return S.One
+    evaluated = argument.is_number or argument.has(log, S.ImaginaryUnit)
+    return exp(argument) if evaluated else exp(argument, evaluate=False)
+
+
+def logarithm(rational_function: Expr) -> Expr:
+    """`log(f)` for a rational function that isn't a constant, without common factors and constant ones."""
+    return log(rational_function, evaluate=False)
 
 
 def hypergeometric(a: Expr, b: Expr, c: Expr, z: Expr) -> Expr:

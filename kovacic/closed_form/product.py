@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 from kovacic.algebra.fields import Field
 from kovacic.algebra.poly import Poly
@@ -44,7 +45,7 @@ class Product:
     def field(self) -> Field:
         return self.exponential.field
 
-    @property
+    @cached_property
     def logarithmic_derivative(self) -> RatFunc:
         """y'/y, computed from the factors."""
         total = self.exponential.derivative()
