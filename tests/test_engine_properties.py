@@ -377,6 +377,7 @@ def test_every_corrupted_coefficient_fails(text: str) -> None:
         {"riccati": replace(riccati, D=riccati.D * QQ.poly([5, 1]))},
         {"riccati": replace(riccati, numerators=riccati.numerators[:-1])},
         {"riccati": replace(riccati, numerators=(*riccati.numerators, one))},
+        {"riccati": replace(riccati, numerators=riccati.numerators[:1]), "semi_invariant": replace(form, degree=0)},
         {"semi_invariant": replace(form, theta=form.theta + x)},
         {"semi_invariant": replace(form, P=form.P * QQ.poly([5, 1]))},
         {"semi_invariant": replace(form, degree=form.degree + 1)},
@@ -433,6 +434,35 @@ def test_missing_or_foreign_evidence_fails(text: str) -> None:
                 wrong += [replace(evidence, degree=evidence.degree + 1), replace(evidence, place="x - 77")]
             for other in wrong:
                 assert not verify(answer.S, changed(decision, i, j, other)), other
+
+
+CONDITIONS = {
+    Rule.RAMIFIED: "x",
+    Rule.LOGARITHM: "(-x^2 + x - 1)/(4*x^4 - 8*x^3 + 4*x^2)",
+    Rule.TOO_FEW_BRANCH_POINTS: "x^2",
+    Rule.IRREGULAR: "x^2",
+    Rule.EXPONENTS: "(-135*x^2 - 256*x + 256)/(576*x^4 - 1152*x^3 + 576*x^2)",
+    Rule.NOT_A_SQUARE: "2*x^4 + 1",
+}
+
+
+@pytest.mark.parametrize("rule", Rule)
+def test_a_condition_holds_at_its_places_and_against_its_structures_only(rule: Rule) -> None:
+    answer = kovacic.solve(CONDITIONS[rule])
+    exclusions = answer.decision.exclusions
+    i, j, condition = next(
+        (i, j, evidence)
+        for i, exclusion in enumerate(exclusions)
+        for j, evidence in enumerate(exclusion.evidence)
+        if isinstance(evidence, NecessaryCondition) and evidence.rule is rule
+    )
+    if rule is not Rule.TOO_FEW_BRANCH_POINTS:  # which says something about all places
+        for places in ((), ("x - 77",), (*condition.places, "x - 77")):
+            assert not verify(answer.S, changed(answer.decision, i, j, replace(condition, places=places))), places
+    foreign = Structure.IMPRIMITIVE if exclusions[i].structure is Structure.REDUCIBLE else Structure.REDUCIBLE
+    moved = tuple(replace(e, evidence=(condition,)) if e.structure is foreign else e for e in exclusions)
+    assert moved != exclusions
+    assert not verify(answer.S, replace(answer.decision, exclusions=moved))
 
 
 @pytest.mark.parametrize("text", [*CORRUPTIBLE, "0", "(3*x^2 - 7)/(x^2 + 1)^2 * 0 + 2/x^2"])

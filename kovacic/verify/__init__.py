@@ -26,6 +26,10 @@ _OMEGA_DEGREE = {
     Structure.OCTAHEDRAL: 6,
     Structure.ICOSAHEDRAL: 12,
 }
+#: What the evidence against each structure shows.
+_EXCLUDED = {
+    structure: f"the Galois group isn't {structure.value} (case {structure.case})" for structure in _OMEGA_DEGREE
+}
 
 
 @dataclass(frozen=True)
@@ -61,9 +65,7 @@ def verify(S: RatFunc, decision: Decision) -> Verification:
     inspector = Inspector(S)
     by_structure = {exclusion.structure: exclusion.evidence for exclusion in decision.exclusions}
     for structure in required:
-        evidence = by_structure.get(structure, ())
-        statement = f"the Galois group isn't {structure.value} (case {structure.case})"
-        checks.append(Check(statement, bool(evidence) and inspector.excludes(structure, evidence)))
+        checks.append(Check(_EXCLUDED[structure], inspector.excludes(structure, by_structure.get(structure, ()))))
     return Verification(tuple(checks))
 
 
@@ -72,18 +74,19 @@ def _positive(S: RatFunc, decision: Decision, structure: Structure) -> list[Chec
     if riccati is None or form is None:
         return [Check("the polynomial of omega is there", False)]
     degree = _OMEGA_DEGREE[structure]
-    consistent = form.degree == riccati.degree and form.P == riccati.P
-    theta = form.theta
-    logarithmic = theta.num * riccati.D * riccati.P + riccati.P.derivative() * riccati.D * theta.den
+    P, D, theta = riccati.P, riccati.D, form.theta
     checks = [
         Check(f"omega satisfies a polynomial of degree {degree}", riccati.degree == degree),
         Check("the roots of the polynomial solve omega' + omega^2 = S", solves_riccati(S, riccati)),
         Check(
             "the sum of the roots is the logarithmic derivative of the semi-invariant",
-            consistent and logarithmic == riccati.numerators[1] * theta.den,
+            0 < form.degree == riccati.degree
+            and form.P == P
+            # theta + P'/P = A_1/(P D)
+            and theta.num * D * P == (riccati.numerators[1] - D * P.derivative()) * theta.den,
         ),
     ]
-    field = riccati.P.field
+    field = P.field
     if isinstance(field, AlgebraicField) and field != S.field:
         checks.append(Check(f"the polynomial of {field.name} is irreducible", _is_irreducible(field)))
     return checks

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import islice
+from itertools import islice, zip_longest
 from operator import mul
 from typing import Any
 
@@ -30,7 +30,7 @@ from kovacic.solution import (
     Rule,
     Structure,
 )
-from kovacic.verify.local import Point, largest_degree, laurent_numerators, least_valuation, logarithm_at, points
+from kovacic.verify.local import Point, coefficients, largest_degree, laurent_numerators, least_valuation, points
 
 _ORDERS = {
     Structure.TETRAHEDRAL: {1, 2, 3},
@@ -67,24 +67,23 @@ class Inspector:
     def points(self) -> list[Point]:
         return points(self.S)
 
-    @cached_property
-    def logarithmic(self) -> set[str]:
-        return {
-            point.name for point in self.points if point.order and logarithm_at(point, self.S.field.homomorphisms())
-        }
-
     def excludes(self, structure: Structure, evidence: tuple[Evidence, ...]) -> bool:
-        """Does the evidence, recomputed, prove that the group doesn't have this structure?"""
-        if not all(self._holds(item, structure) for item in evidence):
-            return False
-        conditions = [item for item in evidence if isinstance(item, NecessaryCondition)]
-        sufficient = [item for item in conditions if item.rule is not Rule.NOT_A_SQUARE]
-        degree = _INVARIANT_DEGREE[structure]
-        no_invariant = any(isinstance(item, NoInvariant) and item.invariant_degree == degree for item in evidence)
-        if structure is not Structure.REDUCIBLE:
-            return bool(sufficient) or no_invariant
-        no_unique = any(isinstance(item, NoRationalOmega) for item in evidence) or len(conditions) > len(sufficient)
-        return bool(sufficient) or (no_invariant and no_unique)
+        """Does the evidence, recomputed, prove that the group doesn't have this structure?
+
+        A necessary condition that fails does, or the absence of the invariant; but a reducible group has one only where
+        omega isn't unique, and NOT_A_SQUARE, like NoRationalOmega, says no more than that there is no unique omega.
+        """
+        condition, no_invariant, no_unique_omega = False, False, structure is not Structure.REDUCIBLE
+        for item in evidence:
+            if not self._holds(item, structure):
+                return False
+            if isinstance(item, NoInvariant):
+                no_invariant |= item.invariant_degree == _INVARIANT_DEGREE[structure]
+            elif isinstance(item, NoRationalOmega) or item.rule is Rule.NOT_A_SQUARE:
+                no_unique_omega = True
+            else:
+                condition = True
+        return condition or (no_invariant and no_unique_omega)
 
     def _holds(self, item: Evidence, structure: Structure) -> bool:
         try:
@@ -97,55 +96,52 @@ class Inspector:
             return False
 
     def _condition_fails(self, item: NecessaryCondition, structure: Structure) -> bool:
-        named = [point for point in self.points if point.name in item.places]
         if item.rule is Rule.TOO_FEW_BRANCH_POINTS:
-            branched = [
-                point
-                for point in self.points
-                if (point.order > 2 and point.order % 2)
-                or ((difference := point.difference) is not None and difference.denominator == 2)
-            ]
-            return sum(point.factor.degree for point in branched) < 2
+            return sum(point.factor.degree for point in self.points if _can_branch(point)) < 2
+        named = [point for point in self.points if point.name in item.places]
         if not named or len(named) != len(item.places):
             return False
         if item.rule is Rule.RAMIFIED:
             return any(point.order > 2 and point.order % 2 for point in named)
         if item.rule is Rule.LOGARITHM:
-            return any(point.name in self.logarithmic for point in named)
+            return any(point.logarithm for point in named)
         if item.rule is Rule.IRREGULAR:
             return any(point.order > 2 for point in named)
         if item.rule is Rule.EXPONENTS:
-            allowed = _ORDERS[structure]
             differences = [point.difference for point in named if 0 < point.order <= 2]
-            return any(d is None or d.denominator not in allowed for d in differences)
-        return largest_degree(named, self.logarithmic) is None
+            return any(d is None or d.denominator not in _ORDERS[structure] for d in differences)
+        return largest_degree(named) is None
 
-    def _at_prime(self, p: int | None, claim: Callable[[Homomorphism], bool]) -> bool:
+    def _at_prime(self, p: int, claim: Callable[[Homomorphism], bool]) -> bool:
         """Does the claim hold under a homomorphism to F_p among the first ones of the field's sequence?
 
         Over Q(t) several belong to one prime, the parameters taking different values; any of them proves the claim.
         """
         ground = self.S.field.ground
-        for h in islice(self.S.field.homomorphisms(), _PRIMES if p is not None else 0):
+        for h in islice(self.S.field.homomorphisms(), _PRIMES):
             try:
                 if h.p == p and claim(h):
                     return True
             except BadPrimeError:
                 continue
-            if p is None or (h.p < p and ground == QQ):
+            if h.p < p and ground == QQ:
                 break
         return False
 
     def _no_invariant(self, item: NoInvariant) -> bool:
         """No rational form of degree m: no room for one, or nullity 0 of the linear system modulo the prime."""
         m = item.invariant_degree
-        valuations = [least_valuation(point, m, point.name in self.logarithmic) for point in self.points]
-        least = [v for v in valuations if v is not None]
-        room = m - sum(v * point.factor.degree for v, point in zip(least, self.points, strict=False))
-        if len(least) < len(valuations) or room < 0:
-            return item.prime is None
+        valuations, room = list[int](), m
+        for point in self.points:
+            valuation = least_valuation(point, m)
+            if valuation is None:
+                return item.prime is None
+            valuations.append(valuation)
+            room -= valuation * point.factor.degree
+        if room < 0 or item.prime is None:
+            return room < 0 and item.prime is None
         return item.degree == room and self._at_prime(
-            item.prime, lambda h: self._nullity(h, item.point, m, least[:-1], room) == 0
+            item.prime, lambda h: self._nullity(h, item.point, m, valuations[:-1], room) == 0
         )
 
     def _nullity(self, h: Homomorphism, point: int, m: int, valuations: list[int], room: int) -> int:
@@ -160,17 +156,17 @@ class Inspector:
             for place, v in zip(self.points[:-1], valuations, strict=True)
         ]
         scale = power_series([*factors, (nmod_poly([1], h.p), 1)], order)
-        powers = [[scale], [nmod_poly([1], h.p)]]
+        # scale * y1^(m-i) y2^i for i = 0, ..., m; their combinations are looked at from the term t^(room+1) on.
+        ratio = y2.mul_low(y1.inverse_series_trunc(order), order)
+        forms = [scale.mul_low(y1.pow_trunc(m, order), order)]
         for _ in range(m):
-            powers[0].append(powers[0][-1].mul_low(y1, order))
-            powers[1].append(powers[1][-1].mul_low(y2, order))
-        columns = [powers[0][m - i].mul_low(powers[1][i], order) for i in range(m + 1)]
-        rows = [[column[k] for column in columns] for k in range(room + 1, order)]
+            forms.append(forms[-1].mul_low(ratio, order))
+        rows = list(zip_longest(*(form.right_shift(room + 1).coeffs() for form in forms), fillvalue=0))
         return len(null_space(rows, m + 1, h.p))
 
     def _no_rational_omega(self, item: NoRationalOmega) -> bool:
         """No rational omega with the local expansions at the recorded place (invariants of degree 2 excluded elsewhere)."""
-        degree = largest_degree(self.points, self.logarithmic)
+        degree = largest_degree(self.points)
         if degree is None:
             return True
         if item.prime is None or item.degree != degree:
@@ -195,9 +191,9 @@ class Inspector:
         )
 
     def _is_opposite(self, point: Point, place: Point) -> bool:
-        if place.name == "infinity":
-            return point.name != "infinity" and point.factor.degree == 1 and not point.factor[0]
-        return point.name == "infinity"
+        if place.at_infinity:
+            return not point.at_infinity and point.factor.degree == 1 and not point.factor[0]
+        return point.at_infinity
 
     def _tells_solutions_apart(self, place: Point) -> bool:
         if place.order > 2:
@@ -205,7 +201,7 @@ class Inspector:
         if place.order == 0:
             return False
         difference = place.difference
-        return difference is None or difference.denominator != 1 or place.name in self.logarithmic
+        return difference is None or difference.denominator != 1 or place.logarithm
 
     def _expansions(self, place: Point, h: Homomorphism, root: int, count: int) -> list[Any]:
         """t^nu omega, to `count` terms, for every local solution that can have a rational omega."""
@@ -220,7 +216,7 @@ class Inspector:
             difference = place.difference
             if difference is not None:
                 r = difference.numerator * pow(difference.denominator, -1, p) % p
-            signs = [r] if place.name in self.logarithmic else [r, -r]
+            signs = [r] if place.logarithm else [r, -r]
             starts = [[(1 + value) * half % p] for value in signs]
         elif not s[0]:
             raise BadPrimeError("the leading coefficient at an irregular place vanishes")
@@ -230,11 +226,17 @@ class Inspector:
                 return []
             starts = []
             for a in (r, -r % p):
-                w = [int(c) for c in square_root_series(nmod_poly(s[:nu], p), nu, a).coeffs()]
-                w += [0] * (nu - len(w))
+                w = coefficients(square_root_series(nmod_poly(s[:nu], p), nu, a), nu)
                 w[nu - 1] = (w[nu - 1] + nu * half) % p
                 starts.append(w)
         return [_riccati_series(start, s, nu, count, p) for start in starts]
+
+
+def _can_branch(point: Point) -> bool:
+    """Can the square root of an invariant branch here?"""
+    if point.order > 2:
+        return point.order % 2 == 1
+    return point.difference is not None and point.difference.denominator == 2
 
 
 def _riccati_series(start: list[int], s: list[int], nu: int, count: int, p: int) -> Any:
@@ -243,17 +245,21 @@ def _riccati_series(start: list[int], s: list[int], nu: int, count: int, p: int)
     The terms of t^j give sum_(i=0..j) w_i w_(j-i) + (j - 2 nu + 1) w_(j-nu+1) = s_j.
     """
     w = list(start)
+    inverse = _inverse(2 * w[0], p) if nu > 1 else 0
     for j in range(len(w), count):
         total = s[j] - sum(map(mul, w[1:j], w[j - 1 : 0 : -1]))
         if nu > 1:
             total -= (j - 2 * nu + 1) * w[j - nu + 1]
-            pivot = 2 * w[0]
         else:
-            pivot = 2 * w[0] + j - 1
-        if pivot % p == 0:
-            raise BadPrimeError("the prime meets an exponent")
-        w.append(total * pow(pivot, -1, p) % p)
+            inverse = _inverse(2 * w[0] + j - 1, p)
+        w.append(total * inverse % p)
     return nmod_poly(w[:count], p)
+
+
+def _inverse(pivot: int, p: int) -> int:
+    if pivot % p == 0:
+        raise BadPrimeError("the prime meets an exponent")
+    return pow(pivot, -1, p)
 
 
 def _is_rational(series: Any, num: Any, den: Any, nu: int, degree: int, growth: int) -> bool:
