@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from kovacic import engine
@@ -13,6 +13,7 @@ from kovacic.errors import InputError, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.result import Solution
 from kovacic.solution import Decision, Status
+from kovacic.verify import verify
 
 if TYPE_CHECKING:
     from kovacic.io.parsed import Parsed
@@ -81,13 +82,14 @@ def solve(
     else:
         text = parsed.S.to_str(parsed.variable) if parsed.equation is None else parsed.equation.text(caret=False)
     decision, notices = _decided(parsed, S, assume, limits, certify=True)
-    answer = Solution(text, parsed.variable, parsed.S, decision, notices, equation=parsed.equation)
-    verification = answer.verify()
-    if not verification and (verification.checks or answer.status is not Status.UNDECIDED):
+    verification = verify(parsed.S, decision)
+    verified = bool(verification)
+    if not verified and (verification.checks or decision.status is not Status.UNDECIDED):
         raise VerificationFailed(
             f"the answer for S = {parsed.S} failed its own check; please report it\n{verification}"
         )
-    return replace(answer, verified=bool(verification), seconds=time.perf_counter() - start)
+    seconds = time.perf_counter() - start
+    return Solution(text, parsed.variable, parsed.S, decision, notices, verified, seconds, parsed.equation)
 
 
 def decide(
