@@ -39,6 +39,16 @@ def check() -> ModuleType:
         ("1/x - 3/(16*x^2)", "y", "giac", ["x^(1/4)*exp(2*sqrt(x))", "x^(1/4)*exp(-2*sqrt(x))"], "right"),
         ("x^2+3", "y", "maxima", ["%k2*x*%e^(x^2/2)*'integrate(%e^(-x^2)/x^2,x)+%k1*x*%e^(x^2/2)"], "right"),
         ("x^2+3", "y", "maxima", ["%k2*x*%e^(x^2/2)*'integrate(%e^(-x^2)/x^3,x)+%k1*x*%e^(x^2/2)"], "wrong"),
+        ("x^2+3", "y", "maxima", ["%k2*x*%e^(x^2/2)*'integrate(%e^(-x^2)/x^2+1/10^20,x)+%k1*x*%e^(x^2/2)"], "wrong"),
+        ("x^2-1", "y", "python", ["exp(-x**2/2)*erfi(x)", "exp(-x**2/2)"], "right"),
+        ("x^2-1", "y", "python", ["exp(-x**2/2)*erf(x)"], "wrong"),
+        ("x^2-1", "y", "python", ["exp(-x**2/2)*erfi(x) + exp(-x**2/2)*x/10**20"], "wrong"),
+        ("2", "y", "python", ["exp(CRootOf(x**2 - 2, 1)*x)"], "right"),
+        ("2", "y", "python", ["exp(CRootOf(x**2 - 3, 1)*x)"], "wrong"),
+        ("6*x/(x^3-2)", "y", "python", ["exp(RootSum(Poly(c**3 - 2, c), Lambda(c, log(x - c))))"], "right"),
+        ("6*x/(x^3-3)", "y", "python", ["exp(RootSum(Poly(c**3 - 2, c), Lambda(c, log(x - c))))"], "wrong"),
+        ("6*x/(x^3-2)", "y", "python", ["exp(RootSum(Poly(c**3 - 2, c), Lambda(c, log(x - c))))**2"], "wrong"),
+        ("2/x^2", "y", "python", ["x**(log(100)/log(10))", "sin(pi)*x**7 + 1/x"], "right"),
         # On the left half-plane sqrt(x^2) is -x.
         ("x^2+1", "y", "python", ["exp(x*sqrt(x**2)/2)"], "right on a branch"),
     ],
@@ -59,3 +69,21 @@ def test_numbers_in_coefficients_are_exact(check: ModuleType) -> None:
 def test_unknown_functions_are_not_guessed(check: ModuleType) -> None:
     with pytest.raises(check.Unreadable):
         check.check("x", "y", "giac", ["mystery(x)"])
+
+
+def test_a_large_answer_is_checked_and_a_small_error_found(check: ModuleType) -> None:
+    """An integral of forty factors, for which the second derivative as an expression takes minutes."""
+    import sympy
+
+    x = sympy.Symbol("x")
+    first = sympy.Mul(*((x - k) ** sympy.Rational(k % 5 + 1, 5) for k in range(1, 41)))
+    omega = sum(sympy.Rational(k % 5 + 1, 5) / (x - k) for k in range(1, 41))
+    S = str(omega.diff(x) + omega**2)
+    second = first * sympy.Integral(first**-2, x)
+    for expressions, verdict in (([first, second], "right"), ([first, second + x * first / 10**20], "wrong")):
+        assert check.check(S, "y", "python", list(map(str, expressions))) == verdict
+
+
+def test_an_unknown_symbol_is_not_guessed(check: ModuleType) -> None:
+    with pytest.raises(check.Unreadable):
+        check.check("x^2+3", "y", "python", ["x*exp(x**2/2)*parameter"])

@@ -1,9 +1,8 @@
 """Is an answer right?  Substituted into the equation at complex points with 30 digits, independently of every system.
 
-    y         y'' - S y at the points, y'' by the second difference with so many digits that 30 are left; symbolically
-              where y has an unevaluated integral, which may be any antiderivative: it is differentiated by the fundamental
-              theorem, and its value is then a free constant, for which a random number is put.  |u| is taken as
-              sqrt(u^2), which is analytic.
+    y         y'' - S y at the points, y'' from the Taylor coefficients of `taylor.py`, with so many digits that 30 are
+              left.  An unevaluated integral may be any antiderivative: a random number is put for its value.  |u| is
+              taken as sqrt(u^2), which is analytic.
     omega     omega' + omega^2 - S.
     riccati   at each root W of the polynomial, W' = -M_x/M_W, and W' + W^2 - S.  (Python packages give the coefficients
               from W^0 on, and the minimal polynomial of the constant c or "".)
@@ -12,7 +11,7 @@ An identity between analytic functions that holds at a point for one branch of t
 branch: so one point where it holds is enough ("right"), but the points where it doesn't are counted, because the formula
 then isn't right as it stands ("right on a branch").
 
-Runs as a process of its own (`python check.py`, JSON lines in and out), because differentiating a large answer may take long.
+Runs as a process of its own (`python check.py`, JSON lines in and out), because a large answer may take long.
 """
 
 from __future__ import annotations
@@ -24,12 +23,16 @@ import random
 import re
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
-import flint
 import mpmath
 import sympy
 from sympy.parsing.sympy_parser import parse_expr
+
+sys.path.insert(0, str(Path(__file__).parent.parent))
+
+from peer_systems.taylor import Expansion, Known, Unreadable
 
 DIGITS = 30
 _WORKING_DIGITS = 140
@@ -40,10 +43,6 @@ POINTS = 6
 _X = sympy.Symbol("x")
 _W = sympy.Symbol("omega_")
 _C = sympy.Symbol("c")
-
-
-class Unreadable(Exception):
-    """The expression has functions that aren't known here."""
 
 
 def read(text: str, syntax: str) -> Any:
@@ -146,64 +145,27 @@ def _candidates(y: Any) -> list[Any]:
 
 
 def _holds(S: Any, expression: Any, form: str, points: list[Any], rng: random.Random) -> list[bool]:
+    """At each point where the expression can be evaluated: does it satisfy the equation?"""
     if form == "omega":
-        free = [s for s in expression.free_symbols if s != _X]
+        free = sorted((s for s in expression.free_symbols if s != _X), key=str)
         expression = expression.subs({s: rng.randint(2, 9) for s in free})
-        pieces = [expression.diff(_X), expression**2, -S]
-    else:
-        if expression == 0:
-            return [False]
-        y, integrands = _integrals_as_symbols(expression)
-        if not integrands:
-            return _holds_by_differences(S, y, points)
-        values = {J: sympy.Rational(rng.randint(1, 10**6), 10**6) + sympy.I * rng.randint(1, 9) for J in integrands}
-        slope = _derivative(y, integrands)
-        pieces = [piece.subs(values) for piece in (_derivative(slope, integrands), -S * y)]
-    functions = [sympy.lambdify(_X, piece, "mpmath") for piece in pieces]
-    return [value for value in (_vanishes(functions, point) for point in points) if value is not None]
+    elif expression == 0:
+        return [False]
+    known = Known(rng)
+
+    def residues(point: Any) -> list[Any]:
+        near = Expansion({_X: [point, mpmath.mpf(1)]}, known)
+        value, first, second = [*near(expression), 0, 0][:3]
+        coefficient = near(S)[0]
+        return [first, value**2, -coefficient] if form == "omega" else [2 * second, -coefficient * value]
+
+    return [holds for holds in (_vanishes(residues, point) for point in points) if holds is not None]
 
 
-def _holds_by_differences(S: Any, y: Any, points: list[Any]) -> list[bool]:
-    """With the second difference at a distance of 10^-25 for y'': the derivative of a large expression is larger still."""
-    f, coefficient, h = sympy.lambdify(_X, y, "mpmath"), sympy.lambdify(_X, S, "mpmath"), mpmath.mpf(10) ** -25
-    pieces = [lambda x: (f(x + h) - 2 * f(x) + f(x - h)) / h**2, lambda x: -coefficient(x) * f(x)]
-    return [value for value in (_vanishes(pieces, point) for point in points) if value is not None]
-
-
-def _integrals_as_symbols(expression: Any) -> tuple[Any, dict[Any, Any]]:
-    """The expression with a symbol for each integral, the inner ones first; and the integrands, in such symbols.
-
-    SymPy's own derivative rewrites integrals (it pulls constants out), and would make two of one.
-    """
-    integrands: dict[Any, Any] = {}
-    expression = expression.replace(lambda e: isinstance(e, sympy.RootSum), _explicit)
-    while integrals := expression.atoms(sympy.Integral):
-        inner = next(i for i in integrals if not i.function.atoms(sympy.Integral))
-        symbol = sympy.Symbol(f"J{len(integrands)}")
-        integrands[symbol] = inner.function
-        expression = expression.xreplace({inner: symbol})
-    return expression, integrands
-
-
-def _explicit(roots: Any) -> Any:
-    """A sum over the roots of a polynomial, with the roots as numbers."""
-    coefficients = roots.poly.clear_denoms()[1].all_coeffs()
-    with flint.ctx.workdps(_WORKING_DIGITS):
-        found = [root for root, _ in flint.fmpz_poly([int(c) for c in coefficients[::-1]]).complex_roots()]
-        parts = [[part.str(_WORKING_DIGITS, radius=False) for part in (root.real, root.imag)] for root in found]
-    values = (sympy.Float(re, _WORKING_DIGITS) + sympy.I * sympy.Float(im, _WORKING_DIGITS) for re, im in parts)
-    return sum(roots.fun(value) for value in values)
-
-
-def _derivative(expression: Any, integrands: dict[Any, Any]) -> Any:
-    """d/dx, the symbols of integrals being functions of x."""
-    return expression.diff(_X) + sum(expression.diff(J) * f for J, f in integrands.items())
-
-
-def _vanishes(functions: list[Callable[[Any], Any]], point: Any) -> bool | None:
-    """Is the sum zero to 30 digits, relative to its terms?  None where it can't be evaluated."""
+def _vanishes(terms: Callable[[Any], list[Any]], point: Any) -> bool | None:
+    """Is the sum of the terms zero to 30 digits, relative to them?  None where they can't be evaluated."""
     try:
-        values = [mpmath.mpmathify(function(point)) for function in functions]
+        values = [mpmath.mpmathify(value) for value in terms(point)]
     except (ZeroDivisionError, ValueError, TypeError, NameError, OverflowError, KeyError, mpmath.libmp.NoConvergence):
         return None
     size = max(abs(value) for value in values)
