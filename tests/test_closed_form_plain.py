@@ -45,6 +45,10 @@ factors = st.one_of(
             Pow(2, Rational(1, 3)),
             Pow(6, Rational(2, 3)),
             1 / sqrt(3),
+            x ** sqrt(2),
+            (x + 1) ** (-sqrt(2) / 3),
+            (x + 1) ** (sqrt(2) - 1),
+            Pow(12, Rational(1, 3)) * (x + 1),
             sqrt(pi),
             pi,
             sympy.I,
@@ -91,7 +95,10 @@ def test_quotients(numerator: Any, denominator: Any) -> None:
 
 
 @given(
-    st.lists(st.sampled_from([Integer(0), Integer(1), Integer(-1), Integer(7), Rational(1, 2), sqrt(2), n]), max_size=6)
+    st.one_of(
+        st.lists(st.sampled_from([Integer(0), Integer(1), Integer(-1), Rational(1, 2), sqrt(2), n]), max_size=6),
+        st.lists(st.builds(Rational, st.integers(-3, 12), st.sampled_from([1, 1, 2, 3])), max_size=12),
+    )
 )
 def test_polynomials(coefficients: list[Any]) -> None:
     for variable in (x, 2 * x, x**3):

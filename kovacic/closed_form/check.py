@@ -61,6 +61,12 @@ def _is_riccati_solution(omega: RatFunc, S: RatFunc) -> bool:
     return (n.derivative() * d - n * d.derivative() + n * n) * S.den == S.num * (d * d)
 
 
+def _has_logarithmic_derivative(r: RatFunc, rate: RatFunc) -> bool:
+    """r'/r = rate for a function r other than 0, multiplied by the denominators."""
+    n, d = r.num, r.den
+    return bool(r) and (n.derivative() * d - n * d.derivative()) * rate.den == rate.num * (n * d)
+
+
 def _conjugate(form: Conjugate, S: RatFunc, gauge: RatFunc) -> bool:
     A, B, delta = form.A, form.B, form.delta
     slope_a, slope_b = A.derivative(), B.derivative()
@@ -92,14 +98,13 @@ def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
     """Is the derivative of the integral y^-2, up to a constant?"""
     target = bare.logarithmic_derivative * -2
     if isinstance(primitive, RationalPrimitive):
-        h = primitive.parts.derivative
-        return h.derivative() == target * h
+        return _has_logarithmic_derivative(primitive.parts.derivative, target)
     if isinstance(primitive, CurvePrimitive):
         r, g = primitive.integral.integrand, RatFunc(primitive.integral.g)
-        return r.derivative() / r - g.derivative() / (2 * g) == target and _is_complete(primitive.integral)
+        rate = target + g.derivative() / (2 * g)
+        return _has_logarithmic_derivative(r, rate) and _is_complete(primitive.integral)
     if isinstance(primitive, ExponentialPrimitive):
-        r = primitive.integrand
-        return r.derivative() / r + primitive.kernel_derivative == target
+        return _has_logarithmic_derivative(primitive.integrand, target - primitive.kernel_derivative)
     if isinstance(primitive, PowerPrimitive):
         return primitive.logarithmic_derivative == target
     return True  # the integral is left as it is

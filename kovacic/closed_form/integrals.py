@@ -156,8 +156,9 @@ def _special(alpha: Fraction, beta: Expr, n: int, power: int, t: Expr) -> Scaled
     if s == Fraction(1, 2):
         positive = beta.is_positive
         root = sqrt(beta if positive else -beta)
-        u = root * t ** sympy.Rational(n, 2)
-        return 1 / (root * n), sqrt(pi) * (erfi(u) if positive else erf(u))
+        u = plain.times(root, plain.power(t, sympy.Rational(n, 2)))
+        evaluated = not beta.is_Rational or u.could_extract_minus_sign()
+        return 1 / (root * n), plain.times(sqrt(pi), (erfi if positive else erf)(u, evaluate=evaluated))
     order = rational(s)
     t_n = plain.power(t, Integer(n))
     z = plain.times(-beta, t_n)

@@ -61,10 +61,14 @@ class _Evaluator:
                 value, first, second = value + jet[0], first + jet[1], second + jet[2]
             return value, first, second
         if e.is_Mul:
-            result = self(e.args[0])
-            for arg in e.args[1:]:
-                result = _times(result, self(arg))
-            return result
+            constant, result = _ONE, None
+            for arg in e.args:
+                if arg.is_Rational:
+                    constant = constant * self(arg)[0]
+                else:
+                    result = self(arg) if result is None else _times(result, self(arg))
+            assert result is not None
+            return result if constant is _ONE else (constant * result[0], constant * result[1], constant * result[2])
         if isinstance(e, sympy.exp):
             return _chain(self(e.args[0]), _exp)
         if e.is_Pow:

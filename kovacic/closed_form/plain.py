@@ -62,7 +62,9 @@ def _base(factor: Expr) -> Expr:
     """The base of a factor that stays as it is beside factors with other bases; None for other factors."""
     if factor.is_Pow:
         base = factor.base
-        return base if factor.exp.is_Rational and (base is S.Pi or not base.is_number) else None
+        if factor.exp.is_Rational:
+            return base if base is S.Pi or not base.is_number else None
+        return base if _is_sum_or_symbol(base) and factor.exp.is_number else None
     if isinstance(factor, exp):
         return S.Exp1 if not factor.args[0].is_number else None
     if isinstance(factor, Integral) or factor is S.ImaginaryUnit:  # an indefinite one: no number
@@ -72,39 +74,55 @@ def _base(factor: Expr) -> Expr:
     return None
 
 
+def _collected(powers: dict[Expr, Expr], factor: Expr) -> bool:
+    """Multiply the powers, which are given by base; False for a factor that needs SymPy."""
+    base = _base(factor)
+    if base is None:
+        return False
+    if base in powers:
+        exponents = powers.pop(base).as_base_exp()[1], factor.as_base_exp()[1]
+        if not (_is_sum_or_symbol(base) and all(e.is_Rational for e in exponents)):
+            return False
+        factor = power(base, sum(exponents))
+    if factor is not S.One:
+        powers[base] = factor
+    return True
+
+
 def times(*factors: Expr) -> Expr:
     """`Mul(*factors)`."""
-    coefficient, radicals = S.One, []
-    powers: dict[Expr, Expr] = {}
-    for product in factors:
+    coefficient, powers = S.One, dict[Expr, Expr]()
+    radicals: list[list[Expr]] = []  # of each product, within which they have been multiplied already
+    for product in sorted(factors, key=lambda product: product.is_Mul):  # SymPy's order, which matters for the radicals
+        own = []
         for factor in Mul.make_args(product):
-            if factor is S.One:
-                continue
             if factor.is_Rational:
-                coefficient = coefficient * factor
-                continue
-            if _is_radical(factor):
-                radicals.append(factor)
-                continue
-            base = _base(factor)
-            if base in powers and _is_sum_or_symbol(base):
-                factor = power(base, powers.pop(base).as_base_exp()[1] + factor.as_base_exp()[1])
-                if factor is S.One:
-                    continue
-            elif base is None or base in powers:
+                coefficient = factor if coefficient is S.One else coefficient * factor
+            elif _is_radical(factor):
+                own.append(factor)
+            elif not _collected(powers, factor):
                 return Mul(*factors)
-            powers[base] = factor
-    rest = list(powers.values())
-    if radicals:
-        coefficient, product = Mul(coefficient, *radicals).as_coeff_Mul()
-        rest += [factor for factor in Mul.make_args(product) if factor is not S.One]
+        if own:
+            radicals.append(own)
+    if len(radicals) > 1:
+        coefficient, product = Mul(coefficient, *(root for own in radicals for root in own)).as_coeff_Mul()
+        radicals = [[factor for factor in Mul.make_args(product) if factor is not S.One]]
+    return _product(coefficient, [*powers.values(), *(radicals[0] if radicals else ())])
+
+
+def _product(coefficient: Expr, rest: list[Expr]) -> Expr:
+    """The product of a rational number and of factors that have nothing in common."""
     if coefficient is S.Zero or not rest:
         return coefficient
+    if len(rest) > 1:
+        rest.sort(key=_order)
+        return Mul._from_args(rest if coefficient is S.One else [coefficient, *rest], True)
+    (factor,) = rest
     if coefficient is S.One:
-        return rest[0] if len(rest) == 1 else Mul._from_args(sorted(rest, key=_order), True)
-    if len(rest) == 1 and rest[0].is_Add:
-        return plus(*(times(coefficient, term) for term in rest[0].args))
-    return Mul._from_args([coefficient, *sorted(rest, key=_order)], True)
+        return factor
+    if factor.is_Add:
+        return plus(*(times(coefficient, term) for term in factor.args))
+    return Mul._from_args([coefficient, factor], True)
 
 
 def plus(*terms: Expr) -> Expr:
@@ -138,13 +156,18 @@ def polynomial(coefficients: Sequence[Expr], variable: Expr) -> Expr:
     """The sum of `coefficients[k] * variable**k`."""
     if not (variable.is_Symbol and all(c.is_Rational for c in coefficients)):
         return Add(*(c * variable**k for k, c in enumerate(coefficients) if c is not S.Zero))
-    terms = []
+    # In SymPy's order: the powers, then their multiples by coefficient.
+    powers, multiples = [], []
     for k, c in enumerate(coefficients[1:], 1):
         if c is not S.Zero:
             x_k = variable if k == 1 else Pow(variable, Integer(k), evaluate=False)
-            terms.append(x_k if c is S.One else Mul._from_args([c, x_k], True))
+            if c is S.One:
+                powers.append(x_k)
+            else:
+                multiples.append((c, Mul._from_args([c, x_k], True)))
+    multiples.sort(key=lambda pair: _order(pair[0]))
     constant = [c for c in coefficients[:1] if c is not S.Zero]
-    return Add._from_args(constant + sorted(terms, key=_order), True)
+    return Add._from_args([*constant, *powers, *(multiple for _, multiple in multiples)], True)
 
 
 def exponential(argument: Expr) -> Expr:

@@ -243,8 +243,11 @@ def _reduce(r: RatFunc, alpha: Fraction, beta: Poly, n: int) -> tuple[RatFunc, R
             leading = r.num * (cofactor.inverse_modulo(p) if p.degree > 1 else (cofactor % p).inverse()) % p
             part = RatFunc(leading * inverse % p * Fraction(1, 1 - k), p ** (k - 1))
             W, r = W + part, r - part.derivative() - part * slope
+    zero = RatFunc(field.poly([]))
+    if r.den.remove(x.num)[0].degree == 0:
+        return W, r, Decomposition(zero, ())
     residues = tuple(residue for residue in decompose(r).residues if residue.factor != x.num)
-    poles = Decomposition(RatFunc(field.poly([])), residues)
+    poles = Decomposition(zero, residues)
     return W, r - poles.derivative, poles
 
 
