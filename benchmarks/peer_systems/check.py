@@ -116,7 +116,8 @@ def check(S_text: str, form: str, syntax: str, expressions: list[str]) -> str:
             if syntax == "python":
                 *texts, constant = expressions
                 return _verdict([_riccati_holds(S_text, [_function(text) for text in texts], constant, points)])
-            polynomial = sympy.Poly(read(expressions[0], syntax), _W)
+            # Multiple roots, as giac has them where omega is rational, would be found to half the digits or fewer.
+            polynomial = sympy.Poly(read(expressions[0], syntax), _W).sqf_part()
             functions = [sympy.lambdify((_X, _C), f, "mpmath") for f in reversed(polynomial.all_coeffs())]
             return _verdict([_riccati_holds(S_text, functions, "", points)])
         verdicts = []
@@ -222,6 +223,7 @@ def main() -> None:
             AttributeError,
             NotImplementedError,
             ValueError,
+            mpmath.libmp.NoConvergence,
         ) as error:
             verdict = f"unchecked: {type(error).__name__} {error}"[:200]
         print(json.dumps(verdict))
