@@ -25,6 +25,7 @@ from kovacic.io.automaton import run
 from kovacic.io.lexer import tokenize
 from kovacic.io.parser import parse_rational
 from kovacic.io.read import read_input
+from kovacic.io.tables import RULES
 from kovacic.limits import Limits
 
 # Far from every root that the small numbers of the strategies produce.
@@ -131,11 +132,12 @@ class OurLexer(Lexer):
             yield Token(kind, text[start:end])
 
 
-class Shapes:
-    """A builder that records what it is called with."""
+def recorded(name: str) -> Any:
+    return lambda builder, values, where: (name, *values)
 
-    def __getattr__(self, name: str) -> Any:
-        return lambda values, where: (name, *values)
+
+#: A builder that records what it is called with.
+Shapes = type("Shapes", (), {name: recorded(name) for _, _, name, _ in RULES})
 
 
 LARK = Lark(compile_grammar.GRAMMAR.read_text(encoding="utf-8"), parser="lalr", lexer=OurLexer)
@@ -145,7 +147,7 @@ LARK = Lark(compile_grammar.GRAMMAR.read_text(encoding="utf-8"), parser="lalr", 
 @example(Expression("f(x, (y, 2)) = -y''(x)/3 + diff(y', x)", "", lambda x: x, 0))
 @settings(max_examples=200)
 def test_the_automaton_and_larks_parser_see_the_same_structure(expression: Expression) -> None:
-    ours = run(tokenize(expression.text), Shapes())  # type: ignore[arg-type]
+    ours = run(tokenize(expression.text), Shapes())
     assert ours == _without_unit_rules(LARK.parse(expression.text))
 
 
@@ -160,6 +162,24 @@ def _without_unit_rules(tree: Any) -> Any:
 def test_the_tables_belong_to_the_grammar() -> None:
     grammar = compile_grammar.GRAMMAR.read_text(encoding="utf-8")
     assert compile_grammar.TABLES.read_text(encoding="utf-8") == compile_grammar.compile_tables(grammar)
+
+
+def test_values_at_unequal_distances_on_the_stack_are_refused() -> None:
+    with pytest.raises(ValueError, match="distances"):
+        compile_grammar.compile_tables('start: A B "," A -> three\n%declare A B')
+
+
+@given(expressions())
+@example(Expression(" 2e-3**x' -\u2003(y″ (x) + .5x⁻²) = é ", "", lambda x: x, 0))
+@settings(max_examples=100)
+def test_tokens_are_the_text_without_its_spaces(expression: Expression) -> None:
+    text = expression.text
+    tokens = tokenize(text)
+    assert "".join(tokens.pieces) == "".join(text.split())
+    assert [text[i:j] for i, j in zip(tokens.starts, tokens.ends, strict=True)] == tokens.pieces
+    assert tokens.starts == sorted(tokens.starts)
+    assert tokens.kinds[-1] == "$END"
+    assert tokens.starts[-1] == len(text)
 
 
 def test_an_ambiguous_grammar_is_refused() -> None:

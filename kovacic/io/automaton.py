@@ -9,11 +9,12 @@ nonterminal that the rule defines.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any, NamedTuple, Protocol
 
 from kovacic.errors import LimitExceeded, ParseError
 from kovacic.io.lexer import Tokens
-from kovacic.io.tables import ACCEPTING, GOTOS, REDUCTIONS, RULES, SHIFTS
+from kovacic.io.tables import GOTOS, REDUCTIONS, RULES, SHIFTS
 
 
 class Site(NamedTuple):
@@ -47,13 +48,35 @@ class Builder(Protocol):
         """The error that tells the user where in the text the arithmetic failed."""
 
 
-Action = Callable[[list[Any], Callable[[], Site]], Any]
+Action = Callable[[Any, list[Any], Callable[[], Site]], Any]
+
+
+class _Reduction(NamedTuple):
+    """What to do with the symbols on top of the stack."""
+
+    symbol: str
+    length: int
+    action: Action
+    values: slice
+
+
+@cache
+def _reductions(builder: type[Builder]) -> list[_Reduction | None]:
+    """The reduction of every state for one class of builders; None is a syntax error."""
+    rules = [
+        _Reduction(symbol, length, getattr(builder, method) if method else _hand_on, values)
+        for symbol, length, method, values in RULES
+    ]
+    return [None if rule < 0 else rules[rule] for rule in REDUCTIONS]
+
+
+def _hand_on(builder: Builder, values: list[Any], where: Callable[[], Site]) -> Any:
+    return values[0]
 
 
 def run(tokens: Tokens, builder: Builder) -> Any:
     """The value of the whole text.  Raises `ParseError` where it leaves the grammar, and what the builder raises."""
-    actions: list[Action | None] = [getattr(builder, name) if name else None for _, _, name, _ in RULES]
-    kinds, starts, ends, text = tokens.kinds, tokens.starts, tokens.ends, tokens.text
+    reductions = _reductions(type(builder))
     states: list[int] = [0]
     values: list[Any] = []
     begins: list[int] = []
@@ -62,33 +85,25 @@ def run(tokens: Tokens, builder: Builder) -> Any:
     def site() -> Site:
         return Site(tokens, begins[-length:], k)
 
-    while True:
-        target = SHIFTS[state].get(kinds[k])
-        if target is not None:
-            values.append(text[starts[k] : ends[k]])
-            begins.append(k)
-            state = target
-            states.append(state)
-            k += 1
-            continue
-        rule = REDUCTIONS[state]
-        if rule < 0:
-            if state == ACCEPTING and kinds[k] == "$END":
-                return values[0]
-            raise _syntax_error(tokens, k)
-        symbol, length, _, kept = RULES[rule]
-        action = actions[rule]
-        if action is None:  # one symbol, which is handed on
+    for k, kind in enumerate(tokens.kinds):
+        while (target := SHIFTS[state].get(kind)) is None:
+            reduction = reductions[state]
+            if reduction is None:
+                raise _syntax_error(tokens, k)
+            symbol, length, action, kept = reduction
+            try:
+                value = action(builder, values[kept], site)
+            except (LimitExceeded, ZeroDivisionError) as error:
+                raise builder.located(error, site()) from None
+            if length > 1:
+                del values[1 - length :], begins[1 - length :], states[1 - length :]
+            values[-1] = value
             states[-1] = state = GOTOS[states[-2]][symbol]
-            continue
-        try:
-            value = action([values[i - length] for i in kept], site)
-        except (LimitExceeded, ZeroDivisionError) as error:
-            raise builder.located(error, site()) from None
-        if length > 1:
-            del values[1 - length :], begins[1 - length :], states[1 - length :]
-        values[-1] = value
-        states[-1] = state = GOTOS[states[-2]][symbol]
+        values.append(tokens.pieces[k])
+        begins.append(k)
+        states.append(target)
+        state = target
+    return values[0]
 
 
 _OPERATORS = ("PLUS", "MINUS", "STAR", "SLASH", "CIRCUMFLEX")

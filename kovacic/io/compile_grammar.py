@@ -23,9 +23,9 @@ TABLES = HERE / "tables.py"
 HEADER = '''\
 """The LALR(1) table of `grammar.lark`, written by `python -m kovacic.io.compile_grammar`: don't edit.
 
-`RULES[r]` is (nonterminal, number of symbols, method of the builder or "", positions of the symbols with a value).
+`RULES[r]` is (nonterminal, number of symbols, method of the builder or "", where its values are on the stack).
 `SHIFTS[state][terminal]` and `GOTOS[state][nonterminal]` are the next state; on a terminal that a state doesn't shift,
-it reduces by rule `REDUCTIONS[state]` (-1: a syntax error).
+it reduces by rule `REDUCTIONS[state]` (-1: a syntax error).  Whoever shifts `$END` has read the whole text.
 """
 
 # fmt: off
@@ -55,73 +55,97 @@ class _Conflicts(logging.Handler):
 
 def compile_tables(grammar: str) -> str:
     """The text of `tables.py` for a grammar.  Raises `ValueError` if the grammar isn't LALR(1) without conflicts."""
-    conflicts, level = _Conflicts(), lark.logger.level
-    lark.logger.addHandler(conflicts)
-    lark.logger.setLevel(logging.DEBUG)
-    try:
-        table: Any = lark.Lark(grammar, parser="lalr", lexer=_NoTokens, debug=True).parser.parser._parse_table
-    finally:
-        lark.logger.removeHandler(conflicts)
-        lark.logger.setLevel(level)
-    if conflicts.messages:
-        raise ValueError("; ".join(conflicts.messages))
-
-    def order(item_set: Any) -> list[str]:
-        return sorted(str(item) for item in item_set)
-
-    start, end = table.start_states["start"], table.end_states["start"]
-    states = [start, *sorted((s for s in table.states if s != start), key=order)]
-    number = {state: index for index, state in enumerate(states)}
+    automaton = _Automaton(_parse_table(grammar))
+    states = [automaton.start]
     rules: list[Any] = []
     shifts: list[dict[str, int]] = []
     gotos: list[dict[str, int]] = []
     reductions: list[int] = []
-    for state in states:
-        shift: dict[str, int] = {}
-        goto: dict[str, int] = {}
-        reduced: set[int] = set()
-        for symbol, (kind, target) in sorted(table.states[state].items()):
-            if kind is Shift:
-                (goto if symbol.islower() else shift)[symbol] = number[target]
-            else:
-                if target not in rules:
-                    rules.append(target)
-                reduced.add(rules.index(target))
-        if len(reduced) > 1:
-            raise ValueError(f"two reductions in one state: {order(state)}")
-        shifts.append(shift)
-        gotos.append(goto)
-        reductions.append(reduced.pop() if reduced else -1)
-    # A state that can only hand its one symbol on is skipped.
-    for goto in gotos:
-        for symbol, target in goto.items():
-            while not shifts[target] and not gotos[target] and target != number[end]:
-                rule = rules[reductions[target]]
-                if rule.alias or len(rule.expansion) != 1:
-                    break
-                target = goto[rule.origin.name]
-            goto[symbol] = target
-    signatures = [
-        (
-            str(rule.origin.name),
-            len(rule.expansion),
-            rule.alias or "",
-            tuple(i for i, symbol in enumerate(rule.expansion) if not getattr(symbol, "filter_out", False)),
-        )
-        for rule in rules
-    ]
+    for state in states:  # which grow meanwhile
+        shifts.append({})
+        gotos.append({})
+        for symbol in automaton.symbols(state):
+            target = automaton.after(state, symbol)
+            if target not in states:
+                states.append(target)
+            (gotos if symbol.islower() else shifts)[-1][symbol] = states.index(target)
+        rule = automaton.reductions.get(state[-1])
+        if rule is not None and rule not in rules:
+            rules.append(rule)
+        reductions.append(-1 if rule is None else rules.index(rule))
+    signatures = [(str(rule.origin.name), len(rule.expansion), rule.alias or "", _values(rule)) for rule in rules]
     return "\n".join(
         [
             HEADER,
-            f"ACCEPTING = {number[end]}",
-            "",
-            *_table("RULES", "tuple[tuple[str, int, str, tuple[int, ...]], ...]", signatures),
+            *_table("RULES", "tuple[tuple[str, int, str, slice], ...]", signatures),
             *_table("SHIFTS", "tuple[dict[str, int], ...]", shifts),
             *_table("GOTOS", "tuple[dict[str, int], ...]", gotos),
             f"REDUCTIONS: tuple[int, ...] = (\n{_wrapped(', '.join(map(str, reductions)))},\n)",
             "",
         ]
     )
+
+
+def _parse_table(grammar: str) -> Any:
+    """lark's table, whose states are sets of items."""
+    conflicts, level = _Conflicts(), lark.logger.level
+    lark.logger.addHandler(conflicts)
+    lark.logger.setLevel(logging.DEBUG)
+    try:
+        table = lark.Lark(grammar, parser="lalr", lexer=_NoTokens, debug=True).parser.parser._parse_table
+    finally:
+        lark.logger.removeHandler(conflicts)
+        lark.logger.setLevel(level)
+    if conflicts.messages:
+        raise ValueError("; ".join(conflicts.messages))
+    return table
+
+
+class _Automaton:
+    """lark's automaton without the steps by rules that only hand their one symbol on (x is an atom, a power, a factor...).
+
+    Such steps lead through a chain of states; the chain, without the members that no symbol leads on from, is a state
+    here.  It goes on like its first member that can, and reduces like the last one.
+    """
+
+    def __init__(self, table: Any) -> None:
+        start, end = table.start_states["start"], table.end_states["start"]
+        self.start = (start,)
+        self.moves: dict[Any, dict[str, Any]] = {end: {"$END": end}}
+        self.reductions: dict[Any, Any] = {}
+        for state, actions in table.states.items():
+            moves = self.moves.setdefault(state, {})
+            for symbol, (kind, target) in actions.items():
+                if kind is Shift:
+                    moves[symbol] = target
+                elif self.reductions.setdefault(state, target) != target:
+                    raise ValueError(f"two reductions in one state: {sorted(map(str, state))}")
+
+    def symbols(self, chain: tuple[Any, ...]) -> list[str]:
+        """The terminals and nonterminals that lead on from a state."""
+        return sorted({symbol for state in chain for symbol in self.moves[state]})
+
+    def after(self, chain: tuple[Any, ...], symbol: str) -> tuple[Any, ...]:
+        """The next state."""
+        targets = [self.moves[state][symbol] for state in chain if symbol in self.moves[state]]
+        if symbol.islower() and len(set(targets)) > 1:
+            raise ValueError(f"{symbol} leads on from two states of a chain")
+        target = targets[0]
+        rule = self.reductions.get(target)
+        if rule is None or rule.alias is not None or len(rule.expansion) != 1:
+            return (target,)
+        rest = self.after(chain, rule.origin.name)
+        return (target, *rest) if self.moves[target] else rest
+
+
+def _values(rule: Any) -> slice:
+    """The part of the stack that holds the values of a rule, its symbols being on top."""
+    length = len(rule.expansion)
+    kept = [i - length for i, symbol in enumerate(rule.expansion) if not getattr(symbol, "filter_out", False)]
+    step = kept[1] - kept[0] if len(kept) > 1 else 1
+    if kept != list(range(kept[0], kept[-1] + 1, step)):
+        raise ValueError(f"the values of {rule} don't lie in equal distances")
+    return slice(kept[0], kept[-1] + 1 or None, step)
 
 
 def _table(name: str, annotation: str, rows: Sequence[object]) -> list[str]:

@@ -32,6 +32,9 @@ _PRIMES = {"'": 1, "’": 1, "′": 1, "″": 2}
 _DERIVATIVES = frozenset({"diff", "Diff", "Derivative", "D"})
 _LARGEST_ORDER = 100
 
+#: What an equation contains, and S alone doesn't.
+_MARKS = ("=", *_PRIMES, *(f"{name}(" for name in _DERIVATIVES))
+
 #: The functions that a right-hand side may contain, with SymPy's names.
 _FUNCTIONS = {
     **{name: name for name in ("exp", "log", "sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "acot")},
@@ -50,7 +53,7 @@ Where = Callable[[], Site]
 
 def is_equation(text: str) -> bool:
     """Does a text mean an equation rather than S alone: has it an equals sign, a prime or a derivative?"""
-    return any(mark in text for mark in ("=", *_PRIMES)) or any(f"{name}(" in text for name in _DERIVATIVES)
+    return any(map(text.__contains__, _MARKS))
 
 
 def parse_equation(
@@ -238,9 +241,9 @@ class EquationBuilder(ExpressionBuilder):
         """A coefficient may stand before the unknown function without a sign."""
         site = where()
         tokens, right = site.tokens, site.begins[1]
-        after = tokens.piece(right, right + 1).rstrip("".join(_PRIMES))
+        after = tokens.pieces[right]
         if tokens.kinds[right] in ("NAME", "PRIMED", "HEAD") and (
-            after == self.unknown or tokens.piece(right, right + 1) in _DERIVATIVES
+            after.rstrip("".join(_PRIMES)) == self.unknown or after in _DERIVATIVES
         ):
             return right
         return super()._adjacent(where)
@@ -300,14 +303,13 @@ def _error(kind: type[InputError], message: str, site: Site, *, hint: str | None
 
 def _unknown_of(tokens: Tokens) -> str:
     """The name that has primes, or that is differentiated; else y."""
-    for k, kind in enumerate(tokens.kinds):
-        piece = tokens.piece(k, k + 1)
+    for kind, piece in zip(tokens.kinds, tokens.pieces, strict=True):
         bare = piece.rstrip("".join(_PRIMES))
         if kind in ("PRIMED", "HEAD") and bare != piece:
             return bare
     for k, kind in enumerate(tokens.kinds[:-3]):
-        if kind == "HEAD" and tokens.piece(k, k + 1) in _DERIVATIVES:
-            following, after, inner = tokens.kinds[k + 2], tokens.kinds[k + 3], tokens.piece(k + 2, k + 3)
+        if kind == "HEAD" and tokens.pieces[k] in _DERIVATIVES:
+            following, after, inner = tokens.kinds[k + 2], tokens.kinds[k + 3], tokens.pieces[k + 2]
             if following == "HEAD" and inner not in _DERIVATIVES | _FUNCTIONS.keys():
                 return inner
             if following == "NAME" and after in ("COMMA", "RPAR"):
@@ -319,11 +321,11 @@ def _variable_of(tokens: Tokens, unknown: str) -> str:
     """The argument of the unknown function, or what is differentiated by; else the only name, or x."""
     kinds = tokens.kinds
     for k in range(len(kinds) - 3):
-        is_unknown = tokens.piece(k, k + 1).rstrip("".join(_PRIMES)) == unknown
+        is_unknown = tokens.pieces[k].rstrip("".join(_PRIMES)) == unknown
         if is_unknown and kinds[k : k + 4] == ["HEAD", "LPAR", "NAME", "RPAR"]:
-            return tokens.piece(k + 2, k + 3)
+            return tokens.pieces[k + 2]
         if is_unknown and kinds[k : k + 3] == ["NAME", "COMMA", "NAME"]:
-            return tokens.piece(k + 2, k + 3)
+            return tokens.pieces[k + 2]
     excluded = {*NUMBER_NAMES, ENERGY, unknown, "e"}
     names = [name for name in tokens.names() if name not in excluded]
     if DEFAULT_VARIABLE in names or not names:

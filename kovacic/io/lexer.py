@@ -4,42 +4,61 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
+from string import ascii_letters, digits
 
 from kovacic.errors import ParseError
 
 # Superscript digits count as word characters for `re`; they must not become part of a name.
-_SUPERSCRIPT = "²³¹⁰⁴-⁹"
+_SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
+_PRIMES = "'’′″"
+
+_SIGNS = {
+    "PLUS": ["+"],
+    "MINUS": ["-", "−"],
+    "STAR": ["*", "·", "×", "⋅", "∙"],
+    "SLASH": ["/", "÷", "∕"],
+    "CIRCUMFLEX": ["^", "**"],
+    "LPAR": ["("],
+    "RPAR": [")"],
+    "COMMA": [","],
+    "EQUAL": ["="],
+}
+
+#: The kinds of the signs and of the shortest numbers and names, which are most of a text.
+_KINDS = {
+    **{sign: kind for kind, signs in _SIGNS.items() for sign in signs},
+    **dict.fromkeys(digits, "NUMBER"),
+    **dict.fromkeys(ascii_letters, "NAME"),
+}
 
 
 @cache
 def _terminals(ascii_only: bool) -> re.Pattern[str]:
-    """The pattern of all terminals; for ASCII text a short one, which compiles in a tenth of the time."""
-    beyond = "" if ascii_only else _SUPERSCRIPT
-    name = rf"[^\W\d_{beyond}][^\W{beyond}]*"
-    prime = "'" if ascii_only else "['’′″]"
-    superscript = "" if ascii_only else rf"| (?P<SUPERSCRIPT>[⁺⁻]?[{_SUPERSCRIPT}]+)"
+    """The pattern of one terminal, or else of one character; for ASCII text a short one, which compiles fast."""
+    beyond = "" if ascii_only else _SUPERSCRIPTS
+    primes = "'" if ascii_only else f"[{_PRIMES}]"
+    superscript = "" if ascii_only else rf"[⁺⁻]?[{_SUPERSCRIPTS}]+ |"
     return re.compile(
         rf"""
-        (?P<SPACE>\s+)
-      | (?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+(?!\w))?)
-      | (?P<HEAD>{name}{prime}*(?=\s*\())
-      | (?P<PRIMED>{name}{prime}+)
-      | (?P<NAME>{name})
-      | (?P<CIRCUMFLEX>\^|\*\*)
-      | (?P<STAR>{"[*]" if ascii_only else "[*·×⋅∙]"})
-      | (?P<SLASH>{"/" if ascii_only else "[/÷∕]"})
-      | (?P<PLUS>\+)
-      | (?P<MINUS>{"-" if ascii_only else "[-−]"})
-      | (?P<LPAR>\()
-      | (?P<RPAR>\))
-      | (?P<COMMA>,)
-      | (?P<EQUAL>=)
-      {superscript}
-      | (?P<OTHER>.)
+        (?: [0-9]+ (?:\.[0-9]*)? | \.[0-9]+ ) (?: [eE][+-]?[0-9]+(?!\w) )?
+      | [^\W\d_{beyond}] [^\W{beyond}]* {primes}*
+      | {superscript} \*\* | \S
         """,
-        re.VERBOSE | re.DOTALL | (re.ASCII if ascii_only else re.UNICODE),
+        re.VERBOSE | (re.ASCII if ascii_only else re.UNICODE),
     )
+
+
+def _kind(piece: str) -> str:
+    """The kind of a terminal that isn't in `_KINDS`; `OTHER` if it is none."""
+    first, last = piece[0], piece[-1]
+    if first in digits or (first == "." and last in digits):
+        return "NUMBER"
+    if last in _SUPERSCRIPTS:
+        return "SUPERSCRIPT"
+    if first.isalnum() and not first.isdecimal():
+        return "PRIMED" if last in _PRIMES else "NAME"
+    return "OTHER"
 
 
 _HINTS = {
@@ -60,14 +79,24 @@ _HINTS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Tokens:
-    """The terminals of a text: token k is `text[starts[k]:ends[k]]`, of the kind `kinds[k]`; the last one is `$END`."""
+    """The terminals of a text: token k is `pieces[k]`, of the kind `kinds[k]`; the last one is `$END`, and empty."""
 
     text: str
     kinds: list[str]
-    starts: list[int]
-    ends: list[int]
+    pieces: list[str]
+
+    @cached_property
+    def starts(self) -> list[int]:
+        """Where the tokens begin in the text: found when somebody asks, as for an error."""
+        matches = _terminals(self.text.isascii()).finditer(self.text)
+        return [*(match.start() for match in matches), len(self.text)]
+
+    @cached_property
+    def ends(self) -> list[int]:
+        """Where the tokens end in the text."""
+        return [start + len(piece) for start, piece in zip(self.starts, self.pieces, strict=True)]
 
     def piece(self, begin: int, end: int) -> str:
         """The text of the tokens begin, ..., end - 1."""
@@ -78,31 +107,27 @@ class Tokens:
         found: dict[str, int] = {}
         for k, kind in enumerate(self.kinds):
             if kind == "NAME":
-                found.setdefault(self.text[self.starts[k] : self.ends[k]], k)
+                found.setdefault(self.pieces[k], k)
         return found
 
 
 def tokenize(text: str) -> Tokens:
     """The terminals of `text`; raises `ParseError` at a character that no terminal begins with."""
-    kinds: list[str] = []
-    starts: list[int] = []
-    ends: list[int] = []
     ascii_only = text.isascii()
-    for match in _terminals(ascii_only).finditer(text):
-        kind = match.lastgroup
-        assert kind is not None
-        if kind == "SPACE":
-            continue
-        start, end = match.span()
-        if kind == "OTHER" or (not ascii_only and kind == "NAME" and not text[start:end].isidentifier()):
-            raise _unexpected(text, start, end)
-        kinds.append(kind)
-        starts.append(start)
-        ends.append(end)
-    kinds.append("$END")
-    starts.append(len(text))
-    ends.append(len(text))
-    return Tokens(text, kinds, starts, ends)
+    pieces = _terminals(ascii_only).findall(text)
+    kinds = [_KINDS.get(piece) or _kind(piece) for piece in pieces]
+    for k, kind in enumerate(kinds):
+        if kind == "LPAR" and k and kinds[k - 1] in ("NAME", "PRIMED"):
+            kinds[k - 1] = "HEAD"
+    if not ascii_only:
+        strange = [k for k, kind in enumerate(kinds) if kind == "NAME" and not pieces[k].isidentifier()]
+        for k in strange:
+            kinds[k] = "OTHER"
+    tokens = Tokens(text, [*kinds, "$END"], [*pieces, ""])
+    if "OTHER" in kinds:
+        k = kinds.index("OTHER")
+        raise _unexpected(text, tokens.starts[k], tokens.ends[k])
+    return tokens
 
 
 def _unexpected(text: str, start: int, end: int) -> ParseError:

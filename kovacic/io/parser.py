@@ -31,6 +31,9 @@ _SHOWN_DECIMALS = 3
 _ROOTS = {"sqrt": 2, "cbrt": 3, "root": 0}
 _LARGEST_INDEX = 100
 
+# Names that aren't the variable unless the caller says so.
+_NEVER_CHOSEN = frozenset({*NUMBER_NAMES, ENERGY, UNKNOWN})
+
 # A function that says where in the text the symbols of a rule are.
 Where = Callable[[], Site]
 
@@ -114,13 +117,13 @@ class ExpressionBuilder:
         return [*self._decimals, f"{self._more_decimals} more decimals were taken exactly"]
 
     def number(self, values: list[Any], where: Where) -> Value:
-        (text,) = values
+        text = values[0]
         if text.isdigit():
             return self.arithmetic.constant(self.arithmetic.integer(text))
         return self._decimal(text)
 
     def name(self, values: list[Any], where: Where) -> Value:
-        (name,) = values
+        name = values[0]
         value = self.names.get(name)
         if value is not None:
             return value
@@ -149,12 +152,6 @@ class ExpressionBuilder:
 
     def equation(self, values: list[Any], where: Where) -> Value:
         raise _not_rational("an equation, where S alone is expected", where())
-
-    def parenthesis(self, values: list[Any], where: Where) -> Value:
-        return values[0]  # type: ignore[no-any-return]
-
-    def posit(self, values: list[Any], where: Where) -> Value:
-        return values[0]  # type: ignore[no-any-return]
 
     def negate(self, values: list[Any], where: Where) -> Value:
         return self.arithmetic.negate(values[0])
@@ -199,9 +196,6 @@ class ExpressionBuilder:
     def negate_juxtaposed(self, values: list[Any], where: Where) -> tuple[Value, int]:
         value, split = values[0]
         return self.arithmetic.negate(value), split
-
-    def posit_juxtaposed(self, values: list[Any], where: Where) -> tuple[Value, int]:
-        return values[0]  # type: ignore[no-any-return]
 
     def ambiguous(self, values: list[Any], where: Where) -> Value:
         site = where()
@@ -264,7 +258,7 @@ class ExpressionBuilder:
         tokens, right = site.tokens, site.begins[1]
         before, after = tokens.kinds[right - 1], tokens.kinds[right]
         if before in ("NAME", "PRIMED") or after == "NUMBER":
-            left_text, right_text = tokens.piece(right - 1, right), tokens.piece(right, right + 1)
+            left_text, right_text = tokens.pieces[right - 1], tokens.pieces[right]
             raise ParseError(
                 f"an operator is missing between {_shortened(left_text)!r} and {_shortened(right_text)!r}",
                 text=tokens.text,
@@ -339,7 +333,7 @@ def _choose_variable(tokens: Tokens, variable: str | None) -> str:
             raise InputError(f"{variable!r} can't be the name of a variable", hint="a letter, or a word: x, t, x1")
         chosen = variable
     else:
-        names = [name for name in tokens.names() if name not in (*NUMBER_NAMES, ENERGY, UNKNOWN)]
+        names = [name for name in tokens.names() if name not in _NEVER_CHOSEN]
         if len(names) > 1 and DEFAULT_VARIABLE not in names:
             raise InputError(
                 f"which of {', '.join(names[:6])} is the variable?",
@@ -357,9 +351,8 @@ def _refuse_ambiguous_decimals(tokens: Tokens, variable: str) -> None:
     """`2e-3` is 0.002, unless the variable is called e: then it might be 2*e - 3."""
     if variable not in ("e", "E"):
         return
-    for k, kind in enumerate(tokens.kinds):
-        if kind == "NUMBER" and variable in tokens.piece(k, k + 1):
-            text = tokens.piece(k, k + 1)
+    for k, (kind, text) in enumerate(zip(tokens.kinds, tokens.pieces, strict=True)):
+        if kind == "NUMBER" and variable in text:
             mantissa, _, rest = text.partition(variable)
             reading = (
                 f"{mantissa}*{variable} {rest[0]} {rest[1:]}" if rest[0] in "+-" else f"{mantissa}*{variable}{rest}"
@@ -374,15 +367,16 @@ def _refuse_ambiguous_decimals(tokens: Tokens, variable: str) -> None:
 
 
 def _refuse_equations(tokens: Tokens) -> None:
-    for k, kind in enumerate(tokens.kinds):
-        if kind in ("EQUAL", "PRIMED"):
-            raise NotRational(
-                "this is an equation, or a part of one",
-                text=tokens.text,
-                position=tokens.starts[k],
-                length=tokens.ends[k] - tokens.starts[k],
-                hint="give S alone, the factor of y on the right of y'' = S(x) y",
-            )
+    found = [tokens.kinds.index(kind) for kind in ("EQUAL", "PRIMED") if kind in tokens.kinds]
+    if found:
+        first = min(found)
+        raise NotRational(
+            "this is an equation, or a part of one",
+            text=tokens.text,
+            position=tokens.starts[first],
+            length=len(tokens.pieces[first]),
+            hint="give S alone, the factor of y on the right of y'' = S(x) y",
+        )
 
 
 def _not_rational(message: str, site: Site, *, hint: str | None = None) -> NotRational:
