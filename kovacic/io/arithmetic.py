@@ -8,7 +8,6 @@ so that a sum of n fractions takes n mergers of which most are small, instead of
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import NamedTuple
 
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
@@ -25,11 +24,14 @@ _SMALL_BITS = 2048
 _ONE = QQ.poly([1])
 
 
-class Term(NamedTuple):
-    """`coefficient * x**power`, the coefficient an integer or fraction of at most `_SMALL_BITS` bits."""
+class Term:
+    """`coefficient * x**power`, the coefficient an integer or fraction of at most `_SMALL_BITS` bits; never changed."""
 
-    coefficient: int | Fraction
-    power: int
+    __slots__ = ("coefficient", "power")
+
+    def __init__(self, coefficient: int | Fraction, power: int) -> None:
+        self.coefficient = coefficient
+        self.power = power
 
 
 VARIABLE = Term(1, 1)
@@ -62,8 +64,7 @@ class Arithmetic:
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS, budget: Budget | None = None) -> None:
         self.limits = limits
-        self._budget = Budget(limits) if budget is None else budget
-        self._unchecked_time = limits.seconds is None and budget is None
+        self._budget = Budget(limits) if budget is None and limits.seconds is not None else budget
 
     def integer(self, digits: str) -> int:
         """The integer with these decimal digits."""
@@ -88,7 +89,7 @@ class Arithmetic:
     def rational(self, value: Value) -> RatFunc:
         """The value as a rational function in lowest terms."""
         value = self.closed(value)
-        return RatFunc(value) if isinstance(value, Poly) else value
+        return value if isinstance(value, RatFunc) else RatFunc(value)
 
     def negate(self, value: Value) -> Value:
         return Term(-value.coefficient, value.power) if isinstance(value, Term) else -self.closed(value)
@@ -109,24 +110,32 @@ class Arithmetic:
             self._check(power, 0)
             return _term(left.coefficient * right.coefficient, power)
         left, right = self.closed(left), self.closed(right)
-        if isinstance(left, Poly) and isinstance(right, Poly):
-            return self._product(left, right)
-        a, b = self.rational(left), self.rational(right)
-        return RatFunc(self._product(a.num, b.num), self._product(a.den, b.den))
+        if isinstance(left, RatFunc) or isinstance(right, RatFunc):
+            a, b = self.rational(left), self.rational(right)
+            return RatFunc(self._product(a.num, b.num), self._product(a.den, b.den))
+        return self._product(left, right)
 
     def divide(self, left: Value, right: Value) -> Value:
-        if isinstance(left, Term) and isinstance(right, Term) and right.power == 0 and right.coefficient:
-            return _term(Fraction(left.coefficient) / right.coefficient, left.power)
+        if isinstance(left, Term) and isinstance(right, Term) and right.coefficient:
+            if right.power == 0:
+                return _term(Fraction(left.coefficient, right.coefficient), left.power)
+            if left.power == 0 and left.coefficient:
+                self._check(0, _bits(left.coefficient) + _bits(right.coefficient) + 1)
+                quotient = Fraction(left.coefficient, right.coefficient)
+                return RatFunc(_monomial(quotient, 0), _monomial(1, right.power), reduced=True)
         left, right = self.closed(left), self.closed(right)
         if not right:
             raise ZeroDivisionError("division by zero")
-        if isinstance(left, Poly) and isinstance(right, Poly):
-            if right.is_constant:
-                return self._product(left, right.inverse())
-            if left.is_constant and left:
-                return RatFunc(self._product(left, right.lc.inverse()), right.monic(), reduced=True)
-        a, b = self.rational(left), self.rational(right)
-        return RatFunc(self._product(a.num, b.den), self._product(a.den, b.num))
+        if isinstance(left, RatFunc) or isinstance(right, RatFunc):
+            a, b = self.rational(left), self.rational(right)
+            return RatFunc(self._product(a.num, b.den), self._product(a.den, b.num))
+        if right.is_constant:
+            return self._product(left, right.inverse())
+        if left.is_constant and left:
+            return RatFunc(self._product(left, right.lc.inverse()), right.monic(), reduced=True)
+        for part in (left, right):
+            self._check(part.degree, part.height_bits() + 2)  # as for its product with 1
+        return RatFunc(left, right)
 
     def power(self, base: Value, exponent: Value | int) -> Value:
         """`base ** exponent`; raises `NotAnInteger` if the exponent isn't an integer constant."""
@@ -144,7 +153,7 @@ class Arithmetic:
             return base
         if n == 0:
             return Term(1, 0)
-        if isinstance(base, Poly):
+        if not isinstance(base, RatFunc):
             power = self._poly_power(base, abs(n))
             return power if n > 0 else self.divide(_ONE, power)
         num, den = (base.num, base.den) if n > 0 else (base.den, base.num)
@@ -154,10 +163,10 @@ class Arithmetic:
 
     def closed(self, value: Value) -> Poly | RatFunc:
         """The value as a polynomial or rational function, with an open sum added up."""
-        if isinstance(value, Poly | RatFunc):
-            return value
         if isinstance(value, Term):
-            return QQ.poly([0] * value.power + [value.coefficient])
+            return _monomial(value.coefficient, value.power)
+        if not isinstance(value, OpenSum):
+            return value
         fraction: RatFunc | None = None
         for _, part in reversed(value.fractions):
             fraction = part if fraction is None else self._ratfunc_sum(part, fraction)
@@ -171,7 +180,8 @@ class Arithmetic:
             assert polynomial is not None
             return polynomial
         if polynomial:
-            fraction = self._ratfunc_sum(fraction, RatFunc(polynomial))
+            num = self._poly_sum(fraction.num, self._product(polynomial, fraction.den))
+            fraction = RatFunc(num, fraction.den.over(num.field), reduced=True)
         return fraction.num if fraction.is_polynomial else fraction
 
     def _collected(self, coefficients: dict[int, int | Fraction]) -> Poly:
@@ -182,23 +192,22 @@ class Arithmetic:
 
     def _append(self, total: OpenSum, term: Value) -> None:
         if isinstance(term, Term):
-            coefficient, power = term
-            known = total.coefficients.get(power, 0)
-            if _bits(known) <= _SMALL_BITS:
-                total.coefficients[power] = known + coefficient
+            known = total.coefficients.get(term.power)
+            if known is None or _bits(known) <= _SMALL_BITS:
+                total.coefficients[term.power] = term.coefficient if known is None else known + term.coefficient
                 return
         term = self.closed(term)
         rank = 0
-        if isinstance(term, Poly):
-            polynomials = total.polynomials
-            while polynomials and polynomials[-1][0] == rank:
-                term, rank = self._poly_sum(polynomials.pop()[1], term), rank + 1
-            polynomials.append((rank, term))
-        else:
+        if isinstance(term, RatFunc):
             fractions = total.fractions
             while fractions and fractions[-1][0] == rank:
                 term, rank = self._ratfunc_sum(fractions.pop()[1], term), rank + 1
             fractions.append((rank, term))
+        else:
+            polynomials = total.polynomials
+            while polynomials and polynomials[-1][0] == rank:
+                term, rank = self._poly_sum(polynomials.pop()[1], term), rank + 1
+            polynomials.append((rank, term))
 
     def _poly_sum(self, left: Poly, right: Poly) -> Poly:
         self._check(max(left.degree, right.degree), left.height_bits() + right.height_bits() + 1)
@@ -211,8 +220,9 @@ class Arithmetic:
         return RatFunc(num, self._product(left.den, right.den))
 
     def _product(self, left: Poly, right: Poly) -> Poly:
-        carries = (min(left.degree, right.degree) + 1).bit_length()
-        self._check(left.degree + right.degree, left.height_bits() + right.height_bits() + carries)
+        m, n = left.degree, right.degree
+        carries = (min(m, n) + 1).bit_length()
+        self._check(m + n, left.height_bits() + right.height_bits() + carries)
         return left * right
 
     def _poly_power(self, base: Poly, n: int) -> Poly:
@@ -239,7 +249,7 @@ class Arithmetic:
                 f"{_TOTAL_FACTOR * limits.bits} bits for all together",
                 limit="bits",
             )
-        if not self._unchecked_time:
+        if self._budget is not None:
             self._budget.check()
 
     def _integer_value(self, exponent: Value) -> int:
@@ -270,8 +280,12 @@ def _bits(value: int | Fraction) -> int:
 
 def _term(coefficient: int | Fraction, power: int) -> Term | Poly:
     """`coefficient * x**power`; a whole fraction becomes an integer."""
-    if isinstance(coefficient, Fraction) and coefficient.denominator == 1:
+    if type(coefficient) is not int and coefficient.denominator == 1:
         coefficient = coefficient.numerator
     if _bits(coefficient) <= _SMALL_BITS:
         return Term(coefficient, power)
+    return _monomial(coefficient, power)
+
+
+def _monomial(coefficient: int | Fraction, power: int) -> Poly:
     return QQ.poly([0] * power + [coefficient])

@@ -75,6 +75,8 @@ class Constants:
     def embedded(self, function: RatFunc) -> RatFunc:
         """The rational function over the whole field, or over Q if it lies there."""
         field = self.field
+        if field == function.field == QQ:
+            return function
         parts = [function.num.over(field), function.den.over(field)]
         leaves = [leaf for part in parts for leaf in (part.parts[1:] if isinstance(part, ExtensionPoly) else ())]
         if isinstance(field, AlgebraicField) and not any(leaves):

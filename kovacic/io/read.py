@@ -9,7 +9,9 @@ from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import Equation
 from kovacic.errors import InputError
+from kovacic.io.equation_parser import is_equation, parse_equation
 from kovacic.io.parsed import DEFAULT_VARIABLE, Parsed
+from kovacic.io.parser import parse_rational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
 
@@ -27,12 +29,8 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> P
     """
     variable = _variable_name(var)
     if isinstance(S, str):
-        from kovacic.io.equation_parser import is_equation, parse_equation
-
         if is_equation(S):
             return _with_equation(*parse_equation(S, variable=variable, limits=limits))
-        from kovacic.io.parser import parse_rational
-
         return parse_rational(S, variable=variable, limits=limits)
     if isinstance(S, RatFunc):
         return Parsed(S, variable or DEFAULT_VARIABLE)
