@@ -26,7 +26,7 @@ from kovacic.closed_form.curve_display import curve_integral
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import OCTAHEDRAL_B, POLYNOMIALS, RATIOS, KleinForm
 from kovacic.closed_form.partial_fractions import decompose
-from kovacic.closed_form.primitive import ExponentialPrimitive, integrate_inverse_square
+from kovacic.closed_form.primitive import ExponentialPrimitive, _multiple_factors, integrate_inverse_square
 from kovacic.closed_form.product import product
 from kovacic.closed_form.torsion import completed
 from kovacic.closed_form.units import unit
@@ -233,3 +233,11 @@ def test_gauge_and_normal_form_agree(example: strategies.Example) -> None:
     assume(example.size <= 20)
     answer = kovacic.solve((example.S.num.coefficients(), example.S.den.coefficients()))  # type: ignore[attr-defined]
     assert solutions(answer, gauge=1 / (2 * X) - X).checked == "exact"
+
+
+def test_multiple_factors_are_squarefree_and_complete() -> None:
+    x = QQ.poly([0, 1])
+    found = _multiple_factors((x - 1) ** 3 * (x * x + 2) ** 2 * (x + 5) * (x - 7) ** 2 * (x + 9) ** 5)
+    assert found == [((x * x + 2) * (x - 7), 2), (x - 1, 3), (x + 9, 5)]
+    assert _multiple_factors(x * x + 1) == []
+    assert _multiple_factors(QQ.poly([3])) == []

@@ -8,16 +8,29 @@ where the arguments are of the kinds that closed forms are made of and have noth
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cmp_to_key
+from functools import cache, cmp_to_key
 from typing import Any
 
 import sympy
 from sympy import Add, Basic, Integer, Integral, Mul, Pow, S, exp, hyper, log
+from sympy.core.basic import ordering_of_classes
 from sympy.core.function import Function
 from sympy.functions.special.hyper import TupleArg
 
 Expr = Any  # SymPy publishes no types
-_order = cmp_to_key(Basic.compare)
+_compared = cmp_to_key(Basic.compare)
+
+
+@cache
+def _rank(kind: Any) -> tuple[int, str]:
+    """By what `Basic.compare` sorts first: the place of the class in SymPy's list, or its name if it isn't there."""
+    name = kind.__name__
+    return (ordering_of_classes.index(name), "") if name in ordering_of_classes else (len(ordering_of_classes), name)
+
+
+def _order(e: Expr) -> tuple[tuple[int, str], Expr]:
+    """The key of SymPy's order; it compares expressions, which takes long, only within a class."""
+    return _rank(e.__class__), _compared(e)
 
 
 class RootSum(sympy.RootSum):  # type: ignore[misc]
@@ -95,7 +108,7 @@ def times(*factors: Expr) -> Expr:
     radicals: list[list[Expr]] = []  # of each product, within which they have been multiplied already
     for product in sorted(factors, key=lambda product: product.is_Mul):  # SymPy's order, which matters for the radicals
         own = []
-        for factor in Mul.make_args(product):
+        for factor in product.args if product.is_Mul else (product,):
             if factor.is_Rational:
                 coefficient = factor if coefficient is S.One else coefficient * factor
             elif _is_radical(factor):
@@ -129,7 +142,7 @@ def plus(*terms: Expr) -> Expr:
     """`Add(*terms)`."""
     constant, rest, monomials = S.Zero, [], set()
     for total in terms:
-        for term in Add.make_args(total):
+        for term in total.args if total.is_Add else (total,):
             if term.is_Rational:
                 constant = constant + term
                 continue

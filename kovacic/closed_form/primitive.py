@@ -232,9 +232,7 @@ def _reduce(r: RatFunc, alpha: Fraction, beta: Poly, n: int) -> tuple[RatFunc, R
     x = RatFunc(field.poly([0, 1]))
     slope = alpha / x + x ** (n - 1) * (beta * n)
     W = RatFunc(field.poly([]))
-    for p, multiplicity in field.factor(r.den) if r.den.degree > 0 else []:
-        if p == x.num:
-            continue
+    for p, multiplicity in _multiple_factors(r.den.remove(x.num)[0]):
         inverse = p.derivative().inverse_modulo(p) if p.degree > 1 else field.poly([1])
         for k in range(multiplicity, 1, -1):
             cofactor, count = r.den.remove(p)
@@ -249,6 +247,20 @@ def _reduce(r: RatFunc, alpha: Fraction, beta: Poly, n: int) -> tuple[RatFunc, R
     residues = tuple(residue for residue in decompose(r).residues if residue.factor != x.num)
     poles = Decomposition(zero, residues)
     return W, r - poles.derivative, poles
+
+
+def _multiple_factors(polynomial: Poly) -> list[tuple[Poly, int]]:
+    """The squarefree p for which p^k, k > 1, is the part of multiplicity k: by greatest common divisors [Yun 1976]."""
+    found = []
+    rest = polynomial.gcd(polynomial.derivative())
+    radical, k = polynomial // rest, 1
+    while rest.degree > 0:
+        radical, k = radical.gcd(rest), k + 1
+        rest = rest // radical
+        p = radical // radical.gcd(rest)
+        if p.degree > 0:
+            found.append((p, k))
+    return found
 
 
 def _reduce_laurent(
