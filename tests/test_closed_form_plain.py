@@ -123,3 +123,11 @@ def test_hypergeometric_functions(a: Any, z: Any) -> None:
 @pytest.mark.parametrize("base", [x, x - 1, x**3, x**2, (x - 1) ** 2, (x + sqrt(2)) ** 5])
 def test_powers_of_multiples(factor: Any, base: Any, exponent: Any) -> None:
     assert_same(plain.power_of_multiple(factor, base, exponent), (factor * base) ** exponent)
+
+
+@settings(max_examples=200)
+@given(st.integers(1, 400), st.integers(1, 400), st.integers(-20, 20), st.integers(2, 8))
+def test_roots_of_rational_numbers(p: int, q: int, a: int, b: int) -> None:
+    exponent = Rational(a, b)
+    if not exponent.is_Integer:
+        assert_same(plain.root_of_rational(Rational(p, q), exponent), Rational(p, q) ** exponent)

@@ -12,7 +12,7 @@ from functools import cache, cmp_to_key
 from typing import Any
 
 import sympy
-from sympy import Add, Basic, Integer, Integral, Mul, Pow, S, exp, hyper, log
+from sympy import Add, Basic, Integer, Integral, Mul, Pow, Rational, S, exp, hyper, log
 from sympy.core.basic import ordering_of_classes
 from sympy.core.function import Function
 from sympy.functions.special.hyper import TupleArg
@@ -58,11 +58,18 @@ def power(base: Expr, exponent: Expr) -> Expr:
     return Pow(base, exponent, evaluate=not (product or _is_sum_or_symbol(base)))
 
 
+def root_of_rational(value: Expr, exponent: Expr) -> Expr:
+    """`value**exponent` for a positive rational number and a rational exponent that isn't an integer."""
+    p, q, e = (value.p, value.q, exponent) if exponent.p > 0 else (value.q, value.p, -exponent)
+    above = -(-e.p // e.q)
+    return times(Integer(p) ** e, Integer(q) ** (above - e), Rational(1, q**above))
+
+
 def power_of_multiple(factor: Expr, base: Expr, exponent: Expr) -> Expr:
     """`(factor * base)**exponent` for a power `base` of a symbol or a sum."""
     if factor.is_Rational and not exponent.is_Integer and not base.is_Add:
         signed = base if factor > 0 else Mul(-1, base, evaluate=False)
-        return times(abs(factor) ** exponent, Pow(signed, exponent, evaluate=False))
+        return times(root_of_rational(abs(factor), exponent), Pow(signed, exponent, evaluate=False))
     return (factor * base) ** exponent
 
 
