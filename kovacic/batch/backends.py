@@ -8,11 +8,15 @@ next chunk; the process ends with the thread's process, or after a failure.
 
 from __future__ import annotations
 
+import os
+import pickle
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from functools import partial
 from itertools import chain, islice
+from tempfile import TemporaryDirectory, mkstemp
 from typing import Any
 
 from kovacic.batch.items import Item, Job, Record
@@ -55,6 +59,35 @@ def run_chunk(job: Job, items: list[Item]) -> list[Record]:
         raise
 
 
+def run_chunk_into_file(folder: str, job: Job, items: list[Item]) -> str:
+    """The path of a new file in the folder with the records of `run_chunk`."""
+    descriptor, path = mkstemp(dir=folder)
+    with os.fdopen(descriptor, "wb") as file:
+        pickle.dump(run_chunk(job, items), file)
+    return path
+
+
+def _records_of_file(path: str) -> list[Record]:
+    with open(path, "rb") as file:
+        records: list[Record] = pickle.load(file)
+    os.unlink(path)
+    return records
+
+
+@contextmanager
+def _transport(backend: str) -> Iterator[tuple[Callable[..., Any], Callable[[Any], list[Record]]]]:
+    """What a worker calls with a job and a chunk, and what makes records of its result.
+
+    loky waits without end for the rest of a result if a worker is killed while it writes one into their common pipe.  A
+    path is short enough to be written at once, so that the records go through a file.
+    """
+    if backend != "loky":
+        yield run_chunk, list
+        return
+    with TemporaryDirectory(prefix="kovacic-") as folder:
+        yield partial(run_chunk_into_file, folder), _records_of_file
+
+
 def run_on_backend(
     items: Iterable[Item],
     job: Job,
@@ -72,22 +105,29 @@ def run_on_backend(
     record is passed on once.  Raises `InputError` where the engine isn't installed or can't be reached, and `KovacicError`
     where its workers are lost one after the other.
     """
-    with _configured(backend, jobs, scheduler):
+    with _configured(backend, jobs, scheduler), _transport(backend) as transport:
         chunks = _chunks(items)
         if backend != "ray":
-            yield from _run(chunks, job, backend, "generator" if ordered else "generator_unordered")
+            yield from _run(chunks, job, backend, transport, "generator" if ordered else "generator_unordered")
             return
         while some := list(islice(chunks, _RAY_ROUND)):  # its joblib backend returns lists only
-            yield from _run(iter(some), job, backend, "list")
+            yield from _run(iter(some), job, backend, transport, "list")
 
 
-def _run(chunks: Iterator[list[Item]], job: Job, backend: str, return_as: str) -> Iterator[Record]:
+def _run(
+    chunks: Iterator[list[Item]],
+    job: Job,
+    backend: str,
+    transport: tuple[Callable[..., Any], Callable[[Any], list[Record]]],
+    return_as: str,
+) -> Iterator[Record]:
     """The records of all chunks; what a lost worker process had is done again, and a record is passed on once.
 
     Dask does it by itself; loky and Ray give up all that is on its way.
     """
     from joblib import Parallel, delayed
 
+    work, received = transport
     on_their_way: dict[int, list[Item]] = {}
 
     def sent(chunks: Iterable[list[Item]]) -> Iterator[list[Item]]:
@@ -101,7 +141,8 @@ def _run(chunks: Iterator[list[Item]], job: Job, backend: str, return_as: str) -
         on_their_way.clear()
         parallel = Parallel(batch_size=1, pre_dispatch="2*n_jobs", return_as=return_as)
         try:
-            for records in parallel(delayed(run_chunk)(job, chunk) for chunk in sent(chain(again, chunks))):
+            for result in parallel(delayed(work)(job, chunk) for chunk in sent(chain(again, chunks))):
+                records = received(result)
                 del on_their_way[records[0].number]
                 losses = 0
                 yield from records
