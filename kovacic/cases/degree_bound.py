@@ -43,19 +43,22 @@ def largest_degree(problem: Problem) -> int | NecessaryCondition:
     trace of sqrt g [sec. 3.2 of Kovacic 1986 for the exponents], one sign for each factor.  -1 if no choice of signs gives
     a natural number; a condition if the exponents at a place aren't rational over K[x]/p.
     """
-    total, choices = Fraction(1), []
+    twice, choices = 2, list[Fraction]()
     for place in problem.places:
         if place.kind is Kind.ORDINARY:
             continue
-        if place.logarithm and place.delta is not None:
-            total -= place.degree * (1 + place.delta) / 2
-            continue
-        trace = _trace(place)
-        if trace is None:
-            return NecessaryCondition(Rule.NOT_A_SQUARE, (str(place),))
-        total -= Fraction(place.degree * place.weight, 2)
-        choices.append(_rational_part(trace) / 2)
-    return largest_integer_total(total, choices)
+        n, delta = place.degree, place.delta
+        twice -= n * place.weight
+        if delta is None:
+            trace = _trace(place)
+            if trace is None:
+                return NecessaryCondition(Rule.NOT_A_SQUARE, (place.name,))
+            choices.append(_rational_part(trace) / 2)
+        elif place.logarithm:  # then Delta is an integer
+            twice -= n * delta.numerator
+        else:
+            choices.append(Fraction(n * delta.numerator, 2 * delta.denominator))
+    return largest_integer_total(Fraction(twice, 2), choices)
 
 
 def is_cheap(problem: Problem) -> bool:
@@ -71,9 +74,7 @@ def _rational_part(constant: Poly) -> Fraction:
 
 
 def _trace(place: Place) -> Poly | None:
-    """The trace of the exponents' difference over the roots of the factor, up to sign; None if it isn't in K[x]/p."""
-    if place.delta is not None:
-        return place.factor.field.poly([place.delta * place.degree])
+    """The trace of an irrational difference of exponents over the roots, up to sign; None if it isn't in K[x]/p."""
     if place.kind is Kind.REGULAR:
         if place.delta_squared is not None:
             return trace_of_square_root(place.delta_squared, place.factor)

@@ -11,10 +11,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from itertools import count, islice
 from typing import Any
 
-from kovacic.algebra.fields import BadPrimeError, Homomorphism, Lifter
+from kovacic.algebra.fields import QQ, BadPrimeError, Homomorphism, Lifter
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.cases.constants import square_root
@@ -30,6 +31,8 @@ from kovacic.solution import Evidence, Exclusion, NoInvariant, NoRationalOmega, 
 
 #: Up to this degree P1 is lifted with R; above, its recurrence is faster.
 _LIFTED_DEGREE = 200
+#: Up to this degree of P the common zeros are found faster over Q than modulo primes.
+_EXACT_DEGREE = 400
 
 
 def decide(problem: Problem) -> Outcome:
@@ -55,8 +58,8 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     """The form y1 of degree 1, from F = y1 y2 or F = y1^2.
 
     F' = Q0 X / D and sqrt(disc) = Q0 Y / D with F = Q0 P; so D omega = (X + Y) / (2 P), and the zeros of y1 are the common
-    zeros of P and X - Y.  This is done modulo primes; R of omega = R/D + P1'/P1 is lifted, and P1 if its degree is moderate
-    (else it has a recurrence).
+    zeros of P and X - Y.  Over Q and for moderate degrees this is done as it stands, else modulo primes; then R of
+    omega = R/D + P1'/P1 is lifted, and P1 if its degree is moderate (else it has a recurrence).
     """
     F = normalised(F, problem)
     P, X, A2 = F.numerators(problem, 2)
@@ -71,11 +74,13 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     weight = singular_factor(problem, F.R, 1)
     w = square_root(problem.field, value / weight(point) ** 2)
     field, Y = w.field, w * weight
+    if field == QQ and P.degree <= _EXACT_DEGREE:
+        return Form(1, *_first_factor(problem.D, P, X, Y, Fraction(1, 2)))
     lifter = field.lifter()
     for bundle in field.bundles():
         problem.budget.check()
         try:
-            parts = [_first_factor(h(problem.D), h.keeping_degree(P), h(X), h(Y)) for h in bundle]
+            parts = [_first_factor_modulo(h, problem.D, P, X, Y) for h in bundle]
         except BadPrimeError:
             continue
         degrees = {zeros.degree() for _, zeros in parts}
@@ -92,10 +97,14 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     raise AssertionError("the sequence of primes is infinite")
 
 
-def _first_factor(D: Any, P: Any, X: Any, Y: Any) -> tuple[Any, Any]:
-    """R and the monic P1 of omega = R/D + P1'/P1, modulo p."""
+def _first_factor_modulo(h: Homomorphism, D: Poly, P: Poly, X: Poly, Y: Poly) -> tuple[Any, Any]:
+    return _first_factor(h(D), h.keeping_degree(P), h(X), h(Y), pow(2, -1, h.p))
+
+
+def _first_factor(D: Any, P: Any, X: Any, Y: Any, half: Any) -> tuple[Any, Any]:
+    """R and the monic P1 of omega = R/D + P1'/P1, over Q or modulo p, where a half is given."""
     zeros = P.gcd(X - Y)
-    omega, rest = divmod((X + Y) * pow(2, -1, D.modulus()), P // zeros)  # D P1 omega
+    omega, rest = divmod((X + Y) * half, P // zeros)  # D P1 omega
     R, remainder = divmod(omega - D * zeros.derivative(), zeros)
     if rest or remainder:
         raise BadPrimeError("zeros of the solutions meet modulo this prime")
