@@ -39,7 +39,7 @@ STAGES = {
     "reading the text": ("io.read:read_input",),
     "places and local data": ("places:analyse", "necessary:excluded_by_local_data"),
     "degree bounds, squares of exponents": (
-        "cases.degree_bound:largest_degree",
+        "cases.degree_bound:degree_bound",
         "cases.degree_bound:irrational_exponents",
     ),
     "series modulo primes": (

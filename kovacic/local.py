@@ -9,7 +9,9 @@ References: van Hoeij, J. Symb. Comp. 24 (1997); Cluzeau & van Hoeij, J. Symb. C
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 from flint import nmod_poly
@@ -61,12 +63,23 @@ def chart(h: Homomorphism, problem: Problem, place: Place) -> Chart | None:
     return Chart(num, den, D, D.degree() + max(opposite, 1) - 2, equation, root, place.at_infinity)
 
 
-def exponential_parts(equation: LocalEquation, place: Place) -> list[Any]:
+def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence[Fraction] | None = None) -> list[Any]:
     """The polynomials Q such that y = exp(int Q/t^nu) u, u a unit, can be a solution with a rational omega.
+
+    The coefficient of t^(nu-1) in Q is the exponent; with `exponents` it must be one of these.
 
     At a regular place Q is an exponent: (1 + Delta)/2 alone if there is a logarithm.  At an unramified irregular place
     Q = +-[sqrt S] + (nu +- b/a)/2 t^(nu-1) [Kovacic 1986, sec. 3.2].  Empty if a square root doesn't exist modulo p.
     """
+    parts = _all_exponential_parts(equation, place)
+    if exponents is None:
+        return parts
+    p, nu = equation.p, equation.nu
+    residues = [e.numerator * pow(e.denominator, -1, p) % p for e in exponents]
+    return [Q for Q in parts if int(Q[nu - 1]) in residues]
+
+
+def _all_exponential_parts(equation: LocalEquation, place: Place) -> list[Any]:
     p, nu = equation.p, equation.nu
     half = pow(2, -1, p)
     ratio = equation.N.mul_low(equation.E.inverse_series_trunc(nu), nu)

@@ -8,13 +8,15 @@ root.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly, to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
 from kovacic.places import Kind, Place, Problem
-from kovacic.solution import NecessaryCondition, Rule
+from kovacic.solution import Evidence, NecessaryCondition, NoRationalOmega, Rule
 
 
 def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
@@ -36,14 +38,38 @@ def _leading_coefficient(place: Place) -> Poly:
     return cofactor if p.degree == 1 else p.derivative() ** place.order * cofactor % p
 
 
-def largest_degree(problem: Problem) -> int | NecessaryCondition:
-    """The largest degree that P can have for a unique omega = R/D + P'/P: d = 1 - sum of the exponents over all places.
+@dataclass(frozen=True)
+class DegreeBound:
+    """For a unique omega = R/D + P'/P the degree of P is `total` plus or minus each choice, and at most `largest`.
 
-    The exponents at the roots of a factor are conjugate, (A +- sqrt g)/2 with g in K[x]/p, so their sum is bounded by the
-    trace of sqrt g [sec. 3.2 of Kovacic 1986 for the exponents], one sign for each factor.  -1 if no choice of signs gives
-    a natural number; a condition if the exponents at a place aren't rational over K[x]/p.
+    There is a choice for a place where two exponents are possible, half the difference of their sums over its points.
     """
-    twice, choices = 2, list[Fraction]()
+
+    largest: int
+    total: Fraction
+    choices: list[tuple[Place, Fraction]]
+
+    def exponents(self, place: Place) -> list[Fraction] | None:
+        """The exponents of omega at a place that leave a natural number for the degree, whatever those elsewhere are.
+
+        None where the place isn't a single point with a choice between rational numbers.
+        """
+        halves = [half for other, half in self.choices if other is place]
+        if place.degree > 1 or not halves or (place.delta is None and place.factor.field != QQ):
+            return None
+        others = [half for other, half in self.choices if other is not place]
+        signed = (halves[0], -halves[0])
+        return [Fraction(place.weight, 2) + h for h in signed if largest_integer_total(self.total - h, others) >= 0]
+
+
+def degree_bound(problem: Problem) -> DegreeBound | Evidence:
+    """The degrees that P can have for a unique omega = R/D + P'/P: 1 - sum of the exponents over all places.
+
+    The exponents at the roots of a factor are conjugate, (A +- sqrt g)/2 with g in K[x]/p, so their sum follows from the
+    trace of sqrt g [sec. 3.2 of Kovacic 1986 for the exponents], one sign for each factor.  Evidence against omega if no
+    choice of signs gives a natural number, or if the exponents at a place aren't rational over K[x]/p.
+    """
+    twice, choices = 2, list[tuple[Place, Fraction]]()
     for place in problem.places:
         if place.kind is Kind.ORDINARY:
             continue
@@ -53,16 +79,18 @@ def largest_degree(problem: Problem) -> int | NecessaryCondition:
             trace = _trace(place)
             if trace is None:
                 return NecessaryCondition(Rule.NOT_A_SQUARE, (place.name,))
-            choices.append(_rational_part(trace) / 2)
+            choices.append((place, _rational_part(trace) / 2))
         elif place.logarithm:  # then Delta is an integer
             twice -= n * delta.numerator
         else:
-            choices.append(Fraction(n * delta.numerator, 2 * delta.denominator))
-    return largest_integer_total(Fraction(twice, 2), choices)
+            choices.append((place, Fraction(n * delta.numerator, 2 * delta.denominator)))
+    total = Fraction(twice, 2)
+    largest = largest_integer_total(total, [half for _, half in choices])
+    return DegreeBound(largest, total, choices) if largest >= 0 else NoRationalOmega(-1)
 
 
 def is_cheap(problem: Problem) -> bool:
-    """Does `largest_degree` need no traces of square roots in extensions?"""
+    """Does `degree_bound` need no traces of square roots in extensions?"""
     return all(
         place.kind is Kind.ORDINARY or place.delta_squared is not None or place.degree == 1 for place in problem.places
     )

@@ -19,7 +19,7 @@ from kovacic.algebra.fields import QQ, BadPrimeError, Homomorphism, Lifter
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.cases.constants import square_root
-from kovacic.cases.degree_bound import irrational_exponents, is_cheap, largest_degree
+from kovacic.cases.degree_bound import DegreeBound, degree_bound, irrational_exponents, is_cheap
 from kovacic.cases.outcome import Found, Outcome
 from kovacic.cases.singular import singular_factor
 from kovacic.errors import LimitExceeded
@@ -121,30 +121,31 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
     impossible = irrational_exponents(problem)
     if impossible is not None:
         return impossible
-    bound = largest_degree(problem) if is_cheap(problem) else None
-    if bound is not None and (not isinstance(bound, int) or bound < 0):
-        return NoRationalOmega(-1) if isinstance(bound, int) else bound
+    bound = degree_bound(problem) if is_cheap(problem) else None
+    if bound is not None and not isinstance(bound, DegreeBound):
+        return bound
     place = distinguishing_places(problem)[0]
-    lifter, degrees = problem.field.lifter(), _FIRST_DEGREES if bound is None else _ladder(bound)
+    degrees = _FIRST_DEGREES if bound is None else _ladder(bound.largest)
+    # For small degrees the expansion that can be left out costs less than to find it.
+    exponents = None if bound is None or bound.largest <= degrees[0] else bound.exponents(place)
+    lifter = problem.field.lifter()
     for bundle in problem.field.bundles():
         problem.budget.check()
         try:
-            parts = [_omega_modulo(h, problem, place, degrees) for h in bundle]
+            parts = [_omega_modulo(h, problem, place, degrees, exponents) for h in bundle]
             if None in parts:
                 if bound is None:
-                    bound = largest_degree(problem)
-                if not isinstance(bound, int):
+                    bound = degree_bound(problem)
+                if not isinstance(bound, DegreeBound):
                     return bound
-                if bound < 0:
-                    return NoRationalOmega(-1)
-                further = [n for n in _ladder(bound) if n > degrees[-1]]
+                further = [n for n in _ladder(bound.largest) if n > degrees[-1]]
                 if further:
-                    parts = [_omega_modulo(h, problem, place, further) for h in bundle]
+                    parts = [_omega_modulo(h, problem, place, further, exponents) for h in bundle]
+                for h, part in zip(bundle, parts, strict=True):
+                    if part is None:
+                        return NoRationalOmega(bound.largest, h.p, place.name)
         except BadPrimeError:
             continue
-        for h, part in zip(bundle, parts, strict=True):
-            if part is None:
-                return NoRationalOmega(bound if isinstance(bound, int) else -1, h.p, str(place))
         images = [part for part in parts if part is not None]
         degrees = [images[0][1]]
         form = _lifted(problem, lifter, bundle, images)
@@ -164,7 +165,7 @@ def _omega_of_low_degree(problem: Problem) -> Form | None:
         for bundle in islice(problem.field.bundles(), _PRIMES_FOR_A_SIMPLE_OMEGA):
             problem.budget.check()
             try:
-                parts = [_omega_modulo(h, problem, place, _FIRST_DEGREES, sign) for h in bundle]
+                parts = [_omega_modulo(h, problem, place, _FIRST_DEGREES, sign=sign) for h in bundle]
             except BadPrimeError:
                 continue
             images = [part for part in parts if part is not None]
@@ -198,17 +199,22 @@ def _ladder(bound: int) -> list[int]:
 
 
 def _omega_modulo(
-    h: Homomorphism, problem: Problem, place: Place, degrees: list[int], sign: int | None = None
+    h: Homomorphism,
+    problem: Problem,
+    place: Place,
+    degrees: list[int],
+    exponents: list[Fraction] | None = None,
+    sign: int | None = None,
 ) -> tuple[Any, int] | None:
     """R and deg P of the only rational omega modulo p; None if there is none.
 
-    With a `sign` only that one of the expansions at the place is looked at.  Raises `BadPrimeError` if the place has no root
-    in F_p, or if there are two such omegas modulo p.
+    With `exponents` only the expansions with these are looked at, with a `sign` only that one.  Raises `BadPrimeError` if
+    the place has no root in F_p, or if there are two such omegas modulo p.
     """
     c = chart(h, problem, place)
     if c is None:
         raise BadPrimeError("the place has no root modulo this prime")
-    parts = exponential_parts(c.equation, place)
+    parts = exponential_parts(c.equation, place, exponents)
     if sign is not None:
         parts = parts[sign : sign + 1]
     for degree in degrees:
