@@ -326,15 +326,16 @@ def main() -> None:
     parser.add_argument("--patience", type=int, default=2, help="time-outs in a row after which a family is given up")
     parser.add_argument("--redraw", action="store_true", help="write the report and the figure from peers.json again")
     parser.add_argument("--merge", action="store_true", help="keep the results of the other systems in peers.json")
-    parser.add_argument("--only", default="", help="names of systems that contain one of these, comma-separated")
+    parser.add_argument(
+        "--only", default="", help="systems of these names, or whose names contain these, comma-separated"
+    )
     options = parser.parse_args()
     if options.redraw:
         data = json.loads((RESULTS / "peers.json").read_text())
         write([Row(**row) for row in data["rows"]], data["memory_mib"], data["about"])
         return
     equations = list(corpora(tuple(map(int, options.sizes.split(","))), options.every))
-    wanted = [part for part in options.only.split(",") if part]
-    chosen = [s for s in ALL if not wanted or any(part in s.name for part in wanted)]
+    chosen = _chosen([part for part in options.only.split(",") if part])
     checker = Checker()
     rows: list[Row] = []
     memory: dict[str, float] = {}
@@ -363,6 +364,14 @@ def main() -> None:
         "absent": [s.name for s in chosen if not s.is_installed()],
     }
     write(rows, memory, about)
+
+
+def _chosen(wanted: list[str]) -> list[type[System]]:
+    """The systems that are wanted: the one of that name, else those whose names contain it."""
+    names = {system.name for system in ALL}
+    return [
+        s for s in ALL if not wanted or any(part == s.name or (part not in names and part in s.name) for part in wanted)
+    ]
 
 
 def write(rows: list[Row], memory: dict[str, float], about: dict[str, Any]) -> None:

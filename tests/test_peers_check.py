@@ -91,3 +91,13 @@ def test_a_large_answer_is_checked_and_a_small_error_found(check: ModuleType) ->
 def test_an_unknown_symbol_is_not_guessed(check: ModuleType) -> None:
     with pytest.raises(check.Unreadable):
         check.check("x^2+3", "y", "python", ["x*exp(x**2/2)*parameter"])
+
+
+def test_an_error_is_no_answer(check: ModuleType) -> None:
+    systems = importlib.import_module("peer_systems.systems")
+    answered = '(7) ->\n   (7)  "<<<x^(1/4);(x^(1/4))^3;>>>"\n(8) ->\n'
+    fricas = systems.FriCAS()
+    assert fricas.understand(answered).expressions == ("x^(1/4)", "(x^(1/4))^3")
+    # What was assigned before is printed again.
+    for error in ("System error:", "Error detected within library code:"):
+        assert fricas.understand(f"(6) ->\n   >> {error}\n\n{answered}").kind == "error"

@@ -56,8 +56,8 @@ class System:
     command: tuple[str, ...] = ()
     opening = ""
     end = "<<<end>>>"
-    # What the system prints when it waits for an answer of the user's.
-    question: re.Pattern[str] | None = None
+    # What the system prints when it can't go on: it waits for an answer of the user's, or its state is damaged.
+    stuck: re.Pattern[str] | None = None
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[str] | None = None
@@ -142,7 +142,7 @@ class System:
             if self.end in line:
                 return Reply("text", "".join(collected), time.perf_counter() - start)
             collected.append(line)
-            if self.question is not None and self.question.search(line):
+            if self.stuck is not None and self.stuck.search(line):
                 return self._ended("died", "".join(collected), start)
 
     def _ended(self, outcome: str, text: str, start: float) -> Reply:

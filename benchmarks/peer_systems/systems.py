@@ -74,7 +74,7 @@ class Maxima(System):
         "asked(s):=block([r],r:errcatch(kovacicODE('diff(y,x,2)=s*y,y,x)),"
         'printf(true,"~%<<<~a>>>~%<<<end>>>~%",string(r)))$\n'
     )
-    question = re.compile(r"\?\s*$")
+    stuck = re.compile(r"\?\s*$")
 
     def version(self) -> str:
         return subprocess.run(["maxima", "--version"], capture_output=True, text=True, check=True).stdout.strip()
@@ -96,6 +96,7 @@ class Maxima(System):
 class FriCAS(System):
     name, executable = "FriCAS solve", "fricas"
     command = ("fricas", "-nosman")
+    stuck = re.compile(r">> System error")
     opening = ")set messages autoload off\n)set messages type off\n)set output length 245\ny := operator 'y;\n"
 
     def version(self) -> str:
@@ -113,6 +114,8 @@ class FriCAS(System):
         )
 
     def understand(self, text: str) -> Answer:
+        if re.search(r">> (System e|E)rror", text):  # r is still the answer to an earlier equation
+            return Answer("error")
         joined = re.sub(r"\s", "", text)
         match = re.search(r'"<<<(.*?)>>>"', joined)
         if match is None:
