@@ -1,6 +1,6 @@
 """Where the time goes: the share of every stage of a decision, and of a full answer with closed forms.
 
-    python benchmarks/profile_stages.py            # two minutes; writes benchmarks/results/profile.json and profile.md
+    python benchmarks/profile_stages.py            # a few seconds; writes benchmarks/results/profile.json and profile.md
     python benchmarks/profile_stages.py --quick    # a small part of the corpora, nothing written
 
 The functions at which a stage begins are wrapped by a clock of processor time, and what a stage spends in another one is
