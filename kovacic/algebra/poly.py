@@ -331,10 +331,9 @@ class RationalPoly(Poly):
         return RationalPoly(fmpq_poly([self.rep[power]]))
 
     def __eq__(self, other: object) -> bool:
-        kind = type(other)
-        if kind is RationalPoly:
-            return bool(self.rep == other.rep)  # type: ignore[attr-defined]
-        return bool(self.rep == other) if kind is int else super().__eq__(other)
+        if type(other) is RationalPoly:
+            return bool(self.rep == other.rep)
+        return bool(self.rep == other) if type(other) is int else super().__eq__(other)
 
     __hash__ = Poly.__hash__
 
@@ -350,29 +349,25 @@ class RationalPoly(Poly):
             return RationalPoly(fmpq_poly([to_fmpq(other)]))
         return None
 
-    # Python's overhead is most of the time for small polynomials: hence these besides the methods of `Poly`.
-    # The operators of `Poly` with a short way for the common cases.
+    # Python's overhead is most of the time for small polynomials: hence the operators with a short way for the common cases.
     def __add__(self, other: Poly | Scalar) -> RationalPoly:
-        kind = type(other)
-        if kind is RationalPoly:
-            return RationalPoly(self.rep + other.rep)  # type: ignore[union-attr]
-        return RationalPoly(self.rep + other) if kind is int else super().__add__(other)
+        if type(other) is RationalPoly:
+            return RationalPoly(self.rep + other.rep)
+        return RationalPoly(self.rep + other) if type(other) is int else super().__add__(other)
 
     __radd__ = __add__
 
     def __sub__(self, other: Poly | Scalar) -> RationalPoly:
-        kind = type(other)
-        if kind is RationalPoly:
-            return RationalPoly(self.rep - other.rep)  # type: ignore[union-attr]
-        return RationalPoly(self.rep - other) if kind is int else super().__sub__(other)
+        if type(other) is RationalPoly:
+            return RationalPoly(self.rep - other.rep)
+        return RationalPoly(self.rep - other) if type(other) is int else super().__sub__(other)
 
     def __mul__(self, other: Poly | Scalar) -> RationalPoly:
-        kind = type(other)
-        if kind is RationalPoly:
-            return RationalPoly(self.rep * other.rep)  # type: ignore[union-attr]
-        if kind is int:
+        if type(other) is RationalPoly:
+            return RationalPoly(self.rep * other.rep)
+        if type(other) is int:
             return RationalPoly(self.rep * other)
-        return RationalPoly(self.rep * to_fmpq(other)) if kind is Fraction else super().__mul__(other)  # type: ignore[arg-type]
+        return RationalPoly(self.rep * to_fmpq(other)) if type(other) is Fraction else super().__mul__(other)
 
     __rmul__ = __mul__
 

@@ -43,7 +43,10 @@ def largest_integer_total(base: Fraction, choices: Iterable[Fraction]) -> int:
 
 
 def is_provably_not_a_square(element: Poly, modulus: Poly) -> bool:
-    """Is the norm of an element of K[x]/p a non-residue modulo some prime?  Then it isn't a square in K[x]/p."""
+    """Can it be seen quickly that an element of K[x]/p isn't a square there?
+
+    For a linear p and a rational number K decides; else a norm that is a non-residue modulo some prime proves it.
+    """
     field = modulus.field
     if element.degree <= 0 and field.rational_value(element) is not None:
         if field.sqrt(element) is not None:
