@@ -67,6 +67,7 @@ class Row:
     poles: int
     outcome: str
     form: str
+    partial: bool
     check: str
     seconds: float
 
@@ -156,20 +157,21 @@ def run(system: System, checker: Checker, equations: list[Equation], limit: floa
     rows: list[Row] = []
     for equation, given in zip(equations, replies, strict=True):
         if given is None:
-            rows.append(_row(system, equation, "time-out", "", "not tried", limit))
+            rows.append(_row(system, equation, Answer("time-out"), "not tried", limit))
         elif given.outcome != "text":
             outcome = "time-out" if given.outcome == "time-out" else "error"
-            rows.append(_row(system, equation, outcome, "", "", given.seconds))
+            rows.append(_row(system, equation, Answer(outcome), "", given.seconds))
         else:
             answer = system.understand(given.text)
             check = checker.check(equation.S, answer) if answer.kind == "solved" else ""
-            rows.append(_row(system, equation, answer.kind, answer.form, check, given.seconds))
+            rows.append(_row(system, equation, answer, check, given.seconds))
     return rows
 
 
-def _row(system: System, equation: Equation, outcome: str, form: str, check: str, seconds: float) -> Row:
+def _row(system: System, equation: Equation, answer: Answer, check: str, seconds: float) -> Row:
+    form = answer.form if answer.kind in ("solved", "none") else ""
     about = (equation.corpus, equation.name, equation.family, equation.poles)
-    return Row(system.name, *about, outcome, form, check, seconds)
+    return Row(system.name, *about, answer.kind, form, answer.partial, check, seconds)
 
 
 def judge_negatives(rows: list[Row], equations: list[Equation]) -> None:
@@ -217,35 +219,38 @@ def _seconds(value: float) -> str:
 def speed(rows: list[Row]) -> list[str]:
     """Medians of ours and of each system's, over the equations that the system answered right.
 
-    Our closed forms are compared with closed forms only: a polynomial of omega is what our verdict has too.
+    Our closed forms, two solutions always, are compared with closed forms only: a polynomial of omega is what our verdict
+    has too.  Where a system gives one solution only, ours still are two, and the line says so.
     """
-    ours = {(row.corpus, row.name): row.seconds for row in rows if row.system == "kovacic"}
-    full = {(row.corpus, row.name): row.seconds for row in rows if row.system == "kovacic, closed forms"}
-    lines = [
-        "| answered right by | equations | its median | kovacic | ratio | by closed forms | its median | "
-        "kovacic, closed forms | ratio | slower on |",
-        "|---|" + "---:|" * 9,
-    ]
+    lines = ["| answered right by | equations | its median | ours | ratio | slower on |", "|---|" + "---:|" * 5]
     for name in dict.fromkeys(row.system for row in rows):
         right = [row for row in rows if row.system == name and row.check.startswith("right")]
-        if name.startswith("kovacic") or not right:
+        if name.startswith("kovacic"):
             continue
-        cells = [name, *_compared(right, ours)]
         closed = [row for row in right if row.form == "y" and row.outcome == "solved"]
-        if closed:
-            slower = sum(full[row.corpus, row.name] > row.seconds for row in closed)
-            cells += [*_compared(closed, full), str(slower)]
-        else:
-            cells += ["0", *[""] * 4]
-        lines.append("| " + " | ".join(cells) + " |")
+        for title, theirs, ours in (
+            (f"{name}: the verdict", right, "kovacic"),
+            (f"{name}: two solutions in closed form", [r for r in closed if not r.partial], "kovacic, closed forms"),
+            (f"{name}: one solution in closed form", [r for r in closed if r.partial], "kovacic, closed forms"),
+        ):
+            mine = {(row.corpus, row.name): row.seconds for row in rows if row.system == ours}
+            if theirs and mine:
+                lines.append("| " + " | ".join([title, *_compared(theirs, mine)]) + " |")
     return lines
 
 
 def _compared(theirs: list[Row], ours: dict[tuple[str, str], float]) -> list[str]:
-    """Their number, both medians, and the ratio."""
+    """Their number, both medians, the ratio, and on how many of them we are slower."""
     median = statistics.median(row.seconds for row in theirs)
-    mine = statistics.median(ours[row.corpus, row.name] for row in theirs)
-    return [str(len(theirs)), f"{1e3 * median:.2f}", f"{1e3 * mine:.2f}", f"{median / mine:.1f}"]
+    mine = [ours[row.corpus, row.name] for row in theirs]
+    slower = sum(own > row.seconds for own, row in zip(mine, theirs, strict=True))
+    return [
+        str(len(theirs)),
+        f"{1e3 * median:.2f}",
+        f"{1e3 * statistics.median(mine):.2f}",
+        f"{median / statistics.median(mine):.1f}",
+        str(slower),
+    ]
 
 
 def figures(rows: list[Row], limit: float) -> None:

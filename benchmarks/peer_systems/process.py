@@ -5,16 +5,17 @@ from __future__ import annotations
 import os
 import re
 import resource
+import select
 import shutil
 import signal
 import subprocess
-import threading
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from queue import Empty, Queue
 
 _START_SECONDS = 120.0
+#: For so many seconds an answer is awaited without sleeping: to be woken up takes as long as a short answer does.
+_AWAKE_SECONDS = 0.05
 #: Bytes of address space; FriCAS reserves eight GiB at its start.
 _ADDRESS_SPACE = 12 << 30
 
@@ -35,12 +36,14 @@ class Answer:
     `kind`: "solved", "none", "undecided" (the system says that it can't, or answers without a solution), "error".
     `form`: what the expressions are: "y" solutions, "omega" their logarithmic derivatives, "riccati" a polynomial of omega.
     `syntax`: the system's name, for the reader of its expressions.
+    `partial`: there is only one of two independent solutions.
     """
 
     kind: str
     form: str = "y"
     syntax: str = ""
     expressions: tuple[str, ...] = ()
+    partial: bool = False
 
 
 def _limit_memory() -> None:
@@ -55,13 +58,15 @@ class System:
     executable = ""
     command: tuple[str, ...] = ()
     opening = ""
+    # An answer ends with a line that contains the marker, or where the system prints a prompt, with the prompt.
     end = "<<<end>>>"
+    prompt: re.Pattern[bytes] | None = None
     # What the system prints when it can't go on: it waits for an answer of the user's, or its state is damaged.
     stuck: re.Pattern[str] | None = None
 
     def __init__(self) -> None:
-        self._process: subprocess.Popen[str] | None = None
-        self._lines: Queue[str | None] = Queue()
+        self._process: subprocess.Popen[bytes] | None = None
+        self._unfinished = b""  # output that belongs to no line or no question yet
         self.peak_mib = 0.0
 
     @classmethod
@@ -72,7 +77,7 @@ class System:
         raise NotImplementedError
 
     def request(self, S: str) -> str:
-        """The text that asks for the solutions, and then prints the end marker on a line of its own."""
+        """The text that asks for the solutions, and without a `prompt` then prints the end marker on a line of its own."""
         raise NotImplementedError
 
     def understand(self, text: str) -> Answer:
@@ -82,15 +87,7 @@ class System:
         """Ask for y'' = S y; the process is killed at the limit, and started again for the next equation."""
         if self._process is None:
             self._start()
-        assert self._process is not None
-        assert self._process.stdin is not None
-        start = time.perf_counter()
-        try:
-            self._process.stdin.write(self.request(S))
-            self._process.stdin.flush()
-        except BrokenPipeError:
-            return self._ended("died", "", start)
-        return self._collect(start, start + limit)
+        return self._ask(self.request(S), limit)
 
     def close(self) -> None:
         """Note the memory and kill the process group."""
@@ -102,53 +99,72 @@ class System:
         self._process = None
 
     def _start(self) -> None:
-        self._lines = Queue()
+        self._unfinished = b""
         self._process = subprocess.Popen(
             self.command,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            text=True,
-            errors="replace",
+            bufsize=0,
             start_new_session=True,
             preexec_fn=_limit_memory,
             env={**os.environ, "TERM": "dumb", "COLUMNS": "1000"},
         )
-        threading.Thread(target=self._read, args=(self._process, self._lines), daemon=True).start()
-        assert self._process.stdin is not None
-        self._process.stdin.write(self.opening + self.request("x^2+3"))
-        self._process.stdin.flush()
-        start = time.perf_counter()
-        reply = self._collect(start, start + _START_SECONDS)
+        assert self._process.stdout is not None
+        os.set_blocking(self._process.stdout.fileno(), False)
+        if self.prompt is not None:
+            self._ask("", _START_SECONDS)
+        reply = self._ask(self.opening + self.request("x^2+3"), _START_SECONDS)
         if reply.outcome != "text":
             raise RuntimeError(f"{self.name} doesn't start: {reply.text[-500:]}")
 
-    @staticmethod
-    def _read(process: subprocess.Popen[str], lines: Queue[str | None]) -> None:
-        assert process.stdout is not None
-        for line in process.stdout:
-            lines.put(line)
-        lines.put(None)
-
-    def _collect(self, start: float, deadline: float) -> Reply:
+    def _ask(self, request: str, limit: float) -> Reply:
+        """Write the request, and read up to the line with the end marker, or to the prompt."""
+        assert self._process is not None
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        data, output = request.encode(), self._process.stdout.fileno()
         collected: list[str] = []
+        start = time.perf_counter()
+        try:
+            self._process.stdin.write(data)
+        except BrokenPipeError:
+            return self._ended("died", collected, start)
+        while True:
+            *lines, self._unfinished = self._unfinished.split(b"\n")
+            for k, line in enumerate(lines):
+                text = line.decode(errors="replace")
+                if self.end in text:
+                    self._unfinished = b"\n".join([*lines[k + 1 :], self._unfinished])
+                    return Reply("text", "".join(collected), time.perf_counter() - start)
+                collected.append(text + "\n")
+                if self.stuck is not None and self.stuck.search(text):
+                    return self._ended("died", collected, start)
+            if self.prompt is not None and self.prompt.fullmatch(self._unfinished):
+                self._unfinished = b""
+                return Reply("text", "".join(collected), time.perf_counter() - start)
+            part = self._read(output, start, limit)
+            if not part:
+                return self._ended("died" if part is not None else "time-out", collected, start)
+            self._unfinished += part
+
+    @staticmethod
+    def _read(output: int, start: float, limit: float) -> bytes | None:
+        """What there is to read, once there is something; empty at the end of the output, None at the limit."""
         while True:
             try:
-                line = self._lines.get(timeout=max(0.0, deadline - time.perf_counter()))
-            except Empty:
-                return self._ended("time-out", "".join(collected), start)
-            if line is None:
-                return self._ended("died", "".join(collected), start)
-            if self.end in line:
-                return Reply("text", "".join(collected), time.perf_counter() - start)
-            collected.append(line)
-            if self.stuck is not None and self.stuck.search(line):
-                return self._ended("died", "".join(collected), start)
+                return os.read(output, 1 << 16)
+            except BlockingIOError:
+                elapsed = time.perf_counter() - start
+            if elapsed > limit:
+                return None
+            if elapsed > _AWAKE_SECONDS:
+                select.select([output], [], [], limit - elapsed)
 
-    def _ended(self, outcome: str, text: str, start: float) -> Reply:
+    def _ended(self, outcome: str, collected: list[str], start: float) -> Reply:
         seconds = time.perf_counter() - start
         self.close()
-        return Reply(outcome, text, seconds)
+        return Reply(outcome, "".join(collected), seconds)
 
     def _note_memory(self) -> None:
         assert self._process is not None

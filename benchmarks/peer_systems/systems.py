@@ -121,23 +121,25 @@ class FriCAS(System):
         if match is None:
             return Answer("error")
         solutions = tuple(part for part in match.group(1).split(";") if part)
-        return Answer("solved", "y", "fricas", solutions) if solutions else Answer("none")
+        return Answer("solved", "y", "fricas", solutions, len(solutions) == 1) if solutions else Answer("none")
 
 
 class Giac(System):
     name, executable = "giac kovacicsols", "giac"
     command = ("giac",)
+    # Each line of input costs giac a millisecond: so none asks for a marker.
+    prompt = re.compile(rb"\d+>> ")
 
     def version(self) -> str:
         shown = subprocess.run(["giac", "--version"], capture_output=True, text=True, check=True).stdout
         return "giac " + shown.strip().splitlines()[-1]
 
     def request(self, S: str) -> str:
-        return f'kovacicsols(y\'\'=({S})*y,x,y)\nconcat("<<<","end>>>")\n'
+        return f"kovacicsols(y''=({S})*y,x,y)\n"
 
     def understand(self, text: str) -> Answer:
         lines = [line.strip() for line in re.sub(r"\x1b\[[0-9;]*[A-Za-z]", "", text).splitlines()]
-        results = [line for line in lines if line and not line.startswith("//") and not re.match(r"\d+>>", line)]
+        results = [line for line in lines[1:] if line and not line.startswith("//")]  # the first line is the question
         if not results or "Error" in results[-1] or "error" in results[-1]:
             return Answer("error")
         answer = results[-1]
@@ -147,7 +149,8 @@ class Giac(System):
             return Answer("solved", "riccati", "giac", (answer,))
         if not (answer.startswith("[") and answer.endswith("]")):
             return Answer("error")
-        return Answer("solved", "y", "giac", tuple(_split(answer[1:-1])))
+        solutions = tuple(_split(answer[1:-1]))
+        return Answer("solved", "y", "giac", solutions, len(solutions) == 1)
 
 
 def _split(text: str) -> list[str]:
