@@ -5,7 +5,7 @@ from __future__ import annotations
 import pickle
 import random
 from fractions import Fraction
-from math import prod
+from math import gcd, prod
 
 import pytest
 import sympy
@@ -43,6 +43,21 @@ def test_division_leaves_a_smaller_remainder(a: RationalPoly, b: RationalPoly) -
     q, r = divmod(a, b)
     assert a == q * b + r
     assert r.degree < b.degree
+
+
+@given(st.data(), st.sampled_from([QQ, SQRT5]))
+def test_cleared_functions_have_coprime_integer_coordinates(data: st.DataObject, field: AlgebraicField) -> None:
+    num, den = (data.draw(polynomials if field == QQ else over(field)) for _ in range(2))
+    f = RatFunc(num, den if den else field.poly([Fraction(3, 7)]))
+    above, below = f.cleared()
+    coordinates = [*above.rational_coefficients(), *below.rational_coefficients()]
+    assert RatFunc(above, below) == f
+    assert {int(c.q) for c in coordinates} == {1}
+    assert gcd(*(int(c.p) for c in coordinates)) == 1
+    p, q = num.content()
+    scaled = [int((c * q / p).p) for c in num.rational_coefficients()]
+    assert gcd(*scaled) == (1 if num else 0)
+    assert num.content() == Poly.content(num)
 
 
 @pytest.mark.parametrize("field", [SQRT5, CUBIC], ids=str)

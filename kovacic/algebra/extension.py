@@ -408,6 +408,6 @@ class ExtensionPoly(Poly):
     def height_bits(self) -> int:
         return max(part.height_bits() for part in self.parts)
 
-    def coefficient_str(self, power: int) -> str:
-        element = self._field.base.poly([part[power] for part in self.parts])
-        return element.integer_str(self._field.name)
+    def coefficient_strings(self) -> list[str]:
+        base, name = self._field.base, self._field.name
+        return [base.poly([part[power] for part in self.parts]).integer_str(name) for power in range(self.degree + 1)]

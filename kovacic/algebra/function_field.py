@@ -316,8 +316,8 @@ class FunctionPoly(Poly):
         values = [*self.num.coeffs(), *self.den.coeffs()]
         return max((int(c).bit_length() for c in values), default=0)
 
-    def coefficient_str(self, power: int) -> str:
-        return format_terms(self[power].num, self._field.names)
+    def coefficient_strings(self) -> list[str]:
+        return [format_terms(c.num, self._field.names) for c in self]
 
     def value_at(self, values: Sequence[Poly | Scalar], field: Field) -> Poly:
         """The polynomial over `field` in which the parameters have these values, constants of that field.

@@ -9,7 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
-from math import lcm
+from math import gcd, lcm
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from flint import fmpq, fmpq_poly, fmpz_poly
@@ -90,8 +90,8 @@ class Poly(ABC):
         return [self]
 
     @abstractmethod
-    def coefficient_str(self, power: int) -> str:
-        """The coefficient of `x**power` in Python syntax; it must have integer coordinates."""
+    def coefficient_strings(self) -> list[str]:
+        """The coefficients in Python syntax, low to high; they must have integer coordinates."""
 
     def _coerce(self, other: object) -> Self | None:
         field = self.field
@@ -249,6 +249,11 @@ class Poly(ABC):
         """The least positive integer d such that d * self has integer coordinates."""
         return lcm(*(int(c.q) for c in self.rational_coefficients()))
 
+    def content(self) -> tuple[int, int]:
+        """`(p, q)` in lowest terms, p/q > 0 such that self * q/p has coprime integer coordinates; (1, 1) for zero."""
+        coordinates = self.rational_coefficients()
+        return gcd(*(int(c.p) for c in coordinates)) or 1, lcm(*(int(c.q) for c in coordinates))
+
     def height_bits(self) -> int:
         """The size of the largest numerator or denominator among the coordinates, in bits."""
         return max((max(int(c.p).bit_length(), int(c.q).bit_length()) for c in self.rational_coefficients()), default=0)
@@ -268,8 +273,9 @@ class Poly(ABC):
     def integer_str(self, variable: str) -> str:
         """Python syntax for a polynomial whose coefficients have integer coordinates."""
         terms: list[str] = []
-        for power in range(self.degree, -1, -1):
-            coefficient = self.coefficient_str(power)
+        coefficients = self.coefficient_strings()
+        for power in range(len(coefficients) - 1, -1, -1):
+            coefficient = coefficients[power]
             if coefficient == "0":
                 continue
             if power == 0:
@@ -448,6 +454,9 @@ class RationalPoly(Poly):
     def common_denominator(self) -> int:
         return int(self.rep.denom())
 
+    def content(self) -> tuple[int, int]:
+        return int(self.rep.numer().content()) or 1, int(self.rep.denom())
+
     def height_bits(self) -> int:
         return max(int(self.rep.numer().height_bits()), int(self.rep.denom()).bit_length())
 
@@ -455,8 +464,8 @@ class RationalPoly(Poly):
         """The flint integer polynomial `common_denominator() * self`."""
         return self.rep.numer()
 
-    def coefficient_str(self, power: int) -> str:
-        return str(self.rep[power])
+    def coefficient_strings(self) -> list[str]:
+        return list(map(str, self.rep.numer().coeffs()))
 
     def constant(self) -> Fraction:
         """The constant coefficient."""

@@ -158,11 +158,9 @@ class RatFunc:
 
             assert isinstance(ground, FunctionField)
             return cleared(self.num, self.den, ground)
-        top, bottom = self.num.common_denominator(), self.den.common_denominator()
-        common = gcd(top, bottom)
-        num, den = _times(self.num, top * (bottom // common)), _times(self.den, bottom * (top // common))
-        content = gcd(_content(num), _content(den))
-        return _times(num, Fraction(1, content)), _times(den, Fraction(1, content))
+        (p, q), (r, s) = self.num.content(), self.den.content()
+        factor = Fraction(q * s, gcd(p * s, r * q))
+        return (self.num, self.den) if factor == 1 else (self.num * factor, self.den * factor)
 
     def __str__(self) -> str:
         return self.to_str()
@@ -183,15 +181,6 @@ def _homogenise(polynomial: Poly, point: RatFunc, degree: int) -> Poly:
         result = result * point.num + polynomial[k] * power
         power = power * point.den
     return result
-
-
-def _times(polynomial: Poly, factor: Scalar) -> Poly:
-    return polynomial if factor == 1 else polynomial * factor
-
-
-def _content(polynomial: Poly) -> int:
-    """The greatest common divisor of the integer coordinates (1 for zero)."""
-    return gcd(*(int(c.p) for c in polynomial.rational_coefficients())) or 1
 
 
 def _parenthesised(text: str, separators: str) -> str:

@@ -104,12 +104,17 @@ class Child:
 
     def _read(self, events: SimpleQueue[Event | None]) -> None:
         assert self._process.stdout is not None
-        descriptor, rest = self._process.stdout.fileno(), b""
+        descriptor, unfinished = self._process.stdout.fileno(), list[bytes]()
         while data := os.read(descriptor, _PIPE_BYTES):
             start = time.monotonic()
-            *lines, rest = (rest + data).split(b"\n")
+            *lines, rest = data.split(b"\n")
+            if lines:
+                lines[0] = b"".join([*unfinished, lines[0]])
+                unfinished.clear()
             for line in lines:
                 events.put((self, line.decode()))
-            if len(self.assigned) > 1:
+            if rest:
+                unfinished.append(rest)  # of a long answer, which the process is waiting to write
+            elif len(self.assigned) > 1:
                 time.sleep(max(0.0, start + _SECONDS_BETWEEN_READS - time.monotonic()))
         events.put((self, None))
