@@ -7,7 +7,8 @@ Every positive answer of every system is substituted into the equation with 30 d
 wrong where a solution is known: by the corpus, or because another system's solution was checked right.  Written are
 benchmarks/results/peers.json and peers.md, and a figure for each system with the time against the number of poles.
 Debian's packages: maxima, maxima-share, fricas, xcas (giac); take its python3 as well, an optimised build like theirs, which a
-Python compiled without profile-guided optimisation isn't (it is a tenth slower).  A system that isn't installed is skipped, and the table says so.
+Python compiled without profile-guided optimisation isn't (it is a tenth slower).  A system that isn't installed is skipped,
+and the table says so.
 """
 
 from __future__ import annotations
