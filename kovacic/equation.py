@@ -15,8 +15,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from kovacic.algebra.extension import ExtensionPoly
-from kovacic.algebra.poly import Poly, RationalPoly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rational_poly import RationalPoly
 
 
 @dataclass(frozen=True)

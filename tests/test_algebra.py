@@ -18,8 +18,9 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.lifting import RationalLifter, prime, rational_reconstruction
 from kovacic.algebra.norms import norm
-from kovacic.algebra.poly import Poly, RationalPoly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rational_poly import RationalPoly
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.algebra.sparse import _factored_over_q, factorisation
 from kovacic.algebra.traces import characteristic_polynomial, is_provably_not_a_square, trace_of_square_root

@@ -17,7 +17,8 @@ from flint import acb, arb, ctx, fmpq, fmpq_mat, fmpz, fmpz_poly
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.fields import QQ, Field
-from kovacic.algebra.poly import Poly, RationalPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.rational_poly import RationalPoly
 from kovacic.errors import LimitExceeded
 
 #: Bits of the approximations.

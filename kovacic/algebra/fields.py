@@ -17,7 +17,8 @@ from flint import fmpq, fmpq_poly, nmod_poly
 
 from kovacic.algebra.lifting import RationalLifter as ResidueLifter
 from kovacic.algebra.lifting import primes
-from kovacic.algebra.poly import Poly, RationalPoly, Scalar, to_fmpq, to_fraction
+from kovacic.algebra.poly import Poly, Scalar
+from kovacic.algebra.rational_poly import RationalPoly, to_fmpq, to_fraction
 
 
 class BadPrimeError(Exception):

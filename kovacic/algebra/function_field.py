@@ -17,7 +17,8 @@ from flint import Ordering, fmpz_mpoly_ctx, nmod_poly
 
 from kovacic.algebra.fields import BadPrimeError, CoordinateLifter, Field, Homomorphism
 from kovacic.algebra.lifting import primes
-from kovacic.algebra.poly import Poly, RationalPoly, Scalar
+from kovacic.algebra.poly import Poly, Scalar
+from kovacic.algebra.rational_poly import RationalPoly
 from kovacic.algebra.sparse import constant_term, factorisation, format_terms, laurent_constant, square_root
 
 #: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.

@@ -14,7 +14,8 @@ from flint import fmpq, fmpq_poly, fmpz_mat
 
 from kovacic.algebra.extension import ExtensionHomomorphism, ExtensionPoly
 from kovacic.algebra.fields import CoordinateLifter, Homomorphism
-from kovacic.algebra.poly import Poly, RationalPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.rational_poly import RationalPoly
 
 if TYPE_CHECKING:
     from kovacic.algebra.extension import AlgebraicField

@@ -11,7 +11,8 @@ from typing import Any, Protocol
 from flint import fmpq, fmpq_poly, fmpz, fmpz_poly
 
 from kovacic.algebra.fields import QQ, Field
-from kovacic.algebra.poly import Poly, RationalPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.rational_poly import RationalPoly
 
 
 class Series(Protocol):

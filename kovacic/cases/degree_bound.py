@@ -13,7 +13,8 @@ from fractions import Fraction
 from typing import Any
 
 from kovacic.algebra.fields import QQ
-from kovacic.algebra.poly import Poly, to_fraction
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.rational_poly import to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
 from kovacic.places import Kind, Place, Problem
 from kovacic.solution import Evidence, NecessaryCondition, NoRationalOmega, Rule

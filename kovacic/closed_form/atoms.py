@@ -14,8 +14,9 @@ from kovacic.algebra.embedding import real_root_index
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Poly, RationalPoly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rational_poly import RationalPoly
 from kovacic.closed_form import plain
 from kovacic.closed_form.partial_fractions import Decomposition, Residue
 from kovacic.closed_form.plain import Expr, RootSum

@@ -23,8 +23,9 @@ from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.fields import Field, RationalField
-from kovacic.algebra.poly import Poly, to_fraction
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rational_poly import to_fraction
 from kovacic.galois.decide import rational_residues
 from kovacic.galois.group import Ground, Group, Kind
 from kovacic.galois.imprimitive import Curve, curve_of
