@@ -46,6 +46,30 @@ def test_division_leaves_a_smaller_remainder(a: RationalPoly, b: RationalPoly) -
     assert r.degree < b.degree
 
 
+@given(nonzero, st.integers(2, 3))
+def test_roots_of_powers_and_of_other_polynomials(f: RationalPoly, n: int) -> None:
+    radical = f.monic() // f.gcd(f.derivative())
+    assert (radical**n).root(n) == radical
+    assert (radical**n * QQ.poly([7, 1])).root(n) is None
+    if radical.degree > 0:
+        assert (radical**n + 1).root(n) is None
+
+
+@given(st.data(), st.sampled_from([QQ, SQRT5]), st.integers(0, 40))
+def test_a_factor_is_removed_as_often_as_it_divides(data: st.DataObject, field: AlgebraicField, count: int) -> None:
+    elements = polynomials if field == QQ else over(field)
+    factor = data.draw(elements.filter(lambda f: f.degree > 0))
+    rest = data.draw(elements.filter(lambda f: bool(f) and not (f.degree >= factor.degree and not f % factor)))
+    assert (rest * factor**count).remove(factor) == (rest, count)
+
+
+def test_a_multiplicity_that_grows_modulo_the_prime_is_found_out() -> None:
+    p = next(QQ.homomorphisms()).p
+    x = QQ.poly([0, 1])
+    factor, rest = x - 1, x - 1 - p
+    assert (factor**9 * rest**2).remove(factor) == (rest**2, 9)
+
+
 @given(st.data(), st.sampled_from([QQ, SQRT5]))
 def test_cleared_functions_have_coprime_integer_coordinates(data: st.DataObject, field: AlgebraicField) -> None:
     num, den = (data.draw(polynomials if field == QQ else over(field)) for _ in range(2))

@@ -145,6 +145,15 @@ class Field(ABC):
         """One homomorphism for each usable prime."""
         return (bundle[0] for bundle in self.bundles())
 
+    def multiplicity_bound(self, polynomial: Poly, factor: Poly) -> int:
+        """How often a factor divides a polynomial modulo a prime: as often as over the field, or (improbably) oftener."""
+        for h in self.homomorphisms():
+            try:
+                return _multiplicity(h.keeping_degree(polynomial), h.keeping_degree(factor))
+            except BadPrimeError:
+                pass
+        raise AssertionError("the sequence of primes is infinite")
+
     def rational_value(self, constant: Poly) -> Fraction | None:
         """The constant as a rational number, or None if it isn't one."""
         coordinates = constant.rational_coefficients()
@@ -163,6 +172,22 @@ class Field(ABC):
     @abstractmethod
     def sqrt(self, constant: Poly) -> Poly | None:
         """A square root within the field, or None if there is none."""
+
+
+def _multiplicity(polynomial: Any, factor: Any) -> int:
+    """How often an `nmod_poly` divides another one, by its powers to the exponents 1, 2, 4, ... and back."""
+    powers, found = [factor], 0
+    while True:
+        quotient, rest = divmod(polynomial, powers[-1])
+        if rest:
+            break
+        polynomial, found = quotient, 2 * found + 1
+        powers.append(powers[-1] * powers[-1])
+    for k in range(len(powers) - 2, -1, -1):
+        quotient, rest = divmod(polynomial, powers[k])
+        if not rest:
+            polynomial, found = quotient, found + 2**k
+    return found
 
 
 class RationalLifter(CoordinateLifter):

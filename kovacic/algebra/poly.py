@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 Scalar = int | Fraction
 
+#: So many equal factors are removed one after the other; above, it is quicker to find out first how many there are.
+_REMOVED_ONE_BY_ONE = 4
+
 
 class Poly(ABC):
     """A polynomial over `self.field`, immutable and hashable; arithmetic with `+ - * ** // % divmod` and scalars.
@@ -209,6 +212,11 @@ class Poly(ABC):
         rest, count = self, 0
         while rest.degree >= factor.degree and (quotient := rest.exact_quotient(factor)) is not None:
             rest, count = quotient, count + 1
+            if count == _REMOVED_ONE_BY_ONE:
+                more = self.field.multiplicity_bound(rest, factor)
+                at_once = rest.exact_quotient(factor**more)
+                if at_once is not None:
+                    return at_once, count + more
         return rest, count
 
     def reversed(self, shift: int = 0) -> Self:

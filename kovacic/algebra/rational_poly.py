@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flint import fmpq, fmpq_poly, fmpz_poly
+from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.poly import Poly, Scalar
 
@@ -155,6 +156,14 @@ class RationalPoly(Poly):
 
     def reversed(self, shift: int = 0) -> RationalPoly:
         return RationalPoly(fmpq_poly([0] * shift + self.rep.coeffs()[::-1]))
+
+    def root(self, n: int) -> RationalPoly | None:
+        if n != 2:
+            return super().root(n)
+        try:  # a monic r is N/e with a primitive N of leading coefficient e, so that r^2 = N^2/e^2 in lowest terms
+            return RationalPoly(fmpq_poly(self.rep.numer().sqrt(), self.rep.denom().isqrt()))
+        except DomainError:
+            return None
 
     def inverse_modulo(self, modulus: Poly) -> RationalPoly:
         small = modulus.degree <= _EUCLID_DEGREE

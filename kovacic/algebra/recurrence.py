@@ -34,23 +34,30 @@ class RationalSeries:
     The last terms are kept as integers over a common denominator, which grows only by what a division really needs.
     """
 
-    __slots__ = ("_denominator", "_terms", "_width", "_window")
+    __slots__ = ("_denominator", "_scales", "_terms", "_width", "_window")
 
     def __init__(self, width: int) -> None:
         self._width = width
         self._window = [fmpz(1)]  # the last terms times the denominator, the latest first
         self._denominator = fmpz(1)
         self._terms = [(fmpz(1), fmpz(1))]
+        self._scales = [fmpz(1)]  # of the denominator, from each term's predecessor to the term
 
     def term(self, n: int) -> Any:
         return fmpq(*self._terms[n])
 
     def polynomial(self, count: int) -> RationalPoly:
-        numerators = [n * (self._denominator // d) for n, d in self._terms[:count]]
-        return RationalPoly(fmpq_poly(fmpz_poly(numerators), self._denominator))
+        if not count:
+            return RationalPoly(fmpq_poly([]))
+        numerators, scale = list[Any](), fmpz(1)
+        for k in range(count - 1, -1, -1):
+            numerators.append(self._terms[k][0] * scale)
+            scale *= self._scales[k]
+        return RationalPoly(fmpq_poly(fmpz_poly(numerators[::-1]), self._terms[count - 1][1]))
 
     def extend(self, pivot: Any, factors: Sequence[Any]) -> Any:
         total = -sum(map(mul, factors, self._window), fmpz(0))
+        scale = fmpz(1)
         if not pivot:
             value, obstruction = fmpz(0), fmpq(-total, self._denominator)
         else:
@@ -64,6 +71,7 @@ class RationalSeries:
                 self._window = [scale * w for w in self._window]
                 self._denominator *= scale
         self._terms.append((value, self._denominator))
+        self._scales.append(scale)
         self._window = [value, *self._window[: self._width - 1]]
         return obstruction
 
