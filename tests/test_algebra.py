@@ -67,7 +67,7 @@ def test_a_multiplicity_that_grows_modulo_the_prime_is_found_out() -> None:
     p = next(QQ.homomorphisms()).p
     x = QQ.poly([0, 1])
     factor, rest = x - 1, x - 1 - p
-    assert (factor**9 * rest**2).remove(factor) == (rest**2, 9)
+    assert (factor**19 * rest**2).remove(factor) == (rest**2, 19)
 
 
 @given(st.data(), st.sampled_from([QQ, SQRT5]))

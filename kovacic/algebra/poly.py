@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Scalar = int | Fraction
 
 #: So many equal factors are removed one after the other; above, it is quicker to find out first how many there are.
-_REMOVED_ONE_BY_ONE = 4
+_REMOVED_ONE_BY_ONE = 16
 
 
 class Poly(ABC):
