@@ -6,6 +6,7 @@ rho(a)/(x - a), with R in K(x) and rho in K[x]/p [Hermite 1872].  R is unique up
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from kovacic.algebra.fields import Field
@@ -75,14 +76,22 @@ def decompose(r: RatFunc) -> Decomposition:
 
 def _hermite(numerator: Poly, p: Poly, k: int, field: Field) -> tuple[RatFunc, Poly]:
     """R and n with numerator/p^k = R' + n/p + polynomial, the polynomial being zero for a proper fraction."""
-    exact = RatFunc(field.poly([]))
     if k == 1:
-        return exact, numerator % p
+        return RatFunc(field.poly([])), numerator % p
     slope = p.derivative()
     inverse = slope.inverse_modulo(p) if p.degree > 1 else field.poly([1])
+    parts = []
     for power in range(k, 1, -1):
         # numerator = B (1 - power) p' + C p, so numerator/p^power = (B/p^(power-1))' + (C - B')/p^(power-1).
         B = numerator * inverse % p / field.poly([1 - power])
-        exact = exact + RatFunc(B, p ** (power - 1))
+        parts.append(B)
         numerator = (numerator - B * slope * (1 - power)) // p - B.derivative()
-    return exact, numerator % p
+    return power_sum(parts, p), numerator % p
+
+
+def power_sum(numerators: Sequence[Poly], p: Poly) -> RatFunc:
+    """numerators[0]/p^n + numerators[1]/p^(n-1) + ... + numerators[n-1]/p for as many numerators as there are, n > 0."""
+    total = numerators[-1]
+    for numerator in numerators[-2::-1]:
+        total = total * p + numerator
+    return RatFunc(total, p ** len(numerators))

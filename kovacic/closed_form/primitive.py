@@ -20,9 +20,12 @@ from fractions import Fraction
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
-from kovacic.closed_form.partial_fractions import Decomposition, decompose
+from kovacic.closed_form.partial_fractions import Decomposition, decompose, power_sum
 from kovacic.closed_form.product import Product
 from kovacic.closed_form.torsion import completed
+
+#: Above this power of a factor in y^-2 the integral isn't computed: it would be a sum of about as many terms.
+_LARGEST_EXPONENT = 1000
 
 
 @dataclass(frozen=True)
@@ -136,6 +139,8 @@ def integrate_inverse_square(y: Product) -> Primitive:
         if exponent is None:
             return OpenPrimitive(f"the exponent at {power.base} is irrational")
         exponent = -2 * exponent
+        if abs(exponent) > _LARGEST_EXPONENT:
+            return OpenPrimitive(f"the factor {power.base} has the power {exponent} in the integrand")
         if exponent.denominator == 1:
             rational = rational * RatFunc(power.base) ** int(exponent)
         else:
@@ -232,15 +237,9 @@ def _reduce(r: RatFunc, alpha: Fraction, beta: Poly, n: int) -> tuple[RatFunc, R
     x = RatFunc(field.poly([0, 1]))
     slope = alpha / x + x ** (n - 1) * (beta * n)
     W = RatFunc(field.poly([]))
-    for p, multiplicity in _multiple_factors(r.den.remove(x.num)[0]):
-        inverse = p.derivative().inverse_modulo(p) if p.degree > 1 else field.poly([1])
-        for k in range(multiplicity, 1, -1):
-            cofactor, count = r.den.remove(p)
-            if count < k:
-                continue
-            leading = r.num * (cofactor.inverse_modulo(p) if p.degree > 1 else (cofactor % p).inverse()) % p
-            part = RatFunc(leading * inverse % p * Fraction(1, 1 - k), p ** (k - 1))
-            W, r = W + part, r - part.derivative() - part * slope
+    for p in _multiple_factors(r.den.remove(x.num)[0]):
+        part, r = _reduce_at(r, p, slope)
+        W = W + part
     zero = RatFunc(field.poly([]))
     if r.den.remove(x.num)[0].degree == 0:
         return W, r, Decomposition(zero, ())
@@ -249,17 +248,32 @@ def _reduce(r: RatFunc, alpha: Fraction, beta: Poly, n: int) -> tuple[RatFunc, R
     return W, r - poles.derivative, poles
 
 
-def _multiple_factors(polynomial: Poly) -> list[tuple[Poly, int]]:
+def _reduce_at(r: RatFunc, p: Poly, slope: RatFunc) -> tuple[RatFunc, RatFunc]:
+    """W and r - L(W), which has p in its denominator once at most, for a squarefree p prime to the denominator of k'/k."""
+    cofactor, multiplicity = r.den.remove(p)
+    # r = A/(p^k C) and L(B/p^(k-1)) = (B' p C - (k-1) B p' C + B p C k'/k)/(p^k C).
+    C = cofactor * (slope.den // cofactor.gcd(slope.den))
+    A, rate = r.num * (C // cofactor), slope.num * (C // slope.den)
+    scale = (p.derivative() * C).inverse_modulo(p)
+    parts = []
+    for k in range(multiplicity, 1, -1):
+        B = A % p * scale % p * Fraction(1, 1 - k)
+        A = (A + (k - 1) * B * p.derivative() * C) // p - B.derivative() * C - rate * B
+        parts.append(B)
+    return power_sum(parts, p), RatFunc(A, p * C)
+
+
+def _multiple_factors(polynomial: Poly) -> list[Poly]:
     """The squarefree p for which p^k, k > 1, is the part of multiplicity k: by greatest common divisors [Yun 1976]."""
     found = []
     rest = polynomial.gcd(polynomial.derivative())
-    radical, k = polynomial // rest, 1
+    radical = polynomial // rest
     while rest.degree > 0:
-        radical, k = radical.gcd(rest), k + 1
+        radical = radical.gcd(rest)
         rest = rest // radical
         p = radical // radical.gcd(rest)
         if p.degree > 0:
-            found.append((p, k))
+            found.append(p)
     return found
 
 
