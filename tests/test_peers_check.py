@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import re
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -101,3 +102,48 @@ def test_an_error_is_no_answer(check: ModuleType) -> None:
     # What was assigned before is printed again.
     for error in ("System error:", "Error detected within library code:"):
         assert fricas.understand(f"(6) ->\n   >> {error}\n\n{answered}").kind == "error"
+
+
+def test_what_giac_prints_after_the_question(check: ModuleType) -> None:
+    systems = importlib.import_module("peer_systems.systems")
+    giac, question = systems.Giac(), "kovacicsols(y''=(x^2+3)*y,x,y)\n"
+    one, two = (giac.understand(f"{question}[{text}]\n") for text in ("x*exp(x^2/2)", "x^(1/4),x^(3/4)"))
+    assert (one.expressions, one.partial) == (("x*exp(x^2/2)",), True)
+    assert (two.expressions, two.partial) == (("x^(1/4)", "x^(3/4)"), False)
+    assert giac.understand(f"{question}[]\n").kind == "none"
+    assert giac.understand(question).kind == "error"
+
+
+_SERVER = """
+import sys, time
+marked = sys.argv[1] == "marker"
+if not marked:
+    print("welcome\\n0>> ", end="", flush=True)
+for k, line in enumerate(sys.stdin, 1):
+    if line == "sleep\\n": time.sleep(60)
+    if line == "die\\n": break
+    print("answer to", line, end="")
+    print("<<<end>>>" if marked else f"{k}>> ", end="\\n" if marked else "", flush=True)
+"""
+
+
+@pytest.mark.parametrize("end", ["marker", "prompt"])
+def test_each_question_gets_its_own_answer(check: ModuleType, end: str) -> None:
+    process = importlib.import_module("peer_systems.process")
+
+    class Served(process.System):  # type: ignore[misc, name-defined]
+        command = (sys.executable, "-c", _SERVER, end)
+        prompt = re.compile(rb"\d+>> ") if end == "prompt" else None
+
+        def request(self, S: str) -> str:
+            return f"{S}\n"
+
+    served = Served()
+    long = "x" * 300_000
+    try:
+        for question in ("a", "b", long, "sleep", "c", "die", "d"):
+            reply = served.solve(question, 0.5 if question == "sleep" else 30.0)
+            expected = {"sleep": "time-out", "die": "died"}.get(question, "text")
+            assert (reply.outcome, reply.text) == (expected, f"answer to {question}\n" if expected == "text" else "")
+    finally:
+        served.close()

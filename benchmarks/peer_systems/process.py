@@ -33,7 +33,8 @@ class Reply:
 class Answer:
     """What the reply says.
 
-    `kind`: "solved", "none", "undecided" (the system says that it can't, or answers without a solution), "error".
+    `kind`: "solved", "none", "undecided" (the system says that it can't, or answers without a solution), "error"; without
+    an answer "time-out".
     `form`: what the expressions are: "y" solutions, "omega" their logarithmic derivatives, "riccati" a polynomial of omega.
     `syntax`: the system's name, for the reader of its expressions.
     `partial`: there is only one of two independent solutions.
@@ -96,6 +97,9 @@ class System:
         self._note_memory()
         os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
+        for pipe in (self._process.stdin, self._process.stdout):
+            if pipe is not None:
+                pipe.close()
         self._process = None
 
     def _start(self) -> None:
@@ -112,11 +116,11 @@ class System:
         )
         assert self._process.stdout is not None
         os.set_blocking(self._process.stdout.fileno(), False)
-        if self.prompt is not None:
-            self._ask("", _START_SECONDS)
-        reply = self._ask(self.opening + self.request("x^2+3"), _START_SECONDS)
-        if reply.outcome != "text":
-            raise RuntimeError(f"{self.name} doesn't start: {reply.text[-500:]}")
+        first = self.opening + self.request("x^2+3")
+        for request in [first] if self.prompt is None else ["", first]:  # a prompt comes before the first question, too
+            reply = self._ask(request, _START_SECONDS)
+            if reply.outcome != "text":
+                raise RuntimeError(f"{self.name} doesn't start: {reply.text[-500:]}")
 
     def _ask(self, request: str, limit: float) -> Reply:
         """Write the request, and read up to the line with the end marker, or to the prompt."""
