@@ -34,7 +34,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.batch.items import Item, Job
 from kovacic.batch.pool import Pool
 from kovacic.batch.summary import Summary
-from kovacic.io.read import read_input
+from kovacic.reading.read import read_input
 
 HERE = Path(__file__).parent
 CASES = HERE.parent / "tests" / "data" / "cases.jsonl"

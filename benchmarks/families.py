@@ -6,12 +6,17 @@ those of `tests/strategies.py`); the random numbers are seeded by family and siz
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 from random import Random
 
-from kovacic import transform
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
+
+import transform
+
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc

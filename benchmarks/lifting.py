@@ -2,7 +2,7 @@
 
     python benchmarks/lifting.py        prints a table and writes benchmarks/results/lifting.json and .md
 
-Both ways start from the same degree bound N.  `kovacic.invariants` begins with primes and changes to the recurrence when
+Both ways start from the same degree bound N.  `kovacic.engine.invariants` begins with primes and changes to the recurrence when
 `_recurrence_is_cheaper` says so; the columns show what each way takes alone, and what `invariants` takes.  The last table
 shows why series at ordinary points come from Newton's iteration and from no recurrence.
 """
@@ -20,17 +20,19 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
+import transform
 from flint import nmod_poly
 
 import kovacic
-from kovacic import engine, invariants, transform
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.lifting import prime
 from kovacic.algebra.modular import fundamental_system
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.expansion import polynomial_invariant
+from kovacic.engine import invariants
+from kovacic.engine.decide import decide
+from kovacic.engine.expansion import polynomial_invariant
+from kovacic.engine.places import analyse
 from kovacic.limits import Budget
-from kovacic.places import analyse
 from kovacic.verify import verify
 
 RESULTS = Path(__file__).parent / "results"
@@ -92,7 +94,7 @@ def solution_rows() -> list[dict[str, object]]:
     rows: list[dict[str, object]] = []
     for name, S in equations:
         start = time.perf_counter()
-        decision = engine.decide(S, Budget())
+        decision = decide(S, Budget())
         decided = time.perf_counter()
         if not verify(S, decision):
             raise AssertionError(f"{name} isn't verified")

@@ -28,10 +28,10 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 import kovacic
-from kovacic.mechanics import Ball, U
-from kovacic.mechanics.attitude import locate
-from kovacic.mechanics.direct import State, equations, integrate_precisely, jacobian
-from kovacic.mechanics.motion import solve_motion
+from kovacic.ball import Ball, U
+from kovacic.ball.attitude import locate
+from kovacic.ball.direct import State, equations, integrate_precisely, jacobian
+from kovacic.ball.motion import solve_motion
 
 RESULTS = Path(__file__).parent / "results"
 SPHERE = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)

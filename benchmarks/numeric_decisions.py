@@ -117,10 +117,10 @@ NEEDS_SOLUTION = (
 
 #: Parts of the program and libraries: what a call has loaded of these is listed.
 PARTS = {
-    "engine": "kovacic.engine",
+    "engine": "kovacic.engine.decide",
     "galois": "kovacic.galois",
     "closed_form": "kovacic.closed_form",
-    "numeric": "kovacic.numeric.evaluate",
+    "numeric": "kovacic.enclosure.evaluate",
     "SymPy": "sympy",
     "NumPy": "numpy",
     "mpmath": "mpmath",

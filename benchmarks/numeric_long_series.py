@@ -18,11 +18,11 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from kovacic.io.read import read_input
+from kovacic.enclosure import transport
+from kovacic.enclosure.evaluate import evaluate
+from kovacic.enclosure.splitting import is_split
 from kovacic.limits import Limits
-from kovacic.numeric import transport
-from kovacic.numeric.evaluate import evaluate
-from kovacic.numeric.splitting import is_split
+from kovacic.reading.read import read_input
 
 RESULTS = Path(__file__).parent / "results"
 DIGITS = (300, 1_000, 3_000, 10_000, 30_000, 100_000)
@@ -136,8 +136,8 @@ def crossover() -> list[dict[str, Any]]:
 
 
 def chosen(S: Any, digits: int) -> str:
-    from kovacic.numeric.precision import start_bits
-    from kovacic.numeric.problem import as_problem
+    from kovacic.enclosure.precision import start_bits
+    from kovacic.enclosure.problem import as_problem
 
     return "splitting" if is_split(as_problem(S).system, start_bits(digits)) else "term by term"
 

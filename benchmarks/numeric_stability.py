@@ -43,10 +43,10 @@ def enclosure(row: Row) -> dict[str, Any]:
     """Route (b) at x, against the reference."""
     import mpmath
 
+    from kovacic.enclosure.evaluate import evaluate_states
+    from kovacic.enclosure.points import Point
     from kovacic.errors import KovacicError
     from kovacic.limits import Limits
-    from kovacic.numeric.evaluate import evaluate_states
-    from kovacic.numeric.points import Point
 
     large = {"large exponent": 400, "recessive": 700}
     with mpmath.workdps(160 + large.get(row.family, 0)):
@@ -121,9 +121,9 @@ def doubles(row: Row) -> dict[str, Any]:
     import numpy as np
 
     import kovacic
+    from kovacic.doubles.accuracy import measure
     from kovacic.errors import KovacicError
     from kovacic.limits import Limits
-    from kovacic.numeric.accuracy import measure
 
     solution, points = kovacic.solve(row.S), np.array(row.points)
     which = number_of(solution, row)
@@ -159,9 +159,9 @@ def number_of(solution: Any, row: Row) -> int:
     """The number of the solution y, by its logarithmic derivative at the middle of the points."""
     import mpmath
 
-    from kovacic.numeric.certificate import exponentials, omega
-    from kovacic.numeric.points import as_point
-    from kovacic.numeric.problem import as_problem
+    from kovacic.enclosure.certificate import exponentials, omega
+    from kovacic.enclosure.points import as_point
+    from kovacic.enclosure.problem import as_problem
 
     x, problem = row.points[7], as_problem(solution)
     with mpmath.workdps(60):
@@ -175,8 +175,8 @@ def product_of_zeros(function: Any, k: int) -> Any:
     """(1 - x^2)^(1/4) T_k(x) as a product over its zeros cos((2j - 1) pi/(2k))."""
     from flint import arb, ctx
 
-    from kovacic.numeric.double_double import pair_of
-    from kovacic.numeric.product_form import Factor, ProductForm, RationalFunction
+    from kovacic.doubles.double_double import pair_of
+    from kovacic.doubles.product_form import Factor, ProductForm, RationalFunction
 
     nothing, one, quarter = (0.0, 0.0), (1.0, 0.0), (0.25, 0.0)
     with ctx.workprec(200):

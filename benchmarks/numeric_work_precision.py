@@ -74,8 +74,8 @@ def relative(value: Any, exact: Fraction) -> float:
 
 def rows_of(name: str, S: Any, x0: str, x: str) -> list[dict[str, Any]]:
     import kovacic
-    from kovacic.io.read import read_input
-    from kovacic.numeric.evaluate import evaluate, evaluate_states
+    from kovacic.enclosure.evaluate import evaluate, evaluate_states
+    from kovacic.reading.read import read_input
 
     rows: list[dict[str, Any]] = []
     S = read_input(S).S
@@ -107,9 +107,9 @@ def double_rows(solution: Any, x0: str, x: str, add: Callable[..., None]) -> Non
 
     import numpy as np
 
+    from kovacic.doubles.accuracy import measure
+    from kovacic.doubles.lambdify import lambdify
     from kovacic.errors import KovacicError
-    from kovacic.numeric.accuracy import measure
-    from kovacic.numeric.lambdify import lambdify
 
     low, high = sorted((float(Fraction(x0)), float(Fraction(x))))
     try:
@@ -213,7 +213,7 @@ def goals(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
 def crossover() -> list[dict[str, Any]]:
     """Both routes over families whose closed form has a polynomial of growing degree, and the one that is chosen."""
     import kovacic
-    from kovacic.numeric.evaluate import evaluate_states
+    from kovacic.enclosure.evaluate import evaluate_states
 
     families = [
         (f"Legendre, degree {n}", f"-({n * (n + 1)}*(1-x^2) + 1)/(1-x^2)^2", "0", "9/10") for n in (2, 30, 60, 100)

@@ -75,13 +75,13 @@ FUNCTIONS: dict[tuple[str, str], Rule] = {
     ("kovacic.algebra.modular", "series_solution"): _terms(3),
     ("kovacic.algebra.modular", "square_root_series"): _terms(1),
     ("kovacic.algebra.modular", "null_space"): _system,
-    ("kovacic.expansion", "_null_vector"): _system,
+    ("kovacic.engine.expansion", "_null_vector"): _system,
     ("kovacic.verify.identity", "solves_riccati"): _verification,
 }
 METHODS: dict[tuple[str, str, str], Rule] = {
     ("kovacic.algebra.recurrence", "RationalSeries", "extend"): _exact_term,
     ("kovacic.algebra.recurrence", "FieldSeries", "extend"): _exact_term,
-    ("kovacic.riccati", "Form", "numerators"): _verification,
+    ("kovacic.engine.riccati", "Form", "numerators"): _verification,
     ("kovacic.verify.evidence", "Inspector", "_holds"): _verification,
 }
 PRIMES = ("kovacic.algebra.lifting", "primes")
@@ -145,7 +145,7 @@ def _everywhere(function: Callable[..., Any], replacement: Callable[[Any], Any])
 
 def load_engine() -> None:
     """Import every module that takes part in a decision, so that all of them are patched."""
-    for package in ("kovacic.algebra", "kovacic.cases", "kovacic.verify"):
+    for package in ("kovacic.algebra", "kovacic.engine", "kovacic.verify"):
         for found in pkgutil.iter_modules(_module(package).__path__, package + "."):
             _module(found.name)
     kovacic.solve("x^2 + 3")

@@ -30,39 +30,39 @@ from sympy.core.cache import clear_cache
 import kovacic
 
 HERE = Path(__file__).resolve().parent
-CASES = HERE.parent / "tests" / "data" / "cases.jsonl"
+CASES = HERE.parent / "tests" / "data" / "engine.jsonl"
 REST = "the rest (solve itself)"
 SIZES = (5, 10, 20, 40, 80)
 
 #: Stage: functions and methods, as "module:name"; the first stages are those of the decision.
 STAGES = {
-    "reading the text": ("io.read:read_input",),
-    "places and local data": ("places:analyse", "necessary:excluded_by_local_data"),
+    "reading the text": ("reading.read:read_input",),
+    "places and local data": ("engine.places:analyse", "engine.necessary:excluded_by_local_data"),
     "degree bounds, squares of exponents": (
-        "cases.degree_bound:degree_bound",
-        "cases.degree_bound:irrational_exponents",
+        "engine.degree_bound:degree_bound",
+        "engine.degree_bound:irrational_exponents",
     ),
     "series modulo primes": (
         "algebra.modular:fundamental_system",
         "algebra.modular:power_series",
         "algebra.modular:series_solution",
-        "invariants:invariants_modulo",
-        "local:chart",
-        "local:exponential_parts",
+        "engine.invariants:invariants_modulo",
+        "engine.local:chart",
+        "engine.local:exponential_parts",
     ),
     "linear algebra and Euclid modulo primes": (
         "algebra.modular:null_space",
         "algebra.modular:echelon_by_degree",
-        "local:rational_omega",
-        "local:omega_parts",
-        "invariants:_closes",
-        "cases.reducible:_first_factor",
+        "engine.local:rational_omega",
+        "engine.local:omega_parts",
+        "engine.invariants:_closes",
+        "engine.reducible:_first_factor",
     ),
     "lifting": ("algebra.fields:Lifter.add",),
-    "recurrences": ("algebra.recurrence:polynomial_solution", "expansion:polynomial_invariant"),
-    "the cases, their algebra": ("engine:decide",),
-    "exact check of forms, polynomial of omega": ("riccati:Form.numerators",),
-    "certificate": ("engine:_positive",),
+    "recurrences": ("algebra.recurrence:polynomial_solution", "engine.expansion:polynomial_invariant"),
+    "the cases, their algebra": ("engine.decide:decide",),
+    "exact check of forms, polynomial of omega": ("engine.riccati:Form.numerators",),
+    "certificate": ("engine.decide:_positive",),
     "verification": ("verify:verify",),
 }
 CLOSED = {

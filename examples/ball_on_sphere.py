@@ -15,9 +15,9 @@ from fractions import Fraction
 import sympy as sp
 
 import kovacic
-from kovacic.mechanics import Ball, closed_form
-from kovacic.mechanics.decision import decide, group_of, normalised
-from kovacic.mechanics.theorems import (
+from kovacic.ball import Ball, closed_form
+from kovacic.ball.decision import decide, group_of, normalised
+from kovacic.ball.theorems import (
     constant_coefficients,
     double_root,
     exponents,

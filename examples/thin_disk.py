@@ -12,7 +12,7 @@ import sys
 import sympy as sp
 
 import kovacic
-from kovacic.mechanics import Body, Profile, U, X
+from kovacic.ball import Body, Profile, U, X
 
 
 def main() -> int:

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from kovacic.api import Verdict, decide, solve
     from kovacic.batch import solve_many
+    from kovacic.decision import Status, Structure
+    from kovacic.enclosure.evaluate import evaluate
     from kovacic.equation import Equation
     from kovacic.errors import (
         InputError,
@@ -23,10 +25,8 @@ if TYPE_CHECKING:
     )
     from kovacic.general_solution import dsolve, solve_riccati
     from kovacic.limits import Limits
-    from kovacic.numeric.evaluate import evaluate
     from kovacic.parametric.api import conditions
-    from kovacic.result import Solution
-    from kovacic.solution import Status, Structure
+    from kovacic.solution import Solution
 
 __version__ = "0.1.0"
 
@@ -40,15 +40,15 @@ _MODULES = {
     "NotLinear": "kovacic.errors",
     "NotRational": "kovacic.errors",
     "ParseError": "kovacic.errors",
-    "Solution": "kovacic.result",
-    "Status": "kovacic.solution",
-    "Structure": "kovacic.solution",
+    "Solution": "kovacic.solution",
+    "Status": "kovacic.decision",
+    "Structure": "kovacic.decision",
     "Verdict": "kovacic.api",
     "VerificationFailed": "kovacic.errors",
     "conditions": "kovacic.parametric.api",
     "decide": "kovacic.api",
     "dsolve": "kovacic.general_solution",
-    "evaluate": "kovacic.numeric.evaluate",
+    "evaluate": "kovacic.enclosure.evaluate",
     "solve": "kovacic.api",
     "solve_many": "kovacic.batch",
     "solve_riccati": "kovacic.general_solution",

@@ -7,16 +7,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from kovacic import engine
 from kovacic.algebra.fields import QQ
+from kovacic.decision import Decision, Status
+from kovacic.engine.decide import decide as decide_structure
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
-from kovacic.result import Solution
-from kovacic.solution import Decision, Status
+from kovacic.solution import Solution
 from kovacic.verify import verify
 
 if TYPE_CHECKING:
-    from kovacic.io.parsed import Parsed
+    from kovacic.reading.parsed import Parsed
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def solve(
     if (S is None) == (a is None):
         raise InputError("one equation is expected: S, or the coefficients a=, b=, c=, f=")
     if S is None:
-        from kovacic.io.read import read_coefficients
+        from kovacic.reading.read import read_coefficients
 
         parsed = read_coefficients(a, b, c, f, var=var, limits=limits)
     else:
@@ -111,11 +111,11 @@ def _decided(
     parsed: Parsed, S: Any, assume: Mapping[Any, str] | None, limits: Limits, *, certify: bool
 ) -> tuple[Decision, tuple[str, ...]]:
     """The decision, under the assumptions if there are any, and the notices."""
-    decision = engine.decide(parsed.S, Budget(limits), certify=certify)
+    decision = decide_structure(parsed.S, Budget(limits), certify=certify)
     if assume is None and parsed.S.field.ground == QQ:
         return decision, parsed.notices
-    from kovacic.io.names import parameters_of
     from kovacic.parametric.assumptions import read_assumptions
+    from kovacic.reading.names import parameters_of
 
     known = read_assumptions(assume, S, parameters_of(parsed.S.field))
     if not known or (assume is None and not known.concerns_exponents):
@@ -127,6 +127,6 @@ def _decided(
 
 
 def _read(S: Any, var: str | None, limits: Limits) -> Parsed:
-    from kovacic.io.read import read_input
+    from kovacic.reading.read import read_input
 
     return read_input(S, var=var, limits=limits)

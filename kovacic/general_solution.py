@@ -12,11 +12,11 @@ from typing import Any
 
 from kovacic.algebra.poly import Poly
 from kovacic.api import solve
+from kovacic.decision import Status
 from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.result import Solution
-from kovacic.solution import Status
+from kovacic.solution import Solution
 
 #: The largest expression (in operations) that is handed to SymPy's general simplification.
 _SIMPLIFIED = 150
@@ -79,11 +79,11 @@ def _read(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equation
 
     if isinstance(eq, str | Equation):
         if isinstance(eq, str):
-            from kovacic.io.equation_parser import parse_equation
+            from kovacic.reading.equation_parser import parse_equation
 
             eq, _ = parse_equation(eq, variable=var, limits=limits)
         return eq, sympy.Function(eq.unknown)(sympy.Symbol(eq.variable))
-    from kovacic.io.equation_sympy import parse_sympy_equation
+    from kovacic.reading.equation_sympy import parse_sympy_equation
 
     if not hasattr(eq, "free_symbols"):
         raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
@@ -228,7 +228,7 @@ def _constant(value: Any) -> Any:
     import sympy
 
     if isinstance(value, str):
-        from kovacic.io.equation_parser import parse_expression
+        from kovacic.reading.equation_parser import parse_expression
 
         return parse_expression(value, "_")
     if isinstance(value, float):
@@ -323,7 +323,7 @@ def solve_riccati(
     import sympy
 
     from kovacic.closed_form.atoms import Atoms
-    from kovacic.io.read import read_coefficients
+    from kovacic.reading.read import read_coefficients
 
     if str(r).strip() in ("0", "0.0"):
         raise InputError("r is zero: the equation is linear of first order")

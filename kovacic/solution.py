@@ -1,163 +1,210 @@
-"""Results: what was found, and what was excluded by which evidence.  Frozen, comparable and picklable; no computing here.
-
-The structures that the Galois group of y'' = S y can have, in the order in which they are tested [Kovacic 1986, sec. 1.2]:
-reducible (case 1), imprimitive (case 2), and the three primitive finite groups (case 3); otherwise it is SL2(C) and there is
-no Liouvillian solution.
-"""
+"""`Solution`: what `kovacic.solve` returns."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from enum import Enum
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Status
+from kovacic.equation import Equation
+from kovacic.verify import Verification, verify
 
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
-class Status(Enum):
-    """What is known about the Liouvillian solutions of an equation."""
+    from matplotlib.figure import Figure
 
-    LIOUVILLIAN = "liouvillian"
-    NONE_EXISTS = "none"
-    UNDECIDED = "undecided"
-
-
-class Structure(Enum):
-    """A structure of the Galois group under which Liouvillian solutions exist."""
-
-    REDUCIBLE = "reducible"
-    IMPRIMITIVE = "imprimitive"
-    TETRAHEDRAL = "tetrahedral"
-    OCTAHEDRAL = "octahedral"
-    ICOSAHEDRAL = "icosahedral"
-
-    @property
-    def case(self) -> int:
-        """Kovacic's case."""
-        return {"reducible": 1, "imprimitive": 2}.get(self.value, 3)
-
-
-class Rule(Enum):
-    """The necessary conditions that can fail; the value says what is the case instead."""
-
-    RAMIFIED = "an irregular singular point is ramified, so no solution has a rational logarithmic derivative"
-    LOGARITHM = (
-        "a solution has a logarithm, so the group contains a unipotent element and is infinite and not imprimitive"
-    )
-    TOO_FEW_BRANCH_POINTS = "fewer than two places can be branch points of the square root of an invariant"
-    IRREGULAR = "an irregular singular point makes the group infinite"
-    EXPONENTS = "the exponent differences aren't those of a group of this kind"
-    NOT_A_SQUARE = "the exponents at a place aren't rational over the field of its poles"
+    from kovacic.closed_form import ClosedForm
+    from kovacic.doubles.product_form import ProductForm
+    from kovacic.doubles.tabulate import TabulatedFunction
+    from kovacic.enclosure.agreement import Agreement
+    from kovacic.enclosure.ball import Ball
+    from kovacic.galois import EquationGroup, Group
+    from kovacic.parametric.generic import GenericConditions
 
 
 @dataclass(frozen=True)
-class NecessaryCondition:
-    """A structure is excluded by local data alone: `rule`, at the places with these factors or at "infinity"."""
+class Solution:
+    """The answer for one equation y'' = S y: frozen, comparable, picklable, verified.
 
-    rule: Rule
-    places: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class NoInvariant:
-    """There is no rational invariant of this degree.
-
-    Either the least valuations leave no room (prime None), or the linear system for the coefficients has nullity 0
-    modulo `prime`, for invariants prod p^(v_p) P with deg P <= `degree`, expanded at the integer `point`.
+    `text` is the input as it was given, `variable` the name of x, `S` the coefficient, `decision` the claim with its
+    certificates, `notices` what was noticed when the input was read (decimals taken as exact fractions, ...), `verified`
+    whether the decision has passed its independent check (always, for what `solve` returns), and `seconds` the wall-clock
+    time of reading, deciding and verifying together (None for an answer that was read from JSON).  `equation` is the
+    equation of which y'' = S y is the normal form, None where S itself was given.
     """
 
-    invariant_degree: int
-    prime: int | None = None
-    point: int = 0
-    degree: int = -1
-
-
-@dataclass(frozen=True)
-class NoRationalOmega:
-    """There is no unique rational omega = R/D + P'/P.
-
-    The degree of P is at most `degree` by the exponents; if that is negative nothing else is needed (prime None).
-    Else, modulo `prime`, none of the expansions that omega can have at the least root of the factor `place` ("infinity" for
-    infinity) is that of a rational function of the bounded degree.
-    """
-
-    degree: int
-    prime: int | None = None
-    place: str = ""
-
-
-Evidence = NecessaryCondition | NoInvariant | NoRationalOmega
-
-
-@dataclass(frozen=True)
-class Exclusion:
-    """A structure that the group provably doesn't have, and why."""
-
-    structure: Structure
-    evidence: tuple[Evidence, ...]
-
-
-@dataclass(frozen=True)
-class SemiInvariant:
-    """A form f of degree `degree` in the solutions with f'/f = theta + P'/P; P has its zeros at ordinary points.
-
-    Its linear factors are the solutions whose logarithmic derivatives are the conjugates of omega.
-    """
-
-    degree: int
-    theta: RatFunc
-    P: Poly
+    text: str
+    variable: str
+    S: RatFunc
+    decision: Decision
+    notices: tuple[str, ...] = ()
+    verified: bool = False
+    seconds: float | None = field(default=None, compare=False)
+    equation: Equation | None = None
 
     @property
-    def logarithmic_derivative(self) -> RatFunc:
-        """f'/f, the sum of the conjugates of omega."""
-        return self.theta + RatFunc(self.P.derivative(), self.P)
-
-
-@dataclass(frozen=True)
-class RiccatiPolynomial:
-    """`sum_k (-1)^k A_k/(P D^k) W^(m-k)`, the monic polynomial of omega, with A_0 = P."""
-
-    P: Poly
-    D: Poly
-    numerators: tuple[Poly, ...]
-
-    @property
-    def degree(self) -> int:
-        return len(self.numerators) - 1
-
-    @property
-    def coefficients(self) -> tuple[RatFunc, ...]:
-        """The coefficients of W^0, ..., W^m in lowest terms; the last one is 1."""
-        m = self.degree
-        return tuple(
-            RatFunc(self.numerators[k] * (-1) ** k, self.P * self.D**k) if k else RatFunc(self.P.field.poly([1]))
-            for k in range(m, -1, -1)
-        )
-
-
-@dataclass(frozen=True)
-class Decision:
-    """The engine's outcome: the structure that the group has, or None, and everything that was excluded before it.
-
-    `semi_invariant` and `riccati` belong to omega; `invariant` is the rational form that showed the structure (None where
-    omega was unique).  `undecided` is a sentence when a limit was reached, and then nothing but the exclusions is claimed.
-    """
-
-    structure: Structure | None
-    exclusions: tuple[Exclusion, ...]
-    invariant: SemiInvariant | None = None
-    semi_invariant: SemiInvariant | None = None
-    riccati: RiccatiPolynomial | None = None
-    undecided: str | None = None
+    def gauge(self) -> RatFunc:
+        """-b/(2a) for an equation a y'' + b y' + c y = f: its solutions are those of y'' = S y times exp(int gauge dx)."""
+        return RatFunc(self.S.field.poly([])) if self.equation is None else self.equation.gauge
 
     @property
     def status(self) -> Status:
-        if self.undecided is not None:
-            return Status.UNDECIDED
-        return Status.NONE_EXISTS if self.structure is None else Status.LIOUVILLIAN
+        """LIOUVILLIAN, NONE_EXISTS, or UNDECIDED (then `reason` says why)."""
+        return self.decision.status
 
     @property
     def case(self) -> int | None:
-        """Kovacic's case, 1 to 3; None if there is no Liouvillian solution, or if that is undecided."""
-        return None if self.structure is None else self.structure.case
+        """Kovacic's case: 1 (omega rational), 2 (omega of degree 2), 3 (of degree 4, 6 or 12); None without a solution."""
+        return self.decision.case
+
+    @property
+    def reason(self) -> str | None:
+        """Why the equation is undecided; None if it is decided."""
+        return self.decision.undecided
+
+    @property
+    def semi_invariant(self) -> SemiInvariant | None:
+        """The product of the solutions whose logarithmic derivatives are the conjugates of omega."""
+        return self.decision.semi_invariant
+
+    @property
+    def riccati(self) -> RiccatiPolynomial | None:
+        """The monic polynomial of omega = y'/y, minimal over C(x); its `coefficients` run from W^0 to W^n."""
+        return self.decision.riccati
+
+    @property
+    def omega(self) -> RatFunc | None:
+        """omega = y'/y where it is rational (case 1), else None.  The solution is exp(int omega dx)."""
+        riccati = self.decision.riccati
+        return -riccati.coefficients[0] if riccati is not None and riccati.degree == 1 else None
+
+    @property
+    def constants(self) -> Poly | None:
+        """The minimal polynomial of the constant c in omega's coefficients; None if they lie in the field of S."""
+        riccati = self.decision.riccati
+        if riccati is None or riccati.P.field == self.S.field:
+            return None
+        extension = riccati.P.field
+        return extension.modulus if isinstance(extension, AlgebraicField) else None
+
+    @cached_property
+    def group(self) -> Group | None:
+        """The differential Galois group of y'' = S y, a subgroup of SL2(C); None if the equation is undecided."""
+        from kovacic.galois import group_of
+
+        return group_of(self.S, self.decision)
+
+    @cached_property
+    def equation_group(self) -> EquationGroup | None:
+        """The group of the equation as it was given, in GL2(C); None if undecided, or with a gauge and parameters."""
+        from kovacic.galois import equation_group
+
+        return None if self.group is None else equation_group(self.S, self.decision, self.group, self.gauge)
+
+    @property
+    def is_algebraic(self) -> bool | None:
+        """Are all solutions of the equation as given algebraic functions?  None if that wasn't determined."""
+        return None if self.equation_group is None else self.equation_group.finite
+
+    @cached_property
+    def closed_form(self) -> ClosedForm | None:
+        """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution."""
+        from kovacic.closed_form import solutions
+
+        return None if self.case is None else solutions(self)
+
+    @property
+    def solutions(self) -> tuple[Any, ...]:
+        """y1 and y2, SymPy expressions that solve the equation as it was given; empty without a Liouvillian solution."""
+        return () if self.closed_form is None else (self.closed_form.y1, self.closed_form.y2)
+
+    def at(self, x: Any, *, x0: Any, y0: Any, dy0: Any, digits: int = 15, **options: Any) -> Ball | tuple[Ball, ...]:
+        """A ball that contains y(x) for the solution with y(x0) = y0, y'(x0) = dy0; see `kovacic.evaluate`."""
+        from kovacic.enclosure.evaluate import evaluate
+
+        return evaluate(self, x, x0=x0, y0=y0, dy0=dy0, digits=digits, **options)
+
+    def lambdify(self, **options: Any) -> ProductForm | TabulatedFunction:
+        """A solution as a NumPy function, its error measured; see `kovacic.doubles.lambdify.lambdify`."""
+        from kovacic.doubles.lambdify import lambdify
+
+        return lambdify(self, **options)
+
+    def plot(self, start: Any, stop: Any, **options: Any) -> Figure:
+        """A matplotlib figure of proven values over [start, stop]; see `kovacic.views.plot.plot`."""
+        from kovacic.views.plot import plot
+
+        return plot(self, start, stop, **options)
+
+    def compare_with_monodromy(self, **options: Any) -> Agreement:
+        """Does the monodromy, by analytic continuation, agree with `group`?  See `kovacic.enclosure.agreement`."""
+        from kovacic.enclosure.agreement import agrees_with_group
+
+        return agrees_with_group(self, **options)
+
+    @property
+    def proof(self) -> tuple[Exclusion, ...]:
+        """What was excluded and by which evidence: everything, for a "no"; all smaller structures, for a "yes"."""
+        return self.decision.exclusions
+
+    @property
+    def generic_conditions(self) -> GenericConditions:
+        """What must not vanish, and which exponents must not be rational, for the answer to hold; empty without parameters."""
+        from kovacic.parametric.generic import generic_conditions
+
+        return generic_conditions(self)
+
+    def verify(self) -> Verification:
+        """Recompute every claim by independent code; true exactly when all of them hold."""
+        return verify(self.S, self.decision)
+
+    def to_json(self, **options: Any) -> str:
+        """The answer as one line of JSON, schema 1."""
+        from kovacic.views.json import dumps
+
+        return dumps(self, **options)
+
+    @classmethod
+    def from_json(cls, text: str | Mapping[str, Any]) -> Solution:
+        """The answer that was written by `to_json`; call `verify` before trusting it."""
+        from kovacic.views.json import loads
+
+        return loads(text)
+
+    def explain(self, *, format: str = "text", solutions: bool = True) -> str:
+        """The derivation as a reader of Kovacic's paper follows it: "text", "markdown" or "latex".
+
+        With `solutions=False` the closed forms are left out.
+        """
+        from kovacic.views.explain import explain
+
+        return explain(self, format=format, solutions=solutions)
+
+    def citation(self, *, style: str = "text") -> str:
+        """What the answer rests on in the literature, as text or as BibTeX (`style="bibtex"`)."""
+        from kovacic.views.bibliography import citation
+
+        return citation(self, style=style)
+
+    def _repr_latex_(self) -> str:
+        from kovacic.views.notebook import latex_view
+
+        return latex_view(self)
+
+    def _repr_html_(self) -> str:
+        from kovacic.views.notebook import html_view
+
+        return html_view(self)
+
+    def __bool__(self) -> bool:
+        raise TypeError("ask for .status or .case: an answer is neither true nor false")
+
+    def __str__(self) -> str:
+        from kovacic.views.text import one_line
+
+        return one_line(self)

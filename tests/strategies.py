@@ -18,10 +18,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import permutations, product
 
+import transform
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from kovacic import transform
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly

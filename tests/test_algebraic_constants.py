@@ -10,6 +10,7 @@ import strategies
 import sympy
 from hypothesis import given, settings
 from strategies import Example
+from transform import hypergeometric
 
 import kovacic
 from kovacic.algebra.embedding import RATIONAL_NUMBERS
@@ -17,7 +18,6 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Limits
-from kovacic.transform import hypergeometric
 
 ENTRIES = [
     ("x^6 - 7*x^2 + 2*sqrt(2)", 1),
@@ -166,8 +166,8 @@ def test_sympy_numbers() -> None:
 
 
 def test_conjugate_poles_stay_together() -> None:
+    from kovacic.engine.places import analyse
     from kovacic.limits import Budget
-    from kovacic.places import analyse
 
     answer = kovacic.solve("1/(x^3-sqrt(2)) + 2/(x^2+1)", var="x")
     places = analyse(answer.S, Budget()).finite_places

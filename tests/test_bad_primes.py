@@ -5,9 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+import transform
 
 import kovacic
-from kovacic import transform
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.lifting import prime
 from kovacic.algebra.ratfunc import RatFunc

@@ -9,12 +9,12 @@ import published
 import pytest
 import strategies
 import sympy
+import transform
 from flint import acb, arb
 from hypothesis import given, settings
 from sympy.abc import x
 
 import kovacic
-from kovacic import transform
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form import solutions

@@ -39,8 +39,8 @@ from kovacic.closed_form.product import product
 from kovacic.closed_form.structure import Triangular
 from kovacic.closed_form.torsion import completed
 from kovacic.closed_form.units import unit
-from kovacic.io.read import read_input
-from kovacic.solution import Structure
+from kovacic.decision import Structure
+from kovacic.reading.read import read_input
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO = RatFunc(QQ.poly([]))

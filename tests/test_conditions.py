@@ -18,13 +18,13 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.function_field import FunctionField
+from kovacic.decision import Structure
 from kovacic.galois.group import Kind
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.answer import Conditions
 from kovacic.parametric.pivots import without_constant_pivots
 from kovacic.parametric.regions import Verdict
 from kovacic.parametric.riemann import kimura
-from kovacic.solution import Structure
 from tests.parametric_cases import FAMILIES, Family
 from tests.strategies import parametric_equations
 

@@ -9,7 +9,7 @@ from sympy import I, Rational, cos, exp, sin, sqrt
 
 import kovacic
 from kovacic.general_solution import dsolve, solve_riccati
-from kovacic.io.equation_parser import parse_expression
+from kovacic.reading.equation_parser import parse_expression
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
 y = sympy.Function("y")

@@ -17,18 +17,19 @@ from typing import Any
 import pytest
 import strategies
 import textbook
+import transform
 from flint import nmod_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from strategies import Example
 
 import kovacic
-from kovacic import Solution, Status, Structure, transform
+from kovacic import Solution, Status, Structure
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.solution import (
+from kovacic.decision import (
     Decision,
     Exclusion,
     NecessaryCondition,

@@ -22,8 +22,8 @@ from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import Equation
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
-from kovacic.io.equation_parser import is_equation, parse_equation
-from kovacic.io.equation_sympy import parse_sympy_equation
+from kovacic.reading.equation_parser import is_equation, parse_equation
+from kovacic.reading.equation_sympy import parse_sympy_equation
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO = X * 0
@@ -258,7 +258,7 @@ def test_the_full_json_has_group_and_solutions() -> None:
     assert data["group"] == {"name": "G_m", "order": None, "finite": False}
     assert data["gauge"] == "-1/(2*x)"
     assert [sympy.sympify(s) for s in data["solutions"]] == [sympy.cos(x) / sympy.sqrt(x), sympy.sin(x) / sympy.sqrt(x)]
-    schema = json.loads((Path(kovacic.__file__).parent / "io" / "solution.schema.json").read_text("utf-8"))
+    schema = json.loads((Path(kovacic.__file__).parent / "views" / "solution.schema.json").read_text("utf-8"))
     jsonschema.validate(data, schema)
     assert json.loads(kovacic.solve("x").to_json(full=True))["solutions"] is None
 

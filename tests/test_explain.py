@@ -19,9 +19,9 @@ import kovacic
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.cli.main import run
-from kovacic.io.latex import latex_ratfunc, latex_text
-from kovacic.io.trace import rational_form, trace_of
-from kovacic.places import Kind
+from kovacic.engine.places import Kind
+from kovacic.views.latex import latex_ratfunc, latex_text
+from kovacic.views.trace import rational_form, trace_of
 
 EQUATIONS = [
     "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0",

@@ -10,22 +10,22 @@ import published
 import pytest
 import strategies
 import sympy
+import transform
 from flint import nmod_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic import transform
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.jacobian import Jacobian
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.engine.places import Kind as PlaceKind
+from kovacic.engine.places import analyse
 from kovacic.equation import Equation
 from kovacic.galois import Ground, Group, Kind
 from kovacic.galois.gauged import _residues_on_curve, _torus
 from kovacic.galois.imprimitive import curve_of, has_order
 from kovacic.limits import Budget
-from kovacic.places import Kind as PlaceKind
-from kovacic.places import analyse
 
 X = RatFunc(QQ.poly([0, 1]))
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+import transform
 
 import kovacic
-from kovacic import transform
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.expansion import polynomial_invariant
-from kovacic.invariants import bounds, invariants, invariants_modulo
+from kovacic.decision import NoInvariant
+from kovacic.engine.expansion import polynomial_invariant
+from kovacic.engine.invariants import bounds, invariants, invariants_modulo
+from kovacic.engine.places import analyse
+from kovacic.engine.riccati import Form, hessian, jacobian
 from kovacic.limits import Budget
-from kovacic.places import analyse
-from kovacic.riccati import Form, hessian, jacobian
-from kovacic.solution import NoInvariant
 
 X = RatFunc(QQ.poly([0, 1]))
 HALF, THIRD = Fraction(1, 2), Fraction(1, 3)

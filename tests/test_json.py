@@ -14,10 +14,10 @@ from published import Published, load
 
 import kovacic
 from kovacic.errors import InputError
-from kovacic.io.json import dumps, loads
 from kovacic.limits import Limits
+from kovacic.views.json import dumps, loads
 
-SCHEMA = json.loads((Path(kovacic.__file__).parent / "io" / "solution.schema.json").read_text(encoding="utf-8"))
+SCHEMA = json.loads((Path(kovacic.__file__).parent / "views" / "solution.schema.json").read_text(encoding="utf-8"))
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 PUBLISHED = load()
 

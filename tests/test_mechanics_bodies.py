@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 
 import kovacic
-from kovacic.mechanics import Body, Profile, U
+from kovacic.ball import Body, Profile, U
 
 HALF, THIRD = sp.Rational(1, 2), sp.Rational(1, 3)
 BODIES = {

@@ -7,11 +7,11 @@ from fractions import Fraction
 import pytest
 import sympy as sp
 
+from kovacic.ball import Ball, Body, Profile, U, X
+from kovacic.ball.ball import exact
+from kovacic.ball.field import Ring, base_part
+from kovacic.ball.theorems import printed_forms, symbolic_ball
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.mechanics import Ball, Body, Profile, U, X
-from kovacic.mechanics.ball import exact
-from kovacic.mechanics.field import Ring, base_part
-from kovacic.mechanics.theorems import printed_forms, symbolic_ball
 
 m, R, a, A1, A3, R1 = sp.symbols("m R a A1 A3 R1")
 sine, cosine = sp.sin(U), sp.cos(U)

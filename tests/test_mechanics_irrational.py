@@ -7,14 +7,14 @@ import pytest
 import sympy as sp
 
 import kovacic
+from kovacic.ball import Ball, Body, Profile, U, X
+from kovacic.ball.decision import degree_of_omega, group_of
+from kovacic.ball.direct import State, integrate
+from kovacic.ball.field import Ring
+from kovacic.ball.irrational import generators, settled, sign
+from kovacic.ball.motion import solve_motion
+from kovacic.ball.theorems import symbolic_ball
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.mechanics import Ball, Body, Profile, U, X
-from kovacic.mechanics.decision import degree_of_omega, group_of
-from kovacic.mechanics.direct import State, integrate
-from kovacic.mechanics.field import Ring
-from kovacic.mechanics.irrational import generators, settled, sign
-from kovacic.mechanics.motion import solve_motion
-from kovacic.mechanics.theorems import symbolic_ball
 
 CUBIC = sp.CRootOf(sp.Symbol("z") ** 3 - sp.Symbol("z") - 1, 0)
 # m, R, a, A1, A3, R1 (None: a plane)

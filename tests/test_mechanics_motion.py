@@ -16,19 +16,19 @@ import sympy as sp
 from numpy.polynomial import chebyshev
 from scipy.integrate import solve_ivp
 
+from kovacic.ball import Ball, Body, Profile, U
+from kovacic.ball.attitude import follow, locate
+from kovacic.ball.ball import ball_with_roots
+from kovacic.ball.closed import NumericBall, closed_form_in_roots
+from kovacic.ball.decision import normalised
+from kovacic.ball.direct import IntegrationFailed, State, equations, integrate, integrate_precisely
+from kovacic.ball.extrapolation import extrapolate
+from kovacic.ball.motion import solve_motion
+from kovacic.ball.plot import compare, draw
+from kovacic.ball.potential import central_gravity, compiled, potential_of
+from kovacic.ball.series import Primitive, cosine_series, divide, invert
+from kovacic.ball.theorems import rational_solutions
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.mechanics import Ball, Body, Profile, U
-from kovacic.mechanics.attitude import follow, locate
-from kovacic.mechanics.ball import ball_with_roots
-from kovacic.mechanics.closed import NumericBall, closed_form_in_roots
-from kovacic.mechanics.decision import normalised
-from kovacic.mechanics.direct import IntegrationFailed, State, equations, integrate, integrate_precisely
-from kovacic.mechanics.extrapolation import extrapolate
-from kovacic.mechanics.motion import solve_motion
-from kovacic.mechanics.plot import compare, draw
-from kovacic.mechanics.potential import central_gravity, compiled, potential_of
-from kovacic.mechanics.series import Primitive, cosine_series, divide, invert
-from kovacic.mechanics.theorems import rational_solutions
 
 POTENTIAL = sp.Rational(3, 2) * sp.cos(U)
 START = State(1.0, 0.1, 0.3, 1.2, 0.2, 0.5, 0.3, 2.0)
@@ -593,7 +593,7 @@ def test_ctrl_c_during_a_simulation_is_status_130_and_leaves_no_picture(tmp_path
 import sys
 from pathlib import Path
 from kovacic.cli import main
-from kovacic.mechanics import plot
+from kovacic.ball import plot
 compare = plot.compare
 def marked(*arguments, **options):
     Path({str(started)!r}).touch()

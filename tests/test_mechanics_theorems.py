@@ -9,12 +9,11 @@ import pytest
 import sympy as sp
 
 import kovacic
-from kovacic.errors import InputError
-from kovacic.mechanics import Ball, X, closed_form
-from kovacic.mechanics.closed import C1, C2, NumericBall, closed_form_in_roots
-from kovacic.mechanics.decision import decide, degree_of_omega, group_of, normalised
-from kovacic.mechanics.field import Ring
-from kovacic.mechanics.theorems import (
+from kovacic.ball import Ball, X, closed_form
+from kovacic.ball.closed import C1, C2, NumericBall, closed_form_in_roots
+from kovacic.ball.decision import decide, degree_of_omega, group_of, normalised
+from kovacic.ball.field import Ring
+from kovacic.ball.theorems import (
     constant_coefficients,
     double_root,
     exponents,
@@ -25,6 +24,7 @@ from kovacic.mechanics.theorems import (
     symbolic_ball,
     two_exponentials,
 )
+from kovacic.errors import InputError
 
 # m, R, a, A1, A3: complex roots; l < 0; a = 0; A1 = A3; homogeneous; real roots beyond -1 and beyond 1; a double root.
 BALLS = {
@@ -71,7 +71,7 @@ def test_every_step_of_the_proofs_holds_for_all_parameters(proof):
 
 def test_a_wrong_step_is_seen(monkeypatch):
     """The proof compares with the derived coefficients: a wrong radius makes it fail."""
-    from kovacic.mechanics.ball import BallOnSphere
+    from kovacic.ball.ball import BallOnSphere
 
     sphere = symbolic_ball()
     monkeypatch.setattr(BallOnSphere, "ratio", property(lambda self: 2 * self.ball.R / self.R1))

@@ -14,14 +14,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
+from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states, transition_matrix
+from kovacic.enclosure.frame import make_frame, ray_bound, shift_system
+from kovacic.enclosure.points import Point, as_point
+from kovacic.enclosure.singular import System, check_segment, distance_lower
+from kovacic.enclosure.transport import piece_matrices, product
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits
-from kovacic.numeric.ball import Ball, ball_from_flint, ball_to_flint
-from kovacic.numeric.evaluate import AccuracyWarning, evaluate, evaluate_states, transition_matrix
-from kovacic.numeric.frame import make_frame, ray_bound, shift_system
-from kovacic.numeric.points import Point, as_point
-from kovacic.numeric.singular import System, check_segment, distance_lower
-from kovacic.numeric.transport import piece_matrices, product
 
 AIRY = ([0, 1], [1])
 

@@ -14,14 +14,14 @@ from published import load
 import kovacic
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.doubles import double_double as dd
+from kovacic.doubles.accuracy import MEDIAN, WORST, measure, warn_unless_accurate
+from kovacic.doubles.lambdify import lambdify
+from kovacic.doubles.product_form import ProductForm
+from kovacic.doubles.tabulate import TabulatedFunction, tabulate
+from kovacic.enclosure.evaluate import AccuracyWarning, evaluate
+from kovacic.enclosure.problem import as_problem
 from kovacic.errors import InputError
-from kovacic.numeric import double_double as dd
-from kovacic.numeric.accuracy import MEDIAN, WORST, measure, warn_unless_accurate
-from kovacic.numeric.evaluate import AccuracyWarning, evaluate
-from kovacic.numeric.lambdify import lambdify
-from kovacic.numeric.problem import as_problem
-from kovacic.numeric.product_form import ProductForm
-from kovacic.numeric.tabulate import TabulatedFunction, tabulate
 
 TETRAHEDRAL = "(-32*x^2 + 27*x - 27)/(144*x^4 - 288*x^3 + 144*x^2)"
 ICOSAHEDRAL = "(-864*x^2 + 739*x - 675)/(3600*x^4 - 7200*x^3 + 3600*x^2)"

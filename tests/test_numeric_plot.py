@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from kovacic.cli.main import run
-from kovacic.numeric.ball import Ball
-from kovacic.numeric.plot import plot, sample
+from kovacic.enclosure.ball import Ball
+from kovacic.views.plot import plot, sample
 
 
 def test_samples_are_cut_at_singular_points_and_complex_beyond() -> None:
@@ -77,6 +77,6 @@ def test_ctrl_c_ends_the_command_without_a_picture(monkeypatch: pytest.MonkeyPat
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("kovacic.numeric.plot.evaluate_states", interrupted)
+    monkeypatch.setattr("kovacic.views.plot.evaluate_states", interrupted)
     assert run(["plot", "x", "--from", "0", "--to", "1", "-o", str(tmp_path / "a.png")]) == 130
     assert not (tmp_path / "a.png").exists()

@@ -10,21 +10,21 @@ from typing import Any
 import flint
 import pytest
 from published import load
+from transform import from_omega, from_squared_difference
 
 import kovacic
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.enclosure.agreement import agrees_with_group, compare, is_fuchsian
+from kovacic.enclosure.ball import ball_to_flint
+from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states
+from kovacic.enclosure.exponential import integral
+from kovacic.enclosure.monodromy import monodromy
+from kovacic.enclosure.problem import as_problem
+from kovacic.enclosure.transport import identity, multiply
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.galois import Ground, Group, Kind
 from kovacic.limits import Budget, Limits
-from kovacic.numeric.agreement import agrees_with_group, compare, is_fuchsian
-from kovacic.numeric.ball import ball_to_flint
-from kovacic.numeric.evaluate import AccuracyWarning, evaluate, evaluate_states
-from kovacic.numeric.exponential import integral
-from kovacic.numeric.monodromy import monodromy
-from kovacic.numeric.problem import as_problem
-from kovacic.numeric.transport import identity, multiply
-from kovacic.transform import from_omega, from_squared_difference
 
 PRIMITIVE = {
     "tetrahedral": "(-32*x^2 + 27*x - 27)/(144*x^4 - 288*x^3 + 144*x^2)",
@@ -114,7 +114,7 @@ def test_the_closed_form_asks_nothing_of_the_other_route(monkeypatch: pytest.Mon
         raise AssertionError("a Taylor step")
 
     solutions = [kovacic.solve(S) for S in (*PRIMITIVE.values(), "x^2 - 7", "(7*x^2 - 10)/(4*x^4 - 8*x^2 + 4)")]
-    monkeypatch.setattr("kovacic.numeric.transport.expand", forbidden)
+    monkeypatch.setattr("kovacic.enclosure.transport.expand", forbidden)
     for solution in solutions:
         evaluate(solution, [3, "1/3"], x0=2, y0=1, dy0=0, path=[1 + 1j], method="closed form")
         with pytest.raises(AssertionError, match="Taylor"):

@@ -11,18 +11,18 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from kovacic.enclosure import transport
+from kovacic.enclosure.ball import ball_to_flint
+from kovacic.enclosure.evaluate import evaluate, evaluate_states, transition_matrix
+from kovacic.enclosure.frame import Frame, make_frame, ray_to
+from kovacic.enclosure.points import Point
+from kovacic.enclosure.problem import as_problem
+from kovacic.enclosure.recurrence import LEAF, Recurrence, make_block, recurrence
+from kovacic.enclosure.singular import System
+from kovacic.enclosure.splitting import bit_burst, is_split, split_legs
+from kovacic.enclosure.taylor import Matrix, expand, transition
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits
-from kovacic.numeric import transport
-from kovacic.numeric.ball import ball_to_flint
-from kovacic.numeric.evaluate import evaluate, evaluate_states, transition_matrix
-from kovacic.numeric.frame import Frame, make_frame, ray_to
-from kovacic.numeric.points import Point
-from kovacic.numeric.problem import as_problem
-from kovacic.numeric.recurrence import LEAF, Recurrence, make_block, recurrence
-from kovacic.numeric.singular import System
-from kovacic.numeric.splitting import bit_burst, is_split, split_legs
-from kovacic.numeric.taylor import Matrix, expand, transition
 from tests.strategies import Example, examples, fractions, integers, nonzero
 
 AIRY = System.make((0, 1), (1,))

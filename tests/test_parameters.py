@@ -16,7 +16,7 @@ from kovacic.algebra.fields import QQ
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.solution import Status
+from kovacic.decision import Status
 from tests.parametric_cases import BALL
 
 K = FunctionField(("s", "t"))
@@ -195,7 +195,7 @@ def test_many_equations_whose_omega_is_chosen() -> None:
 def test_the_conditions_are_part_of_text_and_json() -> None:
     import json
 
-    from kovacic.io.text import render
+    from kovacic.views.text import render
 
     answer = kovacic.solve("(m^2*x^4 + (2*n+1)*m*x^2 + n^2 - n)/x^2", var="x")
     assert "m != 0, n != 0, n - 1 != 0" in render(answer)

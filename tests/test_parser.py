@@ -20,13 +20,13 @@ import kovacic
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
-from kovacic.io import compile_grammar
-from kovacic.io.automaton import run
-from kovacic.io.lexer import tokenize
-from kovacic.io.parser import parse_rational
-from kovacic.io.read import read_input
-from kovacic.io.tables import RULES
 from kovacic.limits import Limits
+from kovacic.reading import compile_grammar
+from kovacic.reading.automaton import run
+from kovacic.reading.lexer import tokenize
+from kovacic.reading.parser import parse_rational
+from kovacic.reading.read import read_input
+from kovacic.reading.tables import RULES
 
 # Far from every root that the small numbers of the strategies produce.
 POINTS = (Fraction(10007, 13), Fraction(-9973, 17))
@@ -490,4 +490,4 @@ def test_names_that_are_none(var: Any) -> None:
 
 
 def test_the_grammar_is_part_of_the_package() -> None:
-    assert Path(kovacic.__file__).parent / "io" / "grammar.lark" == compile_grammar.GRAMMAR
+    assert Path(kovacic.__file__).parent / "reading" / "grammar.lark" == compile_grammar.GRAMMAR

@@ -14,13 +14,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from kovacic.batch.grid import parse_grid, points, substitute
 from kovacic.batch.items import Record, label_of
+from kovacic.batch.map import draw_map
+from kovacic.batch.scan import scan, scan_items
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
-from kovacic.io.arithmetic import VARIABLE, Arithmetic
-from kovacic.io.parser import parse_rational, parse_with
-from kovacic.scan import parse_grid, scan, scan_items, substitute
-from kovacic.scan.grid import points
-from kovacic.scan.map import draw_map
+from kovacic.reading.arithmetic import VARIABLE, Arithmetic
+from kovacic.reading.parser import parse_rational, parse_with
 
 fractions = st.fractions(min_value=-50, max_value=50, max_denominator=30)
 

@@ -10,7 +10,7 @@ import pytest
 import sympy
 
 import kovacic
-from kovacic.io.equation_parser import parse_expression
+from kovacic.reading.equation_parser import parse_expression
 
 EQUATIONS: list[tuple[str, tuple[str, ...] | None]] = [
     # constant coefficients

@@ -1,4 +1,4 @@
-"""`kovacic.transform`: every transformation against what it does to a solution omega, and composition laws."""
+"""`transform`: every transformation against what it does to a solution omega, and composition laws."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from fractions import Fraction
 
 import pytest
 import strategies
+import transform
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from kovacic import transform
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc

@@ -12,7 +12,7 @@ from typing import Any
 
 from kovacic.errors import InputError, KovacicError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.result import Solution
+from kovacic.solution import Solution
 
 # What a record says about its equation in one word; the degree of omega is added in case 3.
 CASES = ("case 1", "case 2", "case 3 (4)", "case 3 (6)", "case 3 (12)")

@@ -103,7 +103,7 @@ def item_from(number: int, value: Any, *, var: str | None = None, limits: Limits
         return Item(number, value, var)
     if isinstance(value, Mapping):
         return _mapping_item(number, value, str(dict(value)), var)
-    from kovacic.io.read import read_input
+    from kovacic.reading.read import read_input
 
     try:
         parsed = read_input(value, var=var, limits=limits)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from kovacic.mechanics.ball import BallOnSphere
+    from kovacic.ball.ball import BallOnSphere
 
 
 _PICTURES = (".png", ".pdf", ".svg")
@@ -85,7 +85,7 @@ def command(
             raise click.UsageError("either --gravity or --potential")
         if plot is not None and not plot.lower().endswith(_PICTURES):
             raise click.BadParameter(f"{plot} doesn't end in one of {', '.join(_PICTURES)}", param_hint="--plot")
-        from kovacic.mechanics.ball import Ball, exact
+        from kovacic.ball.ball import Ball, exact
 
         standard = exact(mass, "m") * exact(radius, "R") ** 2 * exact("2/5", "2/5")
         ball = Ball(m=mass, R=radius, a=offset, A1=standard if a1 is None else a1, A3=standard if a3 is None else a3)
@@ -109,10 +109,10 @@ def _answer(S: Any) -> dict[str, Any]:
 
 
 def _by_ratio(text: str, latex: bool) -> dict[str, Any]:
+    from kovacic.ball.ball import exact
+    from kovacic.ball.closed import closed_form_in_roots
+    from kovacic.ball.theorems import printed_equations
     from kovacic.errors import InputError
-    from kovacic.mechanics.ball import exact
-    from kovacic.mechanics.closed import closed_form_in_roots
-    from kovacic.mechanics.theorems import printed_equations
 
     rho = exact(text, "R/R1")
     if rho == 0:
@@ -138,7 +138,7 @@ def _by_ratio(text: str, latex: bool) -> dict[str, Any]:
 
 
 def _by_parameters(sphere: BallOnSphere, latex: bool) -> dict[str, Any]:
-    from kovacic.mechanics.closed import closed_form
+    from kovacic.ball.closed import closed_form
 
     solution = closed_form(sphere)
     data: dict[str, Any] = {
@@ -170,11 +170,11 @@ def _simulate(
     try:
         import numpy as np
 
-        from kovacic.mechanics.direct import State
-        from kovacic.mechanics.motion import solve_motion
-        from kovacic.mechanics.plot import compare, draw
-        from kovacic.mechanics.potential import central_gravity, potential_of
-        from kovacic.mechanics.quantity import as_float
+        from kovacic.ball.direct import State
+        from kovacic.ball.motion import solve_motion
+        from kovacic.ball.plot import compare, draw
+        from kovacic.ball.potential import central_gravity, potential_of
+        from kovacic.ball.quantity import as_float
     except ModuleNotFoundError as error:
         raise click.ClickException(f"a motion needs NumPy and SciPy: pip install kovacic[numeric] ({error})") from error
 

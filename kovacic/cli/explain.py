@@ -31,7 +31,7 @@ def command(
     kovacic explain --markdown "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"
     """
     from kovacic.api import solve
-    from kovacic.solution import Status
+    from kovacic.decision import Status
 
     refuse_options(equations)
     chosen = parse_limits(limits)

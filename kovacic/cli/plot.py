@@ -47,7 +47,7 @@ def command(
     kovacic plot "x" --from -12 --to 2 -o airy.png
     kovacic plot "-1/x - 3/(16*x^2)" --from -3 --to 30 -o bessel.png
     """
-    from kovacic.numeric.plot import plot
+    from kovacic.views.plot import plot
 
     refuse_options((equation,))
     if output.suffix.lower() not in _PICTURES:

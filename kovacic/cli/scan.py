@@ -18,10 +18,10 @@ from kovacic.cli.options import parse_limits, refuse_options
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
+    from kovacic.batch.grid import Grid
     from kovacic.batch.items import Item, Record
     from kovacic.batch.summary import Summary
     from kovacic.cli.progress import ProgressMeter
-    from kovacic.scan.grid import Grid
 
 Write = Callable[["Record"], None]
 
@@ -72,11 +72,12 @@ def command(
     Exit status: 0 all decided, 3 some undecided, 2 some points where S isn't defined, 4 a self-check or a process failed.
     """
     from kovacic.batch import make_job, run_items
+    from kovacic.batch.grid import parse_grid
     from kovacic.batch.items import label_of
+    from kovacic.batch.map import draw_map
     from kovacic.batch.output import Done, stored, take_up
+    from kovacic.batch.scan import scan_items
     from kovacic.batch.summary import Summary
-    from kovacic.scan import parse_grid, scan_items
-    from kovacic.scan.map import draw_map
 
     refuse_options([expression, *ranges])
     grids = [parse_grid(text) for text in ranges]
@@ -116,7 +117,7 @@ def command(
 def _writer(stack: ExitStack, output: Path | None, form: str, grids: Sequence[Grid]) -> Write:
     """The function that writes a record, at once."""
     from kovacic.batch.output import Answers
-    from kovacic.scan.table import columns, row
+    from kovacic.batch.scan import columns, row
 
     if form == "jsonl" and output is not None:
         return stack.enter_context(Answers(output)).write

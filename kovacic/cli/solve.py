@@ -47,8 +47,8 @@ def command(
     kovacic solve --json "x" "1/x - 3/(16*x^2)"
     """
     from kovacic.api import solve
+    from kovacic.decision import Status
     from kovacic.errors import InputError, LimitExceeded, VerificationFailed
-    from kovacic.solution import Status
 
     refuse_options(equations)
     chosen = parse_limits(limits)
@@ -76,7 +76,7 @@ def command(
         elif explain:
             print(("" if first else "\n") + answer.explain(), end="", flush=True)
         else:
-            from kovacic.io.text import render
+            from kovacic.views.text import render
 
             print(("" if first else "\n") + render(answer, style=styled), flush=True)
         first = False

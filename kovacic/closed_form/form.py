@@ -12,7 +12,7 @@ from kovacic.errors import VerificationFailed
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from kovacic.result import Solution
+    from kovacic.solution import Solution
 
 EXACT = "exact"
 NUMERICAL = "numerical, 50 digits"

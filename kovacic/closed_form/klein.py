@@ -1,7 +1,7 @@
 """Case 3: Klein's form of the solutions, and the polynomial of a power of y.
 
 For the invariant F of least degree let H = Hess(F)/(m - 1) and T = Jac(F, H), with the normalisations of
-`kovacic.riccati`.  For y1 = 1, y2 = x of y'' = 0, and F = x - x^5, or 1 + 14 x^4 + x^8, or x + 11 x^6 - x^11, one finds
+`kovacic.engine.riccati`.  For y1 = 1, y2 = x of y'' = 0, and F = x - x^5, or 1 + 14 x^4 + x^8, or x + 11 x^6 - x^11, one finds
 
     tetrahedral   T^2 = -(64/5) H^3 + b F^4,      octahedral   T^2 = -(144/7) H^3 + b F^3 H,
     icosahedral   T^2 = -(400/11) H^3 + b F^5,
@@ -40,10 +40,10 @@ from functools import cached_property
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.product import Power, Product, product
+from kovacic.decision import SemiInvariant, Structure
+from kovacic.engine.places import Problem, analyse
+from kovacic.engine.riccati import Form, hessian, jacobian, normalised, root
 from kovacic.limits import Budget
-from kovacic.places import Problem, analyse
-from kovacic.riccati import Form, hessian, jacobian, normalised, root
-from kovacic.solution import SemiInvariant, Structure
 
 Monomials = dict[tuple[int, int], Fraction]
 

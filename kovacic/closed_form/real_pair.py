@@ -30,7 +30,7 @@ from kovacic.closed_form.partial_fractions import Residue
 from kovacic.closed_form.plain import Expr
 from kovacic.closed_form.product import Power, Product
 from kovacic.closed_form.structure import Conjugate
-from kovacic.places import rational_square_root
+from kovacic.engine.places import rational_square_root
 
 
 @dataclass(frozen=True)

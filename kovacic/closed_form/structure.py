@@ -18,7 +18,7 @@ from kovacic.closed_form.partial_fractions import Decomposition, decompose
 from kovacic.closed_form.primitive import Primitive, integrate_inverse_square
 from kovacic.closed_form.product import Product, product
 from kovacic.closed_form.torsion import completed
-from kovacic.solution import Decision, SemiInvariant, Structure
+from kovacic.decision import Decision, SemiInvariant, Structure
 
 
 @dataclass(frozen=True)

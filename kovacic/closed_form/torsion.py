@@ -29,12 +29,12 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.klein import singular_part
 from kovacic.closed_form.units import Unit
+from kovacic.decision import NoInvariant, SemiInvariant
+from kovacic.engine.invariants import invariants
+from kovacic.engine.places import Problem, analyse, rational_square_root
+from kovacic.engine.riccati import Form
 from kovacic.errors import LimitExceeded
-from kovacic.invariants import invariants
 from kovacic.limits import Budget, Limits
-from kovacic.places import Problem, analyse, rational_square_root
-from kovacic.riccati import Form
-from kovacic.solution import NoInvariant, SemiInvariant
 
 #: Seconds that the decision may take; beyond, the integral is left with that reason.
 SECONDS = 5.0

@@ -17,13 +17,13 @@ from fractions import Fraction
 from math import lcm
 
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import Decision, SemiInvariant, Structure
+from kovacic.engine.invariants import invariants
+from kovacic.engine.places import Problem, analyse
+from kovacic.engine.riccati import Form
 from kovacic.galois.group import Ground, Group, Kind
 from kovacic.galois.imprimitive import imprimitive_group
-from kovacic.invariants import invariants
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
-from kovacic.places import Problem, analyse
-from kovacic.riccati import Form
-from kovacic.solution import Decision, SemiInvariant, Structure
 
 _PRIMITIVE = {
     Structure.TETRAHEDRAL: Kind.TETRAHEDRAL,

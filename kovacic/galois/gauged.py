@@ -26,12 +26,12 @@ from kovacic.algebra.fields import Field, RationalField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rational_poly import to_fraction
+from kovacic.decision import Decision, SemiInvariant
+from kovacic.engine.places import analyse
 from kovacic.galois.decide import rational_residues
 from kovacic.galois.group import Ground, Group, Kind
 from kovacic.galois.imprimitive import Curve, curve_of
 from kovacic.limits import Budget
-from kovacic.places import analyse
-from kovacic.solution import Decision, SemiInvariant
 
 _COMMON_QUOTIENT = {Kind.TETRAHEDRAL: 3, Kind.OCTAHEDRAL: 2, Kind.ICOSAHEDRAL: 1}
 

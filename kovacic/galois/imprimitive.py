@@ -35,13 +35,13 @@ from kovacic.algebra.fields import BadPrimeError, Field, Homomorphism, RationalF
 from kovacic.algebra.jacobian import Jacobian
 from kovacic.algebra.modular import simple_roots, square_root
 from kovacic.algebra.poly import Poly
-from kovacic.cases.singular import residue
+from kovacic.decision import NoInvariant, SemiInvariant
+from kovacic.engine.invariants import invariants
+from kovacic.engine.places import Kind as PlaceKind
+from kovacic.engine.places import Problem
+from kovacic.engine.singular import residue
 from kovacic.errors import LimitExceeded
 from kovacic.galois.group import Ground, Group, Kind
-from kovacic.invariants import invariants
-from kovacic.places import Kind as PlaceKind
-from kovacic.places import Problem
-from kovacic.solution import NoInvariant, SemiInvariant
 
 #: Primes whose orders must agree before the invariants are asked.
 _AGREEING_PRIMES = 3

@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 from random import Random
 from typing import Any
 
-from kovacic import engine
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import Status
+from kovacic.engine.decide import decide
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
-from kovacic.io.read import read_input
 from kovacic.limits import Budget, Limits
 from kovacic.parametric import sampling
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
@@ -22,8 +22,8 @@ from kovacic.parametric.regions import Verdict
 from kovacic.parametric.restriction import UndefinedError, at_point
 from kovacic.parametric.slices import NO_CONSTANT
 from kovacic.parametric.statements import Point, Statement
-from kovacic.result import Solution
-from kovacic.solution import Status
+from kovacic.reading.read import read_input
+from kovacic.solution import Solution
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,7 @@ class Conditions:
             raise InputError(f"S isn't defined at {point}")
         if verdict.known:
             return verdict.case
-        decision = engine.decide(at_point(self.S, point), Budget(self.limits), certify=False)
+        decision = decide(at_point(self.S, point), Budget(self.limits), certify=False)
         if decision.status is Status.UNDECIDED:
             raise LimitExceeded(str(decision.undecided), limit="seconds")
         return decision.case
@@ -138,7 +138,7 @@ class Conditions:
             S = at_point(self.S, point)
         except UndefinedError:
             raise InputError(f"S isn't defined at {point}") from None
-        answer = Solution(S.to_str(self.variable), self.variable, S, engine.decide(S, Budget(self.limits)))
+        answer = Solution(S.to_str(self.variable), self.variable, S, decide(S, Budget(self.limits)))
         verified = bool(answer.verify())
         if not verified and answer.status is not Status.UNDECIDED:
             raise VerificationFailed(f"the answer for S = {S} failed its own check; please report it")
@@ -204,7 +204,7 @@ class Conditions:
             counts[2 if not predicted.known else 0 if special else 1] += 1
             if not predicted.known:
                 continue
-            decision = engine.decide(S, Budget(self.limits), certify=False)
+            decision = decide(S, Budget(self.limits), certify=False)
             if decision.status is not Status.UNDECIDED and decision.case != predicted.case:
                 disagreements.append(Disagreement(str(point), predicted.case, decision.case))
         return CheckReport(counts[0], counts[1], counts[2], tuple(disagreements))

@@ -6,11 +6,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from kovacic import engine
+from kovacic.decision import Decision, Status
+from kovacic.engine.decide import decide
 from kovacic.errors import InputError
-from kovacic.io.names import parameters_of
-from kovacic.io.parsed import Parsed
-from kovacic.io.read import read_input
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.answer import Condition, Conditions
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
@@ -18,7 +16,9 @@ from kovacic.parametric.partition import partition, verdict_of
 from kovacic.parametric.regions import Partition, Region, Settings, Verdict
 from kovacic.parametric.slices import reduced, with_free_constant
 from kovacic.parametric.statements import Both, Statement
-from kovacic.solution import Decision, Status
+from kovacic.reading.names import parameters_of
+from kovacic.reading.parsed import Parsed
+from kovacic.reading.read import read_input
 
 #: Seconds for the search where the limits don't say.
 DEFAULT_SECONDS = 30.0
@@ -80,7 +80,7 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
         generic, complete, regions = regions[always].verdict, regions[always].complete, regions[:always]
         complete = next((region.complete for region in regions if region.complete is not True), complete)
         if not generic.known:
-            generic = verdict_of(engine.decide(parsed.S, budget, certify=False))
+            generic = verdict_of(decide(parsed.S, budget, certify=False))
     return Conditions(
         lifted,
         parsed.variable,

@@ -1,11 +1,11 @@
 """Polynomial conditions for unknowns of bounded degree.
 
 A form F = Q0 P of degree m in the solutions, with a known Q0 and deg P <= N, exists for those parameter values at which the
-linear map P -> A_(m+1) of `kovacic.riccati` has a kernel; a solution exp(int theta) P, deg P = d, where P -> P'' + 2 theta P'
-+ (theta' + theta^2 - S) P has one.  Where the generic rank is r, it drops exactly at the common zeros of the r-minors.
-Random combinations of the minors (by the theorem of Cauchy and Binet, determinants of U M V) vanish there too, so that their
-common factors contain every such value; which of these values really are special is for the engine to say.
-"""
+linear map P -> A_(m+1) of `kovacic.engine.riccati` has a kernel; a solution exp(int theta) P, deg P = d, where
+P -> P'' + 2 theta P' + (theta' + theta^2 - S) P has one. Where the generic rank is r, it drops exactly at the common zeros
+of the r-minors. Random combinations of the minors (by the theorem of Cauchy and Binet, determinants of U M V) vanish there
+too, so that their common factors contain every such value; which of these values really are special is for the engine to
+say."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ from kovacic.algebra.fields import BadPrimeError
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.sparse import factorisation
-from kovacic.invariants import singular_part
+from kovacic.engine.invariants import singular_part
+from kovacic.engine.places import Kind, Place, Problem
+from kovacic.engine.riccati import Form
 from kovacic.parametric.pivots import without_constant_pivots
-from kovacic.places import Kind, Place, Problem
-from kovacic.riccati import Form
 
 #: Determinants whose common factors are taken.
 _DETERMINANTS = 3

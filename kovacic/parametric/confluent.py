@@ -21,9 +21,9 @@ from dataclasses import dataclass
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.engine.places import Kind, Problem
 from kovacic.parametric.formulas import shown
 from kovacic.parametric.statements import Statement, integer_roots
-from kovacic.places import Kind, Problem
 
 
 @dataclass(frozen=True)

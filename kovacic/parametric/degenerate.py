@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
+from kovacic.engine.places import Problem
 from kovacic.parametric.bounded import irreducible_factors, union
-from kovacic.places import Problem
 
 
 def undefined(problem: Problem) -> list[Poly]:

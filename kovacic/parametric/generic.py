@@ -15,11 +15,11 @@ from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.norms import norm
 from kovacic.algebra.poly import Poly
+from kovacic.engine.places import Kind, analyse
 from kovacic.limits import Budget
 from kovacic.parametric.bounded import denominators, irreducible_factors, union
 from kovacic.parametric.formulas import shown
-from kovacic.places import Kind, analyse
-from kovacic.result import Solution
+from kovacic.solution import Solution
 
 
 @dataclass(frozen=True)

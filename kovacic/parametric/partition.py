@@ -14,15 +14,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kovacic import engine
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.fields import QQ
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import Decision, Status, Structure
+from kovacic.engine.decide import decide
+from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
-from kovacic.io.text import omega_lines
 from kovacic.parametric import confluent, riemann
 from kovacic.parametric.bounded import (
     degrees_that_decide,
@@ -37,9 +38,8 @@ from kovacic.parametric.regions import Partition, Region, Settings, Verdict
 from kovacic.parametric.restriction import Restriction, UndefinedError, leading_factors, missed, on_hypersurface
 from kovacic.parametric.search import search
 from kovacic.parametric.statements import Both, Statement, Vanishes, either
-from kovacic.places import Problem, analyse
-from kovacic.result import Solution
-from kovacic.solution import Decision, Status, Structure
+from kovacic.solution import Solution
+from kovacic.views.text import omega_lines
 
 #: The degree of an algebraic number up to which its equation is solved, although it is known to be reducible.
 _WRITTEN_OUT = 2
@@ -50,7 +50,7 @@ _LONGEST_OMEGA = 300
 def partition(S: RatFunc, settings: Settings) -> Partition:
     """The partition for S over Q(t), or the single verdict for S over Q or Q(alpha)."""
     constants = S.field
-    decision = engine.decide(S, settings.budget, certify=False)
+    decision = decide(S, settings.budget, certify=False)
     generic = verdict_of(decision)
     if constants.ground == QQ:
         return Partition(S, (), (), generic, generic.known or str(decision.undecided), "the engine")
@@ -197,7 +197,7 @@ def _discriminants(problem: Problem, generic: Verdict, settings: Settings) -> li
     """Where the two solutions in a generic semi-invariant y1 y2 can coincide: where a constant, w^2, vanishes."""
     if generic.structure is not Structure.IMPRIMITIVE:
         return []
-    decision = engine.decide(problem.S, settings.budget)
+    decision = decide(problem.S, settings.budget)
     riccati = decision.riccati
     if riccati is None or riccati.P.field != problem.field:
         return []
@@ -269,7 +269,7 @@ def _inside(S: RatFunc, function: Poly, settings: Settings) -> Region:
     inner = replace(inner, regions=tuple(r for r in inner.regions if r.statement.text() not in elsewhere))
     omega, verdict = None, inner.generic
     if verdict.structure is not None:
-        decision = engine.decide(restriction.S, settings.budget)
+        decision = decide(restriction.S, settings.budget)
         omega = omega_text(restriction.S, decision, settings.variable)
         if not inner.names and not decision.undecided:
             verdict = replace(verdict, family=str(group_of(restriction.S, decision)))
@@ -284,7 +284,7 @@ def _on_algebraic(statement: Vanishes, restriction: Restriction, inner: Partitio
         return Region(statement, unknown, f"except for special values with {statement.text()}", restriction=restriction)
     omega = _RATIONAL_OMEGA
     if _height(statement.function) <= _WRITTEN_OUT:
-        decision = engine.decide(restriction.S, settings.budget)
+        decision = decide(restriction.S, settings.budget)
         omega = omega_text(restriction.S, decision, settings.variable) or omega
     return Region(statement, inner.generic, omega=omega, restriction=restriction)
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import Structure
 from kovacic.limits import Budget
 from kovacic.parametric.restriction import Restriction, UndefinedError
 from kovacic.parametric.statements import Point, Statement
-from kovacic.solution import Structure
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,8 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.traces import characteristic_polynomial
+from kovacic.decision import Structure
+from kovacic.engine.places import Kind, Place, Problem
 from kovacic.parametric.formulas import shown
 from kovacic.parametric.statements import (
     IntegerRoot,
@@ -37,8 +39,6 @@ from kovacic.parametric.statements import (
     rational,
     rational_roots,
 )
-from kovacic.places import Kind, Place, Problem
-from kovacic.solution import Structure
 
 _F = Fraction
 #: Schwarz's rows: the structure, the exponent differences modulo 1, and whether l + m + q must be even.

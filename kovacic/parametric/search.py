@@ -14,7 +14,8 @@ from itertools import product
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.cases.degree_bound import irregular_difference_squared
+from kovacic.engine.degree_bound import irregular_difference_squared
+from kovacic.engine.places import Kind, Place, Problem
 from kovacic.parametric.bounded import (
     form_conditions,
     irreducible_factors,
@@ -23,7 +24,6 @@ from kovacic.parametric.bounded import (
     rank_drops,
     union,
 )
-from kovacic.places import Kind, Place, Problem
 
 #: Places with exponents that depend on the parameters, above which combinations aren't tried.
 _VARIABLE_PLACES = 3

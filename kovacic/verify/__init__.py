@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.solution import Decision, Status, Structure
+from kovacic.decision import Decision, Status, Structure
 from kovacic.verify.evidence import Inspector
 from kovacic.verify.identity import solves_riccati
 

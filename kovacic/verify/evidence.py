@@ -22,7 +22,7 @@ from kovacic.algebra.modular import (
     translate,
 )
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.solution import (
+from kovacic.decision import (
     Evidence,
     NecessaryCondition,
     NoInvariant,

@@ -15,7 +15,7 @@ which is trivial for k = 0.
 from __future__ import annotations
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.solution import RiccatiPolynomial
+from kovacic.decision import RiccatiPolynomial
 
 
 def solves_riccati(S: RatFunc, M: RiccatiPolynomial) -> bool:

@@ -1,0 +1,163 @@
+"""Results: what was found, and what was excluded by which evidence.  Frozen, comparable and picklable; no computing here.
+
+The structures that the Galois group of y'' = S y can have, in the order in which they are tested [Kovacic 1986, sec. 1.2]:
+reducible (case 1), imprimitive (case 2), and the three primitive finite groups (case 3); otherwise it is SL2(C) and there is
+no Liouvillian solution.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+
+
+class Status(Enum):
+    """What is known about the Liouvillian solutions of an equation."""
+
+    LIOUVILLIAN = "liouvillian"
+    NONE_EXISTS = "none"
+    UNDECIDED = "undecided"
+
+
+class Structure(Enum):
+    """A structure of the Galois group under which Liouvillian solutions exist."""
+
+    REDUCIBLE = "reducible"
+    IMPRIMITIVE = "imprimitive"
+    TETRAHEDRAL = "tetrahedral"
+    OCTAHEDRAL = "octahedral"
+    ICOSAHEDRAL = "icosahedral"
+
+    @property
+    def case(self) -> int:
+        """Kovacic's case."""
+        return {"reducible": 1, "imprimitive": 2}.get(self.value, 3)
+
+
+class Rule(Enum):
+    """The necessary conditions that can fail; the value says what is the case instead."""
+
+    RAMIFIED = "an irregular singular point is ramified, so no solution has a rational logarithmic derivative"
+    LOGARITHM = (
+        "a solution has a logarithm, so the group contains a unipotent element and is infinite and not imprimitive"
+    )
+    TOO_FEW_BRANCH_POINTS = "fewer than two places can be branch points of the square root of an invariant"
+    IRREGULAR = "an irregular singular point makes the group infinite"
+    EXPONENTS = "the exponent differences aren't those of a group of this kind"
+    NOT_A_SQUARE = "the exponents at a place aren't rational over the field of its poles"
+
+
+@dataclass(frozen=True)
+class NecessaryCondition:
+    """A structure is excluded by local data alone: `rule`, at the places with these factors or at "infinity"."""
+
+    rule: Rule
+    places: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class NoInvariant:
+    """There is no rational invariant of this degree.
+
+    Either the least valuations leave no room (prime None), or the linear system for the coefficients has nullity 0
+    modulo `prime`, for invariants prod p^(v_p) P with deg P <= `degree`, expanded at the integer `point`.
+    """
+
+    invariant_degree: int
+    prime: int | None = None
+    point: int = 0
+    degree: int = -1
+
+
+@dataclass(frozen=True)
+class NoRationalOmega:
+    """There is no unique rational omega = R/D + P'/P.
+
+    The degree of P is at most `degree` by the exponents; if that is negative nothing else is needed (prime None).
+    Else, modulo `prime`, none of the expansions that omega can have at the least root of the factor `place` ("infinity" for
+    infinity) is that of a rational function of the bounded degree.
+    """
+
+    degree: int
+    prime: int | None = None
+    place: str = ""
+
+
+Evidence = NecessaryCondition | NoInvariant | NoRationalOmega
+
+
+@dataclass(frozen=True)
+class Exclusion:
+    """A structure that the group provably doesn't have, and why."""
+
+    structure: Structure
+    evidence: tuple[Evidence, ...]
+
+
+@dataclass(frozen=True)
+class SemiInvariant:
+    """A form f of degree `degree` in the solutions with f'/f = theta + P'/P; P has its zeros at ordinary points.
+
+    Its linear factors are the solutions whose logarithmic derivatives are the conjugates of omega.
+    """
+
+    degree: int
+    theta: RatFunc
+    P: Poly
+
+    @property
+    def logarithmic_derivative(self) -> RatFunc:
+        """f'/f, the sum of the conjugates of omega."""
+        return self.theta + RatFunc(self.P.derivative(), self.P)
+
+
+@dataclass(frozen=True)
+class RiccatiPolynomial:
+    """`sum_k (-1)^k A_k/(P D^k) W^(m-k)`, the monic polynomial of omega, with A_0 = P."""
+
+    P: Poly
+    D: Poly
+    numerators: tuple[Poly, ...]
+
+    @property
+    def degree(self) -> int:
+        return len(self.numerators) - 1
+
+    @property
+    def coefficients(self) -> tuple[RatFunc, ...]:
+        """The coefficients of W^0, ..., W^m in lowest terms; the last one is 1."""
+        m = self.degree
+        return tuple(
+            RatFunc(self.numerators[k] * (-1) ** k, self.P * self.D**k) if k else RatFunc(self.P.field.poly([1]))
+            for k in range(m, -1, -1)
+        )
+
+
+@dataclass(frozen=True)
+class Decision:
+    """The engine's outcome: the structure that the group has, or None, and everything that was excluded before it.
+
+    `semi_invariant` and `riccati` belong to omega; `invariant` is the rational form that showed the structure (None where
+    omega was unique).  `undecided` is a sentence when a limit was reached, and then nothing but the exclusions is claimed.
+    """
+
+    structure: Structure | None
+    exclusions: tuple[Exclusion, ...]
+    invariant: SemiInvariant | None = None
+    semi_invariant: SemiInvariant | None = None
+    riccati: RiccatiPolynomial | None = None
+    undecided: str | None = None
+
+    @property
+    def status(self) -> Status:
+        if self.undecided is not None:
+            return Status.UNDECIDED
+        return Status.NONE_EXISTS if self.structure is None else Status.LIOUVILLIAN
+
+    @property
+    def case(self) -> int | None:
+        """Kovacic's case, 1 to 3; None if there is no Liouvillian solution, or if that is undecided."""
+        return None if self.structure is None else self.structure.case

@@ -1,0 +1,250 @@
+"""From the certificate of a solution to its product form in double precision.
+
+- Case 1: y = exp(int theta) P; residues are exponents, poles of higher order go into the exponential.
+- Case 2 on a rational curve s^2 = g: y'/y = phi/2 +- kappa r/s with f = y1 y2, phi = f'/f, and
+  r/s = (C s)' + (sum of rho(a)/(x - a) + rest)/s.  In the parameter t of `kovacic.doubles.conic`, a simple pole a of phi/2
+  with residue mu contributes (t - t_a)^mu (t - t_a')^mu D^(-mu), and rho(a)/((x - a) s) has the residues +-rho(a)/s_a at
+  t_a and t_a'.  So
+
+      y = prod (t - t_a)^(mu + epsilon) (t - t_a')^(mu - epsilon) * D^(-sum mu) * (infinity) * exp(+-kappa C s),       (1)
+
+  epsilon = +-kappa rho(a)/s_a; where sigma = -1, kappa stands for kappa/i and C for -C.  At a zero of f, where powers of
+  x - a would cancel, the exponents come out as 0 and 1.  `rest` (deg g = 2) gives t^(+-kappa rest) on the hyperbola and
+  exp(-+2 kappa rest arctan t) on the ellipse.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from kovacic.closed_form.partial_fractions import decompose
+from kovacic.closed_form.structure import OnCurve, build
+from kovacic.doubles.conic import ExactConic, Shape, conic_of
+from kovacic.doubles.double_double import Complex, pair_of
+from kovacic.doubles.product_form import Factor, ProductForm, RationalFunction
+from kovacic.doubles.region import Region
+from kovacic.enclosure.certificate import Exponential, exponentials, omega, value
+from kovacic.enclosure.closed_form import closed_form_of
+from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, zeros
+from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.problem import NumericProblem
+
+if TYPE_CHECKING:
+    from flint import acb, acb_poly
+
+    from kovacic.algebra.ratfunc import RatFunc
+
+_SAME = 2.0**-60
+"""Balls this close together are the same point or exponent: distinct ones were separated at a far higher precision."""
+
+_WHOLE = 16
+"""Natural exponents up to here are multiplied out."""
+
+_MAX_ZEROS = 200
+"""Polynomials of a higher degree are not split into their zeros (which takes degree^4 time)."""
+
+Powers = list[tuple["acb", "acb"]]
+"""(zeta, exponent)"""
+
+
+def product_form(problem: NumericProblem, which: int, region: Region, base: Point) -> ProductForm | None:
+    """The solution number `which` as a product, at a working precision of some 200 bits; None where there is no such form.
+
+    None means case 3, case 2 on a curve of positive genus or for complex arguments, and polynomials of degree above 200.
+    """
+    branches = exponentials(problem)
+    if branches:
+        return _exponential(branches[which], region, base)
+    return _on_curve(problem, which, region, base) if region.is_real else None
+
+
+def gauge_form(gauge: RatFunc, region: Region, base: Point) -> ProductForm:
+    """exp(int gauge) as a product, the factor between an equation and its normal form."""
+    form = _exponential(Exponential(gauge, gauge.field.poly([1]), 0), region, base)
+    assert form is not None
+    return form
+
+
+def _exponential(branch: Exponential, region: Region, base: Point) -> ProductForm | None:
+    if branch.P.degree > _MAX_ZEROS:
+        return None
+    c = branch.constant()
+    theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
+    powers = [(pole.zeta, pole.coefficients[0]) for pole in theta.poles] + _zeros_of(branch.P, c)
+    polar = [
+        (pole.zeta, -coefficient / (k - 1), k - 1)
+        for pole in theta.poles
+        for k, coefficient in enumerate(pole.coefficients[1:], start=2)
+    ]
+    is_real = region.is_real and _all_real([*theta.num.coeffs(), *theta.den.coeffs(), *P.coeffs()])
+    return ProductForm(
+        region,
+        base,
+        _factors(powers, to_acb(base), is_real),
+        _rational(theta.primitive, polar),
+        RationalFunction((), ()),
+        None,
+        is_real,
+    )
+
+
+def _zeros_of(P: Any, c: acb | None) -> Powers:
+    from flint import acb
+
+    return [(z, acb(k)) for z, k in zeros(P, c)]
+
+
+def _all_real(values: list[acb]) -> bool:
+    return all(v.imag.contains(0) for v in values)
+
+
+def _rational(polynomial: acb_poly, polar: list[tuple[acb, acb, int]]) -> RationalFunction:
+    terms = tuple((_complex(a), _complex(c), k) for a, c, k in polar if not c.is_zero())
+    return RationalFunction(tuple(_complex(v) for v in reversed(polynomial.coeffs())), terms)
+
+
+def _complex(z: acb) -> Complex:
+    imag = (0.0, 0.0) if z.imag.contains(0) else pair_of(z.imag)
+    return pair_of(z.real), imag
+
+
+def _factors(powers: Powers, base: acb, is_real: bool) -> tuple[Factor, ...]:
+    """The factors (t - zeta)^power; for a real function, those of the closed upper half-plane, with their conjugates."""
+    from flint import acb
+
+    found = []
+    for zeta, power in powers:
+        if power.abs_upper() < _SAME or (is_real and zeta.imag < 0):
+            continue
+        d = base - zeta
+        turn = acb(1) if d.contains(0) else d / abs(d)
+        paired = is_real and not zeta.imag.contains(0)
+        found.append(Factor(_complex(zeta), _complex(power), _complex(turn), _whole(power), paired))
+    return tuple(found)
+
+
+def _whole(power: acb) -> int | None:
+    k = round(float(power.real.mid()))
+    return k if 1 <= k <= _WHOLE and (power - k).abs_upper() < _SAME else None
+
+
+@dataclass(frozen=True)
+class _Place:
+    """A point a of the x-line with its residues: mu of phi/2, and rho of r."""
+
+    a: acb
+    mu: acb
+    rho: acb
+
+
+def _on_curve(problem: NumericProblem, which: int, region: Region, base: Point) -> ProductForm | None:
+    """Equation (1), or None."""
+    closed = closed_form_of(problem)
+    if closed.case != 2 or closed.P.degree > _MAX_ZEROS or _branch_points(closed.theta) > 2:
+        return None
+    form = build(closed.S, closed.decision, closed.S * 0)
+    assert isinstance(form, OnCurve)
+    c = conjugates(closed.P.field)[0]
+    z = to_acb(base)
+    conic = conic_of(embed(form.integral.g, c), z.real)
+    if conic is None or not form.integral.is_elementary:
+        return None
+    kappa = (embed(form.kappa_squared, c)(0) * conic.sigma).sqrt()
+    even = closed.theta / 2 if problem.gauge is None else closed.theta / 2 + problem.gauge
+    # Which sign is the solution number `which`?  y'/y = (even part) + kappa r/s for the sign of kappa found here.
+    average = value(even, c, z) + value(_slope(closed.P), c, z) / 2
+    odd = kappa * value(form.integral.integrand, c, z) / conic.root(z)
+    target = omega(problem, which, base, 200)
+    if not (average + odd).overlaps(target):
+        kappa, odd = -kappa, -odd
+    if not (average + odd).overlaps(target) or (average - odd).overlaps(target):
+        raise ArithmeticError("the closed form doesn't belong to the polynomial of omega")
+    smooth = LogDerivative.make(even, c)
+    places = _places(smooth, closed.P, form.integral.residues, c)
+    rest = embed(form.integral.rest, c)(0) if form.integral.rest else z * 0
+    polar = [
+        (pole.zeta, -coefficient / (k - 1), k - 1)
+        for pole in smooth.poles
+        for k, coefficient in enumerate(pole.coefficients[1:], start=2)
+    ]
+    is_real = _all_real([kappa]) and _all_real([*embed(closed.P, c).coeffs(), *smooth.num.coeffs()])
+    parameters = conic.parameters(z, conic.root(z))
+    assert parameters is not None
+    return ProductForm(
+        region,
+        base,
+        _factors(_powers(places, conic, kappa, rest), parameters[0], is_real),
+        _rational(smooth.primitive, polar),
+        _sheet(form.integral.exact, kappa * conic.sigma, c),
+        conic.rounded(),
+        is_real,
+    )
+
+
+def _slope(P: Any) -> RatFunc:
+    from kovacic.algebra.ratfunc import RatFunc
+
+    return RatFunc(P.derivative(), P)
+
+
+def _branch_points(theta: RatFunc) -> int:
+    """The degree of g: the number of points where y1 y2 has a half-integer exponent."""
+    return sum(
+        residue.factor.degree
+        for residue in decompose(theta * 2).residues
+        if residue.is_constant
+        and (exponent := residue.value.field.rational_value(residue.value)) is not None
+        and exponent.numerator % 2
+    )
+
+
+def _places(smooth: LogDerivative, P: Any, residues: tuple[Any, ...], c: acb | None) -> list[_Place]:
+    from flint import acb
+
+    zero = acb(0)
+    found = [_Place(pole.zeta, pole.coefficients[0], zero) for pole in smooth.poles]
+    found += [_Place(a, k / 2, zero) for a, k in _zeros_of(P, c)]
+    for residue in residues:
+        for a, _ in zeros(residue.factor, c):
+            found.append(_Place(a, zero, embed(residue.value, c)(a)))
+    merged: list[_Place] = []
+    for place in found:
+        same = [k for k, other in enumerate(merged) if (other.a - place.a).abs_upper() < _SAME * (1 + abs(place.a))]
+        if same:
+            other = merged[same[0]]
+            merged[same[0]] = _Place(other.a, other.mu + place.mu, other.rho + place.rho)
+        else:
+            merged.append(place)
+    return merged
+
+
+def _powers(places: list[_Place], conic: ExactConic, kappa: acb, rest: acb) -> Powers:
+    """The exponents in t of (1)."""
+    from flint import acb
+
+    total, i = acb(0), acb(0, 1)
+    found: Powers = []
+    for place in places:
+        s = conic.root(place.a)
+        total += place.mu
+        parameters = conic.parameters(place.a, s)
+        if parameters is None:
+            continue
+        epsilon = acb(0) if place.rho.is_zero() else kappa * place.rho / s
+        found += [(parameters[0], place.mu + epsilon), (parameters[1], place.mu - epsilon)]
+    if conic.shape is Shape.HYPERBOLA:
+        found.append((acb(0), kappa * rest - total))
+    elif conic.shape is Shape.ELLIPSE:
+        found += [(i, i * kappa * rest - total), (-i, -i * kappa * rest - total)]
+    return found
+
+
+def _sheet(exact: RatFunc, kappa: acb, c: acb | None) -> RationalFunction:
+    """kappa C."""
+    if not exact:
+        return RationalFunction((), ())
+    quotient, _ = divmod(exact.num, exact.den)
+    parts = LogDerivative.make(exact, c)
+    polar = [(pole.zeta, kappa * v, k) for pole in parts.poles for k, v in enumerate(pole.coefficients, start=1)]
+    return _rational(embed(quotient, c) * kappa, polar)

@@ -1,0 +1,120 @@
+"""Where a double-precision function is defined: a real interval, or a rectangle of the complex plane."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from kovacic.enclosure.points import Point, as_point, to_acb
+from kovacic.enclosure.problem import NumericProblem, clear_denominators
+from kovacic.errors import InputError
+
+if TYPE_CHECKING:
+    from flint import acb
+
+_PREC = 240
+
+
+@dataclass(frozen=True)
+class Region:
+    """A real interval [low, high], or the closed rectangle with these corners (lower left, upper right).
+
+    `singular` says which of the two are singular points, where there is no value.
+    """
+
+    low: complex
+    high: complex
+    singular: tuple[bool, bool] = (False, False)
+
+    @property
+    def is_real(self) -> bool:
+        """Is this an interval of the real axis?"""
+        return self.low.imag == 0 == self.high.imag
+
+    def points(self, x: Any) -> Any:
+        """The argument as an array of doubles or complex doubles; raises InputError where it leaves the region."""
+        import numpy as np
+
+        points = np.asarray(x)
+        if not np.issubdtype(points.dtype, np.number):
+            raise InputError(f"the argument isn't numerical ({points.dtype})")
+        if self.is_real and np.iscomplexobj(points):
+            raise InputError(
+                "complex arguments need a rectangle of the complex plane", hint="give two opposite corners as interval"
+            )
+        points = points.astype(float if self.is_real else complex)
+        inside = (points.real >= self.low.real) & (points.real <= self.high.real)
+        inside &= (points.imag >= self.low.imag) & (points.imag <= self.high.imag)
+        for end, singular in zip((self.low, self.high), self.singular, strict=True):
+            if singular:
+                inside &= points != end
+        if not np.all(inside):
+            shown = (self.low.real, self.high.real) if self.is_real else (self.low, self.high)
+            raise InputError(f"a point lies outside of the interval {shown} of this function, or on a singular point")
+        return points
+
+
+def region_of(problem: NumericProblem, interval: tuple[object, object]) -> tuple[Region, list[Point]]:
+    """The region in doubles, inside the exact one, and some points near its middle.
+
+    Raises InputError if it is empty, or contains a singular point other than its two ends.
+    """
+    from flint import ctx
+
+    try:
+        first, second = interval
+    except (TypeError, ValueError):
+        raise InputError("the interval must be a pair of numbers") from None
+    a, b = (as_point(v, "an end of the interval") for v in (first, second))
+    low, high = Point(min(a.re, b.re), min(a.im, b.im)), Point(max(a.re, b.re), max(a.im, b.im))
+    if a == b or (a.is_real() and b.is_real() and a != low):
+        raise InputError("the interval is empty", hint="give two real numbers, the smaller one first")
+    with ctx.workprec(_PREC):
+        singular = _singular_ends(problem, low, high)
+    corners = complex(_up(low.re), _up(low.im)), complex(_down(high.re), _down(high.im))
+    if corners[0].real > corners[1].real or corners[0].imag > corners[1].imag:
+        raise InputError("the interval contains no double")
+    near = [low + (high - low).scaled(Fraction(k, 64)) for k in (32, 31, 34, 27, 39)]
+    return Region(*corners, singular), near
+
+
+def hull(region: Region, point: Point) -> Region:
+    """The least rectangle that contains the region and the point (to double precision)."""
+    z = complex(float(point.re), float(point.im))
+    low = complex(min(region.low.real, z.real), min(region.low.imag, z.imag))
+    high = complex(max(region.high.real, z.real), max(region.high.imag, z.imag))
+    return Region(low, high)
+
+
+def _singular_ends(problem: NumericProblem, low: Point, high: Point) -> tuple[bool, bool]:
+    at_low = at_high = False
+    systems = [problem.system] if problem.gauge is None else [problem.system, clear_denominators(problem.gauge)]
+    for system in systems:
+        for root, _ in system.roots("den", _PREC):
+            here, there = root.overlaps(to_acb(low)), root.overlaps(to_acb(high))
+            at_low, at_high = at_low or here, at_high or there
+            if not (here or there) and _inside(root, low, high):
+                text = root.real.mid().str(12, radius=False)
+                text += "" if root.imag.contains(0) else f" + {root.imag.mid().str(12, radius=False)}i"
+                raise InputError(f"the interval contains the singular point {text}")
+    return at_low, at_high
+
+
+def _inside(root: acb, low: Point, high: Point) -> bool:
+    a, b = to_acb(low), to_acb(high)
+    return not (root.real < a.real or root.real > b.real or root.imag < a.imag or root.imag > b.imag)
+
+
+def _up(value: Fraction) -> float:
+    """The least double that isn't below the value."""
+    try:
+        near = float(value)
+    except OverflowError:
+        raise InputError("an end of the interval is beyond the range of doubles") from None
+    return near if Fraction(near) >= value else math.nextafter(near, math.inf)
+
+
+def _down(value: Fraction) -> float:
+    return 0.0 - _up(-value)

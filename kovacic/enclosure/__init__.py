@@ -1,0 +1,1 @@
+"""Values of solutions with proven error bounds; `evaluate` is the entry."""

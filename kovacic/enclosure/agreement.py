@@ -1,0 +1,292 @@
+"""Does the monodromy agree with the differential Galois group?  A test of the engine by numbers, with proofs in balls.
+
+What a verdict means:
+- False is a proof that the group G isn't the one that was claimed.
+- True: nothing contradicts it, and everything that can be seen in matrices was seen (the reason says what that is).
+- None: the matrices can't tell, at this precision or at all.
+
+Mathematics.  The monodromy group H is contained in G, and G is its Zariski closure where the equation is Fuchsian
+[Schlesinger].  The proper algebraic subgroups of SL2(C) are reducible, or contained in N(T), or one of the three primitive
+finite groups, and with A, B running through generators of H and their products,
+
+    reducible   => tr [A, B] = 2 (a common eigenvector),            diagonal => [A, B] = 1,                     (1)
+    within N(T) => [A^2, B^2] = 1 (squares are diagonal),           finite   => tr A = 2 cos(2 pi k/m), not 2 unless A = 1,
+
+so a ball that excludes one of these excludes the groups on its left.  All three together prove that the group is SL2(C).
+A finite group is enumerated: under the claim the traces are those of G, two elements are equal when the trace of their
+quotient is 2, and so many balls that exclude the others decide equality; then H must have as many elements of each
+trace as G.
+
+References: M. van der Put and M. F. Singer, "Galois Theory of Linear Differential Equations" (2003), ch. 5; Kovacic (1986).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+from kovacic.enclosure.ball import ball_to_flint
+from kovacic.enclosure.monodromy import LocalMonodromy, monodromy
+from kovacic.enclosure.problem import as_problem
+from kovacic.enclosure.singular import System
+from kovacic.enclosure.transport import adjugate, identity, multiply
+from kovacic.errors import InputError
+from kovacic.galois import Group, Kind
+from kovacic.limits import Limits
+from kovacic.solution import Solution
+
+if TYPE_CHECKING:
+    from flint import acb
+
+    from kovacic.enclosure.taylor import Matrix
+
+_LARGEST = 400
+"""The largest finite group that is enumerated."""
+
+_WORDS = 12
+"""The number of products that are compared with one another."""
+
+_BITS = 400
+
+_HIGHEST_ORDER = 120
+"""Eigenvalues are compared with roots of unity up to this order."""
+
+_DIAGONAL = (Kind.CYCLIC, Kind.MULTIPLICATIVE)
+_TRIANGULAR = (*_DIAGONAL, Kind.ADDITIVE, Kind.BOREL)
+_IMPRIMITIVE = (Kind.DICYCLIC, Kind.INFINITE_DIHEDRAL, Kind.IMPRIMITIVE)
+#: The number of elements of trace 2 cos(2 pi angle) by the angle, at most 1/2.
+_PRIMITIVE = {
+    Kind.TETRAHEDRAL: {"0": 1, "1/2": 1, "1/4": 6, "1/3": 8, "1/6": 8},
+    Kind.OCTAHEDRAL: {"0": 1, "1/2": 1, "1/4": 18, "1/3": 8, "1/6": 8, "1/8": 6, "3/8": 6},
+    Kind.ICOSAHEDRAL: {
+        "0": 1,
+        "1/2": 1,
+        "1/4": 30,
+        "1/3": 20,
+        "1/6": 20,
+        "1/5": 12,
+        "2/5": 12,
+        "1/10": 12,
+        "3/10": 12,
+    },
+}
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """`verdict` is True, False (a proof) or None (the matrices can't tell); `reason` is a sentence."""
+
+    verdict: bool | None
+    reason: str
+
+
+def agrees_with_group(
+    solution: Solution, group: Group | None = None, *, digits: int = 15, limits: Limits | None = None
+) -> Agreement:
+    """Does the monodromy of y'' = S y agree with `group`, by default with the one that the engine found?
+
+    Raises InputError if there is no group (an undecided equation), and what `monodromy` raises.
+
+    >>> import kovacic
+    >>> from kovacic.galois import Ground
+    >>> equation = kovacic.solve("-3/(16*x^2)")
+    >>> agrees_with_group(equation)
+    Agreement(verdict=True, reason='the monodromy group has 4 elements, with the traces of mu_4')
+    >>> agrees_with_group(equation, Group(Kind.CYCLIC, Ground.RESIDUES, 2)).verdict
+    False
+    """
+    group = solution.group if group is None else group
+    if group is None:
+        raise InputError("the equation is undecided, so there is no group to compare with")
+    system = as_problem(solution).system
+    fuchsian = is_fuchsian(system)
+    if not fuchsian and group.finite:
+        return Agreement(False, "an irregular singular point makes the group infinite")
+    return compare(monodromy(solution, digits=digits, limits=limits), group, fuchsian)
+
+
+def is_fuchsian(system: System) -> bool:
+    """Are all singular points, with infinity, regular?"""
+    regular = all(multiplicity <= 2 for _, multiplicity in system.roots("den", 64))
+    return regular and (not system.num or len(system.num) - len(system.den) <= -2)
+
+
+def compare(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> Agreement:
+    """The verdict from the matrices; `fuchsian` says that their Zariski closure is the group."""
+    from flint import ctx
+
+    with ctx.workprec(_BITS):
+        generators = [_matrix(item) for item in local]
+        angles = _angles(group)
+        if angles is not None:
+            return _enumerate(generators, angles, group)
+        if not generators:
+            return Agreement(None, "there is no finite singular point, so the monodromy is trivial")
+        return _families(_words(generators), group, fuchsian)
+
+
+def _matrix(local: LocalMonodromy) -> Matrix:
+    (a, b), (c, d) = local.matrix
+    return ball_to_flint(a), ball_to_flint(b), ball_to_flint(c), ball_to_flint(d)
+
+
+def _angles(group: Group) -> dict[Fraction, int] | None:
+    """The numbers of elements with the eigenvalues exp(+-2 pi i angle), or None for an infinite or a large group."""
+    if group.kind in _PRIMITIVE:
+        return {Fraction(angle): count for angle, count in _PRIMITIVE[group.kind].items()}
+    if group.order is None or group.n is None or group.order > _LARGEST:
+        return None
+    n = group.n if group.kind is Kind.CYCLIC else 2 * group.n
+    found = Counter(min(Fraction(k, n), 1 - Fraction(k, n)) for k in range(n))
+    if group.kind is Kind.DICYCLIC:
+        found[Fraction(1, 4)] += n
+    return dict(found)
+
+
+def _enumerate(generators: list[Matrix], angles: dict[Fraction, int], group: Group) -> Agreement:
+    """A finite group: its elements by their traces."""
+    traces = {angle: _cosine(angle) for angle in angles}
+    order = sum(angles.values())
+    elements, found, position = [identity()], Counter([Fraction(0)]), 0
+    while position < len(elements):
+        for generator in generators:
+            candidate = multiply(generator, elements[position])
+            own = [angle for angle, value in traces.items() if _trace(candidate).overlaps(value)]
+            if not own:
+                return Agreement(False, f"the monodromy group has an element whose trace isn't one of {group}")
+            quotients = [multiply(candidate, adjugate(other)) for other in elements]
+            equal = [_is_identity(quotient, traces) for quotient in quotients]
+            if any(same and not _may_be_identity(q) for same, q in zip(equal, quotients, strict=True)):
+                return Agreement(False, f"the monodromy group has a unipotent element, unlike {group}")
+            if len(own) > 1 or (None in equal and True not in equal):
+                return Agreement(None, "the matrices aren't known well enough to tell the elements apart")
+            if True in equal:
+                continue
+            elements.append(candidate)
+            found[own[0]] += 1
+            if len(elements) > order:
+                return Agreement(False, f"the monodromy group has more elements than {group}")
+        position += 1
+    if found != Counter(angles):
+        return Agreement(False, f"the monodromy group has {len(elements)} elements, with other traces than {group}")
+    plural = "element" if order == 1 else "elements"
+    return Agreement(True, f"the monodromy group has {order} {plural}, with the traces of {group}")
+
+
+def _is_identity(matrix: Matrix, traces: dict[Fraction, acb]) -> bool | None:
+    """Is an element of a group with these traces the identity?  None if its ball leaves that open."""
+    trace = _trace(matrix)
+    if not trace.overlaps(traces[Fraction(0)]):
+        return False
+    others = any(trace.overlaps(value) for angle, value in traces.items() if angle)
+    return None if others else True
+
+
+def _families(words: list[Matrix], group: Group, fuchsian: bool) -> Agreement:
+    """An infinite group (or a large one): the conditions (1)."""
+    commutators = [_commutator(a, b) for a, b in combinations(words, 2)]
+    commuting = all(_may_be_identity(c) for c in commutators)
+    reducible = all(_trace(c).overlaps(_two()) for c in commutators)
+    monomial = all(_may_be_identity(_commutator(_square(a), _square(b))) for a, b in combinations(words, 2))
+    if group.kind in _TRIANGULAR and not reducible:
+        return Agreement(False, f"the monodromy matrices have no common eigenvector, unlike {group}")
+    if group.kind in _DIAGONAL and not commuting:
+        return Agreement(False, f"the monodromy matrices don't commute, unlike {group}")
+    if group.kind in _IMPRIMITIVE and not monomial:
+        return Agreement(False, f"the squares of the monodromy matrices don't commute, unlike those of {group}")
+    if group.kind in (Kind.CYCLIC, Kind.ADDITIVE) and group.n is not None:
+        if not all(_power_trace(word, group.n).overlaps(_two()) for word in words):
+            return Agreement(False, f"an eigenvalue of a monodromy matrix isn't a root of unity of {group}")
+        if fuchsian and _is_proper_order(words, group.n):
+            return Agreement(
+                False, f"the eigenvalues of the monodromy matrices have a lower order than those of {group}"
+            )
+    if group.kind is Kind.SL2:
+        longer = [*words, *commutators, *(multiply(a, b) for a, b in combinations(words, 2))]
+        finite = any(all(_may_be_in(word, kind) for word in longer) for kind in _PRIMITIVE)
+        if not reducible and not monomial and not finite:
+            return Agreement(True, "the monodromy matrices generate a group that is dense in SL2")
+        return Agreement(None, "the monodromy matrices alone don't exclude every smaller group")
+    if not fuchsian:
+        return Agreement(True, f"the monodromy lies in {group} (irregular: it needn't be dense)")
+    torsion = all(any(_power_trace(word, k).overlaps(_two()) for k in range(1, _HIGHEST_ORDER + 1)) for word in words)
+    smaller = {
+        Kind.MULTIPLICATIVE: torsion,
+        Kind.ADDITIVE: commuting and all(_may_be_identity(_power(word, group.n or 1)) for word in words),
+        Kind.BOREL: commuting or torsion,
+        Kind.INFINITE_DIHEDRAL: reducible or torsion,
+    }
+    if smaller.get(group.kind, True):
+        return Agreement(None, f"the monodromy lies in {group}, and perhaps in a smaller group")
+    return Agreement(True, f"the monodromy lies in {group}, and in none of the smaller groups that were tried")
+
+
+def _is_proper_order(words: list[Matrix], n: int) -> bool:
+    """Do the n-th roots of unity that are eigenvalues provably have orders whose common multiple is less than n?"""
+    primes = [p for p in range(2, n + 1) if n % p == 0 and all(p % q for q in range(2, p))] if n <= _LARGEST else []
+    return any(all(_power_trace(word, n // p).real > _cosine(Fraction(1, p)).real for word in words) for p in primes)
+
+
+def _words(generators: list[Matrix]) -> list[Matrix]:
+    """The generators and their products in pairs; with one generator, itself and its square."""
+    products = [multiply(a, b) for a, b in combinations(generators, 2)] or [_square(g) for g in generators]
+    return [*generators, *products][: max(_WORDS, len(generators))]
+
+
+def _multiply_all(*factors: Matrix) -> Matrix:
+    total = identity()
+    for factor in reversed(factors):
+        total = multiply(factor, total)
+    return total
+
+
+def _square(m: Matrix) -> Matrix:
+    return multiply(m, m)
+
+
+def _power(m: Matrix, n: int) -> Matrix:
+    total, square = identity(), m
+    while n:
+        total, square, n = (multiply(square, total) if n % 2 else total), _square(square), n // 2
+    return total
+
+
+def _commutator(a: Matrix, b: Matrix) -> Matrix:
+    return _multiply_all(a, b, adjugate(a), adjugate(b))
+
+
+def _trace(m: Matrix) -> acb:
+    return m[0] + m[3]
+
+
+def _power_trace(m: Matrix, n: int) -> acb:
+    return _trace(_power(m, n))
+
+
+def _may_be_identity(m: Matrix) -> bool:
+    return all(bool(entry.overlaps(one)) for entry, one in zip(m, identity(), strict=True))
+
+
+def _may_be_in(m: Matrix, kind: Kind) -> bool:
+    """Can the matrix be an element of this primitive group?  In a finite group +-1 are alone with their traces."""
+    if _trace(m).overlaps(_two()):
+        return _may_be_identity(m)
+    if _trace(m).overlaps(-_two()):
+        return _may_be_identity(multiply(m, m))
+    return any(bool(_trace(m).overlaps(_cosine(Fraction(angle)))) for angle in _PRIMITIVE[kind])
+
+
+def _cosine(angle: Fraction) -> acb:
+    """2 cos(2 pi angle)."""
+    from flint import acb, arb, fmpq
+
+    return acb(2 * arb.cos_pi_fmpq(fmpq(2 * angle.numerator, angle.denominator)))
+
+
+def _two() -> acb:
+    from flint import acb
+
+    return acb(2)

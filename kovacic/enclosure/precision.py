@@ -1,0 +1,144 @@
+"""Raising the working precision until the enclosures are as small as was asked for, or until they can't be.
+
+First digits + guard bits, then as many bits more as were missing.  The global precision of flint is set inside
+`flint.ctx.workprec` only, so an interruption leaves it as it was.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal, Protocol
+
+from kovacic.enclosure.ball import Ball, Dyadic, ball_from_flint
+from kovacic.enclosure.points import Point
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import Budget, Limits
+
+if TYPE_CHECKING:
+    from flint import acb
+
+Method = Literal["taylor", "closed form"]
+METHODS: tuple[Method, ...] = ("taylor", "closed form")
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """The solution at one point: enclosures of y and y', and how they were obtained.
+
+    `reached` says whether the relative radius of y is at most 10^-digits; if not, `note` says why.  `bits` is the
+    working precision of
+    the run that gave the enclosures, `runs` the number of runs (the precision was raised runs - 1 times).
+    """
+
+    x: Point
+    y: Ball
+    dy: Ball
+    digits: int
+    reached: bool
+    note: str | None
+    method: Method
+    bits: int
+    runs: int
+
+
+class Route(Protocol):
+    """One way of carrying states along a path: the states (y, y') at each target in turn, at about `prec` bits."""
+
+    def __call__(self, prec: int, budget: Budget) -> list[tuple[acb, acb]]: ...
+
+
+def start_bits(digits: int) -> int:
+    """The working precision of the first run."""
+    return int(digits * 3.3219280948873626) + 24
+
+
+def check_digits(digits: object, limits: Limits) -> None:
+    """Raise InputError unless this is a number of digits within the limits."""
+    if isinstance(digits, bool) or not isinstance(digits, int):
+        raise InputError(f"digits must be an integer, not {digits!r}")
+    if digits < 1:
+        raise InputError(f"digits = {digits}: at least 1 is needed")
+    if digits > limits.digits:
+        raise InputError(f"digits = {digits} is beyond the limit of {limits.digits}", hint="raise limits.digits")
+
+
+def raise_precision(
+    route: Route, method: Method, targets: tuple[Point, ...], digits: int, budget: Budget, exact: bool
+) -> tuple[Evaluation, ...]:
+    """Run the route at rising precision until every relative radius is small enough."""
+    from flint import ctx
+
+    prec = start_bits(digits)
+    highest = 6 * prec + 4000  # a value below 2^-highest isn't told from zero
+    runs = 0
+    previous: tuple[Evaluation, ...] | None = None
+    while True:
+        runs += 1
+        try:
+            with ctx.workprec(prec + 40):
+                states = route(prec, budget)
+                missing = max((_missing_bits(y, digits, prec) for y, _ in states), default=0)
+                found = _as_evaluations(states, targets, digits, method, prec, runs)
+        except LimitExceeded as limit:
+            if previous is None:
+                raise
+            return tuple(_with_note(result, str(limit)) for result in previous)
+        if missing == 0 and found is not None:
+            return found
+        stalled = not exact and previous is not None and found is not None and _stalled(previous, found)
+        if prec >= highest or stalled:
+            if found is None:
+                raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
+            return tuple(_with_note(result, _reason(result)) for result in found)
+        previous = found or previous
+        prec = min(prec + missing + 16, highest)
+
+
+def _missing_bits(y: acb, digits: int, prec: int) -> int:
+    """How many bits of precision the enclosure lacks (0: the goal is met)."""
+    if not y.is_finite():
+        return prec
+    if y.is_exact():
+        return 0
+    if y.contains(0):
+        return prec
+    goal = int(digits * 3.3219280948873626) + 2
+    return max(0, goal - int(y.rel_accuracy_bits()))
+
+
+def _stalled(previous: tuple[Evaluation, ...], found: tuple[Evaluation, ...]) -> bool:
+    """True if a higher precision hasn't made the balls smaller: their size comes from the initial values."""
+    return all(
+        f.reached or _binary_order(f.y.rad) >= _binary_order(p.y.rad) for p, f in zip(previous, found, strict=True)
+    )
+
+
+def _binary_order(number: Dyadic) -> int:
+    """The exponent of 2, without the limits of a double."""
+    mantissa, exponent = number
+    return abs(mantissa).bit_length() + exponent
+
+
+def _reason(result: Evaluation) -> str:
+    if result.y.contains_zero():
+        size = f"|y| is at most about {result.y.radius:.1e}"
+        return f"the value can't be told from zero ({size}): no relative accuracy was reached"
+    known = max(0.0, result.y.digits)
+    return f"only {known:.1f} of {result.digits} digits: the initial values or the limits allow no more"
+
+
+def _with_note(result: Evaluation, note: str) -> Evaluation:
+    return result if result.reached else replace(result, note=note)
+
+
+def _as_evaluations(
+    states: list[tuple[acb, acb]], targets: tuple[Point, ...], digits: int, method: Method, prec: int, runs: int
+) -> tuple[Evaluation, ...] | None:
+    results = []
+    for target, (y, dy) in zip(targets, states, strict=True):
+        value, slope = ball_from_flint(y), ball_from_flint(dy)
+        if value is None or slope is None:
+            return None
+        reached = _missing_bits(y, digits, prec) == 0
+        results.append(Evaluation(target, value, slope, digits, reached, None, method, prec, runs))
+    return tuple(results)

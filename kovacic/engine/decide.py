@@ -1,0 +1,76 @@
+"""The decision: Kovacic's cases in order, each only if local data leave it possible.
+
+This is the only place that knows the order.  A positive outcome carries the exclusion of everything before it, so that the
+degree of omega is proven to be the least one.
+
+Reference: J. Kovacic, "An algorithm for solving second order linear homogeneous differential equations", J. Symb. Comp. 2
+(1986) 3-43.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Structure
+from kovacic.engine import imprimitive, primitive, reducible
+from kovacic.engine.necessary import excluded_by_local_data
+from kovacic.engine.outcome import Found, Outcome
+from kovacic.engine.places import Problem, analyse
+from kovacic.engine.riccati import Form
+from kovacic.errors import LimitExceeded, VerificationFailed
+from kovacic.limits import Budget
+
+_DECIDERS: dict[Structure, Callable[[Problem], Outcome]] = {
+    Structure.REDUCIBLE: reducible.decide,
+    Structure.IMPRIMITIVE: imprimitive.decide,
+    Structure.TETRAHEDRAL: partial(primitive.decide, structure=Structure.TETRAHEDRAL),
+    Structure.OCTAHEDRAL: partial(primitive.decide, structure=Structure.OCTAHEDRAL),
+    Structure.ICOSAHEDRAL: partial(primitive.decide, structure=Structure.ICOSAHEDRAL),
+}
+
+
+def decide(S: RatFunc, budget: Budget, *, certify: bool = True) -> Decision:
+    """Which structure does the Galois group of y'' = S y have, and which form shows it?
+
+    With `certify=False` the polynomial of omega isn't computed.  An exhausted budget gives a decision with `undecided` set,
+    and with the exclusions that were reached.
+    """
+    exclusions: list[Exclusion] = []
+    try:
+        problem = analyse(S, budget)
+        impossible = excluded_by_local_data(problem)
+        for structure, decider in _DECIDERS.items():
+            if structure in impossible:
+                exclusions.append(Exclusion(structure, (impossible[structure],)))
+                continue
+            budget.check()
+            outcome = decider(problem)
+            if isinstance(outcome, Found):
+                return _positive(problem, outcome, tuple(exclusions), certify)
+            exclusions += outcome
+    except LimitExceeded as limit:
+        return Decision(None, tuple(exclusions), undecided=str(limit))
+    return Decision(None, tuple(exclusions))
+
+
+def _positive(problem: Problem, found: Found, exclusions: tuple[Exclusion, ...], certify: bool) -> Decision:
+    invariant = None if found.invariant is None else _semi_invariant(problem, found.invariant)
+    if not certify:
+        return Decision(found.structure, exclusions, invariant=invariant)
+    form = found.form()
+    *numerators, remainder = form.numerators(problem)
+    if remainder:
+        raise VerificationFailed("the engine proposed a form that isn't one; please report the equation")
+    return Decision(
+        found.structure,
+        exclusions,
+        invariant=invariant,
+        semi_invariant=_semi_invariant(problem, form),
+        riccati=RiccatiPolynomial(form.P, problem.D, tuple(numerators)),
+    )
+
+
+def _semi_invariant(problem: Problem, form: Form) -> SemiInvariant:
+    return SemiInvariant(form.degree, RatFunc(form.R, problem.D), form.P)

@@ -1,0 +1,183 @@
+"""One invariant of high degree over Q, from its recurrence in integers instead of prime by prime.
+
+By equation (2) of `kovacic.engine.riccati` the polynomials B_k = k! A_k satisfy B_(k+1) = L_(k+1) P with the operators
+
+    L_0 = 1,   L_(k+1) = (D d/dt + R - k D') L_k - k (m - k + 1) T L_(k-1),                                       (1)
+
+and P belongs to an invariant of degree m exactly when L_(m+1) P = 0.  Write L_k t^i = sum_j l_(k,j)(i) t^(i+j), l_(k,j) a
+polynomial in i.  With j0 the least j (0 at a regular singular point t = 0, -(m+1) at an ordinary one) the coefficients of a
+power series solution P = sum u_i t^i follow from one another,
+
+    l_(m+1,j0)(i) u_i = - sum_(h>0) l_(m+1,j0+h)(i-h) u_(i-h),                                                    (2)
+
+except at the roots i of l_(m+1,j0), the exponents of the symmetric power: each begins a solution of its own.  Which
+combination of these few solutions is a polynomial of degree N is linear algebra with as many unknowns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import lcm
+from typing import Any
+
+from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_poly
+
+from kovacic.algebra.fields import QQ
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.rational_poly import RationalPoly
+from kovacic.algebra.recurrence import RationalSeries
+from kovacic.engine.places import Kind, Place, Problem
+
+#: Coefficients beyond the degree that must vanish, besides one for each unknown.
+_MARGIN = 4
+
+
+def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[int]) -> Poly | None:
+    """P of the only invariant prod p^v P of degree m with deg P <= N over Q; None if the linear algebra isn't conclusive.
+
+    `valuations` are the least ones at all places, infinity included.  The caller verifies the proposal.
+    """
+    place = _cheapest_place(problem, m, valuations)
+    D, R, T, point = _coefficients(problem, place, valuations)
+    recurrence = _recurrence(m, D, R, T)
+    solutions: list[tuple[int, RationalSeries]] = []  # with the powers at which they begin
+    conditions, end = [], N + 1
+    i = 0
+    while i < end:
+        if i % 16 == 0:
+            problem.budget.check()
+        pivot, factors = recurrence.at(i)
+        obstructions = [series.extend(pivot, factors) for _, series in solutions]
+        if not pivot:
+            if any(obstructions):
+                conditions.append(obstructions)
+            solutions.append((i, RationalSeries(recurrence.width)))
+            end = N + 1 + len(solutions) + _MARGIN
+        i += 1
+    conditions += [
+        [series.term(k - start) if k >= start else fmpq(0) for start, series in solutions] for k in range(N + 1, end)
+    ]
+    combination = _null_vector(conditions, len(solutions))
+    if combination is None:
+        return None
+    P = fmpq_poly([])
+    for factor, (start, series) in zip(combination, solutions, strict=True):
+        P += series.polynomial(max(N + 1 - start, 0)).rep.left_shift(start) * factor
+    if place is not None and place.at_infinity:
+        return RationalPoly(fmpq_poly(P.coeffs()[::-1]).left_shift(N - P.degree())).monic()
+    return RationalPoly(P)(QQ.poly([-point, 1])).monic()
+
+
+def _cheapest_place(problem: Problem, m: int, valuations: Sequence[int]) -> Place | None:
+    """The rational regular place with the fewest solutions to carry, if it has fewer than an ordinary point; else None."""
+    fewest, best = m + 1, None
+    for place, least in zip(problem.places, valuations, strict=True):
+        if place.kind is Kind.REGULAR and place.degree == 1:
+            exponents = (
+                {Fraction(m, 2)} if place.delta is None else {(m + (2 * k - m) * place.delta) / 2 for k in range(m + 1)}
+            )
+            count = sum(1 for value in exponents if value.denominator == 1 and value >= least)
+            if count < fewest:
+                fewest, best = count, place
+    return best
+
+
+def _coefficients(
+    problem: Problem, place: Place | None, valuations: Sequence[int]
+) -> tuple[Any, Any, Any, Fraction | int]:
+    """D, R, T as integer polynomials in the coordinate of the place, t = x - point or t = 1/x; and the point."""
+    t = QQ.poly([0, 1])
+    point: Fraction | int = 0
+    pairs: list[tuple[Poly, int, int]]
+    if place is not None and place.at_infinity:
+        pairs = [(QQ.poly(list(p.factor)[::-1]), v, p.weight) for p, v in zip(problem.places, valuations, strict=False)]
+        pairs[-1] = (t, valuations[-1], place.weight)
+        num, den = place.num, place.den
+    else:
+        point = _ordinary_point(problem) if place is None else -place.factor[0].constant()  # type: ignore[attr-defined]
+        finite = zip(problem.finite_places, valuations, strict=False)
+        pairs = [(p.factor(t + point), v, p.weight) for p, v in finite]
+        num, den = problem.S.num(t + point), problem.S.den(t + point)
+    D: Poly = QQ.poly([1])
+    for factor, _, weight in pairs:
+        D = D * factor**weight
+    R: Poly = QQ.poly([])
+    for factor, v, _ in pairs:
+        if factor.degree > 0:
+            R = R + v * (D // factor) * factor.derivative()
+    T = num * (D * D // den)
+    scale = lcm(D.common_denominator(), R.common_denominator(), T.common_denominator())
+    return (D * scale).rep.numer(), (R * scale).rep.numer(), (T * scale**2).rep.numer(), point  # type: ignore[attr-defined]
+
+
+def _ordinary_point(problem: Problem) -> int:
+    point = 0
+    while not problem.S.den(point):
+        point = -point if point > 0 else 1 - point
+    return point
+
+
+@dataclass(frozen=True)
+class _Recurrence:
+    """Equation (2): `polynomials[h]` is l_(m+1,j0+h)."""
+
+    polynomials: list[Any]
+
+    @property
+    def width(self) -> int:
+        return len(self.polynomials) - 1
+
+    def at(self, i: int) -> tuple[Any, list[Any]]:
+        """The factor of u_i, and those of u_(i-1), u_(i-2), ..."""
+        return self.polynomials[0](i), [self.polynomials[h](i - h) for h in range(1, min(self.width, i) + 1)]
+
+
+def _recurrence(m: int, D: Any, R: Any, T: Any) -> _Recurrence:
+    """The operator L_(m+1) of equation (1), by its action on t^i: polynomials in i for the powers t^(i+j)."""
+    i = fmpz_poly([0, 1])
+    lowest = 0 if D[0] == 0 else -1
+    # operators[k][h] = l_(k, h + lowest * k)
+    previous: list[Any] = []
+    current: list[Any] = [fmpz_poly([1])]
+    for k in range(m + 1):
+        base = lowest * k
+        following = [fmpz_poly([])] * (len(current) + max(D.degree(), R.degree() + 1, 0) + 2)
+        for h, action in enumerate(current):
+            if action:
+                j = h + base
+                for a in range(D.degree() + 1):
+                    if D[a]:
+                        following[h + a - 1 - lowest] += action * (i + (j - k * a)) * D[a]
+                for a in range(R.degree() + 1):
+                    if R[a]:
+                        following[h + a - lowest] += action * R[a]
+        coupling = k * (m - k + 1)
+        for h, action in enumerate(previous):
+            if action and coupling:
+                for a in range(T.degree() + 1):
+                    if T[a]:
+                        position = h + a - 2 * lowest
+                        if position >= len(following):
+                            following += [fmpz_poly([])] * (position + 1 - len(following))
+                        following[position] -= action * T[a] * coupling
+        while following and not following[-1]:
+            following.pop()
+        previous, current = current, following
+    return _Recurrence(current)
+
+
+def _null_vector(rows: list[list[Any]], columns: int) -> list[Any] | None:
+    """The vector v with rows v = 0 if it is unique up to a factor, else None; short rows are filled with zeros."""
+    entries = [[*row, *[fmpq(0)] * (columns - len(row))] for row in rows]
+    reduced, rank = fmpq_mat(len(entries), columns, [value for row in entries for value in row]).rref()
+    if rank != columns - 1:
+        return None
+    pivots = [next(c for c in range(columns) if reduced[r, c]) for r in range(rank)]
+    free = next(c for c in range(columns) if c not in pivots)
+    vector = [fmpq(0)] * columns
+    vector[free] = fmpq(1)
+    for r, c in enumerate(pivots):
+        vector[c] = -reduced[r, free]
+    return vector

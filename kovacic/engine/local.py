@@ -1,0 +1,147 @@
+"""Local solutions modulo a prime at a place that tells solutions apart, and the rational omega that they determine.
+
+If omega is unique it is rational over K, and at such a place it has one of at most two expansions.  Modulo a prime for which
+the place has a root in F_p, Euclid's algorithm finds the rational function with that expansion, if there is one of the
+bounded degree: the signs at all other places come out by themselves.
+
+References: van Hoeij, J. Symb. Comp. 24 (1997); Cluzeau & van Hoeij, J. Symb. Comp. 38 (2004).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from flint import nmod_poly
+
+from kovacic.algebra.fields import BadPrimeError, Homomorphism
+from kovacic.algebra.modular import (
+    rational_function_from_series,
+    reverse,
+    series_solution,
+    simple_roots,
+    square_root,
+    square_root_series,
+    translate,
+)
+from kovacic.engine.places import Kind, LocalEquation, Place, Problem, local_equation, reduced_equation
+
+
+@dataclass(frozen=True)
+class Chart:
+    """The equation modulo p in a coordinate t in which the chosen place is t = 0: y'' = num/den y, with D as in `Problem`.
+
+    `growth` bounds deg A - deg P for omega = A / (D P): deg D - 1, or more if infinity is irregular.
+    """
+
+    num: Any
+    den: Any
+    D: Any
+    growth: int
+    equation: LocalEquation
+    root: int
+    inverted: bool
+
+
+def chart(h: Homomorphism, problem: Problem, place: Place) -> Chart | None:
+    """The chart at the least simple root of the place's factor; None if it has none in F_p."""
+    if place.at_infinity:
+        root: int | None = 0
+        opposite = next((p.weight for p in problem.finite_places if p.factor.degree == 1 and not p.factor[0]), 0)
+    else:
+        root = next(simple_roots(h.keeping_degree(place.factor)), None)
+        opposite = problem.infinity.weight
+    if root is None:
+        return None
+    num, den, D = h(place.num), h.keeping_degree(place.den), h.keeping_degree(problem.D)
+    if place.at_infinity:
+        D = reverse(D, D.degree()).left_shift(place.weight)
+    equation = local_equation(num, den, root, place.order)
+    num, den, D = (translate(f, root) for f in (num, den, D))
+    return Chart(num, den, D, D.degree() + max(opposite, 1) - 2, equation, root, place.at_infinity)
+
+
+def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence[Fraction] | None = None) -> list[Any]:
+    """The polynomials Q such that y = exp(int Q/t^nu) u, u a unit, can be a solution with a rational omega.
+
+    The coefficient of t^(nu-1) in Q is the exponent; with `exponents` it must be one of these.
+
+    At a regular place Q is an exponent: (1 + Delta)/2 alone if there is a logarithm.  At an unramified irregular place
+    Q = +-[sqrt S] + (nu +- b/a)/2 t^(nu-1) [Kovacic 1986, sec. 3.2].  Empty if a square root doesn't exist modulo p.
+    """
+    parts = _all_exponential_parts(equation, place)
+    if exponents is None:
+        return parts
+    p, nu = equation.p, equation.nu
+    residues = [e.numerator * pow(e.denominator, -1, p) % p for e in exponents]
+    return [Q for Q in parts if int(Q[nu - 1]) in residues]
+
+
+def _all_exponential_parts(equation: LocalEquation, place: Place) -> list[Any]:
+    p, nu = equation.p, equation.nu
+    half = pow(2, -1, p)
+    ratio = equation.N.mul_low(equation.E.inverse_series_trunc(nu), nu)
+    if place.kind is Kind.REGULAR:
+        if place.delta is not None:
+            difference: int | None = place.delta.numerator * pow(place.delta.denominator, -1, p) % p
+        else:
+            difference = square_root(1 + 4 * int(ratio[0]), p)
+        if difference is None:
+            return []
+        signs = [1] if place.logarithm or difference == 0 else [1, -1]
+        return [nmod_poly([(1 + sign * difference) * half % p], p) for sign in signs]
+    if not int(ratio[0]):
+        raise BadPrimeError("the leading coefficient at an irregular place vanishes")
+    root = square_root(int(ratio[0]), p)
+    if root is None:
+        return []
+    parts = []
+    for leading in (root, -root % p):
+        series = square_root_series(ratio, nu, leading)
+        # With S = (a + ... + r t^(nu-1))^2 / t^(2 nu) + O(t^-nu): b = 2 a r, so that b/a = 2 r.
+        exponent = (nu * half + int(series[nu - 1])) % p
+        parts.append(series.truncate(nu - 1) + nmod_poly([exponent], p).left_shift(nu - 1))
+    return parts
+
+
+def rational_omega(c: Chart, Q: Any, degree: int) -> tuple[Any, Any] | None:
+    """`(A, P)` modulo p with omega = A/(D P) in the chart, deg P <= degree, for the local solution of type Q, or None.
+
+    None is a proof that no such rational omega over K has a P of degree at most `degree` (see `cases.reducible`).
+    """
+    top = degree + c.growth
+    order = top + degree + 2
+    u = series_solution(*reduced_equation(c.equation, Q), order)
+    local = (Q * u + u.derivative().left_shift(c.equation.nu)).mul_low(u.inverse_series_trunc(order), order)
+    series = c.D.right_shift(c.equation.nu).mul_low(local, order)
+    A, P = rational_function_from_series(series, order, top)
+    if P.degree() > degree:
+        return None
+    B = c.D * P
+    if c.den * (A.derivative() * B - A * B.derivative() + A * A) != c.num * B * B:
+        return None
+    return A, P
+
+
+def omega_parts(h: Homomorphism, problem: Problem, c: Chart, A: Any, P: Any) -> tuple[Any, int]:
+    """R and the degree of P for omega = R/D + P'/P in the coordinate x, modulo p."""
+    if c.inverted:
+        # omega(x) = 1/x - omega_z(1/x)/x^2 with omega_z = A/B.
+        B = c.D * P
+        size = max(A.degree(), B.degree())
+        above, below = reverse(A, size), reverse(B, size)
+        A, B = below.left_shift(1) - above, below.left_shift(2)
+    else:
+        A, B = (translate(f, -c.root % h.p) for f in (A, c.D * P))
+    D = h(problem.D)
+    A = A * D
+    common = A.gcd(B)
+    A, P = A // common, B // common
+    leading = pow(int(P.leading_coefficient()), -1, h.p)
+    A, P = A * leading, P * leading
+    R, rest = divmod(A - D * P.derivative(), P)
+    if rest:
+        raise BadPrimeError("zeros of a solution meet modulo this prime")
+    return R, int(P.degree())

@@ -1,0 +1,56 @@
+"""Kovacic's necessary conditions and sharper ones: what local data alone exclude.
+
+The group contains the local monodromies and exponential tori, so that
+- a ramified irregular place leaves no omega in C(x);
+- a logarithm gives a unipotent element, which no imprimitive irreducible and no finite group has;
+- the square root that an imprimitive group adjoins has at least two branch points, where the local group exchanges the two
+  lines: there Delta is half an odd integer, or the place is irregular and ramified;
+- an irregular place gives an infinite group;
+- the order of a local monodromy in PGL2 is the denominator of Delta, and the orders in A4, S4, A5 are 1 to 3, 1 to 4, and
+  1, 2, 3, 5; A4 and A5 don't contain S4's elements of order 4, and 5 occurs in A5 alone.
+
+Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 2.1, and J. Calmet & F. Ulmer's and others' refinements.
+"""
+
+from __future__ import annotations
+
+from kovacic.decision import NecessaryCondition, Rule, Structure
+from kovacic.engine.places import Kind, Place, Problem
+
+_PRIMITIVE = (Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL)
+_ORDERS = {
+    Structure.TETRAHEDRAL: frozenset({1, 2, 3}),
+    Structure.OCTAHEDRAL: frozenset({1, 2, 3, 4}),
+    Structure.ICOSAHEDRAL: frozenset({1, 2, 3, 5}),
+}
+
+
+def excluded_by_local_data(problem: Problem) -> dict[Structure, NecessaryCondition]:
+    """The structures that can't occur, each with the condition that fails."""
+    places = problem.places
+    excluded: dict[Structure, NecessaryCondition] = {}
+
+    def exclude(rule: Rule, culprits: list[Place], *structures: Structure) -> None:
+        condition = NecessaryCondition(rule, tuple([place.name for place in culprits]))
+        for structure in structures:
+            excluded.setdefault(structure, condition)
+
+    ramified = [place for place in places if place.kind is Kind.RAMIFIED]
+    if ramified:
+        exclude(Rule.RAMIFIED, ramified, Structure.REDUCIBLE)
+    logarithmic = [place for place in places if place.logarithm]
+    if logarithmic:
+        exclude(Rule.LOGARITHM, logarithmic, Structure.IMPRIMITIVE, *_PRIMITIVE)
+    branched = ramified + [place for place in places if place.delta is not None and place.delta.denominator == 2]
+    if sum(place.degree for place in branched) < 2:
+        exclude(Rule.TOO_FEW_BRANCH_POINTS, branched, Structure.IMPRIMITIVE)
+    irregular = [place for place in places if place.kind in (Kind.RAMIFIED, Kind.UNRAMIFIED)]
+    if irregular:
+        exclude(Rule.IRREGULAR, irregular, *_PRIMITIVE)
+    regular = [place for place in places if place.kind is Kind.REGULAR]
+    for structure, orders in _ORDERS.items():
+        if structure not in excluded:
+            culprits = [place for place in regular if place.delta is None or place.delta.denominator not in orders]
+            if culprits:
+                exclude(Rule.EXPONENTS, culprits, structure)
+    return excluded

@@ -1,0 +1,235 @@
+"""Case 1: a solution with omega = y'/y in C(x).
+
+1. If two different omegas are rational, y1 y2 is a rational invariant of degree 2 up to a constant [Hendriks & van der Put,
+   J. Symb. Comp. 19 (1995)], and omega comes from it: F = y1 y2 with D = F'^2 - 2 F F'' + 4 S F^2 a constant, and
+   omega = (F' +- sqrt D) / (2 F); or F = y1^2 if D = 0.  If every solution is the root of a rational function the invariants
+   of degree 2 have dimension 3, and the least of them in degree is the square of a solution.
+2. Otherwise omega is unique if it exists, so it is rational over K.  One place at which the local solutions differ leaves at
+   most two expansions; see `kovacic.engine.local`.  Its P is then found exactly from its recurrence.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import count, islice
+from typing import Any
+
+from kovacic.algebra.fields import QQ, BadPrimeError, Homomorphism, Lifter
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.recurrence import polynomial_solution
+from kovacic.decision import Evidence, Exclusion, NoInvariant, NoRationalOmega, Structure
+from kovacic.engine.constants import square_root
+from kovacic.engine.degree_bound import DegreeBound, degree_bound, irrational_exponents, is_cheap
+from kovacic.engine.invariants import invariants
+from kovacic.engine.local import chart, exponential_parts, omega_parts, rational_omega
+from kovacic.engine.outcome import Found, Outcome
+from kovacic.engine.places import Kind, Place, Problem
+from kovacic.engine.riccati import Form, normalised
+from kovacic.engine.singular import singular_factor
+from kovacic.errors import LimitExceeded
+
+#: Up to this degree P1 is lifted with R; above, its recurrence is faster.
+_LIFTED_DEGREE = 200
+#: Up to this degree of P the common zeros are found faster over Q than modulo primes.
+_EXACT_DEGREE = 400
+
+
+def decide(problem: Problem) -> Outcome:
+    """Find omega in C(x), or prove that there is none."""
+    try:
+        quadratic = invariants(problem, 2)
+    except LimitExceeded:
+        # The exponents are too far apart for a decision within the limits; there may be a simple solution all the same.
+        simple = _omega_of_low_degree(problem)
+        if simple is None:
+            raise
+        return Found(Structure.REDUCIBLE, lambda: simple)
+    if not isinstance(quadratic, NoInvariant):
+        F = quadratic[0]
+        return Found(Structure.REDUCIBLE, lambda: _from_quadratic_invariant(problem, F), F)
+    unique = _unique_omega(problem)
+    if isinstance(unique, Form):
+        return Found(Structure.REDUCIBLE, lambda: unique)
+    return (Exclusion(Structure.REDUCIBLE, (quadratic, unique)),)
+
+
+def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
+    """The form y1 of degree 1, from F = y1 y2 or F = y1^2.
+
+    F' = Q0 X / D and sqrt(disc) = Q0 Y / D with F = Q0 P; so D omega = (X + Y) / (2 P), and the zeros of y1 are the common
+    zeros of P and X - Y.  Over Q and for moderate degrees this is done as it stands, else modulo primes; then R of
+    omega = R/D + P1'/P1 is lifted, and P1 if its degree is moderate (else it has a recurrence).
+    """
+    F = normalised(F, problem)
+    P, X, A2 = F.numerators(problem, 2)
+    point = next(n for n in count() if problem.D(n))
+    value = X(point) ** 2 - 4 * P(point) * A2(point)
+    if not value:  # F = y1^2
+        R = F.R / 2
+        y1 = _polynomial_part(problem, R, P.degree // 2)
+        if y1 is None:
+            raise AssertionError("an invariant of degree 2 without discriminant is the square of a solution")
+        return Form(1, R, y1)
+    weight = singular_factor(problem, F.R, 1)
+    w = square_root(problem.field, value / weight(point) ** 2)
+    field, Y = w.field, w * weight
+    if field == QQ and P.degree <= _EXACT_DEGREE:
+        return Form(1, *_first_factor(problem.D, P, X, Y, Fraction(1, 2)))
+    lifter = field.lifter()
+    for bundle in field.bundles():
+        problem.budget.check()
+        try:
+            parts = [_first_factor_modulo(h, problem.D, P, X, Y) for h in bundle]
+        except BadPrimeError:
+            continue
+        degrees = {zeros.degree() for _, zeros in parts}
+        if len(degrees) > 1:
+            continue
+        degree = degrees.pop()
+        directly = degree <= _LIFTED_DEGREE
+        proposal = lifter.add(bundle, [[R, zeros] if directly else [R] for R, zeros in parts])
+        if proposal:
+            R = proposal[0]
+            form = Form(1, R, proposal[1] if directly else _polynomial_part(problem, R, degree) or field.poly([]))
+            if form.P and form.is_form(problem):
+                return form
+    raise AssertionError("the sequence of primes is infinite")
+
+
+def _first_factor_modulo(h: Homomorphism, D: Poly, P: Poly, X: Poly, Y: Poly) -> tuple[Any, Any]:
+    return _first_factor(h(D), h.keeping_degree(P), h(X), h(Y), pow(2, -1, h.p))
+
+
+def _first_factor(D: Any, P: Any, X: Any, Y: Any, half: Any) -> tuple[Any, Any]:
+    """R and the monic P1 of omega = R/D + P1'/P1, over Q or modulo p, where a half is given."""
+    zeros = P.gcd(X - Y)
+    omega, rest = divmod((X + Y) * half, P // zeros)  # D P1 omega
+    R, remainder = divmod(omega - D * zeros.derivative(), zeros)
+    if rest or remainder:
+        raise BadPrimeError("zeros of the solutions meet modulo this prime")
+    return R, zeros
+
+
+def distinguishing_places(problem: Problem) -> list[Place]:
+    """The places at which only finitely many local solutions can belong to omega, the cheapest first."""
+    suitable = [place for place in problem.places if not place.is_apparent]
+    return sorted(suitable, key=lambda place: (place.degree, not place.logarithm, not place.at_infinity))
+
+
+def _unique_omega(problem: Problem) -> Form | Evidence:
+    impossible = irrational_exponents(problem)
+    if impossible is not None:
+        return impossible
+    bound = degree_bound(problem) if is_cheap(problem) else None
+    if bound is not None and not isinstance(bound, DegreeBound):
+        return bound
+    place = distinguishing_places(problem)[0]
+    degrees = _FIRST_DEGREES if bound is None else _ladder(bound.largest)
+    # For small degrees the expansion that can be left out costs less than to find it.
+    exponents = None if bound is None or bound.largest <= degrees[0] else bound.exponents(place)
+    lifter = problem.field.lifter()
+    for bundle in problem.field.bundles():
+        problem.budget.check()
+        try:
+            parts = [_omega_modulo(h, problem, place, degrees, exponents) for h in bundle]
+            if None in parts:
+                if bound is None:
+                    bound = degree_bound(problem)
+                if not isinstance(bound, DegreeBound):
+                    return bound
+                further = [n for n in _ladder(bound.largest) if n > degrees[-1]]
+                if further:
+                    parts = [_omega_modulo(h, problem, place, further, exponents) for h in bundle]
+                for h, part in zip(bundle, parts, strict=True):
+                    if part is None:
+                        return NoRationalOmega(bound.largest, h.p, place.name)
+        except BadPrimeError:
+            continue
+        images = [part for part in parts if part is not None]
+        degrees = [images[0][1]]
+        form = _lifted(problem, lifter, bundle, images)
+        if form is not None:
+            return form
+    raise AssertionError("the sequence of primes is infinite")
+
+
+def _omega_of_low_degree(problem: Problem) -> Form | None:
+    """omega = R/D + P'/P with a P of small degree, by one of its expansions at a place; None if none was found."""
+    kinds = (Kind.REGULAR, Kind.UNRAMIFIED)
+    place = min((place for place in problem.places if place.kind in kinds), key=lambda p: p.degree, default=None)
+    if place is None:
+        return None
+    for sign in (0, 1):
+        lifter = problem.field.lifter()
+        for bundle in islice(problem.field.bundles(), _PRIMES_FOR_A_SIMPLE_OMEGA):
+            problem.budget.check()
+            try:
+                parts = [_omega_modulo(h, problem, place, _FIRST_DEGREES, sign=sign) for h in bundle]
+            except BadPrimeError:
+                continue
+            images = [part for part in parts if part is not None]
+            if len(images) < len(parts):
+                break
+            form = _lifted(problem, lifter, bundle, images)
+            if form is not None:
+                return form
+    return None
+
+
+def _lifted(
+    problem: Problem, lifter: Lifter, bundle: Sequence[Homomorphism], images: list[tuple[Any, int]]
+) -> Form | None:
+    """The form with these R and degrees of P modulo p, once there are enough primes; None as long as there aren't."""
+    degrees = {degree for _, degree in images}
+    proposal = lifter.add(bundle, [[R] for R, _ in images]) if len(degrees) == 1 else None
+    P = _polynomial_part(problem, proposal[0], degrees.pop()) if proposal else None
+    return None if P is None or proposal is None else Form(1, proposal[0], P)
+
+
+#: Degrees of P that are tried before their bound is computed where that is the more expensive part.
+_FIRST_DEGREES = [8, 32]
+#: How many primes the lift of an omega may take that is looked for without a proof at hand.
+_PRIMES_FOR_A_SIMPLE_OMEGA = 400
+
+
+def _ladder(bound: int) -> list[int]:
+    """Degrees to be tried for P: small ones first, for the bound is often far above the degree; the bound last."""
+    return [*(n for n in (8, 32, 128, 1024) if n < bound), bound]
+
+
+def _omega_modulo(
+    h: Homomorphism,
+    problem: Problem,
+    place: Place,
+    degrees: list[int],
+    exponents: list[Fraction] | None = None,
+    sign: int | None = None,
+) -> tuple[Any, int] | None:
+    """R and deg P of the only rational omega modulo p; None if there is none.
+
+    With `exponents` only the expansions with these are looked at, with a `sign` only that one.  Raises `BadPrimeError` if
+    the place has no root in F_p, or if there are two such omegas modulo p.
+    """
+    c = chart(h, problem, place)
+    if c is None:
+        raise BadPrimeError("the place has no root modulo this prime")
+    parts = exponential_parts(c.equation, place, exponents)
+    if sign is not None:
+        parts = parts[sign : sign + 1]
+    for degree in degrees:
+        problem.budget.check()
+        problem.budget.check_degree(degree, "the polynomial part of a solution")
+        found = [pair for Q in parts if (pair := rational_omega(c, Q, degree))]
+        if len(found) > 1:
+            raise BadPrimeError("two solutions modulo this prime")
+        if found:
+            return omega_parts(h, problem, c, *found[0])
+    return None
+
+
+def _polynomial_part(problem: Problem, R: Poly, degree: int) -> Poly | None:
+    """The monic P of this degree with omega = R/D + P'/P: D P'' + 2 R P' + ((R' D - R D' + R^2 - T)/D) P = 0."""
+    D = problem.D
+    zeroth = (R.derivative() * D - R * D.derivative() + R * R - problem.T).exact_quotient(D)
+    return None if zeroth is None else polynomial_solution(D.over(R.field), 2 * R, zeroth, degree, problem.budget.check)

@@ -1,0 +1,96 @@
+"""From a form in the solutions to the polynomial that omega = y'/y satisfies.
+
+A form f of degree m in the solutions y1, y2 of y'' = S y with a rational logarithmic derivative is a semi-invariant of the
+Galois group.  With E_0 = f and
+
+    E_(k+1) = (E_k' - (m - k + 1) S E_(k-1)) / (k + 1),                                                          (1)
+
+the product of (W - l'/l) over the linear factors l of f is sum_k (-1)^k (E_k/f) W^(m-k), and f is such a form exactly when
+E_(m+1) = 0 [Kovacic 1986, sec. 4-5; Ulmer & Weil, J. Symb. Comp. 22 (1996)].  Here f = exp(int R/D) P with polynomials R and
+P and with D of `places.Problem`; then E_k = exp(int R/D) A_k / D^k with polynomials A_k, A_0 = P and
+
+    (k + 1) A_(k+1) = D A_k' + (R - k D') A_k - (m - k + 1) T A_(k-1),      T = S D^2.                            (2)
+
+Symbols: Q = exp(int R/D); theta = R/D; phi = f'/f = theta + P'/P.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from kovacic.algebra.poly import Poly
+from kovacic.engine.places import Problem
+
+
+@dataclass(frozen=True)
+class Form:
+    """f = exp(int R/D) P of degree `degree` in the solutions; R and P lie over K or over K(c)."""
+
+    degree: int
+    R: Poly
+    P: Poly
+
+    def numerators(self, problem: Problem, last: int | None = None) -> list[Poly]:
+        """A_0, ..., A_last of equation (2), by default A_(m+1), which is zero exactly when f is a form in the solutions."""
+        D, T, m = problem.D, problem.T, self.degree
+        slope = D.derivative()
+        sequence: list[Any] = [self.P]
+        previous: Any = None
+        for k in range(m + 1 if last is None else last):
+            current = sequence[-1]
+            following = D * current.derivative() + (self.R - k * slope if k else self.R) * current
+            if previous is not None:
+                following = following - (m - k + 1) * (T * previous)
+            sequence.append(following / (k + 1) if k else following)
+            previous = current
+            problem.budget.check()
+        return sequence
+
+    def is_form(self, problem: Problem) -> bool:
+        """Is this really a form in the solutions of the equation?"""
+        return not self.numerators(problem)[-1]
+
+
+def normalised(form: Form, problem: Problem) -> Form:
+    """The same form up to a constant, with P monic and prime to D: powers of the singular factors move from P into R."""
+    R, P = form.R, form.P.monic()
+    D = problem.D.over(P.field)
+    for place in problem.finite_places:
+        # Over K(c) the factor of a place may split, and P may contain a part of it.
+        problem.budget.check()
+        factor = place.factor.over(P.field).gcd(P)
+        while factor.degree > 0:
+            problem.budget.check()
+            P, k = P.remove(factor)
+            R = R + k * (D // factor) * factor.derivative()
+            factor = factor.gcd(P)
+    return Form(form.degree, R, P)
+
+
+def root(form: Form, n: int, problem: Problem) -> Form:
+    """The form of degree m/n whose n-th power is the given one up to a constant.
+
+    The caller knows that it exists; an AssertionError says that it doesn't.
+    """
+    form = normalised(form, problem)
+    problem.budget.check()
+    P = form.P.root(n)
+    if P is None or form.degree % n:
+        raise AssertionError("the form isn't a perfect power")
+    return Form(form.degree // n, form.R / n, P)
+
+
+def hessian(form: Form, problem: Problem) -> Form:
+    """Hess(f) = (m-1) [m f (f'' - m S f) - (m-1) f'^2], of degree 2m - 4, up to the factor m - 1."""
+    A0, A1, A2 = form.numerators(problem, 2)
+    m = form.degree
+    return Form(2 * m - 4, 2 * (form.R - problem.D.derivative()), 2 * m * A0 * A2 - (m - 1) * A1 * A1)
+
+
+def jacobian(f: Form, g: Form, problem: Problem) -> Form:
+    """Jac(f, g) = m f g' - n f' g, of degree m + n - 2."""
+    A0, A1 = f.P, problem.D * f.P.derivative() + f.R * f.P
+    B0, B1 = g.P, problem.D * g.P.derivative() + g.R * g.P
+    R = f.R + g.R - problem.D.derivative()
+    return Form(f.degree + g.degree - 2, R, f.degree * A0 * B1 - g.degree * A1 * B0)

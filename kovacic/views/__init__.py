@@ -1,0 +1,1 @@
+"""What goes out: text, LaTeX, HTML, JSON, explanations, pictures."""

@@ -1,0 +1,346 @@
+"""Answers as JSON, schema 1: a contract, described by `solution.schema.json` beside this file.
+
+    {"schema": 1, "input": "2", "variable": "x", "S": "2", "status": "liouvillian", "case": 1,
+     "riccati": {"variable": "w", "degree": 1, "coefficients": ["-c", "1"]},
+     "constants": {"symbol": "c", "minimal_polynomial": "c**2 - 2"},
+     "verified": true, "proof": {...}, "notices": [], "seconds": 0.001}
+
+Coefficients run from low to high, in Python/SymPy syntax in the variable and the symbol of the constants; the last one is
+"1".  `proof` has what a check needs beside the polynomial: the semi-invariant of omega as prod D^... exp(int theta) P, the
+rational invariant that was found, the evidence against everything excluded, and the reason of an undecided equation.
+Keys may be added within schema 1; none is removed or changes its meaning.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.fields import QQ, Field
+from kovacic.algebra.function_field import FunctionField
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import (
+    Decision,
+    Evidence,
+    Exclusion,
+    NecessaryCondition,
+    NoInvariant,
+    NoRationalOmega,
+    RiccatiPolynomial,
+    Rule,
+    SemiInvariant,
+    Status,
+    Structure,
+)
+from kovacic.equation import Equation
+from kovacic.errors import InputError
+from kovacic.limits import Limits
+from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
+from kovacic.reading.equation_parser import parse_expression
+from kovacic.reading.names import Names, parameters_of
+from kovacic.reading.parser import parse_with
+from kovacic.solution import Solution
+
+SCHEMA = 1
+
+# An answer may be larger than an input may be by default.
+_LIMITS = Limits(digits=10**7, exponent=10**6, degree=200_000, bits=40_000_000)
+
+# Stands for a generator such as sqrt(2) where text is read.
+_RADICAL = "radical_"
+
+_DEGREES = (1, 2, 4, 6, 12)
+
+
+def dumps(solution: Solution, *, full: bool = False) -> str:
+    """The answer as one line of JSON; `full` adds the group and two solutions in closed form, which have to be computed."""
+    return json.dumps(to_dict(solution, full=full), ensure_ascii=False)
+
+
+def loads(text: str | Mapping[str, Any]) -> Solution:
+    """The answer that `dumps` wrote (or the object that the line stands for), not verified again.
+
+    Raises `InputError` where the text isn't an answer in schema 1.
+    """
+    try:
+        data = json.loads(text) if isinstance(text, str) else text
+    except ValueError as error:
+        raise InputError(f"this isn't JSON: {error}") from None
+    if not isinstance(data, Mapping):
+        raise InputError("this isn't an answer: a JSON object is expected")
+    if data.get("schema") != SCHEMA:
+        raise InputError(f"schema {data.get('schema')!r} isn't known; this version reads schema {SCHEMA}")
+    try:
+        return from_dict(data)
+    except (KeyError, TypeError, AttributeError, IndexError, ValueError, ZeroDivisionError) as error:
+        raise InputError(f"this isn't an answer in schema {SCHEMA}: {type(error).__name__}: {error}") from error
+
+
+def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
+    """The answer as a JSON object of plain Python values."""
+    data = _to_dict(solution)
+    if full:
+        data["group"] = _group(solution)
+        data["solutions"] = None if solution.case is None else [str(y) for y in solution.solutions]
+    return data
+
+
+def _group(solution: Solution) -> dict[str, Any] | None:
+    group = solution.group
+    return None if group is None else {"name": group.name, "order": group.order, "finite": group.finite}
+
+
+def _to_dict(solution: Solution) -> dict[str, Any]:
+    names = Names(solution.variable, parameters_of(solution.S.field))
+    decision = solution.decision
+    riccati = decision.riccati
+    return {
+        "schema": SCHEMA,
+        "input": solution.text,
+        "variable": solution.variable,
+        "S": names.ratfunc(solution.S),
+        "status": decision.status.value,
+        "case": decision.case,
+        "riccati": None
+        if riccati is None
+        else {
+            "variable": names.unknown,
+            "degree": riccati.degree,
+            "coefficients": [names.ratfunc(coefficient) for coefficient in riccati.coefficients],
+        },
+        "constants": None
+        if solution.constants is None
+        else {"symbol": names.symbol, "minimal_polynomial": solution.constants.to_str(names.symbol)},
+        "field": _field(solution.S.field),
+        "generic_conditions": _generic(solution),
+        "verified": solution.verified,
+        "proof": {
+            "structure": None if decision.structure is None else decision.structure.value,
+            "semi_invariant": None
+            if decision.semi_invariant is None or riccati is None
+            else {**_form(decision.semi_invariant, names), "D": names.poly(riccati.D)},
+            "invariant": None if decision.invariant is None else _form(decision.invariant, names),
+            "excluded": [_exclusion(exclusion, names) for exclusion in decision.exclusions],
+            "undecided": decision.undecided,
+        },
+        "notices": list(solution.notices),
+        "seconds": solution.seconds,
+        "equation": None if solution.equation is None else _equation(solution.equation),
+        "gauge": None if solution.equation is None else names.ratfunc(solution.gauge),
+    }
+
+
+def from_dict(data: Mapping[str, Any]) -> Solution:
+    """The answer that `to_dict` made into an object."""
+    variable, proof, constants = data["variable"], data["proof"], data["constants"]
+    rational = reader = _base_reader(data.get("field"), variable)
+    if constants is not None:
+        symbol = constants["symbol"]
+        modulus = rational.over({symbol: VARIABLE}).poly(constants["minimal_polynomial"])
+        field = AlgebraicField(rational.field, modulus)
+        reader = rational.over({variable: VARIABLE, symbol: field.generator}, field)
+    semi_invariant, riccati = proof["semi_invariant"], data["riccati"]
+    form = None if semi_invariant is None else reader.semi_invariant(semi_invariant)
+    polynomial = None
+    if form is not None and riccati is not None:
+        polynomial = _riccati(form.P, reader.poly(semi_invariant["D"]), riccati, reader)
+    decision = Decision(
+        structure=None if proof["structure"] is None else Structure(proof["structure"]),
+        exclusions=tuple(_read_exclusion(entry, Names(variable)) for entry in proof["excluded"]),
+        invariant=None if proof["invariant"] is None else rational.semi_invariant(proof["invariant"]),
+        semi_invariant=form,
+        riccati=polynomial,
+        undecided=proof["undecided"],
+    )
+    if Status(data["status"]) is not decision.status or data["case"] != decision.case:
+        raise ValueError("status or case contradict the proof")
+    S, equation = rational.ratfunc(data["S"]), _read_equation(data.get("equation"), variable)
+    if equation is not None and equation.S != S:
+        raise ValueError("S isn't the normal form of the equation")
+    return Solution(
+        text=data["input"],
+        variable=variable,
+        S=S,
+        decision=decision,
+        notices=tuple(data["notices"]),
+        verified=data["verified"],
+        seconds=data["seconds"],
+        equation=equation,
+    )
+
+
+def _equation(equation: Equation) -> dict[str, Any]:
+    x = equation.variable
+    return {
+        "text": equation.text(caret=False),
+        "unknown": equation.unknown,
+        **{name: getattr(equation, name).to_str(x) for name in ("a", "b", "c", "f")},
+        "h": None if equation.h is None else str(equation.h),
+        "field": _field(equation.a.field),
+    }
+
+
+def _read_equation(data: Mapping[str, Any] | None, variable: str) -> Equation | None:
+    if data is None:
+        return None
+    reader = _base_reader(data["field"], variable)
+    a, b, c, f = (reader.over_field(reader.ratfunc(data[name])) for name in ("a", "b", "c", "f"))
+    h = None if data["h"] is None else parse_expression(data["h"], variable)
+    return Equation(a, b, c, f, h, variable, data["unknown"])
+
+
+def _generic(solution: Solution) -> dict[str, list[str]] | None:
+    """Under which conditions an answer for generic parameters was derived; None without parameters."""
+    if not parameters_of(solution.S.field):
+        return None
+    conditions = solution.generic_conditions
+    return {
+        "nonzero": [str(f) for f in conditions.nonzero],
+        "irrational_squares": [str(f) for f in conditions.irrational_squares],
+    }
+
+
+def _field(field: Field) -> dict[str, Any] | None:
+    """The coefficient field of S: parameters, and an algebraic number with its minimal polynomial over Q."""
+    if field == QQ:
+        return None
+    data: dict[str, Any] = {"parameters": list(parameters_of(field)), "symbol": None, "minimal_polynomial": None}
+    if isinstance(field, AlgebraicField):
+        data["symbol"], data["minimal_polynomial"] = field.name, field.modulus.to_str("t")
+        if field.approximation is not None:
+            data["near"] = [f"{float(part):.15g}" for part in field.approximation]
+    return data
+
+
+def _base_reader(data: Mapping[str, Any] | None, variable: str) -> _Reader:
+    """The reader over the coefficient field of S."""
+    if data is None:
+        return _Reader(QQ, {variable: VARIABLE}, {})
+    field: Field = QQ
+    constants: dict[str, Value] = {}
+    radical = ""
+    if data["parameters"]:
+        field = ground = FunctionField(tuple(data["parameters"]))
+        constants.update((name, ground.generator(name)) for name in ground.names)
+    if data["symbol"] is not None:
+        modulus = _Reader(QQ, {"t": VARIABLE}, {}).poly(data["minimal_polynomial"])
+        near = data.get("near")
+        position = None if near is None else (Fraction(near[0]), Fraction(near[1]))
+        field = extension = AlgebraicField(field, modulus.over(field), data["symbol"], position)
+        name = data["symbol"]
+        if not name.isidentifier():
+            name, radical = _RADICAL, name
+        constants[name] = extension.generator
+    return _Reader(field, {variable: VARIABLE}, constants, radical)
+
+
+class _Reader:
+    """Expressions in given names, as polynomials and rational functions over a field."""
+
+    def __init__(
+        self, field: Field, names: Mapping[str, Value], constants: Mapping[str, Value], radical: str = ""
+    ) -> None:
+        self.field = field
+        self._constants = constants
+        self._names = {**constants, **names}
+        self._radical = radical
+        self._arithmetic = Arithmetic(_LIMITS)
+
+    def over(self, names: Mapping[str, Value], field: Field | None = None) -> _Reader:
+        """A reader that knows the same constants, for other names."""
+        return _Reader(field or self.field, names, self._constants, self._radical)
+
+    def ratfunc(self, text: str) -> RatFunc:
+        if self._radical:
+            text = text.replace(self._radical, f"({_RADICAL})")
+        value = self._arithmetic.rational(parse_with(text, self._names, self._arithmetic))
+        return RatFunc(self._embedded(value.num), self._embedded(value.den), reduced=True)
+
+    def over_field(self, value: RatFunc) -> RatFunc:
+        """The function over the whole field."""
+        return RatFunc(value.num.over(self.field), value.den.over(self.field), reduced=True)
+
+    def poly(self, text: str) -> Poly:
+        value = self.ratfunc(text)
+        if not value.is_polynomial:
+            raise ValueError(f"{text!r} isn't a polynomial")
+        return value.num
+
+    def _embedded(self, polynomial: Poly) -> Poly:
+        return self.field.embed(polynomial) if self.field.extends(polynomial.field) else polynomial
+
+    def semi_invariant(self, data: Mapping[str, Any]) -> SemiInvariant:
+        return SemiInvariant(data["degree"], self.ratfunc(data["theta"]), self.poly(data["P"]))
+
+
+def _riccati(P: Poly, D: Poly, data: Mapping[str, Any], reader: _Reader) -> RiccatiPolynomial:
+    """The numerators A_k with (-1)^k A_k/(P D^k) the coefficient of W^(m-k)."""
+    *coefficients, leading = (reader.ratfunc(text) for text in data["coefficients"])
+    if leading != 1 or len(coefficients) != data["degree"] or data["degree"] not in _DEGREES:
+        raise ValueError("the polynomial of omega isn't monic of its degree")
+    numerators = [P]
+    for k, coefficient in enumerate(reversed(coefficients), start=1):
+        product = coefficient * (P * D**k) * (-1) ** k
+        if not product.is_polynomial:
+            raise ValueError("D isn't a denominator of the polynomial of omega")
+        numerators.append(product.num)
+    return RiccatiPolynomial(P, D, tuple(numerators))
+
+
+def _form(form: SemiInvariant, names: Names) -> dict[str, Any]:
+    return {"degree": form.degree, "theta": names.ratfunc(form.theta), "P": names.poly(form.P)}
+
+
+def _exclusion(exclusion: Exclusion, names: Names) -> dict[str, Any]:
+    return {
+        "structure": exclusion.structure.value,
+        "case": exclusion.structure.case,
+        "evidence": [_evidence(evidence, names) for evidence in exclusion.evidence],
+    }
+
+
+def _evidence(evidence: Evidence, names: Names) -> dict[str, Any]:
+    if isinstance(evidence, NecessaryCondition):
+        places = [names.place(place) for place in evidence.places]
+        return {
+            "kind": "necessary_condition",
+            "rule": evidence.rule.name.lower(),
+            "places": places,
+            "statement": evidence.rule.value,
+        }
+    if isinstance(evidence, NoInvariant):
+        return {
+            "kind": "no_invariant",
+            "invariant_degree": evidence.invariant_degree,
+            "prime": evidence.prime,
+            "point": evidence.point,
+            "degree": evidence.degree,
+        }
+    return {
+        "kind": "no_rational_omega",
+        "degree": evidence.degree,
+        "prime": evidence.prime,
+        "place": names.place(evidence.place),
+    }
+
+
+def _read_exclusion(data: Mapping[str, Any], names: Names) -> Exclusion:
+    evidence = tuple(_read_evidence(entry, names) for entry in data["evidence"])
+    return Exclusion(Structure(data["structure"]), evidence)
+
+
+def _read_evidence(data: Mapping[str, Any], names: Names) -> Evidence:
+    kind = data["kind"]
+    if kind == "necessary_condition":
+        return NecessaryCondition(
+            Rule[data["rule"].upper()], tuple(names.internal_place(name) for name in data["places"])
+        )
+    if kind == "no_invariant":
+        return NoInvariant(data["invariant_degree"], data["prime"], data["point"], data["degree"])
+    if kind == "no_rational_omega":
+        return NoRationalOmega(data["degree"], data["prime"], names.internal_place(data["place"]))
+    raise ValueError(f"unknown evidence {kind!r}")
