@@ -29,8 +29,8 @@ sys.path.insert(0, str(Path(__file__).parent))
 import families
 
 import kovacic
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.batch.items import Item, Job
 from kovacic.batch.pool import Pool
 from kovacic.batch.summary import Summary

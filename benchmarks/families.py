@@ -17,9 +17,9 @@ sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 
 import transform
 
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 
 SIZES = (5, 10, 20, 40, 80, 100)
 DIGITS = (1, 10, 100, 1000)

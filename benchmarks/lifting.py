@@ -24,10 +24,10 @@ import transform
 from flint import nmod_poly
 
 import kovacic
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.lifting import prime
 from kovacic.algebra.modular import fundamental_system
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.engine import invariants
 from kovacic.engine.decide import decide
 from kovacic.engine.expansion import polynomial_invariant

@@ -44,8 +44,8 @@ PROBLEMS = [
 
 def ball_normal_form(k: str) -> Any:
     """y1 y2 = sqrt(D), w^2 = 2 k^2: S from phi = D'/(2 D) and w^2 = f^2 (4 S - 2 phi' - phi^2), D = 5 + 2 x + x^2/2."""
-    from kovacic.algebra.fields import QQ
     from kovacic.algebra.ratfunc import RatFunc
+    from kovacic.algebra.rationals import QQ
 
     D = RatFunc(QQ.poly([5, 2, Fraction(1, 2)]))
     phi = D.derivative() / (2 * D)

@@ -29,7 +29,7 @@ from typing import Any
 from unittest import mock
 
 import kovacic
-from kovacic.algebra import extension
+from kovacic.algebra import splitting
 
 CORPUS = Path(__file__).parent.parent / "tests" / "data" / "cases.jsonl"
 RECORDED = Path(__file__).parent / "operation_counts.json"
@@ -161,7 +161,7 @@ def measure() -> dict[str, dict[str, Any]]:
     load_engine()
     found = {}
     for name, S in corpus().items():
-        for remembered in (extension._splitting_bundles, extension._splits_rarely):
+        for remembered in (splitting._remembered, splitting.splits_rarely):
             remembered.cache_clear()
         with counting() as counts:
             kovacic.solve(S)

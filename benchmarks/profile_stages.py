@@ -58,7 +58,7 @@ STAGES = {
         "engine.invariants:_closes",
         "engine.reducible:_first_factor",
     ),
-    "lifting": ("algebra.fields:Lifter.add",),
+    "lifting": ("algebra.lifting:Lifter.add",),
     "recurrences": ("algebra.recurrence:polynomial_solution", "engine.expansion:polynomial_invariant"),
     "the cases, their algebra": ("engine.decide:decide",),
     "exact check of forms, polynomial of omega": ("engine.riccati:Form.numerators",),

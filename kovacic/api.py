@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from kovacic.algebra.fields import QQ
+from kovacic.algebra.rationals import QQ
 from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide as decide_structure
 from kovacic.errors import InputError, VerificationFailed

@@ -17,14 +17,14 @@ from typing import Any
 from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rational_poly import RationalPoly
+from kovacic.algebra.rationals import RationalPoly
 
 
 @dataclass(frozen=True)
 class Equation:
     """a y'' + b y' + c y = f + h over one field, a not zero; f is rational, and h a SymPy expression or None.
 
-    >>> from kovacic.algebra.fields import QQ
+    >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
     >>> bessel = Equation(x**2, x, x**2 - 1, x * 0)
     >>> print(bessel)

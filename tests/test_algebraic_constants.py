@@ -15,8 +15,9 @@ from transform import hypergeometric
 import kovacic
 from kovacic.algebra.embedding import RATIONAL_NUMBERS
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.fields import QQ, Field
+from kovacic.algebra.poly import Field
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.limits import Limits
 
 ENTRIES = [

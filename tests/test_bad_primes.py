@@ -8,9 +8,9 @@ import pytest
 import transform
 
 import kovacic
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.lifting import prime
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 
 X = RatFunc(QQ.poly([0, 1]))
 P0, P1 = prime(0), prime(1)

@@ -15,8 +15,8 @@ from hypothesis import given, settings
 from sympy.abc import x
 
 import kovacic
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.closed_form import solutions
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution, residual
 from kovacic.closed_form.jets import jet

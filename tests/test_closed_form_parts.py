@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from sympy.abc import t, x
 
 import kovacic
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.closed_form import solutions
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution, value_at

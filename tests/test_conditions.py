@@ -16,8 +16,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.function_field import FunctionField
+from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
 from kovacic.galois.group import Kind
 from kovacic.limits import Budget, Limits

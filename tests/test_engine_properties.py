@@ -26,9 +26,9 @@ from strategies import Example
 import kovacic
 from kovacic import Solution, Status, Structure
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.decision import (
     Decision,
     Exclusion,

@@ -18,8 +18,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.equation import Equation
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
 from kovacic.reading.equation_parser import is_equation, parse_equation

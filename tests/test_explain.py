@@ -16,8 +16,8 @@ import sympy
 from hypothesis import given, settings
 
 import kovacic
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.cli.main import run
 from kovacic.engine.places import Kind
 from kovacic.views.latex import latex_ratfunc, latex_text

@@ -16,9 +16,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.jacobian import Jacobian
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind as PlaceKind
 from kovacic.engine.places import analyse
 from kovacic.equation import Equation

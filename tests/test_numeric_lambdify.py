@@ -12,8 +12,8 @@ import pytest
 from published import load
 
 import kovacic
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.doubles import double_double as dd
 from kovacic.doubles.accuracy import MEDIAN, WORST, measure, warn_unless_accurate
 from kovacic.doubles.lambdify import lambdify

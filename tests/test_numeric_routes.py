@@ -13,8 +13,8 @@ from published import load
 from transform import from_omega, from_squared_difference
 
 import kovacic
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.enclosure.agreement import agrees_with_group, compare, is_fuchsian
 from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states

@@ -12,10 +12,11 @@ from hypothesis import strategies as st
 
 import kovacic
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.decision import Status
 from tests.parametric_cases import BALL
 
@@ -72,7 +73,7 @@ def test_division_and_common_divisors(f: Poly, g: Poly) -> None:
 @settings(max_examples=25)
 @given(st.lists(polynomials(), min_size=1, max_size=3))
 def test_the_lift_recovers_polynomials_from_their_values(given_polynomials: list[Poly]) -> None:
-    lifter = K.lifter()
+    lifter = Lifter(K)
     for bundle in K.bundles():
         proposal = lifter.add(bundle, [[h(f) for f in given_polynomials] for h in bundle])
         if proposal == given_polynomials:
@@ -83,7 +84,7 @@ def test_the_lift_recovers_polynomials_from_their_values(given_polynomials: list
 
 def test_large_coefficients_take_several_primes() -> None:
     f = K.poly([s * 10**40 + Fraction(1, 3**50), t / (s + 10**25)])
-    lifter = K.lifter()
+    lifter = Lifter(K)
     for bundle in K.bundles():
         if lifter.add(bundle, [[h(f)] for h in bundle]) == [f]:
             return

@@ -17,8 +17,8 @@ from lark import Lark, Token, Tree
 from lark.lexer import Lexer
 
 import kovacic
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.limits import Limits
 from kovacic.reading import compile_grammar

@@ -10,9 +10,9 @@ import transform
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 
 X = strategies.X
 ZERO = RatFunc(QQ.poly([]))

@@ -16,9 +16,8 @@ from typing import Any
 from flint import acb, arb, ctx, fmpq, fmpq_mat, fmpz, fmpz_poly
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
-from kovacic.algebra.fields import QQ, Field
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.rational_poly import RationalPoly
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.errors import LimitExceeded
 
 #: Bits of the approximations.

@@ -1,7 +1,8 @@
 """Simple algebraic extensions K(c) of a field, and polynomials over them.
 
-A polynomial over K(c) is the tuple of its coordinates with respect to 1, c, c**2, ...; a homomorphism to F_p is one of K and
-a root of c's minimal polynomial modulo p.  Extensions of extensions are towers of these.
+A polynomial over K(c) is the tuple of its coordinates with respect to 1, c, c**2, ...  Extensions of extensions are towers
+of these.  Factoring is by norms [Trager, SYMSAC 1976]: if the norm of f(x - s c) from K(c)[x] to K[x] is squarefree, its
+irreducible factors over K correspond to those of f, each of which is the greatest common divisor of f(x - s c) with one.
 """
 
 from __future__ import annotations
@@ -10,44 +11,17 @@ import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, lru_cache
-from itertools import islice
+from math import lcm
 from typing import Any
 
-from flint import fmpq, nmod_poly
+from flint import fmpq
 
-from kovacic.algebra.fields import QQ, BadPrimeError, CoordinateLifter, Field, Homomorphism, RationalHomomorphism
-from kovacic.algebra.lifting import primes
-from kovacic.algebra.poly import Poly, Scalar
-
-
-@dataclass(frozen=True, slots=True)
-class ExtensionHomomorphism(Homomorphism):
-    """K(c) -> F_p: a homomorphism of K and the image of c, a root of c's minimal polynomial modulo p."""
-
-    base: Homomorphism
-    root: int
-
-    @property
-    def p(self) -> int:  # type: ignore[override]
-        return self.base.p
-
-    @property
-    def ground(self) -> Homomorphism:
-        return self.base.ground
-
-    @property
-    def height(self) -> int:
-        """How many extensions the tower has."""
-        return self.base.height + 1 if isinstance(self.base, ExtensionHomomorphism) else 1
-
-    def __call__(self, polynomial: Poly) -> Any:
-        if not isinstance(polynomial, ExtensionPoly) or polynomial.field.height < self.height:
-            return self.base(polynomial)
-        result = nmod_poly([], self.p)
-        for part in reversed(polynomial.parts):
-            result = result * self.root + self.base(part)
-        return result
+from kovacic.algebra import splitting
+from kovacic.algebra.lattice import Ideals
+from kovacic.algebra.lifting import Lifter
+from kovacic.algebra.modular import BadPrimeError
+from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
+from kovacic.algebra.traces import coefficients_from_traces, power_sums
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,20 +44,11 @@ class AlgebraicField(Field):
     @property
     def height(self) -> int:
         """How many extensions the tower has."""
-        return self.base.height + 1 if isinstance(self.base, AlgebraicField) else 1
+        return self.base.height + 1
 
     @property
     def ground(self) -> Field:
         return self.base.ground
-
-    @property
-    def lifting_field(self) -> Field:
-        return self if _splits_rarely(self) else self.base.lifting_field
-
-    def coordinate_lifter(self) -> CoordinateLifter:
-        from kovacic.algebra.lattice import LatticeLifter
-
-        return LatticeLifter(self)
 
     @property
     def absolute_degree(self) -> int:
@@ -117,74 +82,42 @@ class AlgebraicField(Field):
         return ExtensionPoly.make(self, [polynomial, *[zero] * (self.dimension - 1)])
 
     def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
-        from kovacic.algebra.norms import factor_over_extension
+        remaining = polynomial.monic()
+        factors: list[tuple[Poly, int]] = []
+        for factor in self._factor_squarefree(remaining // remaining.gcd(remaining.derivative())):
+            remaining, multiplicity = remaining.remove(factor)
+            factors.append((factor, multiplicity))
+        return sorted(factors, key=lambda pair: (pair[0].degree, str(pair[0])))
 
-        return factor_over_extension(self, polynomial)
-
-    def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
-        return iter(_splitting_bundles(self)) if allowed is None else self.splitting_bundles(allowed)
-
-    def splitting_bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
-        """The bundles over primes that split completely, or one root for each prime that has any, one after the other."""
-        complete = not _splits_rarely(self)
-        base_bundles = self.base.bundles(self._splitting(allowed) if self._is_numerical else allowed)
-        for base_bundle in base_bundles:
-            homomorphisms: list[Homomorphism] = []
-            try:
-                for base in base_bundle:
-                    roots = base.keeping_degree(self.modulus).roots()
-                    if not complete:
-                        roots = [pair for pair in roots if pair[1] == 1]
-                        roots = sorted(roots, key=lambda pair: int(pair[0]))[:1]
-                    if len(roots) < (self.dimension if complete else 1):
-                        break
-                    homomorphisms += [ExtensionHomomorphism(base, root) for root in sorted(int(r) for r, _ in roots)]
-                else:
-                    yield tuple(homomorphisms)
-            except BadPrimeError:
-                continue
+    def _factor_squarefree(self, polynomial: Poly) -> list[Poly]:
+        if polynomial.degree <= 1:
+            return [polynomial] if polynomial.degree == 1 else []
+        x, shift = self.poly([0, 1]), 0
+        while True:
+            shifted = polynomial(x - self.generator * shift)
+            image = norm(shifted)
+            if image.gcd(image.derivative()).degree == 0:
+                break
+            shift = -shift if shift > 0 else 1 - shift
+        back = x + self.generator * shift
+        return [shifted.gcd(self.embed(factor))(back).monic() for factor, _ in self.base.factor(image)]
 
     @property
-    def _is_numerical(self) -> bool:
-        """Does c lie over Q while there are parameters?  Then the prime decides about splitting, not the point."""
-        return self.ground != QQ and all(self.base.rational_value(c) is not None for c in self.modulus)
+    def _splits_rarely(self) -> bool:
+        return splitting.splits_rarely(self.base, self.modulus)
 
-    def _splitting(self, allowed: Callable[[int], bool] | None) -> Callable[[int], bool]:
-        values = [self.base.rational_value(c) for c in self.modulus]
-        modulus = QQ.poly([v for v in values if v is not None])
+    def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
+        return splitting.bundles(self.base, self.modulus, allowed)
 
-        @cache
-        def splits(p: int) -> bool:
-            try:
-                roots = RationalHomomorphism(p).keeping_degree(modulus).roots()
-            except BadPrimeError:
-                return False
-            return len(roots) == self.dimension and (allowed is None or allowed(p))
-
-        return splits
+    def collector(self, shape: tuple[int, ...]) -> Collector:
+        return Ideals(self.dimension, shape) if self._splits_rarely else self.base.collector(shape)
 
     def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
-        if _splits_rarely(self):
+        if self._splits_rarely:
             return list(images[0])
-        n, p = self.dimension, bundle[0].p
-        base_bundle: list[Homomorphism] = []
-        base_images: list[list[Any]] = []
-        for start in range(0, len(bundle), n):
-            block = bundle[start : start + n]
-            inverse = _vandermonde_inverse([h.root for h in block], p)  # type: ignore[attr-defined]
-            base_bundle.append(block[0].base)  # type: ignore[attr-defined]
-            base_images.append(
-                [
-                    sum((column[j] * row[j] for j in range(n)), nmod_poly([], p))
-                    for column in zip(*images[start : start + n], strict=True)
-                    for row in inverse
-                ]
-            )
-        return self.base.coordinates(base_bundle, base_images)
+        return self.base.coordinates(*splitting.coordinates(bundle, images, self.dimension))
 
     def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
-        if _splits_rarely(self):
-            return list(coordinates)
         parts, n = self.base.assemble(coordinates), self.dimension
         return [ExtensionPoly.make(self, parts[i : i + n]) for i in range(0, len(parts), n)]
 
@@ -212,59 +145,6 @@ class AlgebraicField(Field):
 
     def __str__(self) -> str:
         return f"{self.base}({self.name})"
-
-
-class _Remembered:
-    """A sequence that remembers what an iterator gave, so that primes are searched once for each field."""
-
-    def __init__(self, source: Iterator[tuple[Homomorphism, ...]]) -> None:
-        self._source = source
-        self._known: list[tuple[Homomorphism, ...]] = []
-
-    def __iter__(self) -> Iterator[tuple[Homomorphism, ...]]:
-        position = 0
-        while True:
-            if position == len(self._known):
-                self._known.append(next(self._source))
-            yield self._known[position]
-            position += 1
-
-
-#: From this degree on a number field may have too few primes that split completely; so many primes are tried.
-_LARGE_DEGREE, _TRIED_PRIMES = 4, 12
-
-
-@lru_cache(maxsize=64)
-def _splits_rarely(field: AlgebraicField) -> bool:
-    """Does none of the first primes split completely in a number field of a large degree?"""
-    if field.base != QQ or field.dimension < _LARGE_DEGREE:
-        return False
-    for p in islice(primes(), _TRIED_PRIMES):
-        try:
-            if len(RationalHomomorphism(p).keeping_degree(field.modulus).roots()) == field.dimension:
-                return False
-        except BadPrimeError:
-            continue
-    return True
-
-
-@lru_cache(maxsize=64)
-def _splitting_bundles(field: AlgebraicField) -> _Remembered:
-    return _Remembered(field.splitting_bundles())
-
-
-def _vandermonde_inverse(nodes: Sequence[int], p: int) -> list[list[int]]:
-    """Row i, column j: the coefficient of X^i in the j-th Lagrange polynomial of the nodes."""
-    columns = []
-    for j, node in enumerate(nodes):
-        basis, scale = nmod_poly([1], p), 1
-        for k, other in enumerate(nodes):
-            if k != j:
-                basis = basis * nmod_poly([-other % p, 1], p)
-                scale = scale * (node - other) % p
-        basis = basis * pow(scale, -1, p)
-        columns.append([int(basis[i]) for i in range(len(nodes))])
-    return [list(row) for row in zip(*columns, strict=True)]
 
 
 class ExtensionPoly(Poly):
@@ -364,7 +244,7 @@ class ExtensionPoly(Poly):
             return (first or second).monic()
         if first.degree == 0 or second.degree == 0:
             return self._field.poly([1])
-        lifter = self._field.lifter()
+        lifter = Lifter(self._field)
         for bundle in self._field.bundles():
             try:
                 images = [[h.keeping_degree(first).gcd(h.keeping_degree(second))] for h in bundle]
@@ -401,8 +281,6 @@ class ExtensionPoly(Poly):
         return tuple(result)
 
     def common_denominator(self) -> int:
-        from math import lcm
-
         return lcm(*(part.common_denominator() for part in self.parts))
 
     def height_bits(self) -> int:
@@ -411,3 +289,14 @@ class ExtensionPoly(Poly):
     def coefficient_strings(self) -> list[str]:
         base, name = self._field.base, self._field.name
         return [base.poly([part[power] for part in self.parts]).integer_str(name) for power in range(self.degree + 1)]
+
+
+def norm(polynomial: Poly) -> Poly:
+    """The norm from K(c)[x] to K[x], from the traces of the powers."""
+    field = polynomial.field
+    assert isinstance(field, AlgebraicField)
+    n, sums, power, traces = field.dimension, power_sums(field.modulus), polynomial, list[Poly]()
+    for _ in range(n):
+        traces.append(sum((part * s for part, s in zip(power.parts, sums, strict=True)), field.base.poly([])))
+        power = power * polynomial
+    return coefficients_from_traces(traces)[n] * (-1 if n % 2 else 1)

@@ -13,12 +13,11 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from flint import Ordering, fmpz_mpoly_ctx, nmod_poly
+from flint import Ordering, fmpz_mpoly_ctx
 
-from kovacic.algebra.fields import BadPrimeError, CoordinateLifter, Field, Homomorphism
+from kovacic.algebra.interpolation import Evaluation, Samples
 from kovacic.algebra.lifting import primes
-from kovacic.algebra.poly import Poly, Scalar
-from kovacic.algebra.rational_poly import RationalPoly
+from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
 from kovacic.algebra.sparse import constant_term, factorisation, format_terms, laurent_constant, square_root
 
 #: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.
@@ -26,54 +25,10 @@ _FIRST_PRIME_RUN, _QUOTA = 3, 32
 
 
 @dataclass(frozen=True, slots=True)
-class Evaluation(Homomorphism):
-    """The parameters take the values `point` modulo p."""
-
-    p: int
-    point: tuple[int, ...]
-
-    @property
-    def ground(self) -> Homomorphism:
-        return self
-
-    def __call__(self, polynomial: Poly) -> Any:
-        p = self.p
-        if isinstance(polynomial, RationalPoly):
-            polynomial = FunctionField(tuple(f"t{i}" for i in range(len(self.point)))).embed(polynomial)
-        assert isinstance(polynomial, FunctionPoly)
-        scale = self._constant(polynomial.den)
-        if scale == 0:
-            raise BadPrimeError("a parameter takes a forbidden value")
-        coefficients = [0] * (polynomial.degree + 1)
-        for exponents, coefficient in polynomial.num.to_dict().items():
-            value = int(coefficient) % p
-            for base, exponent in zip(self.point, exponents[1:], strict=True):
-                if exponent:
-                    value = value * pow(base, int(exponent), p) % p
-            coefficients[int(exponents[0])] += value
-        image = nmod_poly([c % p for c in coefficients], p)
-        return image if scale == 1 else image * pow(scale, -1, p)
-
-    def _constant(self, polynomial: Any) -> int:
-        total = 0
-        for exponents, coefficient in polynomial.to_dict().items():
-            value = int(coefficient)
-            for base, exponent in zip(self.point, exponents[1:], strict=True):
-                if exponent:
-                    value = value * pow(base, int(exponent), self.p) % self.p
-            total += value
-        return total % self.p
-
-
-@dataclass(frozen=True, slots=True)
 class FunctionField(Field):
     """The field Q(t1, ..., tk), `names` being the names of the parameters."""
 
     names: tuple[str, ...]
-
-    @property
-    def ground(self) -> Field:
-        return self
 
     @property
     def context(self) -> Any:
@@ -154,16 +109,14 @@ class FunctionField(Field):
             yield (Evaluation(p, tuple(point)),)
             index += 1
 
-    def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
-        return list(images[0])
-
-    def coordinate_lifter(self) -> CoordinateLifter:
-        from kovacic.algebra.interpolation import Interpolator
-
-        return Interpolator(self)
+    def collector(self, shape: tuple[int, ...]) -> Collector:
+        return Samples(len(self.names), shape)
 
     def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
-        return list(coordinates)
+        def sparse(terms: dict[tuple[int, ...], int]) -> Any:
+            return self.context.from_dict({(0, *exponents): c for exponents, c in terms.items()})
+
+        return [self.poly([self.make(sparse(num), sparse(den)) for num, den in one]) for one in coordinates]
 
     def rational_value(self, constant: Poly) -> Fraction | None:
         assert isinstance(constant, FunctionPoly)
@@ -178,6 +131,17 @@ class FunctionField(Field):
             return constant
         roots = [square_root(part, self.context) for part in (constant.num, constant.den)]
         return None if roots[0] is None or roots[1] is None else self.make(roots[0], roots[1])
+
+    def cleared(self, num: Poly, den: Poly) -> tuple[Poly, Poly]:
+        leaves: list[Any] = [leaf for polynomial in (num, den) for leaf in polynomial.leaves() if leaf]
+        if not leaves:
+            return num, den
+        multiple = reduce(lambda m, leaf: m * (leaf.den // m.gcd(leaf.den)), leaves, self.context.constant(1))
+        contents = [leaf.content() * (multiple // leaf.den) for leaf in leaves]
+        scale: Poly = self.make(multiple, reduce(lambda a, b: a.gcd(b), contents, self.context.constant(0)))
+        if int((leaves[-1] * scale).num.leading_coefficient()) < 0:  # that of the denominator, if it isn't zero
+            scale = -scale
+        return num * scale, den * scale
 
     def __str__(self) -> str:
         return f"Q({', '.join(self.names)})"
@@ -220,9 +184,6 @@ class FunctionPoly(Poly):
         return super().__eq__(other)
 
     __hash__ = Poly.__hash__
-
-    def leaves(self) -> list[Poly]:
-        return [self]
 
     def __getitem__(self, power: int) -> FunctionPoly:
         terms = {(0, *e[1:]): c for e, c in self.num.to_dict().items() if e[0] == power}
@@ -355,24 +316,3 @@ def _terms(polynomial: Any) -> tuple[tuple[tuple[int, ...], int], ...]:
 def _from_key(field: FunctionField, num: tuple[Any, ...], den: tuple[Any, ...]) -> FunctionPoly:
     context = field.context
     return FunctionPoly(field, context.from_dict(dict(num)), context.from_dict(dict(den)))
-
-
-def cleared(num: Poly, den: Poly, ground: FunctionField) -> tuple[Poly, Poly]:
-    """A common multiple of two polynomials over an extension of Q(t) by an element of Q(t): coprime, without denominators."""
-    leaves = [leaf for polynomial in (num, den) for leaf in polynomial.leaves() if leaf]
-    multiple = ground.context.constant(1)
-    for leaf in leaves:
-        assert isinstance(leaf, FunctionPoly)
-        multiple = multiple * (leaf.den // multiple.gcd(leaf.den))
-    contents = [leaf.content() * (multiple // leaf.den) for leaf in leaves if isinstance(leaf, FunctionPoly)]
-    common = reduce(lambda a, b: a.gcd(b), contents, ground.context.constant(0))
-    last = den.leaves()[0]
-    if common.is_zero():
-        return num, den
-    scale: Poly = ground.make(multiple, common)
-    for leaf in den.leaves():
-        if isinstance(leaf, FunctionPoly) and leaf:
-            last = leaf
-    if isinstance(last, FunctionPoly) and last and int((last * scale).num.leading_coefficient()) < 0:
-        scale = -scale
-    return num * scale, den * scale

@@ -1,4 +1,4 @@
-"""Rational functions of several parameters from their values modulo primes.
+"""Rational functions of several parameters: their values modulo primes, and the way back from these.
 
 A coefficient N/D of least total degree d is found by linear algebra: N(t) - v(t) D(t) = 0 at random points t has, for
 the least d with a solution, one solution up to a factor.  Rational coefficients come from the first prime by rational
@@ -9,14 +9,16 @@ Exactness comes from the verification of what is proposed; a wrong proposal is n
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations_with_replacement
+from dataclasses import dataclass
+from itertools import combinations_with_replacement, islice
 from typing import Any
 
-from flint import nmod_mat
+from flint import nmod_poly
 
-from kovacic.algebra.fields import CoordinateLifter, Homomorphism
-from kovacic.algebra.function_field import Evaluation, FunctionField
-from kovacic.algebra.lifting import reconstruct_vector
+from kovacic.algebra.lifting import chinese_remainders, reconstruct_vector
+from kovacic.algebra.modular import BadPrimeError, null_space
+from kovacic.algebra.poly import Collector, Homomorphism, Poly
+from kovacic.algebra.rationals import RationalHomomorphism, RationalPoly
 from kovacic.errors import LimitExceeded
 
 #: Samples beyond the number of unknowns.
@@ -27,68 +29,75 @@ _LARGEST = 2400
 _Exponents = tuple[int, ...]
 
 
-class Interpolator(CoordinateLifter):
-    """Collects values of a vector of polynomials at points, and proposes the vector over Q(t)."""
+@dataclass(frozen=True, slots=True)
+class Evaluation(Homomorphism):
+    """The parameters take the values `point` modulo p."""
 
-    def __init__(self, field: FunctionField) -> None:
-        self._field = field
-        self._states: dict[tuple[int, ...], _Samples] = {}
+    p: int
+    point: _Exponents
 
-    @property
-    def primes_used(self) -> int:
-        return sum(len(state.points) for state in self._states.values())
+    def __call__(self, polynomial: Poly) -> Any:
+        if isinstance(polynomial, RationalPoly):
+            return RationalHomomorphism(self.p)(polynomial)
+        num, den = polynomial.num, polynomial.den  # type: ignore[attr-defined]
+        scale = sum(self._columns(den)) % self.p
+        if scale == 0:
+            raise BadPrimeError("a parameter takes a forbidden value")
+        image = nmod_poly(self._columns(num), self.p)
+        return image if scale == 1 else image * pow(scale, -1, self.p)
+
+    def _columns(self, polynomial: Any) -> list[int]:
+        """The coefficients of the powers of x, which is variable number 0."""
+        columns = [0] * (int(polynomial.degrees()[0]) + 1)
+        for exponents, coefficient in polynomial.to_dict().items():
+            columns[int(exponents[0])] += int(coefficient) * _power_product(self.point, exponents[1:], self.p)
+        return [c % self.p for c in columns]
+
+
+class Samples(Collector):
+    """The samples of one shape, and for each coefficient what is known about it.
+
+    A polynomial is proposed as the list of its coefficients, pairs (N, D) of integer coefficients by exponents.
+    """
+
+    __slots__ = ("_points", "_shape", "_unknowns", "_values", "primes_used")
+
+    def __init__(self, parameters: int, shape: tuple[int, ...]) -> None:
+        self.primes_used = 0
+        self._shape = shape
+        self._points: dict[int, list[_Exponents]] = {}
+        self._values: dict[int, list[list[int]]] = {}
+        self._unknowns = [_Unknown(parameters) for _ in range(sum(shape))]
 
     def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:
-        assert isinstance(homomorphism, Evaluation)
-        shape = tuple(image.length() for image in images)
-        state = self._states.setdefault(shape, _Samples(self._field, shape))
-        return state.add(homomorphism, images)
-
-
-class _Samples:
-    """The samples of one shape, and for each coefficient what is known about it."""
-
-    def __init__(self, field: FunctionField, shape: tuple[int, ...]) -> None:
-        self.field, self.shape = field, shape
-        self.points: dict[int, list[_Exponents]] = {}
-        self.values: dict[int, list[list[int]]] = {}
-        self.unknowns = [_Unknown(len(field.names)) for _ in range(sum(shape))]
-
-    def add(self, homomorphism: Evaluation, images: Sequence[Any]) -> list[Any] | None:
-        p = homomorphism.p
-        self.points.setdefault(p, []).append(homomorphism.point)
-        self.values.setdefault(p, []).append([int(c) for image in images for c in image.coeffs()])
-        first = next(iter(self.points))
-        if p == first and not all(u.terms for u in self.unknowns):
-            for index, unknown in enumerate(self.unknowns):
-                while not unknown.terms and unknown.needed <= len(self.points[p]):
-                    unknown.search(p, self.points[p], [row[index] for row in self.values[p]])
+        evaluation = homomorphism.ground
+        assert isinstance(evaluation, Evaluation)
+        p = evaluation.p
+        points, values = self._points.setdefault(p, []), self._values.setdefault(p, [])
+        self.primes_used = len(self._points)
+        points.append(evaluation.point)
+        values.append([int(c) for image in images for c in image.coeffs()])
+        if p == next(iter(self._points)):
+            for index, unknown in enumerate(self._unknowns):
+                while not unknown.terms and unknown.needed <= len(points):
+                    unknown.search(p, points, [row[index] for row in values])
                 if not unknown.terms:
                     return None
-        if not all(u.terms for u in self.unknowns):
-            return None
-        return self._proposal()
+        return self._proposal() if all(u.terms for u in self._unknowns) else None
 
     def _proposal(self) -> list[Any] | None:
-        for p, points in list(self.points.items()):
-            for index, unknown in enumerate(self.unknowns):
+        for p, points in self._points.items():
+            for index, unknown in enumerate(self._unknowns):
                 if p not in unknown.primes and len(points) >= unknown.size + _MARGIN:
-                    unknown.refine(p, points, [row[index] for row in self.values[p]])
+                    unknown.refine(p, points, [row[index] for row in self._values[p]])
         functions = []
-        for unknown in self.unknowns:
+        for unknown in self._unknowns:
             parts = unknown.reconstruct()
             if parts is None:
                 return None
-            functions.append(self._function(*parts))
-        result, start = [], 0
-        for length in self.shape:
-            result.append(self.field.poly(functions[start : start + length]))
-            start += length
-        return result
-
-    def _function(self, above: dict[_Exponents, int], below: dict[_Exponents, int]) -> Any:
-        num, den = (self.field.context.from_dict({(0, *e): c for e, c in terms.items()}) for terms in (above, below))
-        return self.field.make(num, den)
+            functions.append(parts)
+        following = iter(functions)
+        return [list(islice(following, length)) for length in self._shape]
 
 
 class _Unknown:
@@ -138,12 +147,7 @@ class _Unknown:
         assert self.terms is not None
         lead = pow(solution[len(self.terms[0])], -1, p)
         residues = [c * lead % p for c in solution]
-        if not self.residues:
-            self.residues = [0] * len(residues)
-        inverse = pow(self.modulus, -1, p)
-        self.residues = [
-            old + self.modulus * ((new - old) * inverse % p) for old, new in zip(self.residues, residues, strict=True)
-        ]
+        self.residues = chinese_remainders(self.residues or [0] * len(residues), self.modulus, residues, p)
         self.modulus *= p
         self.primes.add(p)
 
@@ -181,10 +185,8 @@ def _solve(
         at = {m: _power_product(point, m, p) for m in every}
         rows.append([*(at[m] for m in above), *(-value * at[m] % p for m in below)])
     columns = len(above) + len(below)
-    basis, nullity = nmod_mat(len(rows), columns, [c for row in rows for c in row], p).nullspace()
-    if nullity != 1:
-        return None
-    return [int(basis[i, 0]) for i in range(columns)]
+    basis = null_space(rows, columns, p)
+    return basis[0] if len(basis) == 1 else None
 
 
 def _power_product(point: _Exponents, exponents: _Exponents, p: int) -> int:
@@ -193,6 +195,3 @@ def _power_product(point: _Exponents, exponents: _Exponents, p: int) -> int:
         if exponent:
             result = result * pow(base, exponent, p) % p
     return result
-
-
-__all__ = ["Interpolator"]

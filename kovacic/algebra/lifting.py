@@ -1,7 +1,7 @@
 """From images modulo primes back to rational numbers: Chinese remainders and rational reconstruction.
 
-One lifter serves every number field: a field reduces its elements to rational coordinates modulo p
-(`Field.coordinates`), the coordinates are lifted here, and the field puts them together again (`Field.assemble`).
+A field reduces its elements to coordinates modulo p (`Field.coordinates`); these are collected (here for Q, in
+`interpolation` and `lattice` for other fields), and the field puts them together again (`Field.assemble`).
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from math import isqrt
 from typing import Any
 
 from flint import fmpq_poly, fmpz, fmpz_poly, nmod_poly
+
+from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly
 
 #: Primes are taken downwards from here: large enough that a bad one is rare, small enough for flint's fast arithmetic.
 _LARGEST = 1 << 60
@@ -36,6 +38,12 @@ def primes() -> Iterator[int]:
         index += 1
 
 
+def chinese_remainders(old: Sequence[int], modulus: int, new: Sequence[int], p: int) -> list[int]:
+    """The integers below `modulus * p` that are `old` modulo the modulus and `new` modulo p."""
+    inverse = pow(modulus, -1, p)
+    return [a + modulus * ((b - a) * inverse % p) for a, b in zip(old, new, strict=True)]
+
+
 def rational_reconstruction(residue: int, modulus: int, bound: int) -> tuple[int, int] | None:
     """`(n, d)` with n = d * residue modulo `modulus`, |n| <= bound and 0 < d <= bound, gcd(n, d) = 1; None without one.
 
@@ -50,31 +58,36 @@ def rational_reconstruction(residue: int, modulus: int, bound: int) -> tuple[int
     return (r1, t1) if t1 > 0 else (-r1, -t1)
 
 
-class RationalLifter:
-    """Collects images of a vector of rational polynomials modulo primes, and proposes the vector.
+class Lifter:
+    """Collects images under bundles of homomorphisms and proposes the polynomials over the field.
 
     Images of different shapes (numbers and lengths of the polynomials) are collected apart, so that bad primes, at which a
     leading term vanishes or a space grows, can't spoil what the others say.
     """
 
-    __slots__ = ("_states",)
+    __slots__ = ("_collectors", "_field")
 
-    def __init__(self) -> None:
-        self._states: dict[tuple[int, ...], _Residues] = {}
+    def __init__(self, field: Field) -> None:
+        self._field = field
+        self._collectors: dict[tuple[int, ...], Collector] = {}
 
     @property
     def primes_used(self) -> int:
-        return sum(state.primes_used for state in self._states.values())
+        """How many images were used."""
+        return sum(collector.primes_used for collector in self._collectors.values())
 
-    def add(self, p: int, images: Sequence[Any]) -> list[Any] | None:
-        """Add the images modulo p; a proposal (a list of fmpq_poly) when one is due and there is one, else None."""
-        shape = tuple(image.length() for image in images)
-        state = self._states.setdefault(shape, _Residues(shape))
-        return state.add(p, images)
+    def add(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Poly] | None:
+        """Images of the same polynomials under each homomorphism of the bundle; a proposal when one is due, else None."""
+        coordinates = self._field.coordinates(bundle, images)
+        shape = tuple(image.length() for image in coordinates)
+        if shape not in self._collectors:
+            self._collectors[shape] = self._field.collector(shape)
+        proposal = self._collectors[shape].add(bundle[0], coordinates)
+        return None if proposal is None else self._field.assemble(proposal)
 
 
-class _Residues:
-    """A vector of integers modulo the product of the primes so far: the concatenated coefficients of the polynomials."""
+class Residues(Collector):
+    """Rational polynomials modulo the product of the primes so far: the vector of all their coefficients."""
 
     __slots__ = ("_modulus", "_next_attempt", "_residue", "primes_used", "shape")
 
@@ -85,7 +98,8 @@ class _Residues:
         self._residue: Any = fmpz_poly([])
         self._next_attempt = 1
 
-    def add(self, p: int, images: Sequence[Any]) -> list[Any] | None:
+    def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:
+        p = homomorphism.p
         flat: list[Any] = []
         for image in images:
             flat.extend(image.coeffs())

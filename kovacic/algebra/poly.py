@@ -1,19 +1,23 @@
-"""Immutable dense polynomials in one variable over an exact coefficient field.
+"""What a polynomial over an exact field is, and what a field is: the classes that every implementation fills in.
 
 `Poly` is what every other module sees; flint's mutable polynomials stay inside.  A constant of the field is a polynomial
-of degree 0 (or -1, for zero), so that one type serves for both.
+of degree 0 (or -1, for zero), so that one type serves for both.  The fields are Q (`rationals`), Q(t) for parameters t
+(`function_field`), and simple algebraic extensions of these and of one another (`extension`).
+
+A field adds to the arithmetic of its polynomials: factoring, homomorphisms to prime fields (`bundles`), and the way back
+from images under such homomorphisms (`coordinates`, `collector` and `assemble`, which `lifting` puts together).  Nothing
+else in the package depends on which field it is.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from math import gcd, lcm
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
-if TYPE_CHECKING:
-    from kovacic.algebra.fields import Field
+from kovacic.algebra.modular import BadPrimeError, multiplicity
 
 Scalar = int | Fraction
 
@@ -75,6 +79,11 @@ class Poly(ABC):
     @abstractmethod
     def key(self) -> tuple[Any, ...]:
         """A hashable, picklable value that determines the polynomial within its field."""
+
+    @property
+    def parts(self) -> tuple[Poly, ...]:
+        """The coordinates over the field below; the polynomial itself over a ground field."""
+        return (self,)
 
     def leaves(self) -> list[Poly]:
         """The coordinates over the ground field, polynomials themselves."""
@@ -256,17 +265,7 @@ class Poly(ABC):
 
     def to_str(self, variable: str = "x") -> str:
         """Python/SymPy syntax, with one common denominator."""
-        from kovacic.algebra.rational_poly import RationalPoly
-
-        if not isinstance(self.leaves()[0], RationalPoly):
-            from kovacic.algebra.ratfunc import RatFunc
-
-            return RatFunc(self, self.field.poly([1]), reduced=True).to_str(variable)
-        denominator = self.common_denominator()
-        if denominator == 1:
-            return self.integer_str(variable)
-        text = (self * denominator).integer_str(variable)
-        return f"({text})/{denominator}" if " " in text else f"{text}/{denominator}"
+        return quotient_str(self, self.field.poly([1]), variable)
 
     def integer_str(self, variable: str) -> str:
         """Python syntax for a polynomial whose coefficients have integer coordinates."""
@@ -291,3 +290,146 @@ class Poly(ABC):
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.to_str()}>"
+
+
+def quotient_str(num: Poly, den: Poly, variable: str) -> str:
+    """`num/den`, in lowest terms, in Python/SymPy syntax with integer coefficients."""
+    num, den = num.field.ground.cleared(num, den)
+    above = num.integer_str(variable)
+    if den == 1:
+        return above
+    return f"{_parenthesised(above, ' ')}/{_parenthesised(den.integer_str(variable), ' *')}"
+
+
+def _parenthesised(text: str, separators: str) -> str:
+    return f"({text})" if any(separator in text.lstrip("-").replace("**", "^") for separator in separators) else text
+
+
+class Homomorphism(ABC):
+    """A ring homomorphism from the p-integral elements of a field to F_p, extended to polynomials."""
+
+    __slots__ = ()
+
+    p: int
+
+    @property
+    def ground(self) -> Homomorphism:
+        """The homomorphism of Q, or of Q(t), that this one extends."""
+        return self
+
+    @abstractmethod
+    def __call__(self, polynomial: Poly) -> Any:
+        """The image as an `nmod_poly`.  Raises `BadPrimeError` where a coefficient isn't p-integral."""
+
+    def keeping_degree(self, polynomial: Poly) -> Any:
+        """The image; `BadPrimeError` if the leading coefficient vanishes."""
+        image = self(polynomial)
+        if image.degree() != polynomial.degree:
+            raise BadPrimeError(f"{self.p} divides a leading coefficient")
+        return image
+
+
+class Collector(ABC):
+    """Images of polynomials of one shape (how many, and how long), from which their coordinates are guessed."""
+
+    __slots__ = ()
+
+    primes_used: int
+
+    @abstractmethod
+    def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:
+        """Add the images under a homomorphism; a proposal when one is due and there is one, else None."""
+
+
+class Field(ABC):
+    """An exact field K of characteristic 0 with polynomial arithmetic, factoring, and homomorphisms to prime fields."""
+
+    __slots__ = ()
+
+    @property
+    def ground(self) -> Field:
+        """The field at the bottom: Q, or Q(t) for parameters t."""
+        return self
+
+    @property
+    def height(self) -> int:
+        """How many extensions lie above the ground field."""
+        return 0
+
+    @property
+    def absolute_degree(self) -> int:
+        """The degree over the ground field."""
+        return 1
+
+    @abstractmethod
+    def poly(self, coefficients: Iterable[Scalar | Poly]) -> Poly:
+        """The polynomial with these coefficients, low to high: rational numbers or constants of the field."""
+
+    @abstractmethod
+    def extends(self, other: Field) -> bool:
+        """Is `other` one of the fields below this one?"""
+
+    @abstractmethod
+    def embed(self, polynomial: Poly) -> Poly:
+        """A polynomial over a field below this one, over this one."""
+
+    @abstractmethod
+    def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
+        """The monic irreducible factors with their multiplicities, in a fixed order."""
+
+    @abstractmethod
+    def sqrt(self, constant: Poly) -> Poly | None:
+        """A square root within the field, or None if there is none."""
+
+    @abstractmethod
+    def rational_value(self, constant: Poly) -> Fraction | None:
+        """The constant as a rational number, or None if it isn't one."""
+
+    @abstractmethod
+    def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
+        """Sets of homomorphisms over one prime each, such that the images under a set determine an element modulo p.
+
+        (Over Q(t): its value at one point.)  `allowed` restricts the primes.
+        """
+
+    @abstractmethod
+    def collector(self, shape: tuple[int, ...]) -> Collector:
+        """A fresh way back for `coordinates` of these lengths."""
+
+    def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
+        """Coordinates modulo p of polynomials, from their images under every homomorphism of a bundle."""
+        return list(images[0])
+
+    @abstractmethod
+    def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
+        """The polynomials that have the coordinates that a collector found."""
+
+    def homomorphisms(self) -> Iterator[Homomorphism]:
+        """One homomorphism for each usable prime."""
+        return (bundle[0] for bundle in self.bundles())
+
+    def multiplicity_bound(self, polynomial: Poly, factor: Poly) -> int:
+        """How often a factor divides a polynomial modulo a prime: as often as over the field, or (improbably) oftener."""
+        for h in self.homomorphisms():
+            try:
+                return multiplicity(h.keeping_degree(polynomial), h.keeping_degree(factor))
+            except BadPrimeError:
+                pass
+        raise AssertionError("the sequence of primes is infinite")
+
+    def scalar(self, polynomial: Poly, power: int) -> Any:
+        """The coefficient of `x**power` (0 for negative powers) in the field's fastest type for `+ - * /` and truth."""
+        return polynomial[power] if power >= 0 else self.poly([])
+
+    def from_scalars(self, coefficients: Sequence[Any]) -> Poly:
+        """The polynomial with coefficients, low to high, of the type of `scalar`."""
+        return self.poly(coefficients)
+
+    def cleared(self, num: Poly, den: Poly) -> tuple[Poly, Poly]:
+        """A common multiple of two polynomials over an extension of this ground field by one of its elements.
+
+        Their coordinates are integers (over Q(t): polynomials in t) without a common factor.
+        """
+        (p, q), (r, s) = num.content(), den.content()
+        factor = Fraction(q * s, gcd(p * s, r * q))
+        return (num, den) if factor == 1 else (num * factor, den * factor)

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import gcd
 from typing import Any
 
-from kovacic.algebra.fields import QQ, Field
-from kovacic.algebra.poly import Poly, Scalar
+from kovacic.algebra.poly import Field, Poly, Scalar, quotient_str
 
 
 class RatFunc:
     """`num/den` in lowest terms, den monic; arithmetic with `+ - * / **`, polynomials and scalars.
 
-    >>> from kovacic.algebra.fields import QQ
+    >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
     >>> print((x**2 - 1) / (2 * x - 2))
     (x + 1)/2
@@ -143,24 +141,11 @@ class RatFunc:
 
     def to_str(self, variable: str = "x") -> str:
         """Python/SymPy syntax with integer coefficients."""
-        num, den = self.cleared()
-        text = num.integer_str(variable)
-        if den == 1:
-            return text
-        below = den.integer_str(variable)
-        return f"{_parenthesised(text, ' ')}/{_parenthesised(below, ' *')}"
+        return quotient_str(self.num, self.den, variable)
 
     def cleared(self) -> tuple[Poly, Poly]:
         """Numerator and denominator without denominators and common factors in their coefficients."""
-        ground = self.field.ground
-        if ground != QQ:
-            from kovacic.algebra.function_field import FunctionField, cleared
-
-            assert isinstance(ground, FunctionField)
-            return cleared(self.num, self.den, ground)
-        (p, q), (r, s) = self.num.content(), self.den.content()
-        factor = Fraction(q * s, gcd(p * s, r * q))
-        return (self.num, self.den) if factor == 1 else (self.num * factor, self.den * factor)
+        return self.field.ground.cleared(self.num, self.den)
 
     def __str__(self) -> str:
         return self.to_str()
@@ -181,7 +166,3 @@ def _homogenise(polynomial: Poly, point: RatFunc, degree: int) -> Poly:
         result = result * point.num + polynomial[k] * power
         power = power * point.den
     return result
-
-
-def _parenthesised(text: str, separators: str) -> str:
-    return f"({text})" if any(separator in text.lstrip("-").replace("**", "^") for separator in separators) else text

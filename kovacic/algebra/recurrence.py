@@ -10,9 +10,8 @@ from typing import Any, Protocol
 
 from flint import fmpq, fmpq_poly, fmpz, fmpz_poly
 
-from kovacic.algebra.fields import QQ, Field
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.rational_poly import RationalPoly
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.rationals import QQ, RationalPoly
 
 
 class Series(Protocol):

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from itertools import islice
 from math import lcm
 
 from flint import fmpz
 
-from kovacic.algebra.fields import BadPrimeError
+from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Poly
 
 #: Primes at which a norm is tested for being a square: a norm that isn't one passes with probability 2^-24.
@@ -69,19 +69,14 @@ def characteristic_polynomial(element: Poly, modulus: Poly) -> Poly:
     From the traces of its powers by Newton's identities.
     """
     field, n = modulus.field, modulus.degree
-    power_sums = _power_sums(modulus)
-    traces, power = [], field.poly([1])
+    sums, traces, power = power_sums(modulus), list[Poly](), element % modulus
     for _ in range(n):
+        traces.append(sum((power[i] * sums[i] for i in range(power.degree + 1)), field.poly([])))
         power = power * element % modulus
-        traces.append(sum((power[i] * power_sums[i] for i in range(power.degree + 1)), field.poly([])))
-    coefficients = [field.poly([1])]
-    for k in range(1, n + 1):
-        total = sum((coefficients[k - i] * traces[i - 1] for i in range(1, k + 1)), field.poly([]))
-        coefficients.append(total * field.poly([-k]).inverse())
-    return field.poly(coefficients[::-1])
+    return field.poly(coefficients_from_traces(traces)[::-1])
 
 
-def _power_sums(modulus: Poly) -> list[Poly]:
+def power_sums(modulus: Poly) -> list[Poly]:
     """The sums of the i-th powers of the roots, i = 0, ..., n - 1 (modulus monic, of degree n)."""
     n = modulus.degree
     sums: list[Poly] = [modulus.field.poly([n])]
@@ -91,6 +86,18 @@ def _power_sums(modulus: Poly) -> list[Poly]:
             total = total + modulus[n - i] * sums[k - i]
         sums.append(-total)
     return sums
+
+
+def coefficients_from_traces(traces: Sequence[Poly]) -> list[Poly]:
+    """1, and the coefficients of X^(n-1), ..., X^0 of a characteristic polynomial, by Newton's identities.
+
+    The traces are those of the first n powers.
+    """
+    coefficients = [traces[0].field.poly([1])]
+    for k in range(1, len(traces) + 1):
+        total = sum((coefficients[k - i] * traces[i - 1] for i in range(1, k)), traces[k - 1])
+        coefficients.append(total * Fraction(-1, k))
+    return coefficients
 
 
 def trace_of_square_root(square: Poly, modulus: Poly) -> Poly | None:

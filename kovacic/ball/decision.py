@@ -11,8 +11,8 @@ from fractions import Fraction
 
 import sympy as sp
 
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.ball.ball import BallOnSphere, Scalar, exact
 from kovacic.ball.field import Quotient, Ring
 from kovacic.ball.irrational import generators

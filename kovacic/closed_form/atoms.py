@@ -12,11 +12,10 @@ from sympy import Add, Integer, Mul, Pow, Rational, Symbol, exp, log, sqrt
 
 from kovacic.algebra.embedding import real_root_index
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rational_poly import RationalPoly
+from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.closed_form import plain
 from kovacic.closed_form.partial_fractions import Decomposition, Residue
 from kovacic.closed_form.plain import Expr, RootSum
@@ -64,7 +63,7 @@ class Atoms:
             top, bottom = (self._parametric(part, names) for part in (value.num, value.den))
             return top / bottom
         generator = self.generator(value.field)
-        parts = value.parts  # type: ignore[attr-defined]
+        parts = value.parts
         return sympy.expand_mul(Add(*(Mul(self.constant(part), generator**i) for i, part in enumerate(parts) if part)))
 
     @staticmethod

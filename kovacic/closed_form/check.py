@@ -10,7 +10,7 @@ from sympy import Dummy
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rational_poly import RationalPoly
+from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.jets import jet

@@ -57,7 +57,7 @@ class CurveIntegral:
 def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
     """int r dx/sqrt(g) for a monic squarefree g.
 
-    >>> from kovacic.algebra.fields import QQ
+    >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
     >>> done = integrate_on_curve(1 / x**2, QQ.poly([1, 0, 1]))  # -sqrt(x^2 + 1)/x
     >>> print(done.exact, len(done.residues), done.rest)

@@ -13,9 +13,9 @@ from fractions import Fraction
 import sympy
 from sympy import Add, Integer, atan, cos, log, sin, sqrt
 
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.closed_form import plain
 from kovacic.closed_form.atoms import Atoms, rational
 from kovacic.closed_form.curve import CurveIntegral

@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from kovacic.algebra.fields import Field
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 
 
@@ -53,7 +52,7 @@ def integral(polynomial: Poly) -> Poly:
 def decompose(r: RatFunc) -> Decomposition:
     """The exact part and the residues of a rational function, residues in the order of `Field.factor`.
 
-    >>> from kovacic.algebra.fields import QQ
+    >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
     >>> parts = decompose(x + 1 / x**2 + 3 * x / (x**2 - 2))
     >>> print(parts.exact, [(str(part.factor), str(part.value)) for part in parts.residues])

@@ -122,7 +122,7 @@ Primitive = RationalPrimitive | CurvePrimitive | ExponentialPrimitive | PowerPri
 def integrate_inverse_square(y: Product) -> Primitive:
     """int y^-2 dx.
 
-    >>> from kovacic.algebra.fields import QQ
+    >>> from kovacic.algebra.rationals import QQ
     >>> from kovacic.closed_form.product import product
     >>> x = RatFunc(QQ.poly([0, 1]))
     >>> done = integrate_inverse_square(product(-x / 2, QQ.poly([0, -3, 0, 1])))  # (x^3 - 3 x) exp(-x^2/4)

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-from kovacic.algebra.fields import Field
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.partial_fractions import Residue, decompose
 
@@ -89,7 +88,7 @@ def product(logarithmic_derivative: RatFunc, zeros: Poly | None = None) -> Produ
 
     `zeros` may have many roots, and is kept as one factor unless it shares one with the rest.
 
-    >>> from kovacic.algebra.fields import QQ
+    >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
     >>> y = product(x + 1 / (3 * x), QQ.poly([-3, 0, 1]))
     >>> print([(str(f.base), str(f.exponent)) for f in y.powers], y.exponential)

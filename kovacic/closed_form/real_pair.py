@@ -22,8 +22,8 @@ import sympy
 from sympy import Add, Integer, cos, sin, sqrt
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.rationals import QQ
 from kovacic.closed_form import plain
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.partial_fractions import Residue

@@ -102,7 +102,7 @@ def _conjugate(semi: SemiInvariant, gauge: RatFunc) -> Conjugate:
     delta = half * half - field.modulus[0]
 
     def split(polynomial: Poly) -> tuple[Poly, Poly]:
-        low, high = polynomial.parts  # type: ignore[attr-defined]
+        low, high = polynomial.parts
         return low - high * half, high
 
     (a, b), (c, d) = split(semi.theta.num), split(semi.theta.den)

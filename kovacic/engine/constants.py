@@ -5,9 +5,8 @@ from __future__ import annotations
 from flint import fmpz
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.fields import QQ, Field
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.rational_poly import to_fraction
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.rationals import QQ, to_fraction
 
 #: Bits of the primes whose squares are taken out of a radicand.
 _SMOOTH_BITS = 15

@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.rational_poly import to_fraction
+from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
 from kovacic.decision import Evidence, NecessaryCondition, NoRationalOmega, Rule
 from kovacic.engine.places import Kind, Place, Problem

@@ -24,9 +24,8 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_poly
 
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.rational_poly import RationalPoly
+from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.algebra.recurrence import RationalSeries
 from kovacic.engine.places import Kind, Place, Problem
 

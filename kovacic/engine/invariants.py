@@ -16,8 +16,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from kovacic.algebra.fields import QQ, BadPrimeError, Homomorphism
+from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.modular import (
+    BadPrimeError,
     echelon_by_degree,
     fundamental_system,
     null_space,
@@ -25,7 +26,8 @@ from kovacic.algebra.modular import (
     power_series,
     translate,
 )
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Homomorphism, Poly
+from kovacic.algebra.rationals import QQ
 from kovacic.decision import NoInvariant
 from kovacic.engine.expansion import polynomial_invariant
 from kovacic.engine.places import Kind, Place, Problem
@@ -89,7 +91,7 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
         return NoInvariant(m)
     problem.budget.check_degree(bound.N, f"an invariant of degree {m}")
     R0 = singular_part(problem, bound.valuations)
-    lifter, margin, recurrence_tried = problem.field.lifter(), _MARGIN, False
+    lifter, margin, recurrence_tried = Lifter(problem.field), _MARGIN, False
     for bundle in problem.field.bundles():
         problem.budget.check()
         try:
@@ -107,7 +109,7 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
             if all(form.is_form(problem) for form in forms):
                 return forms
         if not all(_closes(h, problem, m, R0, P) for h, (space, _) in zip(bundle, spaces, strict=True) for P in space):
-            margin, lifter = 2 * margin, problem.field.lifter()
+            margin, lifter = 2 * margin, Lifter(problem.field)
             continue
         if (
             not recurrence_tried

@@ -16,8 +16,8 @@ from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.fields import BadPrimeError, Homomorphism
 from kovacic.algebra.modular import (
+    BadPrimeError,
     rational_function_from_series,
     reverse,
     series_solution,
@@ -26,6 +26,7 @@ from kovacic.algebra.modular import (
     square_root_series,
     translate,
 )
+from kovacic.algebra.poly import Homomorphism
 from kovacic.engine.places import Kind, LocalEquation, Place, Problem, local_equation, reduced_equation
 
 

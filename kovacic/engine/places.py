@@ -24,9 +24,8 @@ from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.fields import BadPrimeError, Field
-from kovacic.algebra.modular import series_solution, simple_roots, translate
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget
 

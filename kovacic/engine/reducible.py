@@ -15,8 +15,10 @@ from fractions import Fraction
 from itertools import count, islice
 from typing import Any
 
-from kovacic.algebra.fields import QQ, BadPrimeError, Homomorphism, Lifter
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.lifting import Lifter
+from kovacic.algebra.modular import BadPrimeError
+from kovacic.algebra.poly import Homomorphism, Poly
+from kovacic.algebra.rationals import QQ
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.decision import Evidence, Exclusion, NoInvariant, NoRationalOmega, Structure
 from kovacic.engine.constants import square_root
@@ -76,7 +78,7 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     field, Y = w.field, w * weight
     if field == QQ and P.degree <= _EXACT_DEGREE:
         return Form(1, *_first_factor(problem.D, P, X, Y, Fraction(1, 2)))
-    lifter = field.lifter()
+    lifter = Lifter(field)
     for bundle in field.bundles():
         problem.budget.check()
         try:
@@ -128,7 +130,7 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
     degrees = _FIRST_DEGREES if bound is None else _ladder(bound.largest)
     # For small degrees the expansion that can be left out costs less than to find it.
     exponents = None if bound is None or bound.largest <= degrees[0] else bound.exponents(place)
-    lifter = problem.field.lifter()
+    lifter = Lifter(problem.field)
     for bundle in problem.field.bundles():
         problem.budget.check()
         try:
@@ -161,7 +163,7 @@ def _omega_of_low_degree(problem: Problem) -> Form | None:
     if place is None:
         return None
     for sign in (0, 1):
-        lifter = problem.field.lifter()
+        lifter = Lifter(problem.field)
         for bundle in islice(problem.field.bundles(), _PRIMES_FOR_A_SIMPLE_OMEGA):
             problem.budget.check()
             try:

@@ -22,10 +22,9 @@ from math import gcd, lcm
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.fields import Field, RationalField
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rational_poly import to_fraction
+from kovacic.algebra.rationals import RationalField, to_fraction
 from kovacic.decision import Decision, SemiInvariant
 from kovacic.engine.places import analyse
 from kovacic.galois.decide import rational_residues

@@ -30,11 +30,12 @@ from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.extension import AlgebraicField, ExtensionHomomorphism
-from kovacic.algebra.fields import BadPrimeError, Field, Homomorphism, RationalField, RationalHomomorphism
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.jacobian import Jacobian
-from kovacic.algebra.modular import simple_roots, square_root
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.modular import BadPrimeError, simple_roots, square_root
+from kovacic.algebra.poly import Field, Homomorphism, Poly
+from kovacic.algebra.rationals import RationalField, RationalHomomorphism
+from kovacic.algebra.splitting import ExtensionHomomorphism
 from kovacic.decision import NoInvariant, SemiInvariant
 from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Kind as PlaceKind

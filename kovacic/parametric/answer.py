@@ -8,9 +8,9 @@ from random import Random
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.fields import QQ, Field
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.decision import Status
 from kovacic.engine.decide import decide
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed

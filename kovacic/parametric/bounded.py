@@ -18,8 +18,8 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_mat, nmod_mat
 
-from kovacic.algebra.fields import BadPrimeError
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.sparse import factorisation
 from kovacic.engine.invariants import singular_part

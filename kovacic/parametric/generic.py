@@ -10,11 +10,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
-from kovacic.algebra.fields import QQ, Field
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.norms import norm
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind, analyse
 from kovacic.limits import Budget
 from kovacic.parametric.bounded import denominators, irreducible_factors, union

@@ -15,10 +15,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.decision import Decision, Status, Structure
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Problem, analyse

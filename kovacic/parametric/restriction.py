@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.parametric.bounded import irreducible_factors
 from kovacic.parametric.formulas import shown
 from kovacic.parametric.statements import Point

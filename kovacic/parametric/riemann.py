@@ -289,7 +289,7 @@ def _square_root(value: Fraction) -> Fraction | None:
 
 def rational_roots_of_square(value: Fraction) -> list[Fraction]:
     """The rational r with r^2 = value."""
-    from kovacic.algebra.fields import QQ
+    from kovacic.algebra.rationals import QQ
 
     return rational_roots(QQ.poly([-value, 0, 1]))
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from random import Random
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import Both, Classes, Either, IntegerRoot, Point, Statement, Vanishes

@@ -11,10 +11,10 @@ from itertools import count
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.parametric.statements import Both, Classes, Either, Point, Statement, Vanishes
 
 #: The point of no algebraic constant.

@@ -15,9 +15,9 @@ from math import gcd
 from typing import Any
 
 from kovacic.algebra.extension import ExtensionPoly
-from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions, Coset, common_multiple
 from kovacic.parametric.formulas import as_latex, factored, shown, symbol
 

@@ -8,9 +8,9 @@ from numbers import Rational
 from operator import index
 from typing import Any
 
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.parsed import DEFAULT_VARIABLE, Parsed

@@ -12,9 +12,9 @@ from typing import Any, TypeVar
 
 from kovacic.algebra.embedding import RATIONAL_NUMBERS, NumberField, refined_root
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
-from kovacic.algebra.fields import QQ, Field
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.parsed import ENERGY

@@ -13,8 +13,8 @@ from typing import Any
 
 from flint import acb, arb
 
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from itertools import count
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
-from kovacic.algebra.fields import QQ, Field
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 
 # The names within the engine.
 _VARIABLE = "x"

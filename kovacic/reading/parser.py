@@ -14,8 +14,8 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any
 
-from kovacic.algebra.fields import QQ
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value

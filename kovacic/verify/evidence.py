@@ -11,8 +11,8 @@ from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.fields import QQ, BadPrimeError, Homomorphism
 from kovacic.algebra.modular import (
+    BadPrimeError,
     fundamental_system,
     null_space,
     power_series,
@@ -21,7 +21,9 @@ from kovacic.algebra.modular import (
     square_root_series,
     translate,
 )
+from kovacic.algebra.poly import Homomorphism
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.decision import (
     Evidence,
     NecessaryCondition,

@@ -13,11 +13,10 @@ from math import factorial, isqrt
 from operator import mul
 from typing import Any
 
-from kovacic.algebra.fields import BadPrimeError, Homomorphism
-from kovacic.algebra.modular import simple_roots, translate
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.modular import BadPrimeError, simple_roots, translate
+from kovacic.algebra.poly import Homomorphism, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rational_poly import to_fraction
+from kovacic.algebra.rationals import to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
 
 

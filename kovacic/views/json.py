@@ -19,10 +19,10 @@ from fractions import Fraction
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.fields import QQ, Field
 from kovacic.algebra.function_field import FunctionField
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.decision import (
     Decision,
     Evidence,

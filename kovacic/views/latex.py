@@ -34,7 +34,7 @@ def latex_text(text: str) -> str:
 def latex_poly(polynomial: Poly, variable: str = "x") -> str:
     """A polynomial.
 
-    >>> from kovacic.algebra.fields import QQ
+    >>> from kovacic.algebra.rationals import QQ
     >>> latex_poly(QQ.poly([1, 0, -3]))
     '-3 x^{2} + 1'
     """
@@ -44,7 +44,7 @@ def latex_poly(polynomial: Poly, variable: str = "x") -> str:
 def latex_ratfunc(function: RatFunc, variable: str = "x") -> str:
     """A rational function as one fraction with integer coefficients.
 
-    >>> from kovacic.algebra.fields import QQ
+    >>> from kovacic.algebra.rationals import QQ
     >>> latex_ratfunc(RatFunc(QQ.poly([1, 0, 1]), QQ.poly([0, 2])))
     '\\\\frac{x^{2} + 1}{2 x}'
     """

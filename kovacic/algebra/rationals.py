@@ -1,18 +1,18 @@
-"""Polynomials over the rational numbers, on flint's `fmpq_poly`."""
+"""The field Q of rational numbers, and polynomials over it on flint's `fmpq_poly`."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any
 
-from flint import fmpq, fmpq_poly, fmpz_poly
+from flint import fmpq, fmpq_poly, fmpz_poly, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
-from kovacic.algebra.poly import Poly, Scalar
-
-if TYPE_CHECKING:
-    from kovacic.algebra.fields import Field
+from kovacic.algebra.lifting import Lifter, Residues, primes
+from kovacic.algebra.modular import BadPrimeError
+from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
 _EUCLID_DEGREE = 16
@@ -33,7 +33,6 @@ class RationalPoly(Poly):
 
     __slots__ = ("rep",)
 
-    rationals: ClassVar[Field]  # set by `fields`, which imports this module
     rep: Any  # fmpq_poly, never changed after construction
 
     def __init__(self, rep: Any) -> None:
@@ -54,8 +53,8 @@ class RationalPoly(Poly):
         return tuple(int(c) for c in self.rep.numer().coeffs()), int(self.rep.denom())
 
     @property
-    def field(self) -> Field:
-        return self.rationals
+    def field(self) -> RationalField:
+        return QQ
 
     @property
     def degree(self) -> int:
@@ -167,7 +166,7 @@ class RationalPoly(Poly):
 
     def inverse_modulo(self, modulus: Poly) -> RationalPoly:
         small = modulus.degree <= _EUCLID_DEGREE
-        return super().inverse_modulo(modulus) if small else self.rationals.inverse_modulo(self, modulus)  # type: ignore[attr-defined]
+        return super().inverse_modulo(modulus) if small else _inverse_by_primes(self, modulus)
 
     def derivative(self) -> RationalPoly:
         return RationalPoly(self.rep.derivative())
@@ -214,3 +213,97 @@ _set_rep = RationalPoly.__dict__["rep"].__set__
 
 def _rational_poly_from_key(numerators: tuple[int, ...], denominator: int) -> RationalPoly:
     return RationalPoly(fmpq_poly(fmpz_poly(list(numerators)), denominator))
+
+
+def _inverse_by_primes(element: RationalPoly, modulus: Poly) -> RationalPoly:
+    """The inverse modulo a polynomial of a high degree, from inverses modulo primes: as many as the result needs.
+
+    Euclid's algorithm over Q, and flint's, work with numbers as large as resultants.
+    """
+    if element.gcd(modulus).degree > 0:
+        raise ZeroDivisionError("not invertible: the polynomials have a common factor")
+    lifter = Lifter(QQ)
+    for bundle in QQ.bundles():
+        try:
+            image, reduced = bundle[0](element), bundle[0].keeping_degree(modulus)
+        except BadPrimeError:
+            continue
+        common, cofactor, _ = image.xgcd(reduced)
+        if common.degree() > 0:
+            continue
+        proposal = lifter.add(bundle, [[cofactor % reduced]])
+        if proposal is not None and (proposal[0] * element - 1) % modulus == 0:
+            return proposal[0]  # type: ignore[return-value]
+    raise AssertionError("there are infinitely many primes")
+
+
+@dataclass(frozen=True, slots=True)
+class RationalHomomorphism(Homomorphism):
+    """Reduction of rational numbers modulo p."""
+
+    p: int
+
+    def __call__(self, polynomial: Poly) -> Any:
+        rep = polynomial.rep  # type: ignore[attr-defined]
+        image = nmod_poly(rep.numer(), self.p)
+        denominator = rep.denom()
+        if denominator == 1:
+            return image
+        residue = int(denominator) % self.p
+        if residue == 0:
+            raise BadPrimeError(f"{self.p} divides a denominator")
+        return image * pow(residue, -1, self.p)
+
+
+@dataclass(frozen=True, slots=True)
+class RationalField(Field):
+    """The field Q of rational numbers."""
+
+    def poly(self, coefficients: Iterable[Scalar | Poly]) -> RationalPoly:
+        return RationalPoly(fmpq_poly([c if type(c) is int else _flint_scalar(c) for c in coefficients]))
+
+    def rational_value(self, constant: Poly) -> Fraction | None:
+        return to_fraction(constant.rep[0])  # type: ignore[attr-defined]
+
+    def extends(self, other: Field) -> bool:
+        return False
+
+    def embed(self, polynomial: Poly) -> Poly:
+        return polynomial
+
+    def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
+        factors = polynomial.rep.numer().factor()[1]  # type: ignore[attr-defined]
+        if len(factors) > 1:
+            factors.sort(key=lambda pair: (pair[0].degree(), [int(c) for c in pair[0].coeffs()]))
+        return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), k) for f, k in factors]
+
+    def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
+        return ((RationalHomomorphism(p),) for p in primes() if allowed is None or allowed(p))
+
+    def collector(self, shape: tuple[int, ...]) -> Collector:
+        return Residues(shape)
+
+    def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
+        return [RationalPoly(c) for c in coordinates]
+
+    def scalar(self, polynomial: Poly, power: int) -> Any:
+        return polynomial.rep[power] if power >= 0 else fmpq(0)  # type: ignore[attr-defined]
+
+    def from_scalars(self, coefficients: Sequence[Any]) -> Poly:
+        return RationalPoly(fmpq_poly(list(coefficients)))
+
+    def sqrt(self, constant: Poly) -> Poly | None:
+        value = constant.rep[0]  # type: ignore[attr-defined]
+        if value < 0 or not value.p.is_square() or not value.q.is_square():
+            return None
+        return RationalPoly(fmpq_poly([value.p.isqrt()], value.q.isqrt()))
+
+    def __str__(self) -> str:
+        return "Q"
+
+
+def _flint_scalar(value: Scalar | Poly) -> Any:
+    return value.rep[0] if isinstance(value, RationalPoly) else to_fmpq(value)  # type: ignore[arg-type]
+
+
+QQ = RationalField()

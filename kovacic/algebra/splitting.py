@@ -1,0 +1,153 @@
+"""The primes at which an extension K(c) splits: homomorphisms to F_p, and coordinates from their images.
+
+A homomorphism of K(c) to F_p is one of K and a root of c's minimal polynomial modulo p.  Where the minimal polynomial splits
+completely, the images under all roots determine an element modulo p.  In a number field of a large degree such primes are
+rare; then one root for each prime has to do, and `lattice` finds the way back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache, lru_cache
+from itertools import islice
+from typing import Any
+
+from flint import nmod_poly
+
+from kovacic.algebra.lifting import primes
+from kovacic.algebra.modular import BadPrimeError, simple_roots
+from kovacic.algebra.poly import Field, Homomorphism, Poly
+from kovacic.algebra.rationals import QQ, RationalHomomorphism
+
+#: From this degree on a number field may have too few primes that split completely; so many primes are tried.
+_LARGE_DEGREE, _TRIED_PRIMES = 4, 12
+
+
+@dataclass(frozen=True, slots=True)
+class ExtensionHomomorphism(Homomorphism):
+    """K(c) -> F_p: a homomorphism of K and the image of c, a root of c's minimal polynomial modulo p."""
+
+    base: Homomorphism
+    root: int
+
+    @property
+    def p(self) -> int:  # type: ignore[override]
+        return self.base.p
+
+    @property
+    def ground(self) -> Homomorphism:
+        return self.base.ground
+
+    @property
+    def height(self) -> int:
+        """How many extensions the tower has."""
+        return self.base.height + 1 if isinstance(self.base, ExtensionHomomorphism) else 1
+
+    def __call__(self, polynomial: Poly) -> Any:
+        if polynomial.field.height < self.height:
+            return self.base(polynomial)
+        result = nmod_poly([], self.p)
+        for part in reversed(polynomial.parts):
+            result = result * self.root + self.base(part)
+        return result
+
+
+@lru_cache(maxsize=64)
+def splits_rarely(base: Field, modulus: Poly) -> bool:
+    """Does none of the first primes split completely in a number field of a large degree?"""
+    if base != QQ or modulus.degree < _LARGE_DEGREE:
+        return False
+    return not any(_splits(modulus, p) for p in islice(primes(), _TRIED_PRIMES))
+
+
+def _splits(modulus: Poly, p: int) -> bool:
+    """Does a polynomial over Q have as many roots modulo p as its degree says?"""
+    try:
+        return len(RationalHomomorphism(p).keeping_degree(modulus).roots()) == modulus.degree
+    except BadPrimeError:
+        return False
+
+
+def bundles(
+    base: Field, modulus: Poly, allowed: Callable[[int], bool] | None = None
+) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
+    """All homomorphisms over each prime that splits completely; one over each with a simple root where those are rare."""
+    if allowed is None:
+        return iter(_remembered(base, modulus))
+    return _bundles(base, modulus, allowed)
+
+
+def _bundles(
+    base: Field, modulus: Poly, allowed: Callable[[int], bool] | None = None
+) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
+    complete = not splits_rarely(base, modulus)
+    values = [base.rational_value(c) for c in modulus]
+    if base.ground != QQ and None not in values:
+        # c lies over Q while there are parameters: then the prime decides about splitting, not the point.
+        over_q, permitted = QQ.poly([v for v in values if v is not None]), allowed
+        allowed = cache(lambda p: _splits(over_q, p) and (permitted is None or permitted(p)))
+    for bundle in base.bundles(allowed):
+        found: list[ExtensionHomomorphism] = []
+        try:
+            for h in bundle:
+                image = h.keeping_degree(modulus)
+                roots = sorted(int(r) for r, _ in image.roots()) if complete else list(islice(simple_roots(image), 1))
+                if len(roots) < (modulus.degree if complete else 1):
+                    break
+                found += [ExtensionHomomorphism(h, root) for root in roots]
+            else:
+                yield tuple(found)
+        except BadPrimeError:
+            continue
+
+
+class _Remembered:
+    """A sequence that remembers what an iterator gave, so that primes are searched once for each field."""
+
+    def __init__(self, source: Iterator[tuple[ExtensionHomomorphism, ...]]) -> None:
+        self._source = source
+        self._known: list[tuple[ExtensionHomomorphism, ...]] = []
+
+    def __iter__(self) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
+        position = 0
+        while True:
+            if position == len(self._known):
+                self._known.append(next(self._source))
+            yield self._known[position]
+            position += 1
+
+
+@lru_cache(maxsize=64)
+def _remembered(base: Field, modulus: Poly) -> _Remembered:
+    return _Remembered(_bundles(base, modulus))
+
+
+def coordinates(
+    bundle: Sequence[Any], images: Sequence[Sequence[Any]], n: int
+) -> tuple[list[Homomorphism], list[list[Any]]]:
+    """A bundle of the base field, and the images under it of the n coordinates of each element, by Lagrange's formula."""
+    base_bundle, base_images, p = list[Homomorphism](), list[list[Any]](), bundle[0].p
+    for start in range(0, len(bundle), n):
+        block = bundle[start : start + n]
+        inverse = _vandermonde_inverse([h.root for h in block], p)
+        base_bundle.append(block[0].base)
+        columns = list(zip(*images[start : start + n], strict=True))
+        base_images.append(
+            [sum((column[j] * row[j] for j in range(n)), nmod_poly([], p)) for column in columns for row in inverse]
+        )
+    return base_bundle, base_images
+
+
+def _vandermonde_inverse(nodes: Sequence[int], p: int) -> list[list[int]]:
+    """Row i, column j: the coefficient of X^i in the j-th Lagrange polynomial of the nodes."""
+    columns = []
+    for j, node in enumerate(nodes):
+        basis, scale = nmod_poly([1], p), 1
+        for k, other in enumerate(nodes):
+            if k != j:
+                basis = basis * nmod_poly([-other % p, 1], p)
+                scale = scale * (node - other) % p
+        basis = basis * pow(scale, -1, p)
+        columns.append([int(basis[i]) for i in range(len(nodes))])
+    return [list(row) for row in zip(*columns, strict=True)]
