@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice, zip_longest
-from operator import mul
 from typing import Any
 
 from flint import nmod_poly
@@ -33,6 +32,7 @@ from kovacic.decision import (
     Structure,
 )
 from kovacic.verify.local import Point, coefficients, largest_degree, laurent_numerators, least_valuation, points
+from kovacic.verify.series import convolving_recurrence, fraction_of_series
 
 _ORDERS = {
     Structure.TETRAHEDRAL: {1, 2, 3},
@@ -242,26 +242,21 @@ def _can_branch(point: Point) -> bool:
 
 
 def _riccati_series(start: list[int], s: list[int], nu: int, count: int, p: int) -> Any:
-    """w with w/t^nu a solution of omega' + omega^2 = t^(-2 nu) s, from its first terms: coefficient by coefficient.
+    """w with w/t^nu a solution of omega' + omega^2 = t^(-2 nu) s, from its first terms.
 
     The terms of t^j give sum_(i=0..j) w_i w_(j-i) + (j - 2 nu + 1) w_(j-nu+1) = s_j.
     """
-    w = list(start)
-    inverse = _inverse(2 * w[0], p) if nu > 1 else 0
-    for j in range(len(w), count):
-        total = s[j] - sum(map(mul, w[1:j], w[j - 1 : 0 : -1]))
+    inverse = pow(2 * start[0], -1, p) if nu > 1 else 0
+
+    def term(w: Sequence[int], j: int, total: int) -> int:
         if nu > 1:
-            total -= (j - 2 * nu + 1) * w[j - nu + 1]
-        else:
-            inverse = _inverse(2 * w[0] + j - 1, p)
-        w.append(total * inverse % p)
-    return nmod_poly(w[:count], p)
+            return (s[j] - total - (j - 2 * nu + 1) * w[j - nu + 1]) * inverse
+        pivot = (2 * w[0] + j - 1) % p
+        if not pivot:
+            raise BadPrimeError("the prime meets an exponent")
+        return (s[j] - total) * pow(pivot, -1, p)
 
-
-def _inverse(pivot: int, p: int) -> int:
-    if pivot % p == 0:
-        raise BadPrimeError("the prime meets an exponent")
-    return pow(pivot, -1, p)
+    return nmod_poly(convolving_recurrence(start, count, p, term), p)
 
 
 def _is_rational(series: Any, num: Any, den: Any, nu: int, degree: int, growth: int) -> bool:
@@ -271,10 +266,6 @@ def _is_rational(series: Any, num: Any, den: Any, nu: int, degree: int, growth: 
     """
     top = degree + growth
     order = top + degree + 2
-    r0, r1 = nmod_poly([1], den.modulus()).left_shift(order), den.right_shift(nu).mul_low(series, order)
-    t0, t1 = r0 * 0, nmod_poly([1], den.modulus())
-    while r1.degree() > top:
-        q = r0 // r1
-        r0, r1, t0, t1 = r1, r0 - q * r1, t1, t0 - q * t1
-    A, B = r1, den * t1
-    return t1.degree() <= degree and bool(den * (A.derivative() * B - A * B.derivative() + A * A) == num * B * B)
+    A, multiple = fraction_of_series(den.right_shift(nu).mul_low(series, order), order, top)
+    B = den * multiple
+    return multiple.degree() <= degree and bool(den * (A.derivative() * B - A * B.derivative() + A * A) == num * B * B)

@@ -6,11 +6,11 @@ Kovacic 1986, section 2.1; at infinity they are applied to S(1/z)/z^4 at z = 0.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import factorial, isqrt
-from operator import mul
+from math import isqrt
 from typing import Any
 
 from kovacic.algebra.modular import BadPrimeError, simple_roots, translate
@@ -18,6 +18,8 @@ from kovacic.algebra.poly import Homomorphism, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
+from kovacic.verify.residue import exponent_difference_squared
+from kovacic.verify.series import convolving_recurrence
 
 
 @dataclass(frozen=True)
@@ -103,11 +105,11 @@ def least_valuation(point: Point, m: int) -> int | None:
 
 def _obstruction(s: list[int], n: int, p: int) -> int:
     """What y = t^((1-n)/2) sum a_k t^k, k (k - n) a_k = sum_(j=1..k) s_j a_(k-j), meets at k = n, for S = sum s_j t^(j-2)."""
-    a = [1]
-    for k in range(1, n):
-        a.append(sum(map(mul, s[1 : k + 1], a[::-1])) * pow(k * (k - n), -1, p) % p)
-    obstruction: int = sum(map(mul, s[1 : n + 1], a[::-1])) % p
-    return obstruction
+
+    def term(_: Sequence[int], k: int, total: int) -> int:
+        return (total + s[k]) * (pow(k * (k - n), -1, p) if k < n else 1)
+
+    return convolving_recurrence([1], n + 1, p, term, s)[n]
 
 
 def laurent_numerators(point: Point, h: Homomorphism, root: int, count: int) -> list[int]:
@@ -156,39 +158,19 @@ def _trace_of_difference(point: Point) -> Fraction | None:
     None if it can be seen that Delta, or a, doesn't lie in K[x]/p.
     """
     p, k = point.factor, point.order
-    nu = max(k // 2, 1)
-    num, den = _expansion(point.num, p, 0, nu), _expansion(point.den, p, k, nu)
-    # With S = t^(-k) (num_0 + num_1 t + ...)/(den_0 + den_1 t + ...), den_0^2 times a^2, or times Delta^2 = 1 + 4b.
-    square = den[0] * (num[0] if k > 2 else den[0] + 4 * num[0]) % p
+    q = point.den // p**k
+    if k == 2:  # Delta^2 = 1 + 4b with b = N/(p'^2 q), up to the square of p'^2 q
+        bottom = p.derivative() ** 2 * q % p
+        square = bottom * (bottom + 4 * point.num) % p
+    else:  # a^2 = N/q, up to the squares of q and of powers of p'
+        square = q * point.num % p
     if is_provably_not_a_square(square, p):
         return None
-    trace = trace_of_square_root(_difference_squared(num, den, p), p)
+    if k == 2:
+        squared = square * (bottom * bottom).inverse_modulo(p) % p
+    else:
+        squared = exponent_difference_squared(point.num, q, p, k // 2)
+    trace = trace_of_square_root(squared, p)
     if trace is None:
         return None
     return to_fraction(trace.rational_coefficients()[0]) if trace else Fraction(0)
-
-
-def _difference_squared(num: list[Poly], den: list[Poly], p: Poly) -> Poly:
-    """Delta^2, or (b/a)^2 at an irregular point, for S = t^(-k) sum num_i t^i / sum den_i t^i with coefficients in K[x]/p.
-
-    With S = t^(-2 nu) s(t), a^2 = s_0, and sqrt(s) = a sum rho_i t^i, b/a = 2 a rho_(nu-1).
-    """
-    inverse, s = den[0].inverse_modulo(p), list[Poly]()
-    for i, term in enumerate(num):
-        s.append((term - sum([den[j] * s[i - j] for j in range(1, i + 1)])) * inverse % p)
-    if len(s) == 1:
-        return (4 * s[0] + 1) % p
-    half, rho = (2 * s[0]).inverse_modulo(p), [p.field.poly([1])]
-    for i in range(1, len(s)):
-        rho.append((s[i] - s[0] * sum([rho[j] * rho[i - j] for j in range(1, i)])) * half % p)
-    return 4 * s[0] * rho[-1] * rho[-1] % p
-
-
-def _expansion(polynomial: Poly, p: Poly, start: int, count: int) -> list[Poly]:
-    """The Taylor coefficients with the numbers start, ..., start + count - 1 at the class of x in K[x]/p."""
-    terms = []
-    for i in range(start + count):
-        if i >= start:
-            terms.append(polynomial % p / factorial(i))
-        polynomial = polynomial.derivative()
-    return terms
