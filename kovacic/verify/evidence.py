@@ -31,7 +31,15 @@ from kovacic.decision import (
     Rule,
     Structure,
 )
-from kovacic.verify.local import Point, coefficients, largest_degree, laurent_numerators, least_valuation, points
+from kovacic.verify.local import (
+    Point,
+    ZeroCounts,
+    coefficients,
+    laurent_numerators,
+    least_valuation,
+    points,
+    zero_counts,
+)
 from kovacic.verify.series import convolving_recurrence, fraction_of_series
 
 _ORDERS = {
@@ -112,7 +120,7 @@ class Inspector:
         if item.rule is Rule.EXPONENTS:
             differences = [point.difference for point in named if 0 < point.order <= 2]
             return any(d is None or d.denominator not in _ORDERS[structure] for d in differences)
-        return largest_degree(named) is None
+        return zero_counts(named) is None
 
     def _at_prime(self, p: int, claim: Callable[[Homomorphism], bool]) -> bool:
         """Does the claim hold under a homomorphism to F_p among the first ones of the field's sequence?
@@ -168,17 +176,17 @@ class Inspector:
 
     def _no_rational_omega(self, item: NoRationalOmega) -> bool:
         """No rational omega with the local expansions at the recorded place (invariants of degree 2 excluded elsewhere)."""
-        degree = largest_degree(self.points)
-        if degree is None:
+        counts = zero_counts(self.points)
+        if counts is None:
             return True
-        if item.prime is None or item.degree != degree:
-            return degree < 0 and item.degree == degree
+        if item.prime is None or item.degree != counts.largest:
+            return counts.largest < 0 and item.degree == counts.largest
         place = next((point for point in self.points if point.name == item.place), None)
         if place is None or not self._tells_solutions_apart(place):
             return False
-        return self._at_prime(item.prime, lambda h: self._no_omega_at(place, h, degree))
+        return self._at_prime(item.prime, lambda h: self._no_omega_at(place, h, counts))
 
-    def _no_omega_at(self, place: Point, h: Homomorphism, degree: int) -> bool:
+    def _no_omega_at(self, place: Point, h: Homomorphism, counts: ZeroCounts) -> bool:
         """None of the expansions at the place is that of a rational omega modulo p."""
         root = next(simple_roots(h.keeping_degree(place.factor)), None)
         if root is None:
@@ -187,10 +195,19 @@ class Inspector:
         num, den = translate(h(place.num), root), translate(h.keeping_degree(place.den), root)
         opposite = next((point for point in self.points if self._is_opposite(point, place)), None)
         growth = den.degree() + max((opposite.order + 1) // 2 if opposite else 1, 1) - 2
-        return all(
-            not _is_rational(series, num, den, max(place.order, 2) // 2, degree, growth)
-            for series in self._expansions(place, h, root, 2 * degree + growth + 2)
-        )
+        p, nu = h.p, max(place.order, 2) // 2
+        bounds = counts.by_exponent(place)
+        s = laurent_numerators(place, h, root, 2 * counts.largest + growth + 2 + nu)
+        for start in _first_terms(place, s, p):
+            degree = counts.largest
+            if bounds is not None:
+                possible = [n for e, n in bounds if (start[-1] * e.denominator - e.numerator) % p == 0]
+                if not possible:
+                    continue
+                degree = max(possible)
+            if _is_rational(_riccati_series(start, s, nu, 2 * degree + growth + 2, p), num, den, nu, degree, growth):
+                return False
+        return True
 
     def _is_opposite(self, point: Point, place: Point) -> bool:
         if place.at_infinity:
@@ -205,33 +222,25 @@ class Inspector:
         difference = place.difference
         return difference is None or difference.denominator != 1 or place.logarithm
 
-    def _expansions(self, place: Point, h: Homomorphism, root: int, count: int) -> list[Any]:
-        """t^nu omega, to `count` terms, for every local solution that can have a rational omega."""
-        p, nu = h.p, max(place.order, 2) // 2
-        s = laurent_numerators(place, h, root, max(count, nu))
-        half = pow(2, -1, p)
-        if nu == 1:
-            discriminant = (1 + 4 * s[0]) % p
-            r = square_root(discriminant, p)
-            if r is None:
-                return []
-            difference = place.difference
-            if difference is not None:
-                r = difference.numerator * pow(difference.denominator, -1, p) % p
-            signs = [r] if place.logarithm else [r, -r]
-            starts = [[(1 + value) * half % p] for value in signs]
-        elif not s[0]:
-            raise BadPrimeError("the leading coefficient at an irregular place vanishes")
-        else:
-            r = square_root(s[0], p)
-            if r is None:
-                return []
-            starts = []
-            for a in (r, -r % p):
-                w = coefficients(square_root_series(nmod_poly(s[:nu], p), nu, a), nu)
-                w[nu - 1] = (w[nu - 1] + nu * half) % p
-                starts.append(w)
-        return [_riccati_series(start, s, nu, count, p) for start in starts]
+
+def _first_terms(place: Point, s: list[int], p: int) -> list[list[int]]:
+    """The first nu terms of t^nu omega, the last of them the exponent, for every local solution with a rational omega."""
+    nu, half = max(place.order, 2) // 2, pow(2, -1, p)
+    if nu > 1 and not s[0]:
+        raise BadPrimeError("the leading coefficient at an irregular place vanishes")
+    root = square_root(s[0] if nu > 1 else 1 + 4 * s[0], p)
+    if root is None:
+        return []
+    if nu == 1:
+        difference = place.difference
+        if difference is not None:
+            root = difference.numerator * pow(difference.denominator, -1, p)
+        return [[(1 + sign * root) * half % p] for sign in ((1,) if place.logarithm else (1, -1))]
+    starts = []
+    for leading in (root, -root % p):
+        start = coefficients(square_root_series(nmod_poly(s[:nu], p), nu, leading), nu)
+        starts.append([*start[:-1], (start[-1] + nu * half) % p])
+    return starts
 
 
 def _can_branch(point: Point) -> bool:

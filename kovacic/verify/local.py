@@ -16,7 +16,7 @@ from typing import Any
 from kovacic.algebra.modular import BadPrimeError, simple_roots, translate
 from kovacic.algebra.poly import Homomorphism, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import to_fraction
+from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
 from kovacic.verify.residue import exponent_difference_squared
 from kovacic.verify.series import convolving_recurrence
@@ -128,13 +128,35 @@ def coefficients(series: Any, count: int) -> list[int]:
     return terms + [0] * (count - len(terms))
 
 
-def largest_degree(all_points: list[Point]) -> int | None:
-    """The largest number of zeros at ordinary points that a solution with rational omega over K can have.
+@dataclass(frozen=True)
+class ZeroCounts:
+    """The numbers of zeros at ordinary points that a solution with rational omega over K can have.
 
-    1 minus the sum of its exponents, which at a point of order k are (1 +- Delta)/2 or, for even k >= 4,
-    (k/2 +- b/a)/2.  None if they can't be conjugate over K at some point, so that omega isn't rational over K.
+    1 minus the sum of its exponents, which at a point of order k are (1 +- Delta)/2 or, for even k >= 4, (k/2 +- b/a)/2:
+    `total` plus or minus each of the `choices`, half the sum of these differences over the roots of a factor.
     """
-    twice, choices = 2, list[Fraction]()
+
+    total: Fraction
+    choices: tuple[tuple[Point, Fraction], ...]
+
+    @cached_property
+    def largest(self) -> int:
+        """The largest one; -1 if there is none."""
+        return max(largest_integer_total(self.total, [half for _, half in self.choices]), -1)
+
+    def by_exponent(self, point: Point) -> list[tuple[Fraction, int]] | None:
+        """The exponents that omega can have at a point with a choice, each with the largest number; None elsewhere."""
+        halves = [half for other, half in self.choices if other is point]
+        if not halves or point.factor.degree > 1 or (point.difference is None and point.factor.field != QQ):
+            return None
+        others = [half for other, half in self.choices if other is not point]
+        bounds = [(half, largest_integer_total(self.total - half, others)) for half in (halves[0], -halves[0])]
+        return [(Fraction(max(point.order // 2, 1), 2) + half, bound) for half, bound in bounds if bound >= 0]
+
+
+def zero_counts(all_points: list[Point]) -> ZeroCounts | None:
+    """None if the exponents can't be conjugate over K at some point, so that omega isn't rational over K."""
+    twice, choices = 2, list[tuple[Point, Fraction]]()
     for point in all_points:
         if point.order == 0:
             continue
@@ -144,12 +166,12 @@ def largest_degree(all_points: list[Point]) -> int | None:
             trace = _trace_of_difference(point)
             if trace is None:
                 return None
-            choices.append(trace / 2)
+            choices.append((point, trace / 2))
         elif point.logarithm:  # then Delta is an integer
             twice -= n * difference.numerator
         else:
-            choices.append(Fraction(n * difference.numerator, 2 * difference.denominator))
-    return max(largest_integer_total(Fraction(twice, 2), choices), -1)
+            choices.append((point, Fraction(n * difference.numerator, 2 * difference.denominator)))
+    return ZeroCounts(Fraction(twice, 2), tuple(choices))
 
 
 def _trace_of_difference(point: Point) -> Fraction | None:

@@ -17,7 +17,7 @@ from kovacic.algebra.poly import Poly
 def exponent_difference_squared(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
     """(2 r)^2 as an element of K[x]/p, for the residue r of sqrt(S) at the class of x; S = N/(p^(2 nu) q).
 
-    >>> from kovacic.algebra.fields import QQ
+    >>> from kovacic.algebra.rationals import QQ
     >>> x, one = QQ.poly([0, 1]), QQ.poly([1])
     >>> str(exponent_difference_squared(x * 6 + 1, one, x, 2))  # sqrt(S) = 1/x^2 + 3/x + ...
     '36'
