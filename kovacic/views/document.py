@@ -1,23 +1,17 @@
-"""A small document model: headings, paragraphs, formulas and tables, and its three renderings.
+"""A small document model: headings, paragraphs, formulas and tables, and its renderings.
 
-A sentence is a sequence of plain strings and `Math`, which has both a readable and a LaTeX form.
+A sentence is a sequence of plain strings and `Math`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from html import escape
 
+from kovacic.views.formula import Math
 
-@dataclass(frozen=True)
-class Math:
-    """A formula, for reading and for LaTeX."""
-
-    text: str
-    latex: str
-
-
-Sentence = tuple[str | Math, ...]
+Sentence = Sequence[str | Math]
 
 
 @dataclass(frozen=True)
@@ -38,79 +32,102 @@ class Formula:
 
 @dataclass(frozen=True)
 class Table:
-    head: tuple[str, ...]
-    rows: tuple[tuple[Sentence, ...], ...]
+    """Rows of cells; without a head, the first cell of each row is its title."""
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[Sentence]]
 
 
 Block = Heading | Paragraph | Formula | Table
 
 
-def to_text(blocks: Sequence[Block]) -> str:
-    """Plain text."""
-    parts = []
-    for block in blocks:
+@dataclass(frozen=True)
+class Format:
+    """How the parts of a document are written; a table gets its cells as text, the head first."""
+
+    heading: Callable[[str, int], str]
+    math: Callable[[Math], str]
+    formula: Callable[[Math], str]
+    table: Callable[[list[list[str]]], str]
+    plain: Callable[[str], str] = str
+    paragraph: Callable[[str], str] = str
+
+    def render(self, blocks: Sequence[Block]) -> str:
+        """The document."""
+        return "\n\n".join(map(self._block, blocks)) + "\n"
+
+    def _block(self, block: Block) -> str:
         if isinstance(block, Heading):
-            parts.append(f"{block.text}\n{('=' if block.level == 1 else '-') * len(block.text)}")
-        elif isinstance(block, Paragraph):
-            parts.append(_sentence(block.sentence, lambda math: math.text))
-        elif isinstance(block, Formula):
-            parts.append("    " + block.math.text.replace("\n", "\n    "))
-        else:
-            parts.append(_text_table(block))
-    return "\n\n".join(parts) + "\n"
+            return self.heading(self.plain(block.text), block.level)
+        if isinstance(block, Paragraph):
+            return self.paragraph(self._sentence(block.sentence))
+        if isinstance(block, Formula):
+            return self.formula(block.math)
+        rows = [[self._sentence(cell) for cell in row] for row in block.rows]
+        return self.table([[self.plain(cell) for cell in block.head], *rows])
+
+    def _sentence(self, sentence: Sentence) -> str:
+        return "".join(self.math(part) if isinstance(part, Math) else self.plain(part) for part in sentence)
 
 
-def to_markdown(blocks: Sequence[Block]) -> str:
-    """Markdown with formulas between dollar signs."""
-    parts = []
-    for block in blocks:
-        if isinstance(block, Heading):
-            parts.append(f"{'#' * block.level} {block.text}")
-        elif isinstance(block, Paragraph):
-            parts.append(_sentence(block.sentence, lambda math: f"${math.latex}$"))
-        elif isinstance(block, Formula):
-            parts.append(f"$$\n{block.math.latex}\n$$")
-        else:
-            rows = [[_sentence(cell, lambda math: f"${math.latex}$") for cell in row] for row in block.rows]
-            lines = ["| " + " | ".join(row) + " |" for row in (list(block.head), *rows)]
-            lines.insert(1, "|" + " --- |" * len(block.head))
-            parts.append("\n".join(lines))
-    return "\n\n".join(parts) + "\n"
+def _text_table(rows: list[list[str]]) -> str:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    return "\n".join([lines[0], "  ".join("-" * width for width in widths), *lines[1:]])
 
 
-def to_latex(blocks: Sequence[Block]) -> str:
-    """LaTeX for the body of a document, with amsmath."""
-    parts = []
-    for block in blocks:
-        if isinstance(block, Heading):
-            parts.append(rf"\{'section' if block.level == 1 else 'subsection'}*{{{_escaped(block.text)}}}")
-        elif isinstance(block, Paragraph):
-            parts.append(_sentence(block.sentence, lambda math: f"${math.latex}$", _escaped))
-        elif isinstance(block, Formula):
-            parts.append(f"\\[\n{block.math.latex}\n\\]")
-        else:
-            rows = [[_sentence(cell, lambda math: f"${math.latex}$", _escaped) for cell in row] for row in block.rows]
-            head = [_escaped(cell) for cell in block.head]
-            lines = [" & ".join(row) + r" \\" for row in (head, *rows)]
-            lines.insert(1, r"\hline")
-            body = "\n".join(lines)
-            parts.append(f"\\begin{{tabular}}{{{'l' * len(head)}}}\n{body}\n\\end{{tabular}}")
-    return "\n\n".join(parts) + "\n"
+def _markdown_table(rows: list[list[str]]) -> str:
+    lines = ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join([lines[0], "|" + " --- |" * len(rows[0]), *lines[1:]])
 
 
-def _sentence(sentence: Sentence, math: Callable[[Math], str], plain: Callable[[str], str] = str) -> str:
-    return "".join(math(part) if isinstance(part, Math) else plain(part) for part in sentence)
+def _latex_table(rows: list[list[str]]) -> str:
+    lines = [" & ".join(row) + r" \\" for row in rows]
+    body = "\n".join([lines[0], r"\hline", *lines[1:]])
+    return f"\\begin{{tabular}}{{{'l' * len(rows[0])}}}\n{body}\n\\end{{tabular}}"
 
 
-def _escaped(text: str) -> str:
+def _html_table(rows: list[list[str]]) -> str:
+    left = ' style="text-align:left"'
+    head = "".join(f"<th{left}>{cell}</th>" for cell in rows[0])
+    first = "td" if head else "th"
+    lines = [f"<{first}{left}>{title}</{first}>" + "".join(f"<td{left}>{cell}</td>" for cell in rest)
+             for title, *rest in rows[1:]]  # fmt: skip
+    return f"<table>{''.join(f'<tr>{line}</tr>' for line in (head, *lines) if line)}</table>"
+
+
+def _latex_escaped(text: str) -> str:
     for char in "&%#_{}":
         text = text.replace(char, "\\" + char)
     return text.replace("^", r"\textasciicircum ")
 
 
-def _text_table(table: Table) -> str:
-    rows = [list(table.head), *([_sentence(cell, lambda math: math.text) for cell in row] for row in table.rows)]
-    widths = [max(len(row[k]) for row in rows) for k in range(len(table.head))]
-    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
-    lines.insert(1, "  ".join("-" * width for width in widths))
-    return "\n".join(lines)
+FORMATS = {
+    "text": Format(
+        heading=lambda text, level: f"{text}\n{('=' if level == 1 else '-') * len(text)}",
+        math=lambda math: math.text,
+        formula=lambda math: "    " + math.text.replace("\n", "\n    "),
+        table=_text_table,
+    ),
+    "markdown": Format(
+        heading=lambda text, level: f"{'#' * level} {text}",
+        math=lambda math: f"${math.latex}$",
+        formula=lambda math: f"$$\n{math.latex}\n$$",
+        table=_markdown_table,
+    ),
+    "latex": Format(  # the body of a document with amsmath
+        heading=lambda text, level: rf"\{'section' if level == 1 else 'subsection'}*{{{text}}}",
+        math=lambda math: f"${math.latex}$",
+        formula=lambda math: f"\\[\n{math.latex}\n\\]",
+        table=_latex_table,
+        plain=_latex_escaped,
+    ),
+    "html": Format(
+        heading=lambda text, level: f"<h{level}>{text}</h{level}>",
+        math=lambda math: f"${escape(math.latex)}$" if math.latex else f"<code>{escape(math.text)}</code>",
+        formula=lambda math: f"<p>$$\n{escape(math.latex)}\n$$</p>",
+        table=_html_table,
+        plain=escape,
+        paragraph=lambda text: f"<p>{text}</p>",
+    ),
+}

@@ -82,23 +82,10 @@ def loads(text: str | Mapping[str, Any]) -> Solution:
 
 def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
     """The answer as a JSON object of plain Python values."""
-    data = _to_dict(solution)
-    if full:
-        data["group"] = _group(solution)
-        data["solutions"] = None if solution.case is None else [str(y) for y in solution.solutions]
-    return data
-
-
-def _group(solution: Solution) -> dict[str, Any] | None:
-    group = solution.group
-    return None if group is None else {"name": group.name, "order": group.order, "finite": group.finite}
-
-
-def _to_dict(solution: Solution) -> dict[str, Any]:
     names = Names(solution.variable, parameters_of(solution.S.field))
     decision = solution.decision
     riccati = decision.riccati
-    return {
+    data = {
         "schema": SCHEMA,
         "input": solution.text,
         "variable": solution.variable,
@@ -132,6 +119,16 @@ def _to_dict(solution: Solution) -> dict[str, Any]:
         "equation": None if solution.equation is None else _equation(solution.equation),
         "gauge": None if solution.equation is None else names.ratfunc(solution.gauge),
     }
+    if full:
+        data["group"] = group_dict(solution)
+        data["solutions"] = None if solution.case is None else [str(y) for y in solution.solutions]
+    return data
+
+
+def group_dict(solution: Solution) -> dict[str, Any] | None:
+    """The name, the order (None if infinite) and the finiteness of the group; None if undecided."""
+    group = solution.group
+    return None if group is None else {"name": group.name, "order": group.order, "finite": group.finite}
 
 
 def from_dict(data: Mapping[str, Any]) -> Solution:
@@ -306,26 +303,11 @@ def _exclusion(exclusion: Exclusion, names: Names) -> dict[str, Any]:
 def _evidence(evidence: Evidence, names: Names) -> dict[str, Any]:
     if isinstance(evidence, NecessaryCondition):
         places = [names.place(place) for place in evidence.places]
-        return {
-            "kind": "necessary_condition",
-            "rule": evidence.rule.name.lower(),
-            "places": places,
-            "statement": evidence.rule.value,
-        }
+        rule = evidence.rule
+        return {"kind": "necessary_condition", "rule": rule.name.lower(), "places": places, "statement": rule.value}
     if isinstance(evidence, NoInvariant):
-        return {
-            "kind": "no_invariant",
-            "invariant_degree": evidence.invariant_degree,
-            "prime": evidence.prime,
-            "point": evidence.point,
-            "degree": evidence.degree,
-        }
-    return {
-        "kind": "no_rational_omega",
-        "degree": evidence.degree,
-        "prime": evidence.prime,
-        "place": names.place(evidence.place),
-    }
+        return {"kind": "no_invariant", **vars(evidence)}
+    return {"kind": "no_rational_omega", **vars(evidence), "place": names.place(evidence.place)}
 
 
 def _read_exclusion(data: Mapping[str, Any], names: Names) -> Exclusion:

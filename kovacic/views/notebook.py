@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from html import escape
 from typing import TYPE_CHECKING
 
 from kovacic.decision import Status
-from kovacic.reading.names import Names, parameters_of
-from kovacic.views.latex import latex_ratfunc, latex_text
+from kovacic.views.document import FORMATS, Sentence, Table
+from kovacic.views.formula import Formulas, Math, given
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
@@ -18,13 +17,9 @@ _LONGEST = 3000
 
 def latex_view(solution: Solution) -> str:
     """The equation and, where there are some, two solutions, between dollar signs."""
-    from sympy import latex
-
     lines = [_equation(solution)]
-    form = solution.closed_form
-    if form is not None:
-        y = "y" if solution.equation is None else solution.equation.unknown
-        lines += [f"{y}_{{{k}}} = {latex(value)}" for k, value in enumerate((form.y1, form.y2), start=1)]
+    if solution.case is not None:
+        lines += [f"{name} = {value}" for name, value, _ in _solutions(solution)]
     elif solution.status is Status.NONE_EXISTS:
         lines.append(r"\text{no Liouvillian solution}")
     else:
@@ -35,48 +30,44 @@ def latex_view(solution: Solution) -> str:
 
 def html_view(solution: Solution) -> str:
     """A table of status, case, group, solutions and check."""
-    rows = [("equation", f"${escape(_equation(solution))}$")]
+    rows: list[tuple[Sentence, Sentence]] = [(["equation"], [Math("", _equation(solution))])]
     if solution.equation is not None and not solution.equation.is_normal_form:
-        rows.append(("normal form", f"${escape(_normal_form(solution))}$"))
+        rows.append((["normal form"], [Math("", _normal_form(solution))]))
     words = {
         Status.LIOUVILLIAN: "Liouvillian solutions exist",
         Status.NONE_EXISTS: "no Liouvillian solution exists",
         Status.UNDECIDED: f"undecided: {solution.reason}",
     }
-    rows.append(("status", escape(words[solution.status])))
+    rows.append((["status"], [words[solution.status]]))
     if solution.case is not None:
-        rows.append(("case", str(solution.case)))
+        rows.append((["case"], [str(solution.case)]))
     group = solution.group
     if group is not None:
-        rows.append(("Galois group", f"${escape(group.latex)}$, {escape(group.description)}"))
+        rows.append((["Galois group"], [Math(group.name, group.latex), f", {group.description}"]))
     form = solution.closed_form
     if form is not None:
-        from sympy import latex
+        for name, latex, text in _solutions(solution):
+            rows.append(([Math("", name)], [Math(text[:_LONGEST], latex if len(latex) <= _LONGEST else "")]))
+        rows += [(["note"], [note]) for note in form.notes]
+        rows.append((["solutions checked"], [form.checked]))
+    rows.append((["verified"], ["yes, by independent code" if solution.verified else "no"]))
+    rows += [(["note"], [notice]) for notice in solution.notices]
+    return FORMATS["html"].render([Table((), rows)]).rstrip()
 
-        y = "y" if solution.equation is None else solution.equation.unknown
-        for k, value in enumerate((form.y1, form.y2), start=1):
-            text = latex(value)
-            shown = f"${escape(text)}$" if len(text) <= _LONGEST else f"<code>{escape(str(value)[:_LONGEST])}</code>"
-            rows.append((f"${y}_{{{k}}}$", shown))
-        rows += [("note", escape(note)) for note in form.notes]
-        rows.append(("solutions checked", escape(form.checked)))
-    rows.append(("verified", "yes, by independent code" if solution.verified else "no"))
-    rows += [("note", escape(notice)) for notice in solution.notices]
-    cells = "".join(
-        f'<tr><th style="text-align:left">{name}</th><td style="text-align:left">{value}</td></tr>'
-        for name, value in rows
-    )
-    return f"<table>{cells}</table>"
+
+def _solutions(solution: Solution) -> list[tuple[str, str, str]]:
+    """y_1 and y_2: name and expression in LaTeX, and the expression as text."""
+    from sympy import latex
+
+    y = "y" if solution.equation is None else solution.equation.unknown
+    return [(f"{y}_{{{k}}}", latex(value), str(value)) for k, value in enumerate(solution.solutions, start=1)]
 
 
 def _equation(solution: Solution) -> str:
-    if solution.equation is None:
-        return _normal_form(solution)
-    return latex_text(solution.equation.text(caret=False))
+    return _normal_form(solution) if solution.equation is None else given(solution.equation).latex
 
 
 def _normal_form(solution: Solution) -> str:
     if not solution.S:
         return "y'' = 0"
-    names = Names(solution.variable, parameters_of(solution.S.field))
-    return rf"y'' = \left({latex_ratfunc(names.renamed(solution.S), latex_text(solution.variable))}\right) y"
+    return rf"y'' = \left({Formulas(solution.variable, solution.S.field).math(solution.S).latex}\right) y"

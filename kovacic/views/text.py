@@ -3,27 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import Evidence, Exclusion, NecessaryCondition, NoInvariant, Status
-from kovacic.reading.names import Names, parameters_of
-from kovacic.solution import Solution
+from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, Status
+from kovacic.reading.names import parameters_of
+from kovacic.views.formula import Formulas
+
+if TYPE_CHECKING:
+    from kovacic.solution import Solution
 
 #: Gives a piece of text a role ("good", "bad", "unsure", "title", "faint"): colours on a terminal, nothing elsewhere.
 Style = Callable[[str, str], str]
-
-_NAMES_OF_DEGREE = {
-    1: "rational",
-    2: "algebraic of degree 2",
-    4: "algebraic of degree 4",
-    6: "algebraic of degree 6",
-    12: "algebraic of degree 12",
-}
-
-
-def plain(text: str, role: str) -> str:
-    """The style without colours."""
-    return text
 
 
 def one_line(solution: Solution) -> str:
@@ -33,14 +23,13 @@ def one_line(solution: Solution) -> str:
         return f"{equation}: undecided, {solution.reason}"
     if solution.status is Status.NONE_EXISTS:
         return f"{equation}: no Liouvillian solution"
-    riccati = solution.riccati
     if solution.omega is not None:
-        return f"{equation}: case {solution.case}, omega = {_caret(_names(solution).ratfunc(solution.omega))}"
-    degree = "" if riccati is None else f", omega {_NAMES_OF_DEGREE[riccati.degree]}"
+        return f"{equation}: case {solution.case}, omega = {_formulas(solution).text(solution.omega)}"
+    degree = "" if solution.riccati is None else f", omega {_of_degree(solution.riccati.degree)}"
     return f"{equation}: case {solution.case}{degree}"
 
 
-def render(solution: Solution, *, style: Style = plain) -> str:
+def render(solution: Solution, *, style: Style = lambda text, role: text) -> str:
     """The equation, the verdict in words, omega or its polynomial, and how it was verified."""
     lines = [style(_equation(solution), "title")]
     if solution.equation is not None and not solution.equation.is_normal_form:
@@ -52,7 +41,7 @@ def render(solution: Solution, *, style: Style = plain) -> str:
         lines.append(f"  {style('no Liouvillian solution exists', 'bad')}: the Galois group is SL2(C)")
     else:
         assert solution.riccati is not None
-        case = f"case {solution.case}, omega = y'/y is {_NAMES_OF_DEGREE[solution.riccati.degree]}"
+        case = f"case {solution.case}, omega = y'/y is {_of_degree(solution.riccati.degree)}"
         lines.append(f"  {style('Liouvillian solutions exist', 'good')}: {case}")
         lines += [f"  {line}" for line in omega_lines(solution)]
     lines += [f"  {line}" for line in _exclusions(solution)]
@@ -66,55 +55,48 @@ def render(solution: Solution, *, style: Style = plain) -> str:
     return "\n".join(lines)
 
 
-def _names(solution: Solution) -> Names:
-    return Names(solution.variable, parameters_of(solution.S.field))
-
-
 def omega_lines(solution: Solution) -> list[str]:
     """omega, or its polynomial; without a Liouvillian solution no line."""
-    riccati = solution.riccati
+    riccati, formulas = solution.riccati, _formulas(solution)
     if riccati is None:
         return []
-    variable, names = solution.variable, _names(solution)
-    unknown = names.unknown
-    coefficients = [names.renamed(coefficient) for coefficient in riccati.coefficients]
-    lines = []
+    names = formulas.names
     if riccati.degree == 1:
-        lines += [f"omega = {_function(-coefficients[0], variable)}", f"y = exp(integral of omega d{variable})"]
+        omega = formulas.text(-riccati.coefficients[0])
+        lines = [f"omega = {omega}", f"y = exp(integral of omega d{solution.variable})"]
     else:
-        lines.append(f"omega is a root {unknown} of")
-        for k in range(riccati.degree, -1, -1):
-            if k == riccati.degree:
-                lines.append(f"    {_power(unknown, k)}")
-            elif coefficients[k]:
-                sign, text = _signed(coefficients[k], variable)
-                lines.append(f"    {sign} {text}{' ' + _power(unknown, k) if k else ''}")
+        lines = [f"omega is a root {names.unknown} of", f"    {names.unknown}^{riccati.degree}"]
+        for k in range(riccati.degree - 1, -1, -1):
+            coefficient = riccati.coefficients[k]
+            if coefficient:
+                negative = formulas.text(coefficient).removeprefix("(").startswith("-")
+                text = formulas.factor(-coefficient if negative else coefficient)
+                power = {0: "", 1: f" {names.unknown}"}.get(k, f" {names.unknown}^{k}")
+                lines.append(f"    {'-' if negative else '+'} {text}{power}")
         lines[-1] += " = 0"
     if solution.constants is not None:
-        lines.append(f"where {names.symbol} is any root of {_caret(solution.constants.to_str(names.symbol))}")
+        modulus = solution.constants.to_str(names.symbol).replace("**", "^")
+        lines.append(f"where {names.symbol} is any root of {modulus}")
     return lines
 
 
 def _exclusions(solution: Solution) -> list[str]:
     """One line for each structure that was excluded, equal reasons of the finite groups together."""
-    lines: list[str] = []
+    formulas = _formulas(solution)
     grouped: dict[tuple[int, str], list[str]] = {}
     for exclusion in solution.proof:
-        key = exclusion.structure.case, _reasons(exclusion, solution.variable)
-        grouped.setdefault(key, []).append(exclusion.structure.value)
+        reasons = "; ".join(_reason(evidence, formulas) for evidence in exclusion.evidence)
+        grouped.setdefault((exclusion.structure.case, reasons), []).append(exclusion.structure.value)
+    lines = []
     for (case, reasons), structures in grouped.items():
         which = f" ({', '.join(structures)})" if case == 3 else ""
         lines.append(f"not case {case}{which}: {reasons}")
     return lines
 
 
-def _reasons(exclusion: Exclusion, variable: str) -> str:
-    return "; ".join(_reason(evidence, variable) for evidence in exclusion.evidence)
-
-
-def _reason(evidence: Evidence, variable: str) -> str:
+def _reason(evidence: Evidence, formulas: Formulas) -> str:
     if isinstance(evidence, NecessaryCondition):
-        places = [_place(place, variable) for place in evidence.places]
+        places = [formulas.factor_of_place(place).text for place in evidence.places]
         return evidence.rule.value + (f" (at {', '.join(places)})" if places else "")
     if isinstance(evidence, NoInvariant):
         m = evidence.invariant_degree
@@ -123,7 +105,8 @@ def _reason(evidence: Evidence, variable: str) -> str:
         return f"no rational invariant of degree {m}, by a linear system of nullity 0 modulo {evidence.prime}"
     if evidence.prime is None:
         return "the exponents leave no room for a rational omega"
-    return f"no rational omega, by its expansion at {_place(evidence.place, variable)} modulo {evidence.prime}"
+    place = formulas.factor_of_place(evidence.place).text
+    return f"no rational omega, by its expansion at {place} modulo {evidence.prime}"
 
 
 def _how_verified(solution: Solution) -> str:
@@ -135,10 +118,12 @@ def _how_verified(solution: Solution) -> str:
     return identity + (", and what was excluded was recomputed by independent code" if solution.proof else "")
 
 
-def _place(place: str, variable: str) -> str:
-    if place == "infinity":
-        return place
-    return f"{_caret(Names(variable).place(place))} = 0"
+def _of_degree(degree: int) -> str:
+    return "rational" if degree == 1 else f"algebraic of degree {degree}"
+
+
+def _formulas(solution: Solution) -> Formulas:
+    return Formulas(solution.variable, solution.S.field)
 
 
 def _equation(solution: Solution) -> str:
@@ -146,27 +131,4 @@ def _equation(solution: Solution) -> str:
 
 
 def _normal_form(solution: Solution) -> str:
-    return f"y'' = {_factor(solution.S, solution.variable)} y" if solution.S else "y'' = 0"
-
-
-def _function(function: RatFunc, variable: str) -> str:
-    return _caret(function.to_str(variable))
-
-
-def _factor(function: RatFunc, variable: str) -> str:
-    """The function as a factor of a product: in parentheses where it needs them."""
-    text = _function(function, variable)
-    return f"({text})" if any(sign in text for sign in " /*-") else text
-
-
-def _signed(function: RatFunc, variable: str) -> tuple[str, str]:
-    negative = function.to_str(variable).removeprefix("(").startswith("-")
-    return ("-", _factor(-function, variable)) if negative else ("+", _factor(function, variable))
-
-
-def _power(name: str, exponent: int) -> str:
-    return name if exponent == 1 else f"{name}^{exponent}"
-
-
-def _caret(text: str) -> str:
-    return text.replace("**", "^")
+    return f"y'' = {_formulas(solution).factor(solution.S)} y" if solution.S else "y'' = 0"

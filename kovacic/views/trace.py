@@ -17,7 +17,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import SemiInvariant
 from kovacic.engine.degree_bound import irregular_difference_squared
@@ -42,10 +41,6 @@ class PlaceData:
     case_2: tuple[int, ...]
     case_3: tuple[int, ...] | None
 
-    @property
-    def at_infinity(self) -> bool:
-        return self.place.at_infinity
-
 
 @dataclass(frozen=True)
 class Choice:
@@ -57,14 +52,11 @@ class Choice:
 
 @dataclass(frozen=True)
 class Trace:
-    """Everything that `explain` tells, in the order in which it is told; the solution has the rest."""
+    """What `explain` tells beside the solution: the places, and the choices that succeeded (none without a solution)."""
 
     solution: Solution
     places: tuple[PlaceData, ...]
     choices: tuple[Choice, ...]
-    d: int | None
-    theta: RatFunc | None
-    P: Poly | None
 
 
 def trace_of(solution: Solution) -> Trace:
@@ -72,18 +64,14 @@ def trace_of(solution: Solution) -> Trace:
     problem = analyse(solution.S, Budget())
     places = tuple(_place_data(place, solution.S) for place in problem.places)
     f = solution.semi_invariant
-    if f is None or solution.riccati is None:
-        return Trace(solution, places, (), None, None, None)
+    if f is None:
+        return Trace(solution, places, ())
     scale = {1: Fraction(1), 2: Fraction(2)}.get(f.degree, Fraction(12, f.degree))
-    choices = []
-    total: Fraction | None = Fraction(0)
-    for place in problem.finite_places:
-        value = _residue(f.theta, place)
-        choices.append(Choice(place, None if value is None else scale * value))
-        total = None if value is None or total is None else total + value * place.degree
-    infinite = None if total is None else scale * (f.P.degree + total)
-    choices.append(Choice(problem.infinity, infinite))
-    return Trace(solution, places, tuple(choices), f.P.degree, f.theta, f.P)
+    residues = [(place, _residue(f.theta, place)) for place in problem.finite_places]
+    choices = [Choice(place, None if value is None else scale * value) for place, value in residues]
+    known = [value * place.degree for place, value in residues if value is not None]
+    infinite = scale * (f.P.degree + sum(known)) if len(known) == len(residues) else None
+    return Trace(solution, places, (*choices, Choice(problem.infinity, infinite)))
 
 
 def _place_data(place: Place, S: RatFunc) -> PlaceData:
@@ -141,7 +129,7 @@ def rational_form(trace: Trace, form: SemiInvariant) -> RatFunc | None:
     """The form as a rational function, where its valuations are integers: P times powers of the factors of the poles."""
     result = RatFunc(form.P)
     for data in trace.places:
-        if not data.at_infinity:
+        if not data.place.at_infinity:
             value = _residue(form.theta, data.place)
             if value is None or value.denominator != 1:
                 return None

@@ -1,0 +1,122 @@
+"""One way to write a formula: every function, place and equation as text for reading and as LaTeX, without SymPy.
+
+Text has ^ for powers.  LaTeX is made from the exact data, each quotient as one fraction with integer coefficients.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from math import gcd
+
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.equation import Equation
+from kovacic.reading.names import Names, parameters_of
+
+_GREEK = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega"
+# What has another form in LaTeX, in the order in which it is replaced.
+_REPLACEMENTS = [
+    (re.compile(r"sqrt\(([^()]*)\)"), r"\\sqrt{\1}"),
+    (re.compile(r"cbrt\(([^()]*)\)"), r"\\sqrt[3]{\1}"),
+    (re.compile(r"root\(([^(),]*), (\d+)\)"), r"\\sqrt[\2]{\1}"),
+    (re.compile(r"\*\*(\d+)"), r"^{\1}"),
+    (re.compile(r"\b([A-Za-z])_?(\d+)\b"), r"\1_{\2}"),
+    (re.compile(rf"(?<![A-Za-z\\])({_GREEK.replace(' ', '|')})(?![A-Za-z])"), r"\\\1"),
+    (re.compile(r"\*"), " "),
+]
+
+
+@dataclass(frozen=True)
+class Math:
+    """A formula, for reading and for LaTeX."""
+
+    text: str
+    latex: str
+
+
+@dataclass(frozen=True)
+class Formulas:
+    """The formulas of one answer: its variable is called `variable`, and `field` is that of the coefficients of S."""
+
+    variable: str
+    field: Field
+
+    @property
+    def names(self) -> Names:
+        """The names of the variable, of omega and of its constants."""
+        return Names(self.variable, parameters_of(self.field))
+
+    def math(self, function: RatFunc | Poly) -> Math:
+        """A function or a polynomial."""
+        renamed = self.names.renamed(RatFunc(function) if isinstance(function, Poly) else function)
+        return Math(caret(renamed.to_str(self.variable)), latex_ratfunc(renamed, latex_text(self.variable)))
+
+    def text(self, function: RatFunc) -> str:
+        """A function for reading."""
+        return caret(self.names.ratfunc(function))
+
+    def factor(self, function: RatFunc, operators: str = " /*-") -> str:
+        """A function for reading, as the factor of a product: in parentheses where it has one of the operators."""
+        text = self.text(function)
+        return f"({text})" if any(sign in text for sign in operators) else text
+
+    def named(self, text: str, latex: str, function: RatFunc | Poly) -> Math:
+        """`name = function`."""
+        value = self.math(function)
+        return Math(f"{text} = {value.text}", f"{latex} = {value.latex}")
+
+    def factor_of_place(self, place: str) -> Math:
+        """The factor that vanishes at a place, = 0; "infinity" for infinity."""
+        if place == "infinity":
+            return Math(place, r"\infty")
+        factor = self.names.place(place)
+        return Math(f"{caret(factor)} = 0", f"{latex_text(factor)} = 0")
+
+    def place(self, place: str) -> Math:
+        """A place: x = 2 where its factor is linear in x with a simple constant, else factor = 0."""
+        factor, x = self.names.place(place), self.variable
+        root = {f"{x} - ": "", f"{x} + ": "-"}.get(factor[: len(x) + 3])
+        root = "0" if factor == x else None if root is None else root + factor[len(x) + 3 :]
+        if root is None or x in root or " " in root:
+            return self.factor_of_place(place)
+        return Math(f"{x} = {root}", f"{latex_text(x)} = {latex_text(root)}")
+
+
+def caret(text: str) -> str:
+    """Python's powers as they are read."""
+    return text.replace("**", "^")
+
+
+def given(equation: Equation) -> Math:
+    """The equation as it was given."""
+    return Math(equation.text(), latex_text(equation.text(caret=False)))
+
+
+def latex_text(text: str) -> str:
+    """An expression in Python syntax without quotients: powers, products, square roots, Greek names."""
+    for pattern, replacement in _REPLACEMENTS:
+        text = pattern.sub(replacement, text)
+    return text
+
+
+def latex_ratfunc(function: RatFunc, variable: str = "x") -> str:
+    """A rational function as one fraction with integer coefficients.
+
+    >>> from kovacic.algebra.rationals import QQ
+    >>> latex_ratfunc(RatFunc(QQ.poly([1, 0, 1]), QQ.poly([0, 2])))
+    '\\\\frac{x^{2} + 1}{2 x}'
+    """
+    top, bottom = function.num.common_denominator(), function.den.common_denominator()
+    common = gcd(top, bottom)
+    num, den = function.num * (top * (bottom // common)), function.den * (bottom * (top // common))
+    contents = [int(c.p) for part in (num, den) for c in part.rational_coefficients() if hasattr(c, "p")]
+    content = gcd(*contents) or 1
+    num, den = num / content, den / content
+    above = latex_text(num.integer_str(variable))
+    if den == 1:
+        return above
+    sign = ""
+    if above.startswith("-") and " + " not in above and " - " not in above:
+        sign, above = "-", above[1:]
+    return rf"{sign}\frac{{{above}}}{{{latex_text(den.integer_str(variable))}}}"

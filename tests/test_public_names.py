@@ -1,0 +1,29 @@
+"""`kovacic/__init__.py` names what is public, once; the stub beside it tells type checkers the same."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import kovacic
+
+STUB = Path(kovacic.__file__).with_suffix(".pyi")
+
+
+def stub() -> str:
+    """What the stub has to say.  To write it: python tests/test_public_names.py."""
+    names = sorted(kovacic._MODULES.items(), key=lambda item: (item[1], item[0]))
+    imports = [f"from {module} import {name} as {name}" for name, module in names]
+    return "\n".join(["# Written by tests/test_public_names.py.", *imports, "", "__version__: str", ""])
+
+
+def test_type_checkers_see_the_public_names() -> None:
+    assert STUB.read_text(encoding="utf-8") == stub(), "run python tests/test_public_names.py"
+
+
+def test_dir_shows_the_public_names_only() -> None:
+    assert dir(kovacic) == sorted([*kovacic.__all__, "__version__"])
+    assert len(set(kovacic.__all__)) == sum(map(len, kovacic._NAMES.values()))
+
+
+if __name__ == "__main__":
+    STUB.write_text(stub(), encoding="utf-8")
