@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from kovacic.closed_form import ClosedForm
+    from kovacic.closed_form.form import ClosedForm
     from kovacic.doubles.product_form import ProductForm
     from kovacic.doubles.tabulate import TabulatedFunction
     from kovacic.enclosure.agreement import Agreement
@@ -114,9 +114,9 @@ class Solution:
     @cached_property
     def closed_form(self) -> ClosedForm | None:
         """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution."""
-        from kovacic.closed_form import solutions
+        from kovacic.closed_form.form import solutions
 
-        return None if self.case is None else solutions(self)
+        return None if self.case is None else solutions(self.S, self.decision, self.gauge, self.variable)
 
     @property
     def solutions(self) -> tuple[Any, ...]:

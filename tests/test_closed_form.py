@@ -17,11 +17,11 @@ from sympy.abc import x
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form import solutions
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution, residual
+from kovacic.closed_form.form import solutions
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import KleinForm
-from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve, Triangular
+from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve, Triangular, build
 
 X = RatFunc(QQ.poly([0, 1]))
 
@@ -248,13 +248,13 @@ def test_without_a_solution_there_is_no_closed_form() -> None:
     assert airy.closed_form is None
     assert airy.solutions == ()
     with pytest.raises(ValueError, match="no Liouvillian solution"):
-        solutions(airy)
+        solutions(airy.S, airy.decision, airy.gauge)
 
 
 def test_the_gauge_can_be_given() -> None:
     answer = kovacic.solve("-1")
     gauge = RatFunc(answer.S.field.poly([-1]), answer.S.field.poly([0, 2]))
-    assert [str(y) for y in solutions(answer, gauge=gauge)] == ["cos(x)/sqrt(x)", "sin(x)/sqrt(x)"]
+    assert [str(y) for y in solutions(answer.S, answer.decision, gauge)] == ["cos(x)/sqrt(x)", "sin(x)/sqrt(x)"]
 
 
 @pytest.mark.parametrize("S", ["(2*x^2-1)/x^4", "(6*x^2-1)/x^4", "(2*x^2-4*x-2)/(x-1)^4"])
@@ -269,7 +269,9 @@ def test_a_phase_may_begin_with_a_minus_sign(S: str) -> None:
 def test_wrong_answers_do_not_pass_the_checks() -> None:
     answer, other = kovacic.solve("2/x^2 - 1"), kovacic.solve("6/x^2 - 1")
     zero = answer.gauge
-    form, wrong = solutions(answer), solutions(other)
+    form, wrong = answer.closed_form, other.closed_form
+    assert form is not None
+    assert wrong is not None
     assert is_exact_solution(form.structure, answer.S, zero)
     assert not is_exact_solution(wrong.structure, answer.S, zero)
     assert is_numerical_solution(form.y1, x, answer.S, zero)
@@ -288,7 +290,8 @@ def test_wrong_answers_do_not_pass_the_checks() -> None:
     ],
 )
 def test_structure_needs_no_sympy(S: str, kind: type) -> None:
-    assert isinstance(solutions(kovacic.solve(S)).structure, kind)
+    answer = kovacic.solve(S)
+    assert isinstance(build(answer.S, answer.decision, answer.gauge), kind)
 
 
 def test_cancellation_is_no_reason_to_fail() -> None:

@@ -18,11 +18,11 @@ import kovacic
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form import solutions
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution, value_at
 from kovacic.closed_form.curve import integrate_on_curve
 from kovacic.closed_form.curve_display import curve_integral
+from kovacic.closed_form.form import ClosedForm, solutions
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import OCTAHEDRAL_B, POLYNOMIALS, RATIOS, KleinForm
 from kovacic.closed_form.partial_fractions import decompose
@@ -45,6 +45,12 @@ from kovacic.reading.read import read_input
 X = RatFunc(QQ.poly([0, 1]))
 ZERO = RatFunc(QQ.poly([]))
 squarefree = strategies.polynomials(1, 4).filter(lambda g: g.gcd(g.derivative()).degree == 0).map(Poly.monic)
+
+
+def closed_form_of(answer: kovacic.Solution) -> ClosedForm:
+    form = answer.closed_form
+    assert form is not None
+    return form
 
 
 @given(strategies.rational_functions(5))
@@ -175,7 +181,7 @@ KLEIN = {
 @pytest.mark.parametrize("S", KLEIN.values(), ids=KLEIN.keys())
 def test_klein_form_and_polynomial_agree_along_a_path(S: str) -> None:
     """A constant multiple of y^k is a root of the polynomial, at every point of a path, to 50 digits."""
-    form = solutions(kovacic.solve(S))
+    form = closed_form_of(kovacic.solve(S))
     assert isinstance(form.structure, KleinForm)
     polynomial = form.structure.polynomial
     assert polynomial is not None
@@ -193,12 +199,12 @@ def test_klein_form_and_polynomial_agree_along_a_path(S: str) -> None:
 
 
 def test_polynomial_is_shown_in_factored_form() -> None:
-    found = solutions(kovacic.solve(KLEIN["tetrahedral, shifted"])).power_polynomial
+    found = closed_form_of(kovacic.solve(KLEIN["tetrahedral, shifted"])).power_polynomial
     assert found is not None
     power, polynomial = found
     assert power == 4
     assert sympy.degree(polynomial, sympy.Symbol("Z")) == 6
-    assert solutions(kovacic.solve("1")).power_polynomial is None
+    assert closed_form_of(kovacic.solve("1")).power_polynomial is None
 
 
 def test_closed_forms_can_be_pickled() -> None:
@@ -210,7 +216,7 @@ def test_closed_forms_can_be_pickled() -> None:
 
 
 def test_pull_backs_give_their_function_back() -> None:
-    form = solutions(kovacic.solve("(-189*x**2 - 611)/(900*x**4 - 1800*x**2 + 900)"))  # by x^2
+    form = closed_form_of(kovacic.solve("(-189*x**2 - 611)/(900*x**4 - 1800*x**2 + 900)"))  # by x^2
     assert isinstance(form.structure, KleinForm)
     assert form.structure.J == 1 / X**2
     assert str(form.y1) == "x**(1/30)*(x**2 - 1)**(1/3)*hyper((-1/60, 29/60), (4/5,), x**(-2))"
@@ -220,17 +226,17 @@ def test_exact_check_notices_every_changed_part() -> None:
     from dataclasses import replace
 
     answer = kovacic.solve("6/x^2 - 1")
-    form = solutions(answer).structure
+    form = closed_form_of(answer).structure
     assert not is_exact_solution(replace(form, A=form.A + 1), answer.S, ZERO)  # type: ignore[union-attr, arg-type, call-arg]
     assert not is_exact_solution(replace(form, delta=form.delta * 2), answer.S, ZERO)  # type: ignore[union-attr, arg-type, call-arg]
     hermite = kovacic.solve("x^2 - 7")
-    triangular = solutions(hermite).structure
+    triangular = closed_form_of(hermite).structure
     primitive = triangular.primitive  # type: ignore[union-attr]
     wrong = replace(triangular, primitive=replace(primitive, W=primitive.W + 1))  # type: ignore[arg-type, call-arg]
     assert is_exact_solution(triangular, hermite.S, ZERO)
     assert not is_exact_solution(wrong, hermite.S, ZERO)
     ball = kovacic.solve("(-5907*x**2 + 4290*x - 3675)/(784*x**6 + 6272*x**5 + 4704*x**4 - 31360*x**3 + 19600*x**2)")
-    curve = solutions(ball).structure
+    curve = closed_form_of(ball).structure
     assert is_exact_solution(curve, ball.S, ZERO)
     twice = replace(curve, kappa_squared=curve.kappa_squared * 4)  # type: ignore[union-attr, arg-type, call-arg]
     assert not is_exact_solution(twice, ball.S, ZERO)
@@ -242,7 +248,7 @@ def test_gauge_and_normal_form_agree(example: strategies.Example) -> None:
     """y times the gauge factor solves the equation with that gauge; the check inside `solutions` fails otherwise."""
     assume(example.size <= 20)
     answer = kovacic.solve((example.S.num.coefficients(), example.S.den.coefficients()))  # type: ignore[attr-defined]
-    assert solutions(answer, gauge=1 / (2 * X) - X).checked == "exact"
+    assert solutions(answer.S, answer.decision, 1 / (2 * X) - X).checked == "exact"
 
 
 def test_multiple_factors_are_squarefree_and_complete() -> None:
@@ -285,7 +291,7 @@ def test_reduction_at_a_pole(r: RatFunc, p: Poly, order: int, alpha: Fraction, n
 )
 def test_large_powers(omega: str, kind: type, notes: int) -> None:
     w = read_input(omega).S
-    form = solutions(kovacic.solve((w.derivative() + w * w).to_str()))
+    form = closed_form_of(kovacic.solve((w.derivative() + w * w).to_str()))
     assert isinstance(form.structure, Triangular)
     assert type(form.structure.primitive) is kind
     assert form.checked == "exact"

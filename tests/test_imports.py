@@ -81,7 +81,6 @@ IN_CIRCLES = {
     "kovacic",
     *(f"kovacic.batch{name}" for name in ("", ".backends", ".child", ".feed", ".pool", ".worker")),
     *("kovacic.enclosure.ball", "kovacic.enclosure.points"),
-    *("kovacic.galois.group", "kovacic.galois.matrices"),
     *("kovacic.parametric.answer", "kovacic.parametric.plot"),
 }
 

@@ -1,8 +1,6 @@
-"""y1 and y2 in closed form, built from the engine's certificate.
+"""y1 and y2 in closed form: a decision with its certificate goes in, two checked SymPy expressions come out.
 
-`solutions` is the entry; `kovacic.closed_form.structure` holds the same as data for numerical evaluation.
+`form.solutions` is the entry, and the module to read first.  `structure.build` gives the same as data, without SymPy: products
+(`product`), integrals (`primitive`, `curve`, `torsion`) and Klein's forms (`klein`).  `product_display`, `real_pair`,
+`integrals` and `curve_display` write each kind down; `check` verifies the structure exactly, and what is shown by `jets`.
 """
-
-from kovacic.closed_form.form import ClosedForm, solutions
-
-__all__ = ["ClosedForm", "solutions"]

@@ -1,38 +1,41 @@
-"""Polynomials, rational functions and products as SymPy expressions, built directly and without simplification."""
+"""Constants, polynomials, rational functions and their integrals as SymPy expressions, without simplification."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import sympy
-from sympy import Add, Integer, Mul, Pow, Rational, Symbol, exp, log, sqrt
+from sympy import Add, Integer, Mul, Pow, Rational, Symbol, log, sqrt
 
 from kovacic.algebra.embedding import real_root_index
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ, RationalPoly
-from kovacic.closed_form import plain
+from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.partial_fractions import Decomposition, Residue
-from kovacic.closed_form.plain import Expr, RootSum
-from kovacic.closed_form.product import Product
+
+Expr = Any  # SymPy publishes no types
+
+
+def discriminant(p: Poly) -> Fraction | None:
+    """That of a monic quadratic polynomial if it is rational; None for any other."""
+    return p.field.rational_value(p[1] * p[1] - 4 * p[0]) if p.degree == 2 else None
+
+
+class RootSum(sympy.RootSum):  # type: ignore[misc]
+    """SymPy's, for polynomials with irrational coefficients: SymPy compares these with a TypeError, and so can't add two."""
+
+    def _hashable_content(self) -> tuple[Expr, ...]:
+        return self.poly.as_expr(), self.poly.gen, self.fun
 
 
 def rational(value: Fraction | int) -> Expr:
     """A SymPy rational number."""
     return Rational(value.numerator, value.denominator)
-
-
-class _Factor(NamedTuple):
-    """base^exponent; factors with the same fractional `key` share a root."""
-
-    base: Expr
-    exponent: Expr
-    key: Expr
 
 
 class Atoms:
@@ -108,32 +111,28 @@ class Atoms:
     # ---------------------------------------------------------------------------------- rational functions
 
     def poly(self, polynomial: Poly, variable: Expr = None) -> Expr:
-        """A polynomial, expanded."""
+        """A polynomial, expanded; `variable` may be a root, for an element of K[x]/p."""
         x = self.x if variable is None else variable
-        return plain.polynomial(self.coefficients(polynomial), x)
+        return Add(*(c * x**k for k, c in enumerate(self.coefficients(polynomial)) if c))
 
     def primitive(self, polynomial: Poly) -> tuple[Fraction, Expr]:
         """(content, expression): the polynomial is content * expression, which has coprime integer coefficients over Q."""
-        if not isinstance(polynomial, RationalPoly) or not polynomial:
+        if polynomial.field != QQ or not polynomial:
             return Fraction(1), self.poly(polynomial)
-        numerator = polynomial.numerator()
-        content = int(numerator.content())
-        if numerator.leading_coefficient() < 0:
-            content = -content
-        coefficients = [Integer(int(c)) for c in (numerator // content).coeffs()]
-        return Fraction(content, polynomial.common_denominator()), plain.polynomial(coefficients, self.x)
+        content = Fraction(*polynomial.content()) * (1 if polynomial.rational_coefficients()[-1] > 0 else -1)
+        return content, self.poly(polynomial if content == 1 else polynomial * (1 / content))
 
     def ratio(self, r: RatFunc) -> Expr:
         """A rational function as one fraction."""
         (c, num), (d, den) = self.primitive(r.num), self.primitive(r.den)
-        return plain.quotient(rational(c / d) * num if c != d else num, den)
+        return rational(c / d) * num / den
 
     def sum(self, r: RatFunc) -> Expr:
         """A rational function as polynomial part and proper fraction."""
         if r.is_polynomial:
             return self.poly(r.num)
         polynomial, rest = divmod(r.num, r.den)
-        return plain.plus(self.poly(polynomial), self.ratio(RatFunc(rest, r.den)))
+        return self.poly(polynomial) + self.ratio(RatFunc(rest, r.den))
 
     def factored(self, r: RatFunc) -> Expr:
         """A rational function as a product of powers of irreducible polynomials."""
@@ -143,36 +142,37 @@ class Atoms:
             for p, k in r.field.factor(polynomial) if polynomial.degree > 0 else []:
                 c, base = self.primitive(p)
                 content *= c ** (sign * k)
-                factors.append(plain.power(base, Integer(sign * k)))
-        return plain.times(rational(content), *factors)
+                factors.append(base ** (sign * k))
+        return Mul(rational(content), *factors)
 
     # ---------------------------------------------------------------------------------------------- roots
 
-    def quadratic_roots(self, p: Poly) -> tuple[Expr, Expr, Expr]:
-        """(centre, disc, root of |disc|) of a monic quadratic polynomial over Q, whose roots are centre +- sqrt(disc)/2."""
-        b, c = self.constant(p[1]), self.constant(p[0])
-        discriminant = b**2 - 4 * c
-        return -b / 2, discriminant, sqrt(abs(discriminant))
-
-    def in_root(self, element: Poly, root: Expr) -> Expr:
-        """An element of K[x]/p at a root of p."""
-        return Add(*(c * root**k for k, c in enumerate(self.coefficients(element)) if c))
+    def real_roots(self, p: Poly) -> tuple[Expr, ...]:
+        """The roots of a monic quadratic polynomial with a positive rational discriminant; none for any other."""
+        square = discriminant(p)
+        if square is None or square <= 0:
+            return ()
+        centre, half = -self.constant(p[1]) / 2, sqrt(rational(square)) / 2
+        return centre - half, centre + half
 
     def log_sum(self, residue: Residue) -> Expr:
         """sum over the roots a of p of residue(a) log(x - a) up to a constant; real for quadratic p over Q."""
         p, value = residue.factor, residue.value
         if residue.is_constant:
-            return plain.times(self.constant(value), plain.logarithm(self.primitive(p)[1]))
+            return self.constant(value) * log(self.primitive(p)[1], evaluate=False)
+        if roots := self.real_roots(p):
+            return Add(*(sympy.expand_mul(self.poly(value, a)) * log(self.x - a) for a in roots))
         if p.degree == 2 and p.field == QQ:
-            centre, discriminant, root = self.quadratic_roots(p)
-            if discriminant > 0:
-                roots = [centre - root / 2, centre + root / 2]
-                return Add(*(sympy.expand_mul(self.in_root(value, a)) * log(self.x - a) for a in roots))
-            mean, slope = self.constant(value[0]) + self.constant(value[1]) * centre, self.constant(value[1])
+            centre, slope, root = (
+                -self.constant(p[1]) / 2,
+                self.constant(value[1]),
+                sqrt(-rational(discriminant(p) or 0)),
+            )
+            mean = self.constant(value[0]) + slope * centre
             angle = -slope * root * sympy.atan(sympy.expand_mul(2 * (self.x - centre) / root))
             return angle + (mean * log(self.primitive(p)[1]) if mean else 0)
         a = self.root
-        return self.root_sum(self.poly(p, a), self.in_root(value, a) * log(self.x - a))
+        return self.root_sum(self.poly(p, a), self.poly(value, a) * log(self.x - a))
 
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""
@@ -182,7 +182,7 @@ class Atoms:
 
     def integral(self, parts: Decomposition) -> Expr:
         """The integral of a decomposed rational function: rational part and logarithms."""
-        return plain.plus(self.sum(parts.exact), *self.logarithms(parts.residues))
+        return Add(self.sum(parts.exact), *self.logarithms(parts.residues))
 
     def logarithms(self, residues: Iterable[Residue]) -> list[Expr]:
         """Logarithms; those of two linear factors with opposite residues as one, real between the roots if 0 lies there."""
@@ -200,153 +200,9 @@ class Atoms:
             top, bottom = self.primitive(first.factor)[1], self.primitive(partner.factor)[1]
             at_zero = first.factor.field.rational_value(first.factor[0] * partner.factor[0])
             if at_zero is not None and at_zero < 0:
-                bottom = plain.times(Integer(-1), bottom)
-            terms.append(plain.times(self.constant(first.value), plain.logarithm(plain.quotient(top, bottom))))
+                bottom = -bottom
+            terms.append(self.constant(first.value) * log(top / bottom, evaluate=False))
         return terms[::-1]
-
-    # ------------------------------------------------------------------------------------------- products
-
-    def product(self, y: Product, *, around_zero: bool = False) -> Expr:
-        """A product, up to a constant factor."""
-        return plain.times(*self.factors(y, around_zero=around_zero)[1])
-
-    def factors(
-        self, y: Product, extra: RatFunc | None = None, *, like: Product | None = None, around_zero: bool = True
-    ) -> tuple[Expr, list[Expr]]:
-        """(c, factors): y * extra is c times the product of the factors; common factors of y and extra are merged.
-
-        Bases with the same fractional exponent come under one root.  (p q)^e and p^e q^e differ by a constant that isn't the
-        same everywhere; in a sum, all terms must use the same roots: those of the product `like`, from which the exponents
-        differ by integers.  With `around_zero` the roots of x^2 - a, a > 0, are written so that they are real around 0.
-        """
-        scale: Expr = Integer(1)
-        alone = like is None and extra is None
-        keys = {} if alone else {power.base: power.exponent for power in (like or y).powers}
-        exponents: list[_Factor] = []
-        rest = extra
-        for power in y.powers:
-            exponent = power.exponent
-            if rest is not None and rest:
-                num, up = rest.num.remove(power.base)
-                den, down = rest.den.remove(power.base)
-                rest = RatFunc(num, den, reduced=True)
-                exponent = exponent + (up - down)
-            if exponent:
-                content, base = self.primitive(power.base)
-                index = self.constant(exponent)
-                if content != 1:
-                    scale = scale * rational(content) ** index
-                key = index if alone else self.constant(keys.get(power.base, exponent))
-                exponents.append(_Factor(base, index, key))
-        for residue in y.roots:
-            exponents += [_Factor(base, index, index) for base, index in self._root_powers(residue)]
-        if rest is not None:
-            (c, num), (d, den) = self.primitive(rest.num), self.primitive(rest.den)
-            if c != d:
-                scale = scale * rational(c / d)
-            exponents += [_Factor(num, Integer(1), Integer(1)), _Factor(den, Integer(-1), Integer(-1))]
-        sign, powers = self._grouped(exponents, around_zero)
-        return plain.times(scale, sign), [*powers, self.exponential(y)]
-
-    def exponential(self, y: Product) -> Expr:
-        """The factor exp(rational function) of a product, with the sums over roots that aren't written as powers."""
-        inner = [self.log_sum(residue) for residue in y.roots if not self._explicit(residue)]
-        if y.exponential.num.degree > 0 or not y.exponential.is_polynomial:
-            rational_part = self.sum(y.exponential)
-            if not inner:
-                return plain.exponential(rational_part)
-            inner.append(rational_part)
-        return exp(Add(*inner)) if inner else Integer(1)
-
-    def is_linear_power(self, residue: Residue) -> bool:
-        """Is the residue the same at all roots, so that it is an exponent?"""
-        return residue.is_constant
-
-    def _explicit(self, residue: Residue) -> bool:
-        """Are there real roots that can be written down?"""
-        p = residue.factor
-        if p.degree != 2 or p.field != QQ:
-            return False
-        return bool(self.quadratic_roots(p)[1] > 0)
-
-    def _root_powers(self, residue: Residue) -> list[tuple[Expr, Expr]]:
-        if not self._explicit(residue):
-            return []
-        centre, _, root = self.quadratic_roots(residue.factor)
-        return [
-            (self.x - a, sympy.expand_mul(self.in_root(residue.value, a)))
-            for a in (centre - root / 2, centre + root / 2)
-        ]
-
-    def _grouped(self, factors: list[_Factor], around_zero: bool) -> tuple[Expr, list[Expr]]:
-        """(c, powers) with the product c * powers; (x - a)(x + a) is multiplied out."""
-        roots: dict[Expr, list[_Factor]] = {}
-        integers: dict[Expr, list[Expr]] = {}
-        for factor in factors:
-            if factor.exponent.is_integer:
-                integers.setdefault(factor.exponent, []).append(factor.base)
-            else:
-                roots.setdefault(factor.key, []).append(factor)
-        scale: Expr = Integer(1)
-        powers: list[Expr] = []
-        for group in roots.values():
-            exponent = group[0].exponent
-            for factor in group[1:]:
-                if factor.exponent != exponent:
-                    integers.setdefault(factor.exponent - exponent, []).append(factor.base)
-            bases = self._joined([factor.base for factor in group])
-            turned = [
-                plain.times(Integer(-1), base) if around_zero and self._is_negative_around_zero(base) else base
-                for base in bases
-            ]
-            flips = sum(base != other for base, other in zip(bases, turned, strict=True))
-            if flips:
-                scale = plain.times(scale, Integer(-1) ** (exponent * flips))
-            powers.append(plain.power(plain.times(*turned), exponent))
-        powers += [plain.power(base, k) for k, bases in integers.items() for base in self._joined(bases)]
-        return scale, powers
-
-    def _is_negative_around_zero(self, base: Expr) -> bool:
-        """Is this c x^2 - a with a > 0?"""
-        if not base.is_Add:
-            return False
-        constants = [term for term in base.args if term.is_number]
-        powers = [term for term in base.args if not term.is_number]
-        return len(powers) == 1 and self._degree(powers[0]) == 2 and bool(Add(*constants).is_negative)
-
-    def _degree(self, monomial: Expr) -> int | None:
-        """The degree of c x^k; None for anything else."""
-        power = monomial.as_coeff_Mul()[1]
-        if power.is_Mul:  # with an irrational coefficient
-            power = power.as_independent(self.x, as_Add=False)[1]
-        power = power.as_base_exp()
-        return int(power[1]) if power[0] == self.x and power[1].is_Integer else None
-
-    def _joined(self, bases: list[Expr]) -> list[Expr]:
-        """With every pair x - a, x + a multiplied out."""
-        pending, result = list(bases), []
-        while pending:
-            base = pending.pop(0)
-            partner = next((other for other in pending if self._opposite(base, other)), None)
-            if partner is not None:
-                pending.remove(partner)
-                b, ax = _constant_first(base)
-                base = plain.plus(-(b**2), plain.times(ax, ax))
-            result.append(base)
-        return result
-
-    def _opposite(self, first: Expr, second: Expr) -> bool:
-        """Are these a x - b and a x + b?"""
-        if not (first.is_Add and second.is_Add and len(first.args) == len(second.args) == 2):
-            return False
-        (b, ax), (c, other) = _constant_first(first), _constant_first(second)
-        return bool(b.is_number and ax == other and b == -c and self._degree(ax) == 1)
-
-
-def _constant_first(binomial: Expr) -> tuple[Expr, Expr]:
-    """Its two terms, a number before the other one."""
-    first, second = binomial.args
-    return (first, second) if first.is_number else (second, first)
 
 
 def _is_the_smaller_root(field: AlgebraicField) -> bool:

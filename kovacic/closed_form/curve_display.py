@@ -11,16 +11,14 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import sympy
-from sympy import Add, Integer, atan, cos, log, sin, sqrt
+from sympy import Add, Integer, Mul, atan, cos, exp, log, sin, sqrt
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
-from kovacic.closed_form import plain
-from kovacic.closed_form.atoms import Atoms, rational
+from kovacic.closed_form.atoms import Atoms, Expr, discriminant, rational
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.partial_fractions import Residue
-from kovacic.closed_form.plain import Expr
+from kovacic.closed_form.product_display import display
 from kovacic.closed_form.structure import OnCurve
 from kovacic.closed_form.units import Unit, unit
 
@@ -44,21 +42,18 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
     """common * exp(+-kappa int r dx/sqrt(g)); with cos and sin where kappa is imaginary; and notes."""
     form = _oriented(form)
     terms = _terms(form.integral, atoms, alone=True)
-    common = atoms.product(form.common)
+    common = display(form.common, atoms)
     square = atoms.constant(form.kappa_squared)
     if square.is_negative:
         kappa = sqrt(-square)
         angle = Add(
             *(_times(kappa, t) for t in terms.others), *(_times(kappa, c) * log(b) for c, b in terms.logarithms)
         )
-        return plain.times(common, cos(angle)), plain.times(common, sin(angle)), terms.notes
+        return common * cos(angle), common * sin(angle), terms.notes
     kappa = sqrt(square)
     powers = [(base, _times(kappa, c)) for c, base in terms.logarithms]
-    inner = plain.plus(*(_times(kappa, t) for t in terms.others))
-    first, second = (
-        plain.times(common, *(plain.power(b, sign * e) for b, e in powers), plain.exponential(sign * inner))
-        for sign in (1, -1)
-    )
+    inner = Add(*(_times(kappa, t) for t in terms.others))
+    first, second = (Mul(common, *(b ** (sign * e) for b, e in powers), exp(sign * inner)) for sign in (1, -1))
     return first, second, terms.notes
 
 
@@ -68,7 +63,7 @@ def _times(factor: Expr, term: Expr) -> Expr:
         term.as_independent(*term.free_symbols, as_Add=False) if term.free_symbols else (term, Integer(1))
     )
     constant = _radical_product(factor, coefficient)
-    return plain.times(constant if constant.is_Rational else sympy.sqrtdenest(constant), rest)
+    return (constant if constant.is_Rational else sympy.sqrtdenest(constant)) * rest
 
 
 def _radical_product(a: Expr, b: Expr) -> Expr:
@@ -88,7 +83,7 @@ def _oriented(form: OnCurve) -> OnCurve:
     Only for rational tau^2, and d = 2 with two real branch points and without a logarithm at infinity.
     """
     integral = form.integral
-    if integral.rest or not integral.residues or integral.g.degree != 2 or not _has_real_roots(integral.g):
+    if integral.rest or not integral.residues or not (discriminant(integral.g) or 0) > 0:
         return form
     units = [unit(integral.g, residue) for residue in integral.residues]
     values = [None if u is None else u.tau_squared.field.rational_value(u.tau_squared) for u in units]
@@ -112,7 +107,8 @@ def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
         _append_unit(integral.unit, root, atoms, logarithms, others)
         return _Terms(tuple(logarithms), tuple(others))
     if integral.rest:
-        split = alone and not integral.exact and not integral.residues and _splits(g)
+        # sqrt(x - x1) + sqrt(x - x2) is the better form for real roots that aren't symmetric to 0.
+        split = alone and not integral.exact and not integral.residues and bool(g[1] and atoms.real_roots(g))
         logarithms.append((atoms.constant(integral.rest) * (2 if split else 1), _at_infinity(g, atoms, split)))
     for residue in integral.residues:
         found = unit(integral.g, residue)
@@ -144,37 +140,23 @@ def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr,
     logarithms.append((factor / tau, top / atoms.primitive(p)[1] if p.degree > 0 else top))
 
 
-def _has_real_roots(g: Poly) -> bool:
-    """Has a quadratic polynomial two real roots, as far as that is known?"""
-    discriminant = g.field.rational_value(g[1] * g[1] - 4 * g[0] * g[2])
-    return discriminant is not None and discriminant > 0
-
-
-def _splits(g: Poly) -> bool:
-    """Is sqrt(x - x1) + sqrt(x - x2) the better form: real roots, not symmetric to 0?"""
-    return _has_real_roots(g) and bool(g[1])
-
-
 def _at_infinity(g: Poly, atoms: Atoms, split: bool) -> Expr:
     """x - (x1 + x2)/2 + sqrt(g), or sqrt(x - x1) + sqrt(x - x2), the square root of twice that.
 
     The latter has another sign of sqrt(g) in some regions, so that it can't be used together with other terms.
     """
     if split:
-        centre, _, root = atoms.quadratic_roots(g)
-        return sqrt(atoms.x - (centre - root / 2)) + sqrt(atoms.x - (centre + root / 2))
+        return Add(*(sqrt(atoms.x - a) for a in atoms.real_roots(g)))
     return atoms.poly(g.derivative() * Fraction(1, 2)) + sqrt(atoms.poly(g))
 
 
 def _root_sum(integral: CurveIntegral, residue: Residue, root: Expr, atoms: Atoms) -> Expr:
     """The sum over the roots a of p of -(rho/sqrt(gamma)) log((L_a + sqrt(gamma) s)/(x - a))."""
     p, a = residue.factor, atoms.root
-    gamma = atoms.in_root(integral.radicand(residue), a)
-    slope = atoms.in_root(integral.g.derivative() * Fraction(1, 2) % p, a)
+    gamma = atoms.poly(integral.radicand(residue), a)
+    slope = atoms.poly(integral.g.derivative() * Fraction(1, 2) % p, a)
     tangent = gamma + slope * (atoms.x - a)
-    body = -atoms.in_root(residue.value, a) / sqrt(gamma) * log((tangent + sqrt(gamma) * root) / (atoms.x - a))
-    if p.degree == 2 and p.field == QQ:
-        centre, discriminant, width = atoms.quadratic_roots(p)
-        if discriminant > 0:
-            return Add(*(body.subs(a, value) for value in (centre - width / 2, centre + width / 2)))
+    body = -atoms.poly(residue.value, a) / sqrt(gamma) * log((tangent + sqrt(gamma) * root) / (atoms.x - a))
+    if roots := atoms.real_roots(p):
+        return Add(*(body.subs(a, value) for value in roots))
     return atoms.root_sum(atoms.poly(p, a), body)

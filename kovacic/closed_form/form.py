@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from sympy import Add, Mul, Symbol, evaluate, hyper
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.structure import ClosedStructure, build
+from kovacic.closed_form.atoms import Atoms, Expr, rational
+from kovacic.closed_form.check import is_exact_solution, is_numerical_solution
+from kovacic.closed_form.curve_display import exponentials
+from kovacic.closed_form.integrals import triangular
+from kovacic.closed_form.klein import Hypergeometric, KleinForm
+from kovacic.closed_form.product_display import display
+from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
+from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular, build
+from kovacic.decision import Decision
 from kovacic.errors import VerificationFailed
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from kovacic.solution import Solution
 
 EXACT = "exact"
 NUMERICAL = "numerical, 50 digits"
@@ -44,11 +50,6 @@ class ClosedForm:
         All its roots are k-th powers of solutions.  None in the other cases, with a gauge factor, and where P is too long to
         be written out.
         """
-        from sympy import Add, Symbol
-
-        from kovacic.closed_form.atoms import Atoms
-        from kovacic.closed_form.klein import KleinForm
-
         if not isinstance(self.structure, KleinForm) or self.structure.polynomial is None:
             return None
         polynomial, atoms, Z = self.structure.polynomial, Atoms(self.variable), Symbol("Z")
@@ -57,38 +58,51 @@ class ClosedForm:
         return polynomial.power, Add(Z**n, *terms)
 
 
-def solutions(solution: Solution, *, gauge: RatFunc | None = None) -> ClosedForm:
+def solutions(S: RatFunc, decision: Decision, gauge: RatFunc, variable: str = "x") -> ClosedForm:
     """Two independent solutions of the equation that was given: those of y'' = S y times its gauge factor.
 
-    `gauge` is the logarithmic derivative of that factor, by default -b/(2a) for the equation a z'' + b z' + c z = 0 (a rational
-    function equal to 0 gives the normal form's).  It is merged into the products of powers and exponentials.  Where S is
-    real and has real solutions of a known form, these are returned.
+    `gauge` is the logarithmic derivative of that factor, -b/(2a) for the equation a z'' + b z' + c z = 0, and 0 for the normal
+    form.  It is merged into the products of powers and exponentials.  Where S is real and has real solutions of a known
+    form, these are returned.
 
     Raises `ValueError` if the equation has no Liouvillian solution or is undecided, and `VerificationFailed` if a solution
     doesn't pass its check, which is a defect of this package.
 
     >>> import kovacic
-    >>> form = solutions(kovacic.solve("2/x^2 - 1"))
+    >>> answer = kovacic.solve("2/x^2 - 1")
+    >>> form = solutions(answer.S, answer.decision, answer.gauge)
     >>> form.y1, form.checked
     ((x*cos(x) - sin(x))/x, 'exact')
     """
-    from sympy import Symbol
-
-    from kovacic.closed_form.atoms import Atoms
-    from kovacic.closed_form.check import is_exact_solution, is_numerical_solution
-    from kovacic.closed_form.display import expressions
-    from kovacic.closed_form.klein import KleinForm
-
-    if solution.case is None:
-        raise ValueError(solution.reason or "there is no Liouvillian solution")
-    if gauge is None:
-        gauge = solution.gauge
-    structure = build(solution.S, solution.decision, gauge)
-    variable = Symbol(solution.variable)
-    atoms = Atoms(variable)
+    if decision.case is None:
+        raise ValueError(decision.undecided or "there is no Liouvillian solution")
+    structure = build(S, decision, gauge)
+    x = Symbol(variable)
+    atoms = Atoms(x)
     y1, y2, notes = expressions(structure, atoms)
     exact = not isinstance(structure, KleinForm)
-    passed = not exact or is_exact_solution(structure, solution.S, gauge)
-    if not passed or not all(is_numerical_solution(y, variable, solution.S, gauge) for y in (y1, y2)):
-        raise VerificationFailed(f"a closed form for S = {solution.S} failed its check; please report the equation")
-    return ClosedForm(y1, y2, variable, structure, gauge, EXACT if exact else NUMERICAL, (*notes, *atoms.notes))
+    passed = not exact or is_exact_solution(structure, S, gauge)
+    if not passed or not all(is_numerical_solution(y, x, S, gauge) for y in (y1, y2)):
+        raise VerificationFailed(f"a closed form for S = {S} failed its check; please report the equation")
+    return ClosedForm(y1, y2, x, structure, gauge, EXACT if exact else NUMERICAL, (*notes, *atoms.notes))
+
+
+def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
+    """y1, y2 and notes."""
+    if isinstance(form, Diagonal):
+        return display(form.first, atoms, around_zero=True), display(form.second, atoms, around_zero=True), ()
+    if isinstance(form, Conjugate):
+        return *(real_pair if is_real_pair(form, atoms) else conjugate_roots)(form, atoms), ()
+    if isinstance(form, Triangular):
+        return triangular(form, atoms)
+    if isinstance(form, OnCurve):
+        return exponentials(form, atoms)
+    J = atoms.factored(form.J)
+    return _hypergeometric(form.first, J, atoms), _hypergeometric(form.second, J, atoms), ()
+
+
+def _hypergeometric(y: Hypergeometric, J: Expr, atoms: Atoms) -> Expr:
+    a, b, c = (rational(value) for value in (y.a, y.b, y.c))
+    with evaluate(False):  # else SymPy asks whether J is polar, which takes milliseconds
+        function = hyper((a, b), (c,), J)
+    return Mul(display(y.factor, atoms), function)

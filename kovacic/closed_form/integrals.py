@@ -11,10 +11,8 @@ from sympy import Add, Ei, Integer, Mul, erf, erfi, exp, pi, sqrt
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form import plain
-from kovacic.closed_form.atoms import Atoms, rational
+from kovacic.closed_form.atoms import Atoms, Expr, rational
 from kovacic.closed_form.curve_display import curve_integral
-from kovacic.closed_form.plain import Expr
 from kovacic.closed_form.primitive import (
     CurvePrimitive,
     ExponentialPrimitive,
@@ -23,6 +21,7 @@ from kovacic.closed_form.primitive import (
     RationalPrimitive,
 )
 from kovacic.closed_form.product import Power, Product
+from kovacic.closed_form.product_display import display, factors
 from kovacic.closed_form.structure import Triangular
 
 Scaled = tuple[Expr, Expr]  # a constant and an expression, to be multiplied
@@ -31,46 +30,47 @@ Factors = tuple[Expr, list[Expr]]  # a constant and factors: y1 as `Atoms.factor
 
 def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
     """y1, and y1 int y1^-2 up to a constant factor and a multiple of y1; and notes about what was left as an integral."""
-    primitive, factors = form.primitive, atoms.factors(form.first)
-    first = plain.times(*factors[1])
+    primitive, parts = form.primitive, factors(form.first, atoms)
+    first = Mul(*parts[1])
     if isinstance(primitive, OpenPrimitive):
-        integral = sympy.Integral(atoms.product(form.bare.to_power(-2), around_zero=True), atoms.x)
-        return first, plain.times(first, integral), (f"integral left because {primitive.reason}",)
+        integral = sympy.Integral(display(form.bare.to_power(-2), atoms, around_zero=True), atoms.x)
+        return first, first * integral, (f"integral left because {primitive.reason}",)
     if isinstance(primitive, CurvePrimitive):
         value, notes = curve_integral(primitive.integral, atoms)
-        return first, plain.plus(*(plain.times(first, term) for term in Add.make_args(value))), notes
+        return first, Add(*(first * term for term in Add.make_args(value))), notes
     if isinstance(primitive, RationalPrimitive):
-        return first, _rational(form, primitive, factors, atoms), ()
+        return first, _rational(form, primitive, parts, atoms), ()
     if isinstance(primitive, PowerPrimitive):
-        return first, _power(form, primitive, factors, atoms), ()
-    return first, _exponential(form, primitive, factors, atoms), ()
+        return first, _power(form, primitive, parts, atoms), ()
+    return first, _exponential(form, primitive, parts, atoms), ()
 
 
 def _sum(terms: list[Scaled]) -> Expr:
     """The sum up to a constant factor: coprime integer coefficients if they are commensurable, the last one positive."""
     if len(terms) == 1:
         return terms[0][1]
-    ratios = [plain.ratio_of_constants(c, terms[-1][0]) for c, _ in terms]
+    ratios = [c / terms[-1][0] for c, _ in terms]
     if all(ratio.is_Rational for ratio in ratios):
         content = sympy.Rational(gcd(*(int(r.p) for r in ratios)), lcm(*(int(r.q) for r in ratios)))
         ratios = [ratio / content for ratio in ratios]
-    return plain.plus(*(plain.times(c, e) for c, e in zip(ratios, (e for _, e in terms), strict=True)))
+    return Add(*(c * e for c, (_, e) in zip(ratios, terms, strict=True)))
 
 
-def _scaled(scale: Expr, factors: list[Expr]) -> Scaled:
+def _scaled(scale: Expr, parts: list[Expr]) -> Scaled:
     """Rational factors of the product join the constant."""
-    coefficient, rest = plain.times(*factors).as_coeff_Mul()
-    return plain.times(scale, coefficient), rest
+    coefficient, rest = Mul(*parts).as_coeff_Mul()
+    return scale * coefficient, rest
 
 
 def _rational(form: Triangular, primitive: RationalPrimitive, first: Factors, atoms: Atoms) -> Expr:
-    parts = primitive.parts
-    exact = _normalised_constant(parts.exact) if not parts.residues else parts.exact
+    exact, residues = primitive.parts.exact, primitive.parts.residues
+    if not residues:
+        exact = _normalised_constant(exact)
     terms = []
     if exact:
-        terms.append(_scaled(*atoms.factors(form.first, exact)))
-    scale, factors = first
-    terms += [_scaled(scale, [*factors, term]) for term in atoms.logarithms(parts.residues)]
+        terms.append(_scaled(*factors(form.first, atoms, exact)))
+    scale, parts = first
+    terms += [_scaled(scale, [*parts, term]) for term in atoms.logarithms(residues)]
     return _sum(terms)
 
 
@@ -93,22 +93,22 @@ def _exponential(form: Triangular, primitive: ExponentialPrimitive, first: Facto
         terms.append(_algebraic_part(form, primitive, atoms))
     shift = exp(atoms.constant(primitive.constant)) if primitive.constant else Integer(1)
     t = atoms.x - atoms.constant(primitive.centre)
-    scale, factors = first
+    scale, parts = first
     for term in primitive.terms:
         c, value = _special(primitive.alpha, atoms.constant(primitive.beta), primitive.n, term.power, t)
-        terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*factors, shift, value]))
+        terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, value]))
     beta, centre = atoms.constant(primitive.beta), atoms.constant(primitive.centre)
     for residue in primitive.poles.residues:
         p, rho = residue.factor, residue.value
         if p.degree == 1:
             a = -atoms.constant(p[0])
             value = exp(beta * (a - centre)) * Ei(beta * (atoms.x - a))
-            terms.append(_scaled(scale * atoms.constant(rho), [*factors, shift, value]))
+            terms.append(_scaled(scale * atoms.constant(rho), [*parts, shift, value]))
         else:
             a = atoms.root
-            body = atoms.in_root(rho, a) * exp(beta * (a - centre)) * Ei(beta * (atoms.x - a))
+            body = atoms.poly(rho, a) * exp(beta * (a - centre)) * Ei(beta * (atoms.x - a))
             value = atoms.root_sum(atoms.poly(p, a), body)
-            terms.append(_scaled(scale, [*factors, shift, value]))
+            terms.append(_scaled(scale, [*parts, shift, value]))
     return _sum(terms)
 
 
@@ -118,15 +118,15 @@ def _power(form: Triangular, primitive: PowerPrimitive, first: Factors, atoms: A
     t, alpha = primitive.t, primitive.alpha
     if primitive.W:
         powers = _with_exponents(form.first, (t.num, alpha), (t.den, -alpha))
-        terms.append(_scaled(*atoms.factors(replace(form.first, powers=powers), primitive.W(t), like=form.first)))
-    scale, factors = first
+        terms.append(_scaled(*factors(replace(form.first, powers=powers), atoms, primitive.W(t), like=form.first)))
+    scale, parts = first
     n = alpha.denominator
     v = Mul(*(atoms.poly(p) ** e for p, e in ((t.num, rational(Fraction(1, n))), (t.den, rational(Fraction(-1, n))))))
     z = atoms.root
     for residue in primitive.poles.residues:
-        body = atoms.in_root(residue.value, z**n) * z ** int(alpha * n) * sympy.log(v - z)
+        body = atoms.poly(residue.value, z**n) * z ** int(alpha * n) * sympy.log(v - z)
         value = atoms.root_sum(atoms.poly(residue.factor, z**n), body)
-        terms.append(_scaled(scale, [*factors, value]))
+        terms.append(_scaled(scale, [*parts, value]))
     return _sum(terms)
 
 
@@ -145,7 +145,7 @@ def _algebraic_part(form: Triangular, primitive: ExponentialPrimitive, atoms: At
     t = field.poly([-primitive.centre, 1])
     inner = first.exponential + RatFunc(t) ** primitive.n * primitive.beta + primitive.constant
     merged = _with_exponents(first, (t, primitive.alpha))
-    return _scaled(*atoms.factors(Product(merged, first.roots, inner), primitive.W, like=first))
+    return _scaled(*factors(Product(merged, first.roots, inner), atoms, primitive.W, like=first))
 
 
 def _special(alpha: Fraction, beta: Expr, n: int, power: int, t: Expr) -> Scaled:
@@ -156,20 +156,14 @@ def _special(alpha: Fraction, beta: Expr, n: int, power: int, t: Expr) -> Scaled
     if s == Fraction(1, 2):
         positive = beta.is_positive
         root = sqrt(beta if positive else -beta)
-        u = plain.times(root, plain.power(t, sympy.Rational(n, 2)))
-        evaluated = not beta.is_Rational or u.could_extract_minus_sign()
-        return 1 / (root * n), plain.times(sqrt(pi), (erfi if positive else erf)(u, evaluate=evaluated))
+        u = root * t ** sympy.Rational(n, 2)
+        return 1 / (root * n), sqrt(pi) * (erfi if positive else erf)(u)
     order = rational(s)
-    t_n = plain.power(t, Integer(n))
-    z = plain.times(-beta, t_n)
+    t_n = t**n
+    z = -beta * t_n
     if n == 1 and beta.is_negative:
         return -((-beta) ** -order), sympy.uppergamma(order, z)
     # z^(-s) gamma(s, z) is entire; with Gamma(s, z) the powers of z and of t would differ in some sectors.
     exponent = rational(power + alpha + 1)
-    powers = plain.times(plain.power(t, exponent), plain.power_of_multiple(-beta, t_n, -order))
-    return sympy.Rational(1, n), plain.times(powers, _lower(order, z))
-
-
-def _lower(order: Expr, z: Expr) -> Expr:
-    """The lower incomplete gamma function; SymPy writes it by error functions where 2 `order` is an integer."""
-    return sympy.lowergamma(order, z, evaluate=(2 * order).is_integer)
+    powers = t**exponent * z**-order
+    return sympy.Rational(1, n), powers * sympy.lowergamma(order, z)

@@ -19,16 +19,15 @@ from fractions import Fraction
 from typing import Any
 
 import sympy
-from sympy import Add, Integer, cos, sin, sqrt
+from sympy import Add, Integer, Mul, cos, sin, sqrt
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form import plain
-from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.atoms import Atoms, Expr
 from kovacic.closed_form.partial_fractions import Residue
-from kovacic.closed_form.plain import Expr
-from kovacic.closed_form.product import Power, Product
+from kovacic.closed_form.product import Power
+from kovacic.closed_form.product_display import display
 from kovacic.closed_form.structure import Conjugate
 from kovacic.engine.places import rational_square_root
 
@@ -70,7 +69,7 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
             phase.append(s * atoms.log_sum(residue))
         else:
             pair = turned
-    common = atoms.product(replace(form.common, powers=_merged(pair.powers)))
+    common = display(replace(form.common, powers=_merged(pair.powers)), atoms)
     A, B = pair.A, pair.B
     content = _content(atoms, A, B)
     A, B = A * (1 / content), B * (1 / content)
@@ -81,7 +80,7 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
         scale, radical = atoms.primitive(p)
         root = sqrt(radical) * sqrt(sympy.Rational(scale.numerator, scale.denominator))
         plus = sqrt(root + distance)
-        minus = sign * atoms.quadratic_roots(p)[2] / (2 * plus)
+        minus = sign * sqrt(-atoms.constant(p[1] * p[1] - 4 * p[0])) / (2 * plus)
         first, second = first * plus - second * minus, first * minus + second * plus
     angle = Add(*phase)
     if angle != 0:
@@ -90,14 +89,14 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
         evaluate = angle.has(sympy.atan)  # everything else stays as it is
         c, t = cos(angle, evaluate=evaluate), sin(angle, evaluate=evaluate)
         first, second = (
-            plain.plus(plain.times(first, c), plain.times(Integer(-1), second, t)),
-            plain.plus(plain.times(first, t), plain.times(second, c)),
+            first * c - second * t,
+            first * t + second * c,
         )
     return _times(common, first), _times(common, second)
 
 
 def _times(common: Expr, factor: Expr) -> Expr:
-    return plain.times(_without_content(factor), common)
+    return _without_content(factor) * common
 
 
 def _without_content(expression: Expr) -> Expr:
@@ -154,27 +153,20 @@ def _merged(powers: tuple[Power, ...]) -> tuple[Power, ...]:
 
 def conjugate_roots(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
     """y+ and y- for a delta that isn't negative: real where S is."""
-    s = sqrt(atoms.constant(form.delta))
-    solutions = []
-    for sign in (s, -s):
-        A, B = atoms.poly(form.A), atoms.poly(form.B)
-        exponents = [
-            Residue(residue.factor, residue.value) for residue in form.phase.residues if atoms.is_linear_power(residue)
-        ]
-        rest = [atoms.log_sum(residue) for residue in form.phase.residues if not atoms.is_linear_power(residue)]
-        inner = [sign * term for term in rest]
-        if form.phase.exact:
-            inner.append(sign * atoms.sum(form.phase.exact))
-        common = _with_irrational_powers(form.common, exponents, sign, atoms)
-        solutions.append(Add(A, sympy.expand_mul(sign * B)) * common * sympy.exp(Add(*inner)))
-    return solutions[0], solutions[1]
+    root = sqrt(atoms.constant(form.delta))
+    first, second = (_conjugate_root(form, s, atoms) for s in (root, -root))
+    return first, second
 
 
-def _with_irrational_powers(common: Product, residues: list[Residue], factor: Expr, atoms: Atoms) -> Expr:
-    """The product times base^(factor * residue), the exponents of the same base added."""
-    exponents = {power.base: atoms.constant(power.exponent) for power in common.powers}
-    for residue in residues:
-        extra = factor * atoms.constant(residue.value)
-        exponents[residue.factor] = exponents.get(residue.factor, sympy.Integer(0)) + extra
-    powers = sympy.Mul(*(atoms.primitive(base)[1] ** sympy.expand_mul(e) for base, e in exponents.items()))
-    return powers * atoms.product(replace(common, powers=()))
+def _conjugate_root(form: Conjugate, s: Expr, atoms: Atoms) -> Expr:
+    exponents = {power.base: atoms.constant(power.exponent) for power in form.common.powers}
+    inner = [s * atoms.sum(form.phase.exact)] if form.phase.exact else []
+    for residue in form.phase.residues:
+        if residue.is_constant:  # an exponent
+            p = residue.factor
+            exponents[p] = exponents.get(p, Integer(0)) + s * atoms.constant(residue.value)
+        else:
+            inner.append(s * atoms.log_sum(residue))
+    powers = Mul(*(atoms.primitive(base)[1] ** sympy.expand_mul(e) for base, e in exponents.items()))
+    rest = display(replace(form.common, powers=()), atoms)
+    return Add(atoms.poly(form.A), sympy.expand_mul(s * atoms.poly(form.B))) * powers * rest * sympy.exp(Add(*inner))

@@ -34,6 +34,8 @@ from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Problem, analyse, rational_square_root
 from kovacic.engine.riccati import Form
 from kovacic.errors import LimitExceeded
+from kovacic.galois.group import Kind
+from kovacic.galois.imprimitive import imprimitive_group
 from kovacic.limits import Budget, Limits
 
 #: Seconds that the decision may take; beyond, the integral is left with that reason.
@@ -62,9 +64,6 @@ def completed(integral: CurveIntegral) -> CurveIntegral:
 
 
 def _decide(integral: CurveIntegral) -> Unit | str:
-    from kovacic.galois.group import Kind
-    from kovacic.galois.imprimitive import imprimitive_group
-
     g, field = integral.g, integral.g.field
     middle = Fraction(g.degree, 2) - 1
     at_infinity = integral.rest[int(middle)] if middle.denominator == 1 else field.poly([])
