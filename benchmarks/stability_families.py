@@ -1,6 +1,6 @@
 """Equations under stress whose solutions are known: points that nearly merge, huge exponents, degrees and arguments.
 
-Data for `numeric_stability.py`, with the values of the solutions by mpmath.
+Data for `doubles_stability.py`, with the values of the solutions by mpmath.
 """
 
 from __future__ import annotations

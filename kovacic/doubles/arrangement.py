@@ -2,9 +2,11 @@
 
 - Case 1: y = exp(int theta) P; residues are exponents, poles of higher order go into the exponential.
 - Case 2 on a rational curve s^2 = g: y'/y = phi/2 +- kappa r/s with f = y1 y2, phi = f'/f, and
-  r/s = (C s)' + (sum of rho(a)/(x - a) + rest)/s.  In the parameter t of `kovacic.doubles.conic`, a simple pole a of phi/2
-  with residue mu contributes (t - t_a)^mu (t - t_a')^mu D^(-mu), and rho(a)/((x - a) s) has the residues +-rho(a)/s_a at
-  t_a and t_a'.  So
+  r/s = (C s)' + (sum of rho(a)/(x - a) + rest)/s.  In the parameter t of the curve (`kovacic.doubles.product_form`) y'/y dx
+  has simple poles with constant residues, apart from an exact part: a point (a, s_a) has the parameter t_a, its conjugate
+  (a, -s_a) has t_a', and x - a is a constant times (t - t_a)(t - t_a')/D(t) with D = 1, t, 1 + t^2 for line, hyperbola and
+  ellipse (where a = -M has t_a = infinity: x - a = 2 M/D).  A simple pole a of phi/2 with residue mu contributes
+  (t - t_a)^mu (t - t_a')^mu D^(-mu), and rho(a)/((x - a) s) has the residues +-rho(a)/s_a at t_a and t_a'.  So
 
       y = prod (t - t_a)^(mu + epsilon) (t - t_a')^(mu - epsilon) * D^(-sum mu) * (infinity) * exp(+-kappa C s),       (1)
 
@@ -16,24 +18,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from flint import acb, acb_poly, arb
+
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.partial_fractions import decompose
 from kovacic.closed_form.structure import OnCurve, build
-from kovacic.doubles.conic import ExactConic, Shape, conic_of
 from kovacic.doubles.double_double import Complex, pair_of
-from kovacic.doubles.product_form import Factor, ProductForm, RationalFunction
+from kovacic.doubles.product_form import Conic, Factor, ProductForm, RationalFunction, Shape
 from kovacic.doubles.region import Region
-from kovacic.enclosure.certificate import Exponential, exponentials, omega, value
-from kovacic.enclosure.closed_form import closed_form_of
+from kovacic.enclosure.closed_form import Exponential, certified, exponentials, omega, value
 from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, zeros
 from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import NumericProblem
-
-if TYPE_CHECKING:
-    from flint import acb, acb_poly
-
-    from kovacic.algebra.ratfunc import RatFunc
 
 _SAME = 2.0**-60
 """Balls this close together are the same point or exponent: distinct ones were separated at a far higher precision."""
@@ -44,7 +42,7 @@ _WHOLE = 16
 _MAX_ZEROS = 200
 """Polynomials of a higher degree are not split into their zeros (which takes degree^4 time)."""
 
-Powers = list[tuple["acb", "acb"]]
+Powers = list[tuple[acb, acb]]
 """(zeta, exponent)"""
 
 
@@ -72,17 +70,12 @@ def _exponential(branch: Exponential, region: Region, base: Point) -> ProductFor
     c = branch.constant()
     theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
     powers = [(pole.zeta, pole.coefficients[0]) for pole in theta.poles] + _zeros_of(branch.P, c)
-    polar = [
-        (pole.zeta, -coefficient / (k - 1), k - 1)
-        for pole in theta.poles
-        for k, coefficient in enumerate(pole.coefficients[1:], start=2)
-    ]
     is_real = region.is_real and _all_real([*theta.num.coeffs(), *theta.den.coeffs(), *P.coeffs()])
     return ProductForm(
         region,
         base,
         _factors(powers, to_acb(base), is_real),
-        _rational(theta.primitive, polar),
+        _exponent(theta),
         RationalFunction((), ()),
         None,
         is_real,
@@ -90,8 +83,6 @@ def _exponential(branch: Exponential, region: Region, base: Point) -> ProductFor
 
 
 def _zeros_of(P: Any, c: acb | None) -> Powers:
-    from flint import acb
-
     return [(z, acb(k)) for z, k in zeros(P, c)]
 
 
@@ -104,6 +95,14 @@ def _rational(polynomial: acb_poly, polar: list[tuple[acb, acb, int]]) -> Ration
     return RationalFunction(tuple(_complex(v) for v in reversed(polynomial.coeffs())), terms)
 
 
+def _exponent(theta: LogDerivative) -> RationalFunction:
+    """The part of int theta without logarithms."""
+    poles = [
+        (pole.zeta, -r / (k - 1), k - 1) for pole in theta.poles for k, r in enumerate(pole.coefficients[1:], start=2)
+    ]
+    return _rational(theta.primitive, poles)
+
+
 def _complex(z: acb) -> Complex:
     imag = (0.0, 0.0) if z.imag.contains(0) else pair_of(z.imag)
     return pair_of(z.real), imag
@@ -111,8 +110,6 @@ def _complex(z: acb) -> Complex:
 
 def _factors(powers: Powers, base: acb, is_real: bool) -> tuple[Factor, ...]:
     """The factors (t - zeta)^power; for a real function, those of the closed upper half-plane, with their conjugates."""
-    from flint import acb
-
     found = []
     for zeta, power in powers:
         if power.abs_upper() < _SAME or (is_real and zeta.imag < 0):
@@ -130,6 +127,60 @@ def _whole(power: acb) -> int | None:
 
 
 @dataclass(frozen=True)
+class ExactConic:
+    """`kovacic.doubles.product_form.Conic` with balls, for the parameters of given points."""
+
+    shape: Shape
+    sigma: int
+    vertex: arb
+    m: arb
+
+    def root(self, a: acb) -> acb:
+        """s_a, one of the two square roots of sigma g(a)."""
+        X = a - self.vertex
+        square = X if self.shape is Shape.LINE else X * X + self.m
+        return square * 0 if square.contains(0) else (square * self.sigma).sqrt()
+
+    def parameters(self, a: acb, s: acb) -> tuple[acb, acb] | None:
+        """t_a and t_a'; None for a at infinity of the ellipse."""
+        if self.shape is Shape.LINE:
+            return s, -s
+        X = a - self.vertex
+        if self.shape is Shape.HYPERBOLA:
+            return X + s, X - s
+        M = (-self.m).sqrt()
+        if (M + X).contains(0):
+            return None
+        return s / (M + X), -s / (M + X)
+
+    def rounded(self) -> Conic:
+        """The data for double precision."""
+        if self.shape is Shape.LINE:
+            return Conic(self.shape, self.sigma, pair_of(self.vertex), (0.0, 0.0), (pair_of(self.vertex),))
+        ends: tuple[tuple[float, float], ...] = ()
+        if self.m < 0:
+            M = (-self.m).sqrt()
+            ends = (pair_of(self.vertex - M), pair_of(self.vertex + M))
+        return Conic(self.shape, self.sigma, pair_of(self.vertex), pair_of(self.m), ends)
+
+
+def conic_of(g: acb_poly, middle: arb) -> ExactConic | None:
+    """The curve whose s is real near `middle`; None for another degree, or coefficients that aren't real."""
+    coefficients: list[Any] = g.coeffs()
+    if len(coefficients) not in (2, 3) or any(not c.imag.contains(0) for c in coefficients):
+        return None
+    low, *rest = (c.real for c in coefficients)
+    value = g(middle).real
+    if value.contains(0):
+        return None
+    sigma = 1 if value > 0 else -1
+    if len(rest) == 1:
+        return ExactConic(Shape.LINE, sigma, -low, low)
+    vertex = -rest[0] / 2
+    return ExactConic(Shape.HYPERBOLA if sigma > 0 else Shape.ELLIPSE, sigma, vertex, low - vertex * vertex)
+
+
+@dataclass(frozen=True)
 class _Place:
     """A point a of the x-line with its residues: mu of phi/2, and rho of r."""
 
@@ -140,20 +191,23 @@ class _Place:
 
 def _on_curve(problem: NumericProblem, which: int, region: Region, base: Point) -> ProductForm | None:
     """Equation (1), or None."""
-    closed = closed_form_of(problem)
-    if closed.case != 2 or closed.P.degree > _MAX_ZEROS or _branch_points(closed.theta) > 2:
+    decision, S = certified(problem), problem.S
+    assert decision.semi_invariant is not None
+    assert S is not None
+    theta, P = decision.semi_invariant.theta, decision.semi_invariant.P
+    if decision.case != 2 or P.degree > _MAX_ZEROS or _branch_points(theta) > 2:
         return None
-    form = build(closed.S, closed.decision, closed.S * 0)
+    form = build(S, decision, S * 0)
     assert isinstance(form, OnCurve)
-    c = conjugates(closed.P.field)[0]
+    c = conjugates(P.field)[0]
     z = to_acb(base)
     conic = conic_of(embed(form.integral.g, c), z.real)
     if conic is None or not form.integral.is_elementary:
         return None
     kappa = (embed(form.kappa_squared, c)(0) * conic.sigma).sqrt()
-    even = closed.theta / 2 if problem.gauge is None else closed.theta / 2 + problem.gauge
+    even = theta / 2 if problem.gauge is None else theta / 2 + problem.gauge
     # Which sign is the solution number `which`?  y'/y = (even part) + kappa r/s for the sign of kappa found here.
-    average = value(even, c, z) + value(_slope(closed.P), c, z) / 2
+    average = value(even, c, z) + value(RatFunc(P.derivative(), P), c, z) / 2
     odd = kappa * value(form.integral.integrand, c, z) / conic.root(z)
     target = omega(problem, which, base, 200)
     if not (average + odd).overlaps(target):
@@ -161,31 +215,20 @@ def _on_curve(problem: NumericProblem, which: int, region: Region, base: Point) 
     if not (average + odd).overlaps(target) or (average - odd).overlaps(target):
         raise ArithmeticError("the closed form doesn't belong to the polynomial of omega")
     smooth = LogDerivative.make(even, c)
-    places = _places(smooth, closed.P, form.integral.residues, c)
+    places = _places(smooth, P, form.integral.residues, c)
     rest = embed(form.integral.rest, c)(0) if form.integral.rest else z * 0
-    polar = [
-        (pole.zeta, -coefficient / (k - 1), k - 1)
-        for pole in smooth.poles
-        for k, coefficient in enumerate(pole.coefficients[1:], start=2)
-    ]
-    is_real = _all_real([kappa]) and _all_real([*embed(closed.P, c).coeffs(), *smooth.num.coeffs()])
+    is_real = _all_real([kappa]) and _all_real([*embed(P, c).coeffs(), *smooth.num.coeffs()])
     parameters = conic.parameters(z, conic.root(z))
     assert parameters is not None
     return ProductForm(
         region,
         base,
         _factors(_powers(places, conic, kappa, rest), parameters[0], is_real),
-        _rational(smooth.primitive, polar),
+        _exponent(smooth),
         _sheet(form.integral.exact, kappa * conic.sigma, c),
         conic.rounded(),
         is_real,
     )
-
-
-def _slope(P: Any) -> RatFunc:
-    from kovacic.algebra.ratfunc import RatFunc
-
-    return RatFunc(P.derivative(), P)
 
 
 def _branch_points(theta: RatFunc) -> int:
@@ -200,8 +243,6 @@ def _branch_points(theta: RatFunc) -> int:
 
 
 def _places(smooth: LogDerivative, P: Any, residues: tuple[Any, ...], c: acb | None) -> list[_Place]:
-    from flint import acb
-
     zero = acb(0)
     found = [_Place(pole.zeta, pole.coefficients[0], zero) for pole in smooth.poles]
     found += [_Place(a, k / 2, zero) for a, k in _zeros_of(P, c)]
@@ -221,8 +262,6 @@ def _places(smooth: LogDerivative, P: Any, residues: tuple[Any, ...], c: acb | N
 
 def _powers(places: list[_Place], conic: ExactConic, kappa: acb, rest: acb) -> Powers:
     """The exponents in t of (1)."""
-    from flint import acb
-
     total, i = acb(0), acb(0, 1)
     found: Powers = []
     for place in places:

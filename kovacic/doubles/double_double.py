@@ -15,10 +15,12 @@ Y. Hida, X. Li and D. Bailey, "Algorithms for quad-double precision floating poi
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from flint import arb
+import numpy as np
+from flint import arb
+
+from kovacic.enclosure.working import working_precision
 
 Pair = tuple[Any, Any]
 """(hi, lo): arrays or floats."""
@@ -32,8 +34,6 @@ _WORKING_BITS = 160
 
 def pair_of(value: arb) -> tuple[float, float]:
     """The double-double next to the midpoint of a ball."""
-    from flint import arb
-
     hi = float(value.mid())
     return hi, float((value - arb(hi)).mid())
 
@@ -90,8 +90,6 @@ def divide(a: Pair, b: Pair) -> Pair:
 
 def square_root(a: Pair) -> Pair:
     """sqrt(a) for a > 0."""
-    import numpy as np
-
     s = np.sqrt(a[0])
     rest = subtract(a, two_product(s, s))
     return two_sum(s, rest[0] / (2 * s))
@@ -99,8 +97,6 @@ def square_root(a: Pair) -> Pair:
 
 def scaled(a: Pair, e: Any) -> Pair:
     """a 2^e, exactly; e is an array of integers."""
-    import numpy as np
-
     return np.ldexp(a[0], e), np.ldexp(a[1], e)
 
 
@@ -141,19 +137,14 @@ def complex_horner(coefficients: tuple[Complex, ...], x: Complex) -> Complex:
 @cache
 def log_2() -> tuple[float, float]:
     """log 2."""
-    from flint import arb, ctx
-
-    with ctx.workprec(_WORKING_BITS):
+    with working_precision(_WORKING_BITS):
         return pair_of(arb(2).log())
 
 
 @cache
 def _logarithms() -> tuple[Any, Any]:
     """log(k/64) for k = 0, ..., 92 (0 in place of log 0)."""
-    import numpy as np
-    from flint import arb, ctx
-
-    with ctx.workprec(_WORKING_BITS):
+    with working_precision(_WORKING_BITS):
         values = [pair_of((arb(max(k, 1)) / 64).log()) for k in range(93)]
     return np.array([v[0] for v in values]), np.array([v[1] for v in values])
 
@@ -161,10 +152,7 @@ def _logarithms() -> tuple[Any, Any]:
 @cache
 def _circle() -> tuple[tuple[Any, Any], tuple[Any, Any]]:
     """cos(k/32) and sin(k/32) for k = -101, ..., 101."""
-    import numpy as np
-    from flint import arb, ctx
-
-    with ctx.workprec(_WORKING_BITS):
+    with working_precision(_WORKING_BITS):
         both = [(arb(k) / 32).sin_cos() for k in range(-101, 102)]
         sines, cosines = ([pair_of(v[i]) for v in both] for i in (0, 1))
     return (
@@ -178,25 +166,19 @@ def _inverse_factorials(start: int) -> tuple[tuple[float, float], ...]:
     """(-1)^k/(start + 2k)! for k = 6, ..., 0."""
     from math import factorial
 
-    from flint import arb, ctx
-
-    with ctx.workprec(_WORKING_BITS):
+    with working_precision(_WORKING_BITS):
         return tuple(pair_of(arb((-1) ** k) / factorial(start + 2 * k)) for k in reversed(range(7)))
 
 
 @cache
 def _odd_reciprocals() -> tuple[tuple[float, float], ...]:
     """1/(2k + 1) for k = 6, ..., 0."""
-    from flint import arb, ctx
-
-    with ctx.workprec(_WORKING_BITS):
+    with working_precision(_WORKING_BITS):
         return tuple(pair_of(arb(1) / (2 * k + 1)) for k in reversed(range(7)))
 
 
 def log(a: Pair) -> Pair:
     """log(a) for a > 0; -inf for 0."""
-    import numpy as np
-
     a = (np.asarray(a[0], dtype=float), np.asarray(a[1], dtype=float))
     zero = a[0] == 0
     m, e = np.frexp(np.where(zero, 1.0, a[0]))
@@ -216,8 +198,6 @@ def log(a: Pair) -> Pair:
 
 def cos_sin(t: Any) -> tuple[Pair, Pair]:
     """cos(t) and sin(t) of doubles |t| <= pi."""
-    import numpy as np
-
     k = np.rint(32 * t)
     h = (t - k / 32, 0.0 * t)  # exact
     square = multiply(h, h)
@@ -230,8 +210,6 @@ def cos_sin(t: Any) -> tuple[Pair, Pair]:
 
 def angle(y: Pair, x: Pair) -> Pair:
     """The argument of x + i y in (-pi, pi], for numbers of moderate size; 0 at the origin."""
-    import numpy as np
-
     t = np.arctan2(y[0], x[0])
     c, s = cos_sin(t)
     cross = subtract(multiply(y, c), multiply(x, s))[0]

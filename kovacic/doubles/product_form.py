@@ -2,7 +2,12 @@
 
     y(x) = constant * prod_k (t - z_k)^(n_k) * prod_j ((t - zeta_j)/turn_j)^(r_j) * exp(E(x) + s F(x)),
 
-t = x itself, or the parameter of a rational curve with its root s (`kovacic.doubles.conic`).
+t = x itself, or the parameter of a rational curve s^2 = sigma g(x), deg g = 1 or 2, sigma = +-1 so that sigma g > 0, that is
+real on an interval.  With X = x + g'(0)/2 and g = X^2 + m for deg g = 2 (g is monic):
+
+    LINE       deg g = 1:                t = s,                x = -g(0) + sigma t^2,
+    HYPERBOLA  deg g = 2, sigma = 1:     t = X + s,            X = (t^2 - m)/(2 t),
+    ELLIPSE    deg g = 2, sigma = -1:    t = s/(M + X),        X = M (1 - t^2)/(1 + t^2),      M = sqrt(-m).            (1)
 
 - Polynomial factors stay products over their zeros z_k, which are double-doubles: t - z_k keeps its digits near a zero.
 - Their product is collected with its binary exponent apart, and all powers with other exponents as one logarithm r_j log
@@ -17,9 +22,11 @@ Nothing is proven about rounding errors here; `kovacic.doubles.accuracy` measure
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from typing import Any
 
-from kovacic.doubles.conic import Conic
+import numpy as np
+
 from kovacic.doubles.double_double import (
     Complex,
     Pair,
@@ -29,16 +36,57 @@ from kovacic.doubles.double_double import (
     complex_horner,
     complex_multiply,
     complex_reciprocal,
+    divide,
     log,
     log_2,
     multiply,
     negative,
     scaled,
+    square_root,
     subtract,
     two_sum,
 )
 from kovacic.doubles.region import Region
 from kovacic.enclosure.points import Point
+
+
+class Shape(Enum):
+    """The three parametrisations (1)."""
+
+    LINE = "line"
+    HYPERBOLA = "hyperbola"
+    ELLIPSE = "ellipse"
+
+
+@dataclass(frozen=True)
+class Conic:
+    """s^2 = sigma g with double-double data: `vertex` is -g(0) or -g'(0)/2, `m` as in (1).
+
+    `ends` are the real zeros of g, in order (empty for deg g = 2 without real zeros).
+    """
+
+    shape: Shape
+    sigma: int
+    vertex: tuple[float, float]
+    m: tuple[float, float]
+    ends: tuple[tuple[float, float], ...]
+
+    def coordinates(self, x: Pair) -> tuple[Pair, Pair]:
+        """(t, s) at points with sigma g(x) > 0."""
+        if self.shape is Shape.LINE:
+            d = subtract(x, self.vertex)
+            s = square_root(d if self.sigma > 0 else negative(d))
+            return s, s
+        X = subtract(x, self.vertex)
+        if self.shape is Shape.ELLIPSE:
+            left, right = subtract(x, self.ends[0]), subtract(self.ends[1], x)
+            return square_root(divide(right, left)), square_root(multiply(left, right))
+        differences = [subtract(x, end) for end in self.ends]  # exact near a branch point, unlike X^2 + m
+        s = square_root(multiply(*differences) if differences else add(multiply(X, X), self.m))
+        behind = X[0] < 0  # there X + s would cancel, and m/(s - X) doesn't
+        far = add((np.abs(X[0]), np.where(behind, -X[1], X[1])), s)
+        near = divide(self.m, far)
+        return (np.where(behind, near[0], far[0]), np.where(behind, near[1], far[1])), s
 
 
 @dataclass(frozen=True)
@@ -96,8 +144,6 @@ class ProductForm:
 
     def __call__(self, x: Any) -> Any:
         """y(x) as doubles, or complex doubles (inf or 0 where the value is beyond their range)."""
-        import numpy as np
-
         mantissa, binary, size, phase = self._parts(self.region.points(x))
         turns = np.rint(size[0] / log_2()[0])
         rest = subtract(size, multiply((turns, 0.0 * turns), log_2()))
@@ -116,8 +162,6 @@ class ProductForm:
 
     def log(self, x: Any) -> tuple[Any, Any]:
         """(sign, log |y(x)|), or for complex functions (y/|y|, log |y|)."""
-        import numpy as np
-
         mantissa, binary, size, phase = self._parts(self.region.points(x))
         value = mantissa[0][0] if phase is None else mantissa[0][0] + 1j * mantissa[1][0]
         modulus = np.abs(value)
@@ -146,8 +190,6 @@ class ProductForm:
         return (t, (0.0 * t[0], 0.0 * t[0])), s
 
     def _real_product(self, t: Pair, size: Pair) -> tuple[Complex, Any, Pair, None]:
-        import numpy as np
-
         zero = 0.0 * t[0]
         mantissa, binary = (zero + 1.0, zero), zero
         for f in self.factors:
@@ -199,13 +241,9 @@ def _conjugate(z: Complex) -> Complex:
 
 def _exponent(a: Any, b: Any) -> Any:
     """The binary exponent of the larger of |a| and |b| (0 for 0)."""
-    import numpy as np
-
     return np.frexp(np.maximum(np.abs(a), np.abs(b)))[1]
 
 
 def _normalised(value: Pair) -> tuple[Pair, Any]:
-    import numpy as np
-
     _, e = np.frexp(value[0])
     return two_sum(*scaled(value, -e)), e

@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
+from flint import acb
 
 from kovacic.enclosure.points import Point, as_point, to_acb
-from kovacic.enclosure.problem import NumericProblem, clear_denominators
+from kovacic.enclosure.problem import NumericProblem, System
+from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
-
-if TYPE_CHECKING:
-    from flint import acb
 
 _PREC = 240
 
@@ -35,8 +36,6 @@ class Region:
 
     def points(self, x: Any) -> Any:
         """The argument as an array of doubles or complex doubles; raises InputError where it leaves the region."""
-        import numpy as np
-
         points = np.asarray(x)
         if not np.issubdtype(points.dtype, np.number):
             raise InputError(f"the argument isn't numerical ({points.dtype})")
@@ -61,8 +60,6 @@ def region_of(problem: NumericProblem, interval: tuple[object, object]) -> tuple
 
     Raises InputError if it is empty, or contains a singular point other than its two ends.
     """
-    from flint import ctx
-
     try:
         first, second = interval
     except (TypeError, ValueError):
@@ -71,7 +68,7 @@ def region_of(problem: NumericProblem, interval: tuple[object, object]) -> tuple
     low, high = Point(min(a.re, b.re), min(a.im, b.im)), Point(max(a.re, b.re), max(a.im, b.im))
     if a == b or (a.is_real() and b.is_real() and a != low):
         raise InputError("the interval is empty", hint="give two real numbers, the smaller one first")
-    with ctx.workprec(_PREC):
+    with working_precision(_PREC):
         singular = _singular_ends(problem, low, high)
     corners = complex(_up(low.re), _up(low.im)), complex(_down(high.re), _down(high.im))
     if corners[0].real > corners[1].real or corners[0].imag > corners[1].imag:
@@ -90,7 +87,7 @@ def hull(region: Region, point: Point) -> Region:
 
 def _singular_ends(problem: NumericProblem, low: Point, high: Point) -> tuple[bool, bool]:
     at_low = at_high = False
-    systems = [problem.system] if problem.gauge is None else [problem.system, clear_denominators(problem.gauge)]
+    systems = [problem.system] if problem.gauge is None else [problem.system, System.of(problem.gauge)]
     for system in systems:
         for root, _ in system.roots("den", _PREC):
             here, there = root.overlaps(to_acb(low)), root.overlaps(to_acb(high))

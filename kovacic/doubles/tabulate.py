@@ -15,32 +15,37 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
+from flint import acb, arb
 
 from kovacic.doubles.arrangement import gauge_form
 from kovacic.doubles.double_double import Pair, add, multiply, pair_of, scaled, two_sum
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Region, hull, region_of
 from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
-from kovacic.enclosure.carry import initial_ball, initial_value
-from kovacic.enclosure.certificate import value
-from kovacic.enclosure.evaluate import evaluate_states
-from kovacic.enclosure.frame import Frame, RayBound, log2_lead, log2_norm, make_frame, ray_bound, shift_system
+from kovacic.enclosure.closed_form import value
+from kovacic.enclosure.evaluate import evaluate_states, initial_ball, initial_value
+from kovacic.enclosure.frame import Frame, RayBound, fitting
 from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.precision import Evaluation
-from kovacic.enclosure.problem import NumericProblem, as_problem, clear_denominators
-from kovacic.enclosure.singular import System, check_segment, distance_lower
+from kovacic.enclosure.problem import (
+    NumericProblem,
+    System,
+    as_problem,
+    check_segment,
+)
 from kovacic.enclosure.taylor import expand
+from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
-
-if TYPE_CHECKING:
-    from flint import acb
 
 _PREC = 116
 _DIGITS = 34
 _SHARP = 90
 _GROWTH = 30.0
+_SHARE = 0.25
 _MAX_PIECES = 5000
 
 
@@ -62,8 +67,6 @@ class TabulatedFunction:
 
     def __call__(self, x: Any) -> Any:
         """y(x) as doubles, or complex doubles; raises InputError outside of the interval."""
-        import numpy as np
-
         points = self.region.points(x)
         index = np.searchsorted(self.edges, points, side="right")
         u = scaled(two_sum(points, -self.centres[index]), -self.exponents[index])
@@ -102,8 +105,6 @@ def tabulate(
     >>> print(f"{f(10.0):.15f}")      # sin 10
     -0.544021110889370
     """
-    from flint import ctx
-
     problem = as_problem(equation)
     region, _ = region_of(problem, (start, stop))
     if not region.is_real:
@@ -114,8 +115,8 @@ def tabulate(
         )
     origin, gauge = as_point(x0, "x0"), None
     if problem.gauge is not None:  # z = y G/G(x0): z' = y' + gamma y at x0
-        check_segment(clear_denominators(problem.gauge), origin, origin)
-        with ctx.workprec(8 * _PREC):
+        check_segment(System.of(problem.gauge), origin, origin)
+        with working_precision(8 * _PREC):
             gamma = value(problem.gauge, None, to_acb(origin))
             dy0 = ball_from_flint(
                 initial_ball(initial_value(dy0, "dy0")) - gamma * initial_ball(initial_value(y0, "y0"))
@@ -126,7 +127,7 @@ def tabulate(
     pieces = _pieces(problem.system, region, budget)
     centres = [frame.centre for frame, _ in pieces]
     states = evaluate_states(normal, centres, x0=origin, y0=y0, dy0=dy0, digits=_DIGITS, limits=limits)
-    with ctx.workprec(_PREC + 60):
+    with working_precision(_PREC + 60):
         rows = [
             _coefficients(problem.system, piece, state, budget) for piece, state in zip(pieces, states, strict=True)
         ]
@@ -153,33 +154,15 @@ def _piece(system: System, position: Fraction, e: int) -> tuple[Frame, RayBound]
     for exponent in range(e, e - 2200, -1):
         unit = Fraction(2) ** exponent
         centre = Point((position // unit + 1) * unit)
-        if system.is_singular(centre):
-            continue
-        near = distance_lower(system, centre)
-        if near is not None and math.ldexp(near[0], max(min(near[1] - exponent, 1000), -1000)) < 4.0:
-            continue
-        frame = make_frame(system, centre, 1, exponent)
-        norm = None
-        if frame.zeros is None:
-            shifted = shift_system(system, frame)
-            norm = log2_norm(shifted.p) - log2_lead(shifted.q)
-        left, right = (ray_bound(frame, u, norm) for u in (-1 + 0j, 1 + 0j))
-        if left is None or right is None or max(left.log2_growth, right.log2_growth) > _GROWTH:
-            continue
-        worst = RayBound(
-            max(left.gain, right.gain),
-            max(left.gain_derivative, right.gain_derivative),
-            min(left.log2_min_q, right.log2_min_q),
-            max(left.log2_growth, right.log2_growth),
-        )
-        return frame, worst
+        ends = (centre - Point(unit), centre + Point(unit))
+        found = fitting(system, centre, exponent, _SHARE, _GROWTH, ends)
+        if found is not None:
+            return found[0], found[1][0].worst(found[1][1])
     raise LimitExceeded("no piece of positive size was found for the table", limit="unknown_degree")
 
 
 def _coefficients(system: System, piece: tuple[Frame, RayBound], state: Evaluation, budget: Budget) -> list[acb]:
     """The Taylor coefficients of the solution with this state at the centre, in the variable of the frame."""
-    from flint import acb, arb
-
     frame, bound = piece
     expansion = expand(system, frame, _PREC, bound, budget)
     unit = acb(arb((1, -expansion.w)))
@@ -198,8 +181,6 @@ def _coefficients(system: System, piece: tuple[Frame, RayBound], state: Evaluati
 def _assembled(
     region: Region, origin: Point, frames: list[Frame], rows: list[list[acb]], gauge: ProductForm | None
 ) -> TabulatedFunction:
-    import numpy as np
-
     is_real = all(v.imag.is_zero() for row in rows for v in row)
     table = np.zeros((1 if is_real else 2, 2, max(len(row) for row in rows), len(rows)))
     for k, row in enumerate(rows):

@@ -26,22 +26,18 @@ from collections import Counter
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
-from typing import TYPE_CHECKING
+
+from flint import acb, arb, fmpq
 
 from kovacic.enclosure.ball import ball_to_flint
+from kovacic.enclosure.matrices import Matrix, adjugate, identity, multiply
 from kovacic.enclosure.monodromy import LocalMonodromy, monodromy
-from kovacic.enclosure.problem import as_problem
-from kovacic.enclosure.singular import System
-from kovacic.enclosure.transport import adjugate, identity, multiply
+from kovacic.enclosure.problem import System, as_problem
+from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 from kovacic.galois import Group, Kind
 from kovacic.limits import Limits
 from kovacic.solution import Solution
-
-if TYPE_CHECKING:
-    from flint import acb
-
-    from kovacic.enclosure.taylor import Matrix
 
 _LARGEST = 400
 """The largest finite group that is enumerated."""
@@ -116,9 +112,7 @@ def is_fuchsian(system: System) -> bool:
 
 def compare(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> Agreement:
     """The verdict from the matrices; `fuchsian` says that their Zariski closure is the group."""
-    from flint import ctx
-
-    with ctx.workprec(_BITS):
+    with working_precision(_BITS):
         generators = [_matrix(item) for item in local]
         angles = _angles(group)
         if angles is not None:
@@ -281,12 +275,8 @@ def _may_be_in(m: Matrix, kind: Kind) -> bool:
 
 def _cosine(angle: Fraction) -> acb:
     """2 cos(2 pi angle)."""
-    from flint import acb, arb, fmpq
-
     return acb(2 * arb.cos_pi_fmpq(fmpq(2 * angle.numerator, angle.denominator)))
 
 
 def _two() -> acb:
-    from flint import acb
-
     return acb(2)

@@ -16,10 +16,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from flint import acb, arb
+from flint import acb, arb
+
+from kovacic.enclosure.points import as_point
+from kovacic.enclosure.working import working_precision
 
 Dyadic = tuple[int, int]
 """A dyadic rational (m, e), the number m 2^e; m is odd, or (0, 0) stands for zero."""
@@ -41,28 +43,22 @@ def dyadic(mantissa: int, exponent: int) -> Dyadic:
 
 
 def _to_float(number: Dyadic) -> float:
-    """The double nearest to m 2^e (ties to even; results below 2^-1022 may be rounded twice)."""
-    mantissa, exponent = number
-    excess = abs(mantissa).bit_length() - 70
-    if excess > 0:
-        sticky = (abs(mantissa) & ((1 << excess) - 1)) != 0
-        kept = (abs(mantissa) >> excess) | int(sticky)
-        mantissa, exponent = (kept if mantissa > 0 else -kept), exponent + excess
-    return math.ldexp(float(mantissa), exponent)
+    """The double nearest to m 2^e; raises OverflowError beyond their range."""
+    value = float(arb(number))
+    if math.isinf(value):
+        raise OverflowError("a number beyond the range of doubles")
+    return value
 
 
 def _to_fraction(number: Dyadic) -> Fraction:
     mantissa, exponent = number
     if abs(exponent) > _FRACTION_BITS:
         raise OverflowError(f"a number near 2^{exponent} isn't written out as a fraction")
-    return Fraction(mantissa << exponent) if exponent >= 0 else Fraction(mantissa, 1 << -exponent)
+    return Fraction(mantissa) * Fraction(2) ** exponent
 
 
 def _log10(number: Dyadic) -> float:
-    mantissa, exponent = number
-    size = abs(mantissa).bit_length()
-    top = abs(mantissa) >> max(0, size - 60)
-    return (math.log2(top) + max(0, size - 60) + exponent) * math.log10(2)
+    return (math.log2(abs(number[0])) + number[1]) * math.log10(2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,11 +88,8 @@ class Ball:
     @property
     def radius(self) -> float:
         """An upper bound of the radius as a double (inf beyond their range); `rad` is the radius itself."""
-        try:
-            value = _to_float(self.rad)
-        except OverflowError:
-            return math.inf
-        return value if _to_fraction_cheap(self.rad, value) else math.nextafter(value, math.inf)
+        value = float(arb(self.rad))
+        return value if arb(value) >= arb(self.rad) else math.nextafter(value, math.inf)
 
     @property
     def mid(self) -> complex:
@@ -114,7 +107,7 @@ class Ball:
 
     def contains_zero(self) -> bool:
         """True if the exact value may be zero."""
-        return _contains_zero(self)
+        return self.overlaps(Ball.exact(0))
 
     def contains(self, number: object) -> bool:
         """True if the number (int, Fraction, float, complex, Decimal, decimal text, mpmath or SymPy rational) lies in
@@ -122,8 +115,6 @@ class Ball:
 
         A Ball is accepted as well: True if it lies in this one as a whole.
         """
-        from kovacic.enclosure.points import as_point
-
         if isinstance(number, Ball):
             x, y, inner = _to_fraction(number.re), _to_fraction(number.im), _to_fraction(number.rad)
         else:
@@ -170,63 +161,29 @@ class Ball:
         return parts[0] if self.real else mpmath.mpc(*parts)
 
     def __str__(self) -> str:
-        from flint import arb, ctx
-
         shown = 3 if self.digits == -math.inf else max(3, min(int(min(self.digits, 1e6)) + 2, 40))
-        with ctx.workprec(int(shown * 3.33) + 40):
-            text = _decimal(arb(self.re), shown)
+        with working_precision(int(shown * 3.33) + 40):
+            text, imaginary = (arb(part).str(shown, radius=False) for part in (self.re, self.im))
             if not self.real:
-                imaginary = _decimal(arb(self.im), shown)
                 text = f"({text} {'-' if imaginary.startswith('-') else '+'} {imaginary.lstrip('-')}j)"
-            if self.rad[0] == 0:
-                return text
-            return f"{text} ± {_decimal(arb(self.rad) * arb(1 + 2.0**-7), 2)}"
+            radius = (arb(self.rad) * arb(1 + 2.0**-7)).mid().str(2, radius=False)
+            return text if self.rad[0] == 0 else f"{text} ± {radius}"
 
     def __repr__(self) -> str:
         return f"<Ball {self}>"
 
 
-def _decimal(value: arb, digits: int) -> str:
-    text: str = value.mid().str(digits, radius=False)
-    return text
-
-
-def _to_fraction_cheap(number: Dyadic, value: float) -> bool:
-    """True if the double `value` is certainly not below m 2^e."""
-    mantissa, exponent = number
-    if mantissa == 0:
-        return True
-    if abs(mantissa).bit_length() <= 53 and value != 0.0:
-        return True
-    return abs(exponent) < _FRACTION_BITS and Fraction(value) >= _to_fraction(number)
-
-
-def _contains_zero(ball: Ball) -> bool:
-    if ball.rad[0] == 0:
-        return ball.re[0] == 0 and ball.im[0] == 0
-    x, y, r = _to_fraction(ball.re), _to_fraction(ball.im), _to_fraction(ball.rad)
-    return x * x + y * y <= r * r
-
-
 def ball_from_flint(value: acb | arb) -> Ball | None:
     """The ball around a flint ball (a disc around the rectangle of an acb); None where nothing is known (not
     finite)."""
-    from flint import acb, arb, ctx
-
-    if isinstance(value, arb):
-        value = acb(value)
+    value = acb(value)
     if not value.is_finite():
         return None
     real_part, imag_part = value.real, value.imag
     real = imag_part.is_zero()
-    with ctx.workprec(60):
-        if real:
-            rad = real_part.rad()
-        elif real_part.rad().is_zero() or imag_part.rad().is_zero():
-            rad = real_part.rad() + imag_part.rad()
-        else:
-            rad = (real_part.rad() * real_part.rad() + imag_part.rad() * imag_part.rad()).sqrt().upper()
-        rad = rad.upper()
+    with working_precision(60):
+        a, b = real_part.rad(), imag_part.rad()
+        rad = (a + b if a.is_zero() or b.is_zero() else (a * a + b * b).sqrt()).upper()
     return Ball(_man_exp(real_part.mid()), _man_exp(imag_part.mid()), _man_exp(rad), bool(real))
 
 
@@ -237,8 +194,6 @@ def _man_exp(value: arb) -> Dyadic:
 
 def ball_to_flint(ball: Ball) -> acb:
     """The flint ball that contains `ball` (a square around the disc), exactly in its midpoint."""
-    from flint import acb, arb
-
     if ball.real:
         return acb(arb(ball.re, ball.rad))
     return acb(arb(ball.re, ball.rad), arb(ball.im, ball.rad))

@@ -1,54 +1,44 @@
-"""Route (a): transition matrices from the certificate of a decision, without integrating the equation.
+"""Case 1 in balls: logarithmic derivatives of solutions, and transition matrices without integrating the equation.
 
-The guarantee is that of route (b), with which nothing is shared: the matrices of balls contain the exact transition
-matrices along the leg.
-
-A leg from a to b is carried by the closed form (E = exp int_a^x theta, followed continuously, see `exponential`):
-- case 1, two rational or conjugate omega = theta + P'/P: y = E P for either.
-- case 1, a unique omega: y1 = E P, y2 = y1 int dx/y1^2.  P has simple zeros at ordinary points, where the integrand has
-  double poles; they are split off exactly [Hermite's reduction]: with A P' = -1 mod P,
+The guarantee of the matrices is that of the Taylor route, with which nothing is shared: they contain the exact transition
+matrices along the leg, which is carried by the certificate of the decision (E = exp int_a^x theta, followed continuously, see
+`kovacic.enclosure.exponential`):
+- two rational or conjugate omega = theta + P'/P: y = E P for either.
+- a unique omega: y1 = E P, y2 = y1 int dx/y1^2.  P has simple zeros at ordinary points, where the integrand has double
+  poles; they are split off exactly [Hermite's reduction]: with A P' = -1 mod P,
 
       1/y1^2 = (A/(P E^2))' + B/E^2,    B = (1 + A P' - A' P + 2 theta A P)/P^2,    y2 = A/E + y1 int_a^x B/E^2 dx,   (1)
 
-  and B has no poles but the singular points of S.  Where E^2 is rational the integral is one of partial fractions, else
-  a rigorous quadrature.
-- case 2, f = y+ y- = E P, w^2 = 4 S f^2 - 2 f f'' + f'^2 (a constant), y+-'/y+- = (f' +- w)/(2 f), in which a zero of f is
-  removed by the conjugate:
+  and B has no poles but the singular points of S.  Where E^2 is rational the integral is one of partial fractions, else a
+  rigorous quadrature.
+So the zeros of P need not be known, and no leg goes around them.  In cases 2 and 3 closed forms cost more than Taylor steps
+(quadratures of algebraic functions, hypergeometric functions): there is no such route.
 
-      y-'/y- = (f'' - 2 S f)/(f' + w)  where f' + w has no zero,   y+'/y+ = (f'' - 2 S f)/(f' - w)  where f' - w has none; (2)
-
-  the leg is cut into pieces of these two kinds, and the other solution is the quotient of f and this one.
-- case 3: Klein's form, see `klein`.
-So the zeros of P need not be known, and no leg goes around them.
+`omega` numbers the solutions whose logarithmic derivative is algebraic, in every case: in case 1 the conjugates of omega, or
+the two rational ones; in cases 2 and 3 the roots of the polynomial of omega at the point, by real part and then imaginary
+part.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING
+from functools import cached_property, cmp_to_key
 
+from flint import acb, acb_poly, arb
+
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.partial_fractions import decompose
-from kovacic.enclosure.carry import Itinerary, Start, carry
-from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, integral
-from kovacic.enclosure.gauge import with_gauge
-from kovacic.enclosure.klein import Chart, charts, klein_leg
-from kovacic.enclosure.pieces import Piece, Quotient, cut, fundamental, quotient, unknown, values
+from kovacic.decision import Decision
+from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, sharp_roots
+from kovacic.enclosure.matrices import Matrix, State, adjugate, multiply, scaled
 from kovacic.enclosure.points import Point, to_acb
-from kovacic.enclosure.problem import NumericProblem
-from kovacic.enclosure.singular import check_segment
-from kovacic.enclosure.transport import adjugate, multiply
-from kovacic.errors import InputError
+from kovacic.enclosure.problem import NumericProblem, check_segment
+from kovacic.enclosure.working import working_precision
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget
-from kovacic.solution import Solution
-
-if TYPE_CHECKING:
-    from flint import acb, acb_poly
-
-    from kovacic.algebra.poly import Poly
-    from kovacic.decision import Decision
-    from kovacic.enclosure.taylor import Matrix
 
 _CHEAP_DEGREE = 60
 """Degree of P up to which its evaluation costs less than the Taylor steps."""
@@ -56,47 +46,68 @@ _CHEAP_DEGREE = 60
 _LARGEST_SQUARE = 1_000
 """Degree up to which y1^2 is written out; it may be x^1000000."""
 
+_HIGHEST = 40_000
+"""Bits up to which a logarithmic derivative is computed: the polynomial may cancel as many."""
+
+_SMALL = 60
+"""Degree up to which a second rational omega is sought by integration."""
+
+
+@dataclass(frozen=True)
+class Exponential:
+    """y = exp(int theta) P; constants are embedded by the conjugate number `embedding`."""
+
+    theta: RatFunc
+    P: Poly
+    embedding: int = 0
+
+    @property
+    def field(self) -> Field:
+        """The field of the constants."""
+        return self.P.field if isinstance(self.P.field, AlgebraicField) else self.theta.field
+
+    def constant(self) -> acb | None:
+        """The value of the generator of the field, at the working precision in force."""
+        return conjugates(self.field)[self.embedding]
+
+    def omega(self, z: acb) -> acb:
+        """y'/y at z."""
+        c = self.constant()
+        P = embed(self.P, c)
+        return value(self.theta, c, z) + P.derivative()(z) / P(z)
+
+
+def value(function: RatFunc, c: acb | None, z: acb) -> acb:
+    """A rational function at z."""
+    return embed(function.num, c)(z) / embed(function.den, c)(z)
+
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """The certificate that the legs are computed from, and what follows from it exactly, computed once."""
+    """The certificate of case 1 that the legs are computed from, and what follows from it exactly, computed once."""
 
     problem: NumericProblem
-    S: RatFunc
-    decision: Decision
-
-    @property
-    def case(self) -> int | None:
-        """Kovacic's case."""
-        return self.decision.case
-
-    @property
-    def theta(self) -> RatFunc:
-        """f'/f = theta + P'/P for the product f of the solutions with conjugate omegas (case 1: for y1 itself)."""
-        assert self.decision.semi_invariant is not None
-        return self.decision.semi_invariant.theta
-
-    @property
-    def P(self) -> Poly:
-        """The polynomial factor of f."""
-        assert self.decision.semi_invariant is not None
-        return self.decision.semi_invariant.P
+    first: Exponential
 
     @cached_property
-    def second(self) -> tuple[RatFunc, Poly] | None:
-        """(theta, P) of the other omega, where two of them are rational."""
-        semi, product = self.decision.semi_invariant, self.decision.invariant
-        if semi is None or product is None or semi.theta.field != product.theta.field:
-            return None
-        zeros = product.P.exact_quotient(semi.P)
-        if zeros is None or product.logarithmic_derivative == 2 * semi.logarithmic_derivative:
-            return None
-        return product.theta - semi.theta, zeros
+    def branches(self) -> tuple[Exponential, ...]:
+        """The solutions with conjugate omegas, or with the two rational ones that the certificate has."""
+        theta, P = self.first.theta, self.first.P
+        count = len(conjugates(self.first.field))
+        if count > 1:
+            return tuple(Exponential(theta, P, k) for k in range(count))
+        assert self.problem.decision is not None
+        square = self.problem.decision.invariant  # the product of both, or y1^2
+        if square is not None and theta.field == square.theta.field:
+            zeros = square.P.exact_quotient(P)
+            if zeros is not None and square.logarithmic_derivative != 2 * (theta + RatFunc(P.derivative(), P)):
+                return self.first, Exponential(square.theta - theta, zeros)
+        return (self.first,)
 
     @cached_property
     def reduction(self) -> tuple[Poly, RatFunc]:
         """A and B of equation (1)."""
-        theta, P = self.theta, self.P
+        theta, P = self.first.theta, self.first.P
         slope = P.derivative()
         A = -(slope.inverse_modulo(P)) if P.degree > 0 else P.field.poly([])
         # theta.den (1 + A P' - A' P) + 2 theta.num A P, divided by P^2
@@ -107,192 +118,225 @@ class ClosedForm:
         return A, RatFunc(quotient, theta.den)
 
     @cached_property
-    def square_size(self) -> int | None:
-        """The degrees together of numerator and denominator of a rational function with the logarithmic derivative 2 theta;
-        None where there is none."""
-        parts = decompose(self.theta * 2)
-        values = [r.value.field.rational_value(r.value) if r.is_constant else None for r in parts.residues]
-        if parts.exact or any(value is None or value.denominator != 1 for value in values):
+    def _square(self) -> list[tuple[Poly, int]] | None:
+        """The factors, with exponents, of a rational function with logarithmic derivative 2 theta; None if there is none."""
+        parts = decompose(self.first.theta * 2)
+        exponents = [r.value.field.rational_value(r.value) if r.is_constant else None for r in parts.residues]
+        if parts.exact or any(e is None or e.denominator != 1 for e in exponents):
             return None
-        return sum(abs(int(v)) * r.factor.degree for r, v in zip(parts.residues, values, strict=True) if v is not None)
+        return [(r.factor, int(e)) for r, e in zip(parts.residues, exponents, strict=True) if e is not None]
+
+    @property
+    def square_size(self) -> int | None:
+        """The degrees together of numerator and denominator of that function; None where there is none."""
+        return None if self._square is None else sum(abs(e) * factor.degree for factor, e in self._square)
 
     @cached_property
     def rational_square(self) -> RatFunc | None:
-        """A rational function with the logarithmic derivative 2 theta; None if there is none, or one too large to write out."""
-        if self.square_size is None or self.square_size > _LARGEST_SQUARE:
+        """The function itself; None if there is none, or one too large to write out."""
+        if self._square is None or (self.square_size or 0) > _LARGEST_SQUARE:
             return None
-        total = RatFunc(self.P.field.poly([1]))
-        for residue in decompose(self.theta * 2).residues:
-            value = residue.value.field.rational_value(residue.value)
-            assert value is not None
-            total = total * RatFunc(residue.factor) ** int(value)
+        total = RatFunc(self.first.P.field.poly([1]))
+        for factor, e in self._square:
+            total = total * RatFunc(factor) ** e
         return total
 
     @property
     def is_cheap(self) -> bool:
-        """Case 1: does a leg cost less than Taylor steps (measured): no quadrature, and no polynomial of a high degree?"""
-        two = len(conjugates(self.P.field)) == 2 or self.second is not None
-        return self.P.degree <= _CHEAP_DEGREE and (
-            two or (self.square_size is not None and self.square_size <= 2 * _CHEAP_DEGREE)
-        )
+        """Does a leg cost less than Taylor steps (measured): no quadrature, and no polynomial of a high degree?"""
+        if self.first.P.degree > _CHEAP_DEGREE:
+            return False
+        return len(self.branches) == 2 or (self.square_size is not None and self.square_size <= 2 * _CHEAP_DEGREE)
 
     @cached_property
-    def charts(self) -> tuple[Chart, ...]:
-        """Klein's form, case 3."""
-        assert self.decision.structure is not None
-        return charts(self.S, self.decision.structure, self.decision.invariant)
+    def companion(self) -> Exponential | None:
+        """y2 = y1 int y1^-2 where y1^2 is rational, of small degree, and the integral is rational too."""
+        theta, P = self.first.theta, self.first.P
+        if self.square_size is None or self.square_size // 2 + P.degree > _SMALL:
+            return None
+        assert self.rational_square is not None
+        inverse = decompose(1 / (self.rational_square * RatFunc(P) ** 2))
+        if inverse.residues:
+            return None
+        factor = inverse.exact * P
+        return Exponential(theta - RatFunc(factor.den.derivative(), factor.den), factor.num)
+
+    def legs(self, a: Point, b: Point, budget: Budget) -> list[Matrix]:
+        """Transition matrices whose product carries (y, y') from a to b along the straight segment."""
+        if a == b:
+            return []
+        check_segment(self.problem.system, a, b)
+        budget.check()
+        if len(self.branches) == 2:
+            return [_two_exponentials(self.branches, to_acb(a), to_acb(b))]
+        return [_integral_leg(self, to_acb(a), to_acb(b), budget)]
 
 
-def closed_form_of(problem: NumericProblem) -> ClosedForm:
-    """The certificate of a solution; raises InputError where there is none."""
-    source = problem.source
-    if not isinstance(source, Solution) or source.semi_invariant is None:
+def certified(problem: NumericProblem) -> Decision:
+    """The decision of a Liouvillian solution with its certificate; raises InputError where there is none."""
+    if problem.decision is None or problem.decision.semi_invariant is None:
         raise InputError(
             "the method 'closed form' needs a Liouvillian solution with its certificate",
             hint="pass kovacic.solve(S) with status LIOUVILLIAN, or use method='taylor'",
         )
-    return ClosedForm(problem, source.S, source.decision)
+    return problem.decision
 
 
-def leg_matrix(closed: ClosedForm, a: Point, b: Point, budget: Budget) -> list[Matrix]:
-    """Transition matrices whose product carries (y, y') from a to b along the straight segment."""
-    if a == b:
-        return []
-    check_segment(closed.problem.system, a, b)
-    budget.check()
-    if closed.case == 3:
-        return klein_leg(closed.charts, a, b, budget)
-    if closed.case == 2:
-        return _pair_leg(closed, a, b, budget)
-    embeddings = conjugates(closed.P.field)
-    if len(embeddings) == 2:
-        return [_two_exponentials([(closed.theta, closed.P, c) for c in embeddings], a, b)]
-    if closed.second is not None:
-        return [_two_exponentials([(closed.theta, closed.P, None), (*closed.second, None)], a, b)]
-    return [_integral_leg(closed, a, b, budget)]
+def closed_form_of(problem: NumericProblem) -> ClosedForm | None:
+    """The closed form of a solution of case 1, None in the other cases; raises InputError without a certificate."""
+    decision = certified(problem)
+    if decision.case != 1:
+        return None
+    assert decision.semi_invariant is not None
+    return ClosedForm(problem, Exponential(decision.semi_invariant.theta, decision.semi_invariant.P))
 
 
-def _two_exponentials(solutions: list[tuple[RatFunc, Poly, acb | None]], a: Point, b: Point) -> Matrix:
-    """Case 1 with two omegas: y = E P for either."""
-    za, zb = to_acb(a), to_acb(b)
+def _two_exponentials(branches: tuple[Exponential, ...], a: acb, b: acb) -> Matrix:
+    """Two omegas: y = E P for either."""
     at_a, at_b = [], []
-    for function, polynomial, c in solutions:
-        theta, P = LogDerivative.make(function, c), embed(polynomial, c)
-        slope, growth = P.derivative(), theta.growth(za, zb)
-        at_a.append((P(za), theta.value(za) * P(za) + slope(za)))
-        at_b.append((growth * P(zb), growth * (theta.value(zb) * P(zb) + slope(zb))))
-    return quotient(fundamental(*at_b), fundamental(*at_a))
+    for branch in branches:
+        c = branch.constant()
+        theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
+        slope, growth = P.derivative(), theta.growth(a, b)
+        at_a.append((P(a), theta.value(a) * P(a) + slope(a)))
+        at_b.append((growth * P(b), growth * (theta.value(b) * P(b) + slope(b))))
+    start = fundamental(*at_a)
+    return scaled(multiply(fundamental(*at_b), adjugate(start)), 1 / (start[0] * start[3] - start[1] * start[2]))
 
 
-def _integral_leg(closed: ClosedForm, a: Point, b: Point, budget: Budget) -> Matrix:
-    """Case 1 with a unique omega, equation (1)."""
-    from flint import acb
-
-    za, zb = to_acb(a), to_acb(b)
-    theta = LogDerivative.make(closed.theta, None)
+def _integral_leg(closed: ClosedForm, a: acb, b: acb, budget: Budget) -> Matrix:
+    """A unique omega, equation (1)."""
+    theta = LogDerivative.make(closed.first.theta, None)
     exact_A, exact_B = closed.reduction
-    P, A, B = embed(closed.P, None), embed(exact_A, None), Quotient.make(exact_B, None)
+    P, A = embed(closed.first.P, None), embed(exact_A, None)
     dP, dA = P.derivative(), A.derivative()
+    num, den = embed(exact_B.num, None), embed(exact_B.den, None)
 
     def integrand(z: acb, analytic: bool) -> acb:
-        return B(z) * (-2 * theta.exponent(za, z, analytic=analytic)).exp()
+        return values(num, z) / values(den, z) * (-2 * theta.exponent(a, z, analytic=analytic)).exp()
 
     square = closed.rational_square
     if square is not None:
-        scale = Quotient.make(square, None)(za)
-        area = LogDerivative.make(exact_B / square, None).exponent(za, zb) * scale
+        area = LogDerivative.make(exact_B / square, None).exponent(a, b) * value(square, None, a)
     else:
-        area = integral(integrand, za, zb, budget)
+        area = integral(integrand, a, b, budget)
 
-    def states(x: acb, E: acb, I: acb) -> tuple[tuple[acb, acb], tuple[acb, acb]]:  # noqa: E741 - the integral in (1)
+    def states(x: acb, E: acb, I: acb) -> tuple[State, State]:  # noqa: E741 - the integral in (1)
         t, p, alpha = theta.value(x), P(x), A(x)
         y, dy = E * p, E * (t * p + dP(x))
-        return (y, dy), (alpha / E + y * I, (dA(x) - t * alpha + B(x) * p) / E + dy * I)
+        return (y, dy), (alpha / E + y * I, (dA(x) - t * alpha + num(x) / den(x) * p) / E + dy * I)
 
-    at_a, at_b = fundamental(*states(za, acb(1), acb(0))), fundamental(*states(zb, theta.growth(za, zb), area))
+    at_a, at_b = fundamental(*states(a, acb(1), acb(0))), fundamental(*states(b, theta.growth(a, b), area))
     return multiply(at_b, adjugate(at_a))  # the Wronskian of y1 and y2 is 1
 
 
-def _pair_leg(closed: ClosedForm, a: Point, b: Point, budget: Budget) -> list[Matrix]:
-    """Case 2, equation (2): the leg is cut into pieces with a fixed sign."""
-    pair = Pair.make(closed, to_acb(a))
-    pieces = cut(Piece(a, b), pair.sign_on, budget)
-    if pieces is None:
-        return [unknown()]
-    return [pair.matrix(sign, to_acb(piece.a), to_acb(piece.b), budget) for piece, sign in pieces]
+def fundamental(first: State, second: State) -> Matrix:
+    """The matrix with the states (y, y') of two solutions as its columns."""
+    return first[0], second[0], first[1], second[1]
 
 
-@dataclass(frozen=True)
-class Pair:
-    """f = y+ y- = E P and w in balls, E = 1 at `origin`: f' = E first, f'' - 2 S f = E (second - 2 S P)."""
-
-    origin: acb
-    theta: LogDerivative
-    P: acb_poly
-    first: Quotient
-    second: Quotient
-    S: Quotient
-    w: acb
-
-    @classmethod
-    def make(cls, closed: ClosedForm, origin: acb) -> Pair:
-        """The pair of a decision of case 2; w is one of the two square roots."""
-        t, P = closed.theta, closed.P
-        c = conjugates(P.field)[0]
-        dP = P.derivative()
-        first = Quotient.make(t * P + dP, c)
-        second = Quotient.make((t.derivative() + t * t) * P + 2 * t * dP + dP.derivative(), c)
-        S, p = Quotient.make(closed.S, None), embed(P, c)
-        f, df, rest = p(origin), first(origin), second(origin) - 2 * S(origin) * p(origin)
-        return cls(origin, LogDerivative.make(t, c), p, first, second, S, (df * df - 2 * f * rest).sqrt())
-
-    def sign_on(self, piece: Piece) -> int | None:
-        """+1 or -1 where f' + w or f' - w is proven to have no zero on the piece; None where neither is."""
-        start = to_acb(piece.a)
-        slope, w = self.first(piece.box()), self.wronskian(start) / self.theta.growth(start, piece.box())
-        for sign in (1, -1):
-            value = slope + sign * w
-            if value.is_finite() and not value.contains(0):
-                return sign
-        return None
-
-    def wronskian(self, x: acb) -> acb:
-        """w for E = 1 at x."""
-        return self.w / self.theta.growth(self.origin, x)
-
-    def matrix(self, sign: int, a: acb, b: acb, budget: Budget) -> Matrix:
-        """The transition matrix from a to b, a piece with this sign of the leg that begins at `origin`."""
-        from flint import acb
-
-        w = sign * self.wronskian(a)
-
-        def omega(z: acb, analytic: bool = False) -> acb:
-            """y'/y of y- (sign 1) or y+ (sign -1)."""
-            rest = self.second(z) - 2 * self.S(z) * values(self.P, z)
-            return rest / (self.first(z) + w * (-self.theta.exponent(a, z, analytic=analytic)).exp())
-
-        def states(x: acb, E: acb, y: acb) -> tuple[tuple[acb, acb], tuple[acb, acb]]:
-            slope, f = omega(x), E * self.P(x)
-            return (y, y * slope), (f / y, (E * self.first(x) - f * slope) / y)
-
-        growth = integral(omega, a, b, budget).exp()
-        at_a, at_b = states(a, acb(1), acb(1)), states(b, self.theta.growth(a, b), growth)
-        return quotient(fundamental(*at_b), fundamental(*at_a))
+def values(poly: acb_poly, x: acb) -> acb:
+    """The values of a polynomial on a ball, by its expansion at the middle: narrow where Horner's rule isn't."""
+    centre = x.mid()
+    value: acb = poly(acb_poly([centre, 1]))(x - centre)
+    return value
 
 
-@dataclass(frozen=True)
-class ClosedFormRoute:
-    """Route (a) as a `kovacic.enclosure.precision.Route`."""
+def integral(function: Callable[[acb, bool], acb], a: acb, b: acb, budget: Budget) -> acb:
+    """int_a^b, by flint's rigorous adaptive quadrature; a non-finite ball where it gave up.
 
-    closed: ClosedForm
-    itinerary: Itinerary
-    start: Start
+    Raises LimitExceeded when the budget is used up.  An exception can't cross flint's C code (python-flint 0.9.0 turns it
+    into a SystemError), so the integrand answers 0 once it was stopped or interrupted, which ends the quadrature at once, and
+    the exception comes after.
+    """
+    stopped: BaseException | None = None
 
-    def __call__(self, prec: int, budget: Budget) -> list[tuple[acb, acb]]:
-        legs = with_gauge(self.closed.problem.gauge, lambda a, b: leg_matrix(self.closed, a, b, budget))
-        return carry(legs, self.itinerary, self.start)
+    def guarded(z: acb, analytic: bool) -> acb:
+        nonlocal stopped
+        if stopped is None:
+            try:
+                budget.check()
+                return function(z, analytic)
+            except (LimitExceeded, KeyboardInterrupt) as reason:
+                stopped = reason
+        return acb(0)
+
+    try:
+        result: acb = acb.integral(guarded, a, b)
+    except SystemError as error:  # the interrupt came between two calls of the integrand
+        raise error.__cause__ or error from None
+    if stopped is not None:
+        raise stopped
+    return result
 
 
-def closed_form_route(problem: NumericProblem, itinerary: Itinerary, start: Start) -> ClosedFormRoute:
-    """The route of a solution with a certificate; raises InputError where there is none."""
-    return ClosedFormRoute(closed_form_of(problem), itinerary, start)
+def exponentials(problem: NumericProblem) -> list[Exponential]:
+    """The solutions of case 1 with a rational logarithmic derivative, with the gauge in it; empty in the other cases.
+
+    Raises InputError where there is no certificate.
+    """
+    closed = closed_form_of(problem)
+    if closed is None:
+        return []
+    found = [*closed.branches, *([closed.companion] if len(closed.branches) == 1 and closed.companion else [])]
+    gauge = problem.gauge
+    return found if gauge is None else [Exponential(y.theta + gauge, y.P, y.embedding) for y in found]
+
+
+def omegas(problem: NumericProblem, x0: Point) -> list[acb]:
+    """The logarithmic derivatives at x0 in their order, at the working precision in force; not finite at a zero.
+
+    The list is empty where the precision is too low to tell the roots of the polynomial of omega apart.
+    """
+    z = to_acb(x0)
+    found = exponentials(problem)
+    if found:
+        return [branch.omega(z) for branch in found]
+    riccati = certified(problem).riccati
+    assert riccati is not None
+    c = conjugates(riccati.coefficients[0].field)[0]
+    roots = sorted(sharp_roots(acb_poly([value(r, c, z) for r in riccati.coefficients])), key=cmp_to_key(_order))
+    shift = 0 if problem.gauge is None else value(problem.gauge, None, z)
+    return [root + shift for root in roots]
+
+
+def _order(a: acb, b: acb) -> int:
+    """By real part, and by imaginary part where the real parts can't be told apart (conjugates)."""
+    if a.real.overlaps(b.real):
+        return -1 if a.imag < b.imag else 1
+    return -1 if a.real < b.real else 1
+
+
+def omega(problem: NumericProblem, which: int, x0: Point, bits: int) -> acb:
+    """One of them, accurate to that many bits.
+
+    Raises InputError if there is no solution of this number, and ZeroDivisionError where it is zero at x0, as far as the
+    highest precision can tell.
+    """
+    prec = bits + 64
+    while prec <= max(4 * bits, _HIGHEST):
+        with working_precision(prec):
+            found = omegas(problem, x0)
+            if found and not 0 <= which < len(found):
+                names = "only which = 0" if len(found) == 1 else f"which = 0, ..., {len(found) - 1}"
+                raise InputError(
+                    f"which = {which}: the equation has {names} here",
+                    hint="tabulate gives every solution, by initial values",
+                )
+            if found and found[which].is_finite():
+                ball = found[which]
+                if ball.rel_accuracy_bits() >= bits or ball.real.rad() + ball.imag.rad() < arb((1, -bits - 400)):
+                    return ball
+        prec *= 2
+    raise ZeroDivisionError(f"the logarithmic derivative isn't finite at {x0}")
+
+
+def finite_base(problem: NumericProblem, which: int, candidates: list[Point]) -> Point:
+    """The first of the points where y'/y is finite for the solution of this number."""
+    for x0 in candidates:
+        try:
+            omega(problem, which, x0, 64)
+        except ZeroDivisionError:
+            continue
+        return x0
+    raise InputError("no point was found where the logarithmic derivative of the solution is finite")

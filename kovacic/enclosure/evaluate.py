@@ -5,7 +5,8 @@ most 10^-digits relative to the value, unless the problem forbids it (a value th
 values that are balls themselves, a limit that was reached); then the ball is wide and an `AccuracyWarning` says why.
 
 Two independent routes: "taylor" (the equation itself, `kovacic.enclosure.transport`; every S) and "closed form"
-(the certificate of a decision, `kovacic.enclosure.closed_form`; Liouvillian solutions only).
+(the certificate of a decision, `kovacic.enclosure.closed_form`; solutions of case 1).  Either gives transition matrices of
+straight legs, and a state (y, y') is carried along a path with many targets by their products.
 """
 
 from __future__ import annotations
@@ -14,20 +15,25 @@ import itertools
 import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
-from kovacic.enclosure.ball import Ball, ball_from_flint
-from kovacic.enclosure.carry import Itinerary, Prefix, Start, carry, initial_value, make_itinerary
-from kovacic.enclosure.gauge import with_gauge
-from kovacic.enclosure.points import as_point
+from flint import acb, arb
+
+from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
+from kovacic.enclosure.exponential import Legs, with_gauge
+from kovacic.enclosure.matrices import Matrix, Product, State
+from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.precision import METHODS, Evaluation, Method, Route, check_digits, raise_precision, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.transport import piece_matrices
+from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
-if TYPE_CHECKING:
-    from flint import acb
+Start = tuple[Point | Ball, Point | Ball]
+"""y(x0) and y'(x0)."""
+
+Path = Sequence[object] | Literal["chain"] | None
 
 
 class AccuracyWarning(UserWarning):
@@ -43,7 +49,7 @@ def evaluate(
     dy0: object,
     digits: int = 15,
     method: Method | None = None,
-    path: Sequence[object] | Literal["chain"] | None = None,
+    path: Path = None,
     limits: Limits | None = None,
 ) -> Ball | tuple[Ball, ...]:
     """The solution with y(x0) = y0, y'(x0) = dy0 at x: a ball that contains the exact value.
@@ -84,7 +90,7 @@ def evaluate_states(
     dy0: object,
     digits: int = 15,
     method: Method | None = None,
-    path: Sequence[object] | Literal["chain"] | None = None,
+    path: Path = None,
     limits: Limits | None = None,
 ) -> tuple[Evaluation, ...]:
     """As `evaluate`, with y and y' and the circumstances, for each of `points` (no warnings: see `Evaluation.note`)."""
@@ -99,6 +105,107 @@ def evaluate_states(
     route, used = _route(problem, itinerary, start, method)
     exact = not any(isinstance(value, Ball) for value in start)
     return raise_precision(route, used, itinerary.targets, digits, budget, exact)
+
+
+def _route(problem: NumericProblem, itinerary: Itinerary, start: Start, method: Method | None) -> tuple[Route, Method]:
+    """The route asked for; by itself the cheaper one, by a rule that was measured (`benchmarks/enclosure_work_precision.py`).
+
+    A closed form without quadrature costs about a millisecond whatever the distance, the digits and the solution's zeros, if
+    its polynomial has a moderate degree: less than the Taylor steps.  Quadratures cost as much as Taylor steps at 15 digits
+    and several times as much at 500.
+    """
+    closed = None
+    if method == "closed form" or (method is None and problem.decision is not None and problem.decision.case == 1):
+        from kovacic.enclosure.closed_form import closed_form_of
+
+        closed = closed_form_of(problem)
+        if method is None and closed is not None and not closed.is_cheap:
+            closed = None
+        elif closed is None:
+            raise InputError(
+                "the method 'closed form' is for solutions with a rational logarithmic derivative (case 1)",
+                hint="method='taylor' treats every equation, and the other cases as fast",
+            )
+
+    def route(prec: int, budget: Budget) -> list[State]:
+        def legs(a: Point, b: Point) -> list[Matrix]:
+            return piece_matrices(problem.system, a, b, prec, budget) if closed is None else closed.legs(a, b, budget)
+
+        return carry(with_gauge(problem.gauge, legs), itinerary, start)
+
+    return route, "taylor" if closed is None else "closed form"
+
+
+@dataclass(frozen=True)
+class Itinerary:
+    """Where to go: the polygon `trunk` from x0, then from its end a straight line to each target, or (`chain`) from
+    target to target."""
+
+    trunk: tuple[Point, ...]
+    targets: tuple[Point, ...]
+    chain: bool
+
+
+def make_itinerary(points: Sequence[object], x0: object, path: Path) -> Itinerary:
+    """The exact polygon and targets that the arguments x, x0 and path of `evaluate` stand for."""
+    targets = tuple(as_point(p, "x") for p in points)
+    origin = as_point(x0, "x0")
+    if path is None:
+        return Itinerary((origin,), targets, False)
+    if isinstance(path, str):
+        if path != "chain":
+            raise InputError(f"unknown path {path!r}", hint='a sequence of vertices, "chain", or None')
+        return Itinerary((origin,), targets, True)
+    return Itinerary((origin, *(as_point(p, "a vertex of the path") for p in path)), targets, False)
+
+
+def initial_value(value: object, name: str) -> Point | Ball:
+    """The exact number, or the ball, that the argument `name` of `evaluate` stands for."""
+    if isinstance(value, Ball) and not value.is_exact():
+        return value
+    return as_point(value, name)
+
+
+def initial_ball(value: Point | Ball) -> acb:
+    """The flint ball of an initial value at the working precision in force."""
+    return ball_to_flint(value) if isinstance(value, Ball) else to_acb(value)
+
+
+def carry(legs: Legs, plan: Itinerary, start: Start) -> list[State]:
+    """The states at the targets, from the transition matrices that `legs` gives for straight pieces."""
+    state = (initial_ball(start[0]), initial_ball(start[1]))
+    trunk = Product()
+    for a, b in zip(plan.trunk, plan.trunk[1:], strict=False):
+        for matrix in legs(a, b):
+            trunk.push(matrix)
+    result: dict[int, State] = {}
+    for order in _branches(plan):
+        stack, here = trunk.copy(), plan.trunk[-1]
+        for index in order:
+            target = plan.targets[index]
+            for matrix in legs(here, target):
+                stack.push(matrix)
+            here = target
+            result[index] = stack.apply(state)
+    return [result[index] for index in range(len(plan.targets))]
+
+
+def _branches(plan: Itinerary) -> list[list[int]]:
+    """The targets in the order of visit: chains that start at the end of the trunk.
+
+    Straight lines to points on one ray from there share their way: on the real axis two chains (right and left).
+    """
+    indices = list(range(len(plan.targets)))
+    if plan.chain:
+        return [indices]
+    origin = plan.trunk[-1]
+    if not origin.is_real():
+        return [[i] for i in indices]
+    real = [i for i in indices if plan.targets[i].is_real()]
+    right = sorted((i for i in real if plan.targets[i].re >= origin.re), key=lambda i: plan.targets[i].re)
+    left = sorted((i for i in real if plan.targets[i].re < origin.re), key=lambda i: -plan.targets[i].re)
+    chains = [right, left, *([i] for i in indices if not plan.targets[i].is_real())]
+    return [chain for chain in chains if chain]
 
 
 def transition_matrix(
@@ -116,63 +223,25 @@ def transition_matrix(
     """
     limits = limits or DEFAULT_LIMITS
     check_digits(digits, limits)
-    problem = as_problem(equation)
+    system = as_problem(equation).system
     polygon = [as_point(v, "a vertex") for v in vertices]
     if not polygon:
         raise InputError("a path needs at least one vertex")
-    from flint import arb, ctx
-
     budget = Budget(limits)
     prec = start_bits(digits)
     while True:
-        with ctx.workprec(prec + 40):
-            stack = Prefix()
+        with working_precision(prec + 40):
+            total = Product()
             for a, b in itertools.pairwise(polygon):
-                for matrix in piece_matrices(problem.system, a, b, prec, budget):
-                    stack.push(matrix)
-            total = stack.product()
-            size = max((entry.abs_upper() for entry in total), key=float)
-            goal = size * arb(10) ** -digits
-            missing = 0
-            for entry in total:
-                if not entry.real.rad() + entry.imag.rad() <= goal:
-                    missing = max(missing, 16 + max(0, int(prec / 2) if not entry.is_finite() else 0))
-            if missing == 0:
-                balls = [ball_from_flint(entry) for entry in total]
-                if all(ball is not None for ball in balls):
-                    a11, a12, a21, a22 = (ball for ball in balls if ball is not None)
-                    return (a11, a12), (a21, a22)
-        prec += max(missing, prec // 4)
+                for matrix in piece_matrices(system, a, b, prec, budget):
+                    total.push(matrix)
+            entries = total.matrix()
+            goal = max((entry.abs_upper() for entry in entries), key=float) * arb(10) ** -digits
+            sharp = all(entry.real.rad() + entry.imag.rad() <= goal for entry in entries)
+            balls = [ball for ball in map(ball_from_flint, entries) if ball is not None]
+        if len(balls) < 4:
+            prec += prec // 2
+        elif sharp:
+            return (balls[0], balls[1]), (balls[2], balls[3])
+        prec += max(16, prec // 4)
         budget.check()
-
-
-@dataclass(frozen=True)
-class TaylorRoute:
-    """Route (b): the equation itself, for every S."""
-
-    problem: NumericProblem
-    itinerary: Itinerary
-    start: Start
-
-    def __call__(self, prec: int, budget: Budget) -> list[tuple[acb, acb]]:
-        system = self.problem.system
-        legs = with_gauge(self.problem.gauge, lambda a, b: piece_matrices(system, a, b, prec, budget))
-        return carry(legs, self.itinerary, self.start)
-
-
-def _route(problem: NumericProblem, itinerary: Itinerary, start: Start, method: Method | None) -> tuple[Route, Method]:
-    """The route asked for; by itself the cheaper one, by a rule that was measured (`benchmarks/numeric_work_precision.py`).
-
-    A closed form of case 1 without quadrature costs about a millisecond whatever the distance, the digits and the solution's
-    zeros, if its polynomial has a moderate degree: less than the Taylor steps.  Quadratures and hypergeometric functions
-    cost as much as Taylor steps at 15 digits and several times as much at 500.
-    """
-    if method is None and getattr(problem.source, "case", None) == 1:
-        from kovacic.enclosure.closed_form import closed_form_of
-
-        method = "closed form" if closed_form_of(problem).is_cheap else None
-    if method == "closed form":
-        from kovacic.enclosure.closed_form import closed_form_route
-
-        return closed_form_route(problem, itinerary, start), "closed form"
-    return TaylorRoute(problem, itinerary, start), "taylor"

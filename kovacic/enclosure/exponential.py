@@ -1,13 +1,19 @@
-"""exp(int theta) for rational theta, in balls: partial fractions, with powers and logarithms followed along straight
-legs.
+"""Exact polynomials and rational functions in balls, and exp(int theta) for rational theta: partial fractions, with powers
+and logarithms followed along straight legs.
 
 The guarantee: `growth(a, b)` contains exp(int_a^b theta dx) along the straight segment, if it returns.
 
-The mathematics.  theta = q(x) + sum_zeta sum_k r_(zeta,k) / (x - zeta)^k.  Along a straight segment from a that
-doesn't meet zeta the quotient
-(x - zeta)/(a - zeta) starts at 1 and never meets the negative real axis (it lies on a line through 1 that misses 0),
-so its
-*principal* logarithm is the continuous one: no branch has to be chosen, and none can be chosen wrongly.
+The mathematics.  theta = q(x) + sum_zeta sum_k r_(zeta,k) / (x - zeta)^k.  Along a straight segment from a that doesn't meet
+zeta the quotient (x - zeta)/(a - zeta) starts at 1 and never meets the negative real axis (it lies on a line through 1 that
+misses 0), so its *principal* logarithm is the continuous one: no branch has to be chosen, and none can be chosen wrongly.
+
+The gauge.  From y'' = S y to the user's a z'' + b z' + c z = 0: z = g y, g'/g = gamma = -b/(2a).  On the leg from u to v, with
+E = exp int_u^v gamma and G(x) = (1, 0; gamma(x), 1),
+
+    (z, z')(v) = E G(v) M G(u)^-1 (z, z')(u)                                                                            (1)
+
+where M is the matrix for (y, y').  A pole of gamma is a singular point of the equation even where S is regular: legs through
+one are refused.
 
 Symbols: c, the root of the field's modulus that constants are embedded by.
 """
@@ -16,43 +22,41 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from kovacic.errors import LimitExceeded
-from kovacic.limits import Budget
+from flint import acb, acb_poly, acb_series, arb, ctx
 
-if TYPE_CHECKING:
-    from flint import acb, acb_poly
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import RationalPoly
+from kovacic.enclosure.matrices import Matrix, multiply, product, scaled
+from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.problem import System, Zeros, check_segment
 
-    from kovacic.algebra.poly import Poly
-    from kovacic.algebra.ratfunc import RatFunc
+Legs = Callable[[Point, Point], list[Matrix]]
+"""Matrices whose product carries states from one point to another along the straight segment."""
 
 
-def conjugates(field: Any) -> list[acb | None]:
+def conjugates(field: Field) -> list[acb | None]:
     """The embeddings of K(c) over K = Q as values of c at the working precision in force; [None] for Q itself."""
-    modulus = getattr(field, "modulus", None)
-    if modulus is None:
+    if not isinstance(field, AlgebraicField):
         return [None]
-    return [root for root, _ in _integer_polynomial(modulus).complex_roots()]
+    return [root for root, _ in _roots(field.modulus)]
 
 
-def _integer_polynomial(poly: Any) -> Any:
-    from flint import fmpq, fmpq_poly
-
-    values = [Fraction(c) for c in poly.coefficients()]
-    return fmpq_poly([fmpq(v.numerator, v.denominator) for v in values]).numer()
+def _roots(poly: Poly) -> Zeros:
+    """Certified isolation of the zeros of a polynomial over Q."""
+    assert isinstance(poly, RationalPoly)
+    return tuple((root, int(k)) for root, k in poly.rep.numer().complex_roots())
 
 
 def embed(poly: Poly, c: acb | None) -> acb_poly:
     """The polynomial with ball coefficients."""
-    from flint import acb_poly, fmpq, fmpq_poly
-
-    parts: tuple[Any, ...] = getattr(poly, "parts", None) or (poly,)
     total, power = acb_poly([]), acb_poly([1])
+    parts: tuple[Any, ...] = poly.parts if isinstance(poly, ExtensionPoly) else (poly,)
     for part in parts:
-        values = [Fraction(v) for v in part.coefficients()]
-        total += acb_poly(fmpq_poly([fmpq(v.numerator, v.denominator) for v in values])) * power
+        total += acb_poly(part.rep) * power
         if c is not None:
             power *= c
     return total
@@ -62,24 +66,19 @@ def zeros(poly: Poly, c: acb | None) -> list[tuple[acb, int]]:
     """Enclosures of the distinct zeros, with multiplicities (certified isolation; multiplicities are exact)."""
     if poly.degree < 1:
         return []
-    if getattr(poly, "parts", None) is None:
-        return [(root, int(k)) for root, k in _integer_polynomial(poly).complex_roots()]
+    if not isinstance(poly, ExtensionPoly):
+        return list(_roots(poly))
     result = []
     for factor, k in _squarefree(poly):
-        if all(part.degree < 1 for part in factor.monic().parts[1:]) and all(
-            not part for part in factor.monic().parts[1:]
-        ):
-            result += [(root, k) for root, _ in _integer_polynomial(factor.monic().parts[0]).complex_roots()]
-        else:
-            result += [(root, k) for root in sharp_roots(embed(factor, c))]
+        rational, *rest = factor.monic().parts
+        found = sharp_roots(embed(factor, c)) if any(rest) else [root for root, _ in _roots(rational)]
+        result += [(root, k) for root in found]
     return result
 
 
 def sharp_roots(poly: acb_poly) -> list[acb]:
     """All zeros of a squarefree polynomial, isolated and refined; an empty list where the coefficients don't allow
     it."""
-    from flint import arb, ctx
-
     for share in (0.95, 0.85, 0.75, 0.6, 0.45, 0.3):
         try:
             roots: list[acb] = poly.roots(tol=arb(2) ** -int(ctx.prec * share), maxprec=4 * ctx.prec)
@@ -89,18 +88,16 @@ def sharp_roots(poly: acb_poly) -> list[acb]:
     return []
 
 
-def _squarefree(poly: Any) -> list[tuple[Any, int]]:
-    """Yun's algorithm."""
-    result, k = [], 1
-    g = poly.gcd(poly.derivative())
-    w, y = poly // g, poly.derivative() // g
-    z = y - w.derivative()
-    while w.degree > 0:
-        f = w.gcd(z) if z else w.monic()
-        if f.degree > 0:
-            result.append((f, k))
-        w, z = w // f, (z // f) - (w // f).derivative()
-        k += 1
+def _squarefree(poly: ExtensionPoly) -> list[tuple[ExtensionPoly, int]]:
+    """The products of the linear factors of multiplicity k, with k, from the radicals of what remains."""
+    result, k = [], 0
+    radical = poly // poly.gcd(poly.derivative())
+    while radical.degree > 0:
+        k, poly = k + 1, poly // radical
+        following = poly // poly.gcd(poly.derivative()) if poly.degree > 0 else poly.monic()
+        if radical.degree > following.degree:
+            result.append((radical // following, k))
+        radical = following
     return result
 
 
@@ -114,10 +111,7 @@ class Pole:
 
 @dataclass(frozen=True)
 class LogDerivative:
-    """theta = primitive' + sum over the poles: balls, at the precision of the moment when it was made.
-
-    `residues` holds the exact residue of each pole where it is a rational number found exactly, else None.
-    """
+    """theta = primitive' + sum over the poles: balls, at the precision of the moment when it was made."""
 
     primitive: acb_poly
     poles: tuple[Pole, ...]
@@ -148,49 +142,33 @@ class LogDerivative:
                 total += coefficient * (v ** (1 - k) - u ** (1 - k)) / (k - 1)
         return total
 
-    def growth(self, a: acb, b: acb, *, analytic: bool = False) -> acb:
+    def growth(self, a: acb, b: acb) -> acb:
         """exp(int_a^b theta) along the straight segment."""
-        return self.exponent(a, b, analytic=analytic).exp()
+        return self.exponent(a, b).exp()
 
 
 def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[acb, ...]:
     """The coefficients of t^-1, ..., t^-k of num/den at x = zeta + t, a zero of den of multiplicity exactly k."""
-    from flint import acb, acb_poly, acb_series
-
     line = acb_poly([zeta, 1])
     top = (num(line)).coeffs()[:k]
     bottom = (den(line)).coeffs()[k : 2 * k]  # the first k coefficients are exactly zero
-    top += [acb(0)] * (k - len(top))
     quotient = (acb_series(top, k) / acb_series(bottom, k)).coeffs()
     quotient += [acb(0)] * (k - len(quotient))
     return tuple(quotient[k - 1 - j] for j in range(k))
 
 
-def integral(function: Callable[[acb, bool], acb], a: acb, b: acb, budget: Budget) -> acb:
-    """int_a^b, by flint's rigorous adaptive quadrature; a non-finite ball where it gave up.
+def with_gauge(gamma: RatFunc | None, legs: Legs) -> Legs:
+    """The legs for (z, z') from those for (y, y'), equation (1); `gamma` None leaves them as they are."""
+    if gamma is None:
+        return legs
+    singular = System.of(gamma)
 
-    Raises LimitExceeded when the budget is used up.  An exception can't cross flint's C code (python-flint 0.9.0 turns it
-    into a SystemError), so the integrand answers 0 once it was stopped or interrupted, which ends the quadrature at once, and
-    the exception comes after.
-    """
-    from flint import acb
+    def gauged(a: Point, b: Point) -> list[Matrix]:
+        if a == b:
+            return []
+        check_segment(singular, a, b)
+        theta, u, v = LogDerivative.make(gamma, None), to_acb(a), to_acb(b)
+        shears = ((acb(1), acb(0), slope, acb(1)) for slope in (theta.value(v), -theta.value(u)))
+        return [scaled(multiply(next(shears), multiply(product(legs(a, b)), next(shears))), theta.growth(u, v))]
 
-    stopped: BaseException | None = None
-
-    def guarded(z: acb, analytic: bool) -> acb:
-        nonlocal stopped
-        if stopped is None:
-            try:
-                budget.check()
-                return function(z, analytic)
-            except (LimitExceeded, KeyboardInterrupt) as reason:
-                stopped = reason
-        return acb(0)
-
-    try:
-        result: acb = acb.integral(guarded, a, b)
-    except SystemError as error:  # the interrupt came between two calls of the integrand
-        raise error.__cause__ or error from None
-    if stopped is not None:
-        raise stopped
-    return result
+    return gauged

@@ -18,18 +18,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+
+from flint import acb, acb_poly, arb
 
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
 from kovacic.enclosure.evaluate import transition_matrix
 from kovacic.enclosure.points import Point, to_acb
-from kovacic.enclosure.problem import as_problem
-from kovacic.enclosure.singular import System
+from kovacic.enclosure.problem import System, as_problem
+from kovacic.enclosure.working import working_precision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
-
-if TYPE_CHECKING:
-    from flint import acb
 
 BallMatrix = tuple[tuple[Ball, Ball], tuple[Ball, Ball]]
 
@@ -62,9 +60,7 @@ class LocalMonodromy:
 
     def is_identity_to_the_power(self, order: int) -> bool:
         """True if the matrix to this power may be the identity; False proves that it isn't."""
-        from flint import acb, ctx
-
-        with ctx.workprec(1000):
+        with working_precision(1000):
             a, b, c, d = (ball_to_flint(entry) for row in self.matrix for entry in row)
             t = a + d if self.trace is None else ball_to_flint(self.trace)
             before, now = acb(0), acb(1)  # M^n = U_n M - U_(n-1), U_(n+1) = t U_n - U_(n-1) (Cayley and Hamilton)
@@ -163,10 +159,8 @@ def _distance_below(point: Point, a: Point, b: Point) -> Fraction:
 
 
 def _local(system: System, z: Point, loop: tuple[Point, ...], matrix: BallMatrix, digits: int) -> LocalMonodromy:
-    from flint import acb, acb_poly, arb, ctx
-
     prec = int(digits * 3.33) + 60
-    with ctx.workprec(prec):
+    with working_precision(prec):
         near = to_acb(z)
         root, multiplicity = min(system.roots("den", prec), key=lambda item: float((item[0] - near).abs_upper()))
         exponents = trace = None
@@ -189,7 +183,5 @@ def _ball(value: acb) -> Ball:
 
 
 def _sum_of_products(a: Ball, b: Ball, c: Ball, d: Ball, sign: int) -> Ball:
-    from flint import ctx
-
-    with ctx.workprec(1000):
+    with working_precision(1000):
         return _ball(ball_to_flint(a) * ball_to_flint(b) + sign * ball_to_flint(c) * ball_to_flint(d))

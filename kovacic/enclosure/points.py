@@ -11,12 +11,11 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Rational
-from typing import TYPE_CHECKING
 
+from flint import acb, arb, fmpq, fmpz
+
+from kovacic.algebra.rationals import to_fmpq, to_fraction
 from kovacic.errors import InputError
-
-if TYPE_CHECKING:
-    from flint import acb
 
 _NUMBER = re.compile(r"\s*([+-]?\d+)\s*/\s*(\d+)\s*|\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
 _MAX_EXPONENT = 100_000
@@ -113,17 +112,15 @@ def _text(text: str, name: str) -> Fraction:
 
 def _foreign(value: object, name: str) -> Point:
     """Numbers of mpmath, SymPy, NumPy, flint and our own balls, recognised without importing any of these libraries."""
-    from kovacic.enclosure.ball import Ball
-
-    if isinstance(value, Ball):
+    if hasattr(value, "is_exact") and hasattr(value, "midpoint"):
         if not value.is_exact():
             raise InputError(f"{name} is a ball of positive radius; an exact point is needed", hint="use ball.midpoint")
         return Point(*value.midpoint)
     module = type(value).__module__.split(".")[0]
     if module == "numpy" and hasattr(value, "item") and getattr(value, "ndim", 1) == 0:
         return as_point(value.item(), name)
-    if module == "flint" and type(value).__name__ in ("fmpz", "fmpq"):
-        return Point(_flint_rational(value))
+    if isinstance(value, fmpz | fmpq):
+        return Point(to_fraction(fmpq(value)))
     if module == "mpmath" and hasattr(value, "_mpf_"):
         return Point(_mpf(value._mpf_, name))
     if module == "mpmath" and hasattr(value, "_mpc_"):
@@ -135,13 +132,6 @@ def _foreign(value: object, name: str) -> Point:
         if all(part.is_Rational or part.is_Float for part in parts):
             return Point(*(Fraction(int(p.p), int(p.q)) if p.is_Rational else _mpf(p._mpf_, name) for p in parts))
     raise InputError(f"{name} isn't a number that is known exactly: {str(value)[:60]!r} ({type(value).__name__})")
-
-
-def _flint_rational(value: object) -> Fraction:
-    from flint import fmpq
-
-    exact = fmpq(value)
-    return Fraction(int(exact.p), int(exact.q))
 
 
 def _mpf(parts: tuple[int, int, int, int], name: str) -> Fraction:
@@ -156,9 +146,4 @@ def _mpf(parts: tuple[int, int, int, int], name: str) -> Fraction:
 
 def to_acb(point: Point) -> acb:
     """A ball around the point at the working precision in force (exact where the precision allows)."""
-    from flint import acb, arb, fmpq
-
-    real = arb(fmpq(point.re.numerator, point.re.denominator))
-    if point.im == 0:
-        return acb(real)
-    return acb(real, arb(fmpq(point.im.numerator, point.im.denominator)))
+    return acb(*(arb(to_fmpq(part)) for part in (point.re, point.im)))

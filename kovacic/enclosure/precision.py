@@ -7,15 +7,15 @@ First digits + guard bits, then as many bits more as were missing.  The global p
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import Literal, Protocol
+
+from flint import acb
 
 from kovacic.enclosure.ball import Ball, Dyadic, ball_from_flint
 from kovacic.enclosure.points import Point
+from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits
-
-if TYPE_CHECKING:
-    from flint import acb
 
 Method = Literal["taylor", "closed form"]
 METHODS: tuple[Method, ...] = ("taylor", "closed form")
@@ -66,8 +66,6 @@ def raise_precision(
     route: Route, method: Method, targets: tuple[Point, ...], digits: int, budget: Budget, exact: bool
 ) -> tuple[Evaluation, ...]:
     """Run the route at rising precision until every relative radius is small enough."""
-    from flint import ctx
-
     prec = start_bits(digits)
     highest = 6 * prec + 4000  # a value below 2^-highest isn't told from zero
     runs = 0
@@ -75,7 +73,7 @@ def raise_precision(
     while True:
         runs += 1
         try:
-            with ctx.workprec(prec + 40):
+            with working_precision(prec + 40):
                 states = route(prec, budget)
                 missing = max((_missing_bits(y, digits, prec) for y, _ in states), default=0)
                 found = _as_evaluations(states, targets, digits, method, prec, runs)

@@ -1,30 +1,112 @@
-"""What is to be evaluated: S as a system with integer coefficients, the gauge of an equation, a decision where there
-is one."""
+"""What is to be evaluated: the equation den y'' = num y with integer coefficients, rigorous enclosures of its singular points,
+the gauge of the user's equation, and a decision where there is one.
+
+Symbols: S = num/den; zeta_i the zeros of den (the singular points), eta_j the zeros of num.  The zeros are enclosed by
+FLINT's certified isolation (`fmpz_poly.complex_roots`: pairwise disjoint rectangles, one zero in each) and refined when a
+distance cannot be told from zero.  Whether a path meets a singular point is decided exactly, by Sturm-free real root
+isolation of the common factor of two polynomials over Q.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
 from fractions import Fraction
-from math import lcm
-from typing import Any
+
+from flint import acb, arb, fmpq_poly, fmpz_poly
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.enclosure.singular import System
-from kovacic.equation import Equation
+from kovacic.algebra.rationals import RationalPoly, to_fmpq
+from kovacic.decision import Decision
+from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
-from kovacic.solution import Solution
+
+_NUMERATOR_ROOTS = 128
+"""Above this degree the zeros of the numerator aren't isolated (its size is then bounded by its coefficients)."""
+
+_SHARP = 40
+"""Relative bits to which the distances of singular points are known."""
+
+_EXACT = 400
+"""Bits from which on it is worth while to decide exactly whether a point is singular."""
+
+Zeros = tuple[tuple[acb, int], ...]
+"""Zeros with their multiplicities."""
+
+
+@dataclass(frozen=True)
+class System:
+    """den y'' = num y: integer coefficients, low to high, without a common factor, den not zero.
+
+    >>> System.make((2, 0), (0, 0, 4))   # S = 2/(4 x^2)
+    System(num=(1,), den=(0, 0, 2))
+    """
+
+    num: tuple[int, ...]
+    den: tuple[int, ...]
+    _cache: dict[tuple[str, int], Zeros] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    @classmethod
+    def make(cls, num: tuple[int, ...], den: tuple[int, ...]) -> System:
+        """The system in lowest terms; raises InputError if den is zero."""
+        p, q = fmpz_poly(list(num)), fmpz_poly(list(den))
+        if q == 0:
+            raise InputError("the denominator of S is zero")
+        g = p.gcd(q) * (-1 if q.leading_coefficient() < 0 else 1)
+        return cls(*(tuple(int(c) for c in (part // g).coeffs()) for part in (p, q)))
+
+    @classmethod
+    def of(cls, function: RatFunc) -> System:
+        """A rational function over Q, as num/den; raises InputError over another field."""
+        num, den = function.num, function.den
+        if not isinstance(num, RationalPoly) or not isinstance(den, RationalPoly):
+            raise InputError(
+                "numerical evaluation needs S with rational coefficients (no parameters, no algebraic constants)"
+            )
+        p, q = num.rep, den.rep
+        return cls.make(
+            *(tuple(int(c) for c in part.coeffs()) for part in (p.numer() * q.denom(), q.numer() * p.denom()))
+        )
+
+    def __reduce__(self) -> tuple[type[System], tuple[tuple[int, ...], tuple[int, ...]]]:
+        return System, (self.num, self.den)
+
+    def roots(self, which: str, prec: int) -> Zeros:
+        """Enclosures of the zeros of "num" or "den" at about `prec` bits, with multiplicities (kept for the next
+        call)."""
+        level = max(64, 1 << (prec - 1).bit_length())
+        if (which, level) not in self._cache:
+            poly = fmpz_poly(list(getattr(self, which)))
+            with working_precision(level):
+                found = tuple((root, int(k)) for root, k in poly.complex_roots()) if poly.degree() > 0 else ()
+            self._cache[which, level] = found
+        return self._cache[which, level]
+
+    def singular_points(self, prec: int) -> list[Point]:
+        """The midpoints of the enclosures of the singular points; on the real axis exactly where the singular point is."""
+        result = []
+        for root, _ in self.roots("den", prec):
+            parts = (part.mid().man_exp() for part in (root.real, root.imag))
+            result.append(Point(*(Fraction(int(m)) * Fraction(2) ** int(e) for m, e in parts)))
+        return result
+
+    def is_singular(self, point: Point) -> bool:
+        """True if the point is a zero of the denominator, decided exactly."""
+        return all(part == 0 for part in along(self.den, point, Point(Fraction(0))))
 
 
 @dataclass(frozen=True)
 class NumericProblem:
-    """y'' = S y as `system`; `source` is the object that it was read from (a solution carries its certificate).
+    """y'' = S y as `system`; S and the decision on it where the problem was read from a solution.
 
     `gauge` is g'/g = -b/(2a) where the user's equation is a z'' + b z' + c z = 0 with z = g y; None for a normal form.
     """
 
     system: System
-    source: Any = None
-    gauge: Any = None
+    S: RatFunc | None = None
+    decision: Decision | None = None
+    gauge: RatFunc | None = None
 
 
 def as_problem(equation: object) -> NumericProblem:
@@ -34,38 +116,101 @@ def as_problem(equation: object) -> NumericProblem:
         return equation
     if isinstance(equation, System):
         return NumericProblem(equation)
-    if isinstance(equation, Equation):
-        return NumericProblem(_from_ratfunc(equation.S), equation, _gauge(equation))
-    if isinstance(equation, Solution):
-        return NumericProblem(_from_ratfunc(equation.S), equation, _gauge(equation.equation))
-    if isinstance(equation, RatFunc):
-        return NumericProblem(_from_ratfunc(equation))
-    from kovacic.reading.read import read_input
+    decision = getattr(equation, "decision", None)  # a `Solution`, which has an S and perhaps an equation
+    found = equation
+    if not isinstance(decision, Decision):
+        from kovacic.reading.read import read_input
 
-    parsed = read_input(equation)
-    return NumericProblem(_from_ratfunc(parsed.S), None, _gauge(parsed.equation))
-
-
-def _gauge(equation: Equation | None) -> RatFunc | None:
-    if equation is None:
-        return None
-    if not equation.is_homogeneous:
+        decision, found = None, read_input(equation)
+    S, given = found.S, found.equation  # type: ignore[attr-defined]
+    system = System.of(S)
+    if given is None:
+        return NumericProblem(system, S, decision)
+    if not given.is_homogeneous:
         raise InputError("numerical evaluation needs a homogeneous equation (right-hand side 0)")
-    return equation.gauge if equation.gauge else None
+    return NumericProblem(system, S, decision, given.gauge or None)
 
 
-def clear_denominators(function: RatFunc) -> System:
-    """A rational function over Q as num/den with integer coefficients."""
-    return _from_ratfunc(function)
+def along(coefficients: tuple[int, ...], a: Point, step: Point) -> tuple[fmpq_poly, fmpq_poly]:
+    """Real and imaginary part of the polynomial at a + t step, as polynomials in t over Q."""
+    lines = [fmpq_poly([to_fmpq(x) for x in pair]) for pair in ((a.re, step.re), (a.im, step.im))]
+    if lines[1] == 0:
+        return fmpq_poly(list(coefficients))(lines[0]), fmpq_poly([])
+    real, imag = fmpq_poly([]), fmpq_poly([])
+    for c in reversed(coefficients):
+        real, imag = real * lines[0] - imag * lines[1] + c, real * lines[1] + imag * lines[0]
+    return real, imag
 
 
-def _from_ratfunc(S: Any) -> System:
-    try:
-        num, den = ([Fraction(c) for c in part.coefficients()] for part in (S.num, S.den))
-    except (AttributeError, TypeError):
+def offsets(system: System, which: str, centre: Point) -> Zeros | None:
+    """The zeros seen from `centre` (zero - centre), those of the denominator to 40 relative bits at least.
+
+    None for a numerator whose zeros aren't isolated.  Raises InputError if the centre is a singular point.
+    """
+    if which == "num" and len(system.num) - 1 > _NUMERATOR_ROOTS:
+        return None
+    parts = (centre.re.numerator, centre.re.denominator, centre.im.numerator, centre.im.denominator)
+    prec = 64 + min(max(abs(part).bit_length() for part in parts), 1 << 14)
+    while True:
+        with working_precision(max(128, prec)):
+            here = to_acb(centre)
+            found = tuple((root - here, k) for root, k in system.roots(which, prec))
+        if which == "num" or all(d.rel_accuracy_bits() >= _SHARP for d, _ in found):
+            return found
+        if prec > _EXACT and system.is_singular(centre):
+            raise InputError(f"the point {centre} is a singular point of the equation")
+        prec *= 2
+
+
+def distance_lower(system: System, centre: Point) -> arb | None:
+    """A proven lower bound, positive and exact, of the distance to the nearest singular point; None if there is none."""
+    with working_precision(64):
+        return min((d.abs_lower() for d, _ in offsets(system, "den", centre) or ()), default=None)
+
+
+def check_segment(system: System, a: Point, b: Point) -> None:
+    """Raise InputError if the closed segment from a to b contains a singular point, with that point and the distances.
+
+    Exact: den(a + t (b - a)) = A(t) + i B(t) with A, B in Q[t]; the segment is singular where gcd(A, B) has a real zero
+    t in [0, 1].
+    """
+    for name, point in (("start", a), ("end", b)):
+        if system.is_singular(point):
+            raise InputError(
+                f"the {name} {point} of the path is a singular point of the equation (distance 0)",
+                hint="choose a point beside it; the solutions aren't analytic there",
+            )
+    hit = _first_hit(system, a, b)
+    if hit is not None:
+        where, distance = hit
         raise InputError(
-            "numerical evaluation needs S with rational coefficients (no parameters, no algebraic constants)"
-        ) from None
-    common = lcm(*(c.denominator for c in (*num, *den)))
-    n, d = (tuple(int(c * common) for c in part) for part in (num, den))
-    return System.make(n, d)
+            f"the path from {a} to {b} runs through the singular point near {where} "
+            f"(distance 0; {distance:.6g} from the start)",
+            hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
+            "the result depends on the side",
+        )
+
+
+def _first_hit(system: System, a: Point, b: Point) -> tuple[str, float] | None:
+    """The first singular point of the segment, in words, and its distance from a."""
+    step = b - a
+    if step.norm_squared() == 0:
+        return None
+    common = along(system.den, a, step)
+    poly = common[0].gcd(common[1]).numer()
+    prec = 64
+    while poly.degree() > 0:
+        with working_precision(prec):
+            real = sorted((r.real for r, _ in poly.complex_roots() if r.imag.is_zero()), key=lambda t: float(t.mid()))
+            inside = [t for t in real if not (t < 0 or t > 1)]
+            if not inside:
+                break
+            t = inside[0]
+            if not (t.contains(0) or t.contains(1)):  # the ends were excluded exactly: else refine
+                where = to_acb(a) + to_acb(step) * t
+                text = where.real.mid().str(12, radius=False)
+                if not (a.is_real() and b.is_real()):
+                    text += f" + {where.imag.mid().str(12, radius=False)}i"
+                return text, float(t.mid()) * math.sqrt(step.norm_squared())
+        prec *= 2
+    return None

@@ -5,8 +5,17 @@ centre c to the target s.  Not guaranteed: that the balls are small.
 
 The mathematics.  With x = c + H u and s = c + H z the equation q(u) y'' = p(u) y of `kovacic.enclosure.frame` becomes, for
 u = z v and after clearing denominators, Q(v) y_vv = P(v) y with Q, P over Z[i] and Q_0 > 0, and the target is v = 1.  Steps
-of the recurrence for the coefficients b_m of a solution are matrices over Z[i] (`kovacic.enclosure.recurrence`).  A tree of
-products, with integers of equal length at each level, costs a bounded number of multiplications of long integers at each
+of the recurrence for the coefficients b_m of a solution are matrices over Z[i]: with r = max(2, deg P + 2, deg Q),
+
+    Q_0 m (m-1) b_m = sum_j P_j b_(m-2-j) - sum_(j>=1) Q_j (m-j) (m-1-j) b_(m-j),
+
+so the state V_m = (b_(m-r), ..., b_(m-1)) and the sums Y = sum_(k<m) b_k and Y' = sum_(k<m) k b_k obey
+
+    D V_(m+1) = C V_m,    D (Y, Y')_(m+1) = D (Y, Y')_m + R V_m,    D = Q_0 m (m-1),
+
+with matrices C, R of polynomials in m.  A run of steps has the same form: two of them in succession give (C2 C1,
+R2 C1 + D2 R1, D2 D1).  The shortest runs are formed once, with polynomials in m as entries; longer ones are a balanced tree
+of products, with integers of equal length at each level, costs a bounded number of multiplications of long integers at each
 level: near-linear in the digits, where term by term is quadratic.  A run whose integers are about as long as the working
 precision is a block; blocks act on the state V (the last r coefficients of two solutions, in balls) one after the other,
 because beyond that length exact integers would only grow.  As V falls, the blocks get shorter.
@@ -19,7 +28,8 @@ Bit-burst.  The integers are short only if c and z are.  A target of many digits
 -> s, where s_k agrees with s to about 2^k bits: the k-th step needs 2^-k times as many terms, with coefficients 2^k times as
 long.  The last step is short enough for term by term.
 
-Symbols: c centre, H scale, s target, z = (s - c)/H, N the number of terms, r the order of the recurrence.
+Symbols: c centre, H scale, s target, z = (s - c)/H, N the number of terms, m the index of the next coefficient, r the order
+of the recurrence, V its state; C, R, D a run.
 
 References: D. V. and G. V. Chudnovsky, "Computer algebra in the service of mathematical physics and number theory" (1990).
 J. van der Hoeven, "Fast evaluation of holonomic functions", Theor. Comp. Sci. 210 (1999).
@@ -30,18 +40,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from kovacic.enclosure.frame import Frame, RayBound, log2_lead, make_frame, ray_to, shift_system
+from flint import acb, acb_mat, arb, arb_mat, fmpz_mat, fmpz_poly
+
+from kovacic.enclosure.frame import Frame, Parts, RayBound, make_frame, norm, ray_to, shift
+from kovacic.enclosure.matrices import Matrix
 from kovacic.enclosure.points import Point, to_acb
-from kovacic.enclosure.recurrence import LEAF, Gauss, Recurrence, make_block, recurrence
-from kovacic.enclosure.singular import System
-from kovacic.enclosure.taylor import Matrix, error_radii, expand, transition
+from kovacic.enclosure.problem import System
+from kovacic.enclosure.taylor import error_radii, expand, transition
+from kovacic.enclosure.working import working_precision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 
-if TYPE_CHECKING:
-    from flint import arb
+Gauss = tuple[Any, Any]
+"""A matrix, or number, over Z[i]: real and imaginary part (None: zero)."""
+
+LEAF = 8
+"""Steps whose product is formed once, with polynomials in m as entries."""
 
 _BLOCK = 3.0
 """Length of the integers of a block, by the bits that are still needed (the first block: 1)."""
@@ -62,6 +78,131 @@ _FEW = 128
 
 
 @dataclass(frozen=True)
+class Run:
+    """A run of steps: D V' = C V, D (Y, Y')' = D (Y, Y') + R V."""
+
+    C: Gauss
+    R: Gauss
+    D: Any
+
+    def at(self, m: int) -> Run:
+        """The run of integers for a run of polynomials."""
+        C, R = ((re.at(m), None if im is None else im.at(m)) for re, im in (self.C, self.R))
+        return Run(C, R, self.D(m))
+
+    def after(self, first: Run) -> Run:
+        """`first`, then this."""
+        return Run(
+            _times(self.C, first.C),
+            _plus(_times(self.R, first.C), _scaled(first.R, self.D)),
+            self.D * first.D,
+        )
+
+
+def _times(a: Gauss, b: Gauss) -> Gauss:
+    (ar, ai), (br, bi) = a, b
+    if ai is None:
+        return ar * br, None if bi is None else ar * bi
+    if bi is None:
+        return ar * br, ai * br
+    x, y = ar * br, ai * bi
+    return x - y, (ar + ai) * (br + bi) - x - y
+
+
+def _plus(a: Gauss, b: Gauss) -> Gauss:
+    return a[0] + b[0], b[1] if a[1] is None else a[1] if b[1] is None else a[1] + b[1]
+
+
+def _scaled(a: Gauss, factor: Any) -> Gauss:
+    return a[0] * factor, None if a[1] is None else a[1] * factor
+
+
+class Table:
+    """A small matrix of polynomials in m."""
+
+    def __init__(self, rows: list[list[fmpz_poly]]) -> None:
+        self.rows = rows
+
+    def __mul__(self, other: Any) -> Table:
+        if not isinstance(other, Table):
+            return Table([[entry * other for entry in row] for row in self.rows])
+        columns = list(zip(*other.rows, strict=True))
+        return Table(
+            [[sum(x * y for x, y in zip(row, column, strict=True)) for column in columns] for row in self.rows]
+        )
+
+    def __add__(self, other: Table) -> Table:
+        return Table([[x + y for x, y in zip(a, b, strict=True)] for a, b in zip(self.rows, other.rows, strict=True)])
+
+    def __sub__(self, other: Table) -> Table:
+        return Table([[x - y for x, y in zip(a, b, strict=True)] for a, b in zip(self.rows, other.rows, strict=True)])
+
+    def at(self, m: int) -> fmpz_mat:
+        """The matrix of integers at m."""
+        return fmpz_mat(len(self.rows), len(self.rows[0]), [entry(m) for row in self.rows for entry in row])
+
+
+@dataclass(frozen=True)
+class Recurrence:
+    """Q y_vv = P y over Z[i], with Q_0 > 0."""
+
+    P: Parts
+    Q: Parts
+
+    @property
+    def order(self) -> int:
+        """r: the length of the state."""
+        return max(2, len(self.P[0]) + 1, len(self.Q[0]) - 1)
+
+    @property
+    def is_real(self) -> bool:
+        """True if all coefficients are."""
+        return self.P[1] is None and self.Q[1] is None
+
+    def size(self, m: int) -> int:
+        """An upper bound of sum |coefficient| for the step to m."""
+        return norm(self.P) + m * m * norm(self.Q)
+
+    def leaf(self, mirror: bool) -> Run:
+        """The steps to m, ..., m + LEAF - 1, as one run of polynomials in m."""
+        leaf = self._step(0, mirror)
+        for i in range(1, LEAF):
+            leaf = self._step(i, mirror).after(leaf)
+        return leaf
+
+    def _step(self, i: int, mirror: bool) -> Run:
+        """The step to m + i; rows of R: Y, Y' and with `mirror` their values at -v (m even)."""
+        r, m, zero = self.order, fmpz_poly([i, 1]), fmpz_poly([])
+        D = self.Q[0][0] * m * (m - 1)
+
+        def coefficient(p: list[int], q: list[int], j: int) -> fmpz_poly:  # of b_(m-j)
+            first = fmpz_poly([p[j - 2]]) if 0 <= j - 2 < len(p) else zero
+            return first - q[j] * (m - j) * (m - 1 - j) if j < len(q) else first
+
+        def tables(p: list[int], q: list[int], diagonal: fmpz_poly) -> tuple[Table, Table]:
+            last = [coefficient(p, q, j) for j in range(r, 0, -1)]
+            shift = [[diagonal if k == n + 1 else zero for k in range(r)] for n in range(r - 1)]
+            factors = [fmpz_poly([1]), m, fmpz_poly([(-1) ** i]), m * (-1) ** (i + 1)][: 4 if mirror else 2]
+            return Table([*shift, last]), Table([[f * entry for entry in last] for f in factors])
+
+        C, R = tables(self.P[0], self.Q[0], D)
+        if self.is_real:
+            return Run((C, None), (R, None), D)
+        C_im, R_im = tables(self.P[1] or [], self.Q[1] or [], zero)
+        return Run((C, C_im), (R, R_im), D)
+
+
+def make_block(leaf: Run, m: int, leaves: int, budget: Budget) -> Run:
+    """The run of `leaves` leaves that starts at m, as a balanced tree."""
+    budget.check()
+    if leaves == 1:
+        return leaf.at(m)
+    half = leaves // 2
+    first = make_block(leaf, m, half, budget)
+    return make_block(leaf, m + half * LEAF, leaves - half, budget).after(first)
+
+
+@dataclass(frozen=True)
 class Series:
     """The sums up to the term m in balls: rows Y, Y' (and at -v), columns b = (1, 0, ...) and (0, 1, ...).
 
@@ -76,23 +217,21 @@ def _sum_series(
     system: System, frame: Frame, z: Point, bound: RayBound, mirror: bool, prec: int, budget: Budget
 ) -> Series:
     """Blocks until the bound of the tail is about 2^-prec."""
-    from flint import acb, acb_mat, arb, arb_mat, ctx, fmpq
-
-    shifted = shift_system(system, frame)
-    steps, lead = recurrence(shifted.p, shifted.q, z), log2_lead(shifted.q)
+    seen = shift(system, frame.centre, z.scaled(frame.scale))
+    steps = Recurrence(seen.p, seen.q)
     leaf, r, m = steps.leaf(mirror), steps.order, 2
     goal = prec + int(bound.log2_growth) + 20
     full = goal + 64
     matrix, number = (arb_mat, arb) if steps.is_real else (acb_mat, acb)
-    with ctx.workprec(full):
+    with working_precision(full):
         V = matrix([[0, 0]] * (r - 2) + [[1, 0], [0, 1]])
         sums = matrix([[1, 1], [0, 1], [1, -1], [0, 1]][: 4 if mirror else 2])
         length = abs(to_acb(z)).upper()
-        scale = arb(fmpq(steps.K.denominator, steps.K.numerator)) / abs(to_acb(z)).lower() ** 2
+        scale = 1 / abs(to_acb(z)).lower() ** 2
         before: tuple[int, int] | None = None
         while True:
             heights = [sum((V[n, k].abs_upper() for n in range(r)), arb(0)).upper() for k in (0, 1)]
-            radii = [error_radii((h * steps.size(m) * scale).upper(), lead, bound) for h in heights]
+            radii = [error_radii((h * steps.size(m) * scale).upper(), steps.Q[0][0], bound) for h in heights]
             errors = tuple((e, (slope * length).upper()) for e, slope in radii)
             if all(_order(e) <= -goal for pair in errors for e in pair):
                 return Series(sums, errors)  # type: ignore[arg-type]
@@ -102,7 +241,7 @@ def _sum_series(
             leaves = _leaves(steps, m, needed, before)
             block = make_block(leaf, m, leaves, budget)
             m, before = m + leaves * LEAF, (m, needed)
-            with ctx.workprec(needed):
+            with working_precision(needed):
                 inverse = number(1) / number(block.D)
                 change, V = _balls(block.R) * V * inverse, _balls(block.C) * V * inverse
             sums = sums + change
@@ -121,8 +260,6 @@ def _leaves(steps: Recurrence, m: int, needed: int, before: tuple[int, int] | No
 
 
 def _balls(a: Gauss) -> Any:
-    from flint import acb, acb_mat, arb_mat
-
     return arb_mat(a[0]) if a[1] is None else acb_mat(a[0]) + acb_mat(a[1]) * acb(0, 1)
 
 
@@ -135,7 +272,7 @@ def _order(x: arb) -> int:
 def is_split(system: System, prec: int) -> bool:
     """True if splitting is the cheaper way at this precision: by the order of the recurrence, as measured.
 
-    (`benchmarks/numeric_long_series.py` measures both ways on both sides of the bound.)
+    (`benchmarks/enclosure_long_series.py` measures both ways on both sides of the bound.)
     """
     order = max(2, len(system.num) + 1, len(system.den) - 1)
     return prec > max(_LOWEST, (_ENTIRE if len(system.den) == 1 else _SINGULAR) * order**3)
@@ -148,12 +285,10 @@ def split_legs(
 
     `bound` must hold on every ray asked for.  The numbers of centre and target should be short.
     """
-    from flint import acb, arb, ctx
-
     offset = target - frame.centre
     series = _sum_series(system, frame, offset.scaled(1 / frame.scale), bound, mirror, prec, budget)
     real = offset.is_real() and frame.centre.is_real()
-    with ctx.workprec(prec + int(bound.log2_growth) + 84):
+    with working_precision(prec + int(bound.log2_growth) + 84):
         h = to_acb(offset)
         balls = [[arb(0, error) for error in pair] for pair in series.errors]
         matrices = []
@@ -179,14 +314,14 @@ def bit_burst(system: System, frame: Frame, target: Point, prec: int, budget: Bu
         z = (target - frame.centre).scaled(1 / frame.scale)
         bits = prec + length  # the slopes are divided by the length of the step
         if _height(z) <= 2 * length:
-            return [*matrices, *split_legs(system, frame, target, ray_to(system, frame, target), bits, budget)]
+            return [*matrices, *split_legs(system, frame, target, ray_to(frame, target), bits, budget)]
         if prec < _FEW * length:
-            bound = ray_to(system, frame, target)
+            bound = ray_to(frame, target)
             return [*matrices, transition(expand(system, frame, bits, bound, budget), target, bound)]
         stop = frame.centre + z.rounded(-step).scaled(frame.scale)
         if stop != frame.centre:
-            matrices += split_legs(system, frame, stop, ray_to(system, frame, stop), bits, budget)
-        frame = make_frame(system, stop, 1, frame.e - step)
+            matrices += split_legs(system, frame, stop, ray_to(frame, stop), bits, budget)
+        frame = make_frame(system, stop, frame.e - step)
         length, step = 2 * length, length
     return matrices
 

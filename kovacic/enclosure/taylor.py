@@ -34,56 +34,50 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from operator import mul
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from kovacic.enclosure.frame import SLACK, Frame, Parts, RayBound, log2_lead, log2_norm, shift_system
+from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
+
+from kovacic.enclosure.frame import Frame, Parts, RayBound, log2, norm, shift
+from kovacic.enclosure.matrices import Matrix
 from kovacic.enclosure.points import Point, to_acb
-from kovacic.enclosure.singular import System
+from kovacic.enclosure.problem import System
+from kovacic.enclosure.working import working_precision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
-
-if TYPE_CHECKING:
-    from flint import acb, arb, fmpz_poly
-Matrix = tuple["acb", "acb", "acb", "acb"]
-"""(m11, m12, m21, m22) of a 2x2 matrix of flint balls, acting on (y, y')."""
 
 
 @dataclass(frozen=True)
 class Expansion:
     """Two polynomial approximations Y/2^w (columns of the identity at u = 0) and their defects.
 
-    `defect[k]` bounds sum |r_n| 2^w, the coefficient sum of q Y'' - p Y for column k; `log2_lead_q` is log2 |lc(q)|.
+    `defect[k]` bounds sum |r_n| 2^w, the coefficient sum of q Y'' - p Y for column k, and q_0 = q(0).
     """
 
     frame: Frame
     w: int
     columns: tuple[tuple[fmpz_poly, fmpz_poly | None], tuple[fmpz_poly, fmpz_poly | None]]
     defect: tuple[int, int]
-    log2_lead_q: float
-    terms: int
+    q_0: int
 
 
 def expand(system: System, frame: Frame, prec: int, bound: RayBound, budget: Budget) -> Expansion:
     """Both columns at `frame` so that the error on rays within `bound` should be about 2^-prec (what it is,
     `transition` says)."""
-    shifted = shift_system(system, frame)
-    lead = log2_lead(shifted.q)
-    loss = max(0.0, log2_norm(shifted.q) - lead - bound.log2_min_q)
+    shifted = shift(system, frame.centre, Point(frame.scale))
+    real, q_0 = shifted.p[1] is None and shifted.q[1] is None, shifted.q[0][0]
+    loss = max(0.0, log2(arb(norm(shifted.q)) / q_0) - bound.log2_least)
     quiet = 6 + int(loss)  # rounding errors keep the terms above about 2^loss units: they count as zero below 2^quiet
     w = prec + quiet + int(loss + bound.log2_growth) + 12 + 3 * max(6, prec.bit_length() + 1)
-    excess = max(0, shifted.q[0][0].bit_length() - (w + 40))
+    excess = max(0, q_0.bit_length() - (w + 40))
     p, q = _cut(shifted.p, excess), _cut(shifted.q, excess)
-    columns, defects, terms = [], [], 0
+    columns, defects = [], []
     for start in (0, 1):
         budget.check()
-        if shifted.q[1] is None:
-            re, im = _recurrence_real(p[0], q[0], w, start, 1 << quiet), None
-        else:
-            re, im = _recurrence_complex(p, q, w, start, 1 << quiet)
-        columns.append(_as_polys(re, im))
+        re, im = (_recurrence_real if real else _recurrence_complex)(p, q, w, start, 1 << quiet)
+        columns.append((fmpz_poly(re), None if im is None else fmpz_poly(im)))
         defects.append(_proven_defect(p, q, excess, re, im, 1 << quiet))
-        terms = max(terms, len(re))
-    return Expansion(frame, w, (columns[0], columns[1]), (defects[0], defects[1]), lead, terms)
+    return Expansion(frame, w, (columns[0], columns[1]), (defects[0], defects[1]), q_0)
 
 
 def _cut(parts: Parts, excess: int) -> Parts:
@@ -97,14 +91,12 @@ def _numbers(values: list[int], w: int) -> list[Any]:
     """Python integers below some 700 bits, FLINT's above (measured: the cheaper kind)."""
     if w < 700:
         return values
-    from flint import fmpz
-
     return [fmpz(v) for v in values]
 
 
-def _recurrence_real(p: list[int], q: list[int], w: int, start: int, small: int) -> list[Any]:
-    dp, dq = len(p), len(q) - 1
-    p_rev, q_rev, q0 = _numbers(p[::-1], w), _numbers(q[:0:-1], w), _numbers(q[:1], w)[0]
+def _recurrence_real(p: Parts, q: Parts, w: int, start: int, small: int) -> tuple[list[Any], None]:
+    dp, dq = len(p[0]), len(q[0]) - 1
+    p_rev, q_rev, q0 = _numbers(p[0][::-1], w), _numbers(q[0][:0:-1], w), _numbers(q[0][:1], w)[0]
     one, zero = _numbers([1 << w, 0], w)
     pad = max(dp, dq) + 2
     a = [zero] * pad + ([one, zero] if start == 0 else [zero, one])  # a[pad + n] is a_n
@@ -123,13 +115,11 @@ def _recurrence_real(p: list[int], q: list[int], w: int, start: int, small: int)
         n += 1
         if n > cap:
             raise LimitExceeded(f"a Taylor expansion needs more than {cap} terms", limit="unknown_degree")
-    return a[pad:]
+    return a[pad:], None
 
 
 def _recurrence_complex(p: Parts, q: Parts, w: int, start: int, small: int) -> tuple[list[Any], list[Any]]:
-    assert p[1] is None or q[1] is not None
-    p_im = p[1] if p[1] is not None else [0] * len(p[0])
-    q_im = q[1] if q[1] is not None else [0] * len(q[0])
+    p_im, q_im = p[1] or [0] * len(p[0]), q[1] or [0] * len(q[0])
     dp, dq = len(p[0]), len(q[0]) - 1
     pr, pi = _numbers(p[0][::-1], w), _numbers(p_im[::-1], w)
     qr, qi, q0 = _numbers(q[0][:0:-1], w), _numbers(q_im[:0:-1], w), _numbers(q[0][:1], w)[0]
@@ -162,12 +152,6 @@ def _recurrence_complex(p: Parts, q: Parts, w: int, start: int, small: int) -> t
     return ar[pad:], ai[pad:]
 
 
-def _as_polys(re: list[Any], im: list[Any] | None) -> tuple[fmpz_poly, fmpz_poly | None]:
-    from flint import fmpz_poly
-
-    return fmpz_poly(re), None if im is None else fmpz_poly(im)
-
-
 def _proven_defect(p: Parts, q: Parts, excess: int, re: list[Any], im: list[Any] | None, small: int) -> int:
     """A bound of sum |r_n| 2^w for the column, r = q Y'' - p Y with the untrimmed coefficients.
 
@@ -179,8 +163,7 @@ def _proven_defect(p: Parts, q: Parts, excess: int, re: list[Any], im: list[Any]
     """
     n = len(re)
     width = max(len(p[0]), len(q[0])) + 3
-    norm_p, norm_q = (sum(abs(v) for part in parts if part is not None for v in part) for parts in (p, q))
-    total = q[0][0] * n**3 + 2 * small * width * (n * n * norm_q + norm_p)
+    total = q[0][0] * n**3 + 2 * small * width * (n * n * norm(q) + norm(p))
     if excess:
         size = sum(abs(v) for part in (re, im) if part is not None for v in part)
         total += 2 * int(size) * (len(p[0]) + len(q[0]) * n * n)
@@ -192,47 +175,38 @@ def transition(expansion: Expansion, target: Point, bound: RayBound) -> Matrix:
 
     Called within the caller's `flint.ctx.workprec`; nothing about it is changed here.
     """
-    from flint import acb, arb, ctx
-
     frame = expansion.frame
-    with ctx.workprec(expansion.w + 10):
+    with working_precision(expansion.w + 10):
         offset = target - frame.centre
         exact = offset.scaled(1 / frame.scale)
         entries, unit = [], acb(arb((1, -expansion.w)))
         for column, defect in zip(expansion.columns, expansion.defect, strict=True):
             value, slope = _values(column, exact)
-            radii = error_radii(arb((defect + 1, -expansion.w)), expansion.log2_lead_q, bound)
+            radii = error_radii(arb((defect + 1, -expansion.w)), expansion.q_0, bound)
             for number, radius in zip((value, slope), radii, strict=True):
                 ball = arb(0, radius)
                 both = acb(ball) if column[1] is None and exact.is_real() else acb(ball, ball)
                 entries.append(number * unit + both)
-        h = acb(arb((frame.h, frame.e)))
+        h = acb(arb((1, frame.e)))
         y1, d1, y2, d2 = entries
         return y1, y2 * h, d1 / h, d2
 
 
-def error_radii(defect: arb, log2_lead_q: float, bound: RayBound) -> tuple[arb, arb]:
+def error_radii(defect: arb, q_0: int, bound: RayBound) -> tuple[arb, arb]:
     """Bounds of |e| and |de/du| at the end of the ray for a defect q Y'' - p Y whose coefficients have the sum `defect`."""
-    from flint import arb
-
-    size = defect * arb(2) ** arb(-(bound.log2_min_q + log2_lead_q) + 1e-6)
-    return (size * arb(bound.gain * SLACK)).upper(), (size * arb(bound.gain_derivative * SLACK)).upper()
+    return (defect / q_0 * bound.gain).upper(), (defect / q_0 * bound.slope_gain).upper()
 
 
 def _values(column: tuple[fmpz_poly, fmpz_poly | None], u: Point) -> tuple[acb, acb]:
     """Y(u) and Y'(u) in balls: exact sums for u = +-1, rectangular splitting otherwise."""
-    from flint import acb, acb_poly, arb, arb_poly
-
     re, im = column
     polys = (re, re.derivative()) if im is None else (re, re.derivative(), im, im.derivative())
     if u.im == 0 and abs(u.re) == 1:
         sums = [acb(arb(p(int(u.re)))) for p in polys]
     elif u.im == 0:
-        at = to_acb(u).real
-        sums = [acb(arb_poly(p)(at)) for p in polys]
+        sums = [acb(arb_poly(p)(to_acb(u).real)) for p in polys]
     else:
-        z = to_acb(u)
-        sums = [acb_poly(p)(z) for p in polys]
+        sums = [acb_poly(p)(to_acb(u)) for p in polys]
     if im is None:
         return sums[0], sums[1]
     i = acb(0, 1)

@@ -23,8 +23,7 @@ from typing import TYPE_CHECKING, Any
 from kovacic.enclosure.evaluate import evaluate_states
 from kovacic.enclosure.points import Point, as_point
 from kovacic.enclosure.precision import Evaluation
-from kovacic.enclosure.problem import as_problem
-from kovacic.enclosure.singular import System
+from kovacic.enclosure.problem import System, as_problem
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 

@@ -1,9 +1,9 @@
 """Run time against error: our routes, scipy's integrators and mpmath.odefun.
 
-Regenerate:  python benchmarks/numeric_work_precision.py
-writes results/numeric_work_precision.{json,md,png} (about eight minutes).  Errors are relative, against the Taylor route
+Regenerate:  python benchmarks/enclosure_work_precision.py
+writes results/enclosure_work_precision.{json,md,png} (about eight minutes).  Errors are relative, against the Taylor route
 at twice the digits; times are processor times, the best of several runs, of one call from x0 to x.  Thousands of digits:
-`numeric_long_series.py`.
+`enclosure_long_series.py`.
 """
 
 from __future__ import annotations
@@ -107,8 +107,7 @@ def double_rows(solution: Any, x0: str, x: str, add: Callable[..., None]) -> Non
 
     import numpy as np
 
-    from kovacic.doubles.accuracy import measure
-    from kovacic.doubles.lambdify import lambdify
+    from kovacic.doubles.lambdify import lambdify, measure
     from kovacic.errors import KovacicError
 
     low, high = sorted((float(Fraction(x0)), float(Fraction(x))))
@@ -249,7 +248,7 @@ def markdown(data: dict[str, list[dict[str, Any]]]) -> str:
         "# Run time against error",
         "",
         f"Python {platform.python_version()}, {platform.machine()}.",
-        "Regenerate: `python benchmarks/numeric_work_precision.py`.",
+        "Regenerate: `python benchmarks/enclosure_work_precision.py`.",
         "",
         "Processor time of one call from x0 to x.  Errors are relative, against the Taylor route at twice the digits.",
         "",
@@ -343,9 +342,9 @@ def main() -> None:
         rows += rows_of(name, ball_normal_form(S) if name.startswith("ball") else S, x0, x)
     data = {"goals": goals(rows), "crossover": crossover(), "rows": rows}
     RESULTS.mkdir(exist_ok=True)
-    (RESULTS / "numeric_work_precision.json").write_text(json.dumps(data, indent=1) + "\n")
-    (RESULTS / "numeric_work_precision.md").write_text(markdown(data))
-    picture(rows, RESULTS / "numeric_work_precision.png")
+    (RESULTS / "enclosure_work_precision.json").write_text(json.dumps(data, indent=1) + "\n")
+    (RESULTS / "enclosure_work_precision.md").write_text(markdown(data))
+    picture(rows, RESULTS / "enclosure_work_precision.png")
 
 
 if __name__ == "__main__":

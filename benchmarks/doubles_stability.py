@@ -1,6 +1,6 @@
 """Stability: what is left of the digits under stress, by enclosures and in double precision, against a naive evaluation.
 
-Regenerate:  python benchmarks/numeric_stability.py      writes results/numeric_stability.{json,md}      (`--quick` prints only)
+Regenerate:  python benchmarks/doubles_stability.py      writes results/doubles_stability.{json,md}      (`--quick` prints only)
 
 Every solution is known in closed form.  Two tables:
 
@@ -121,7 +121,7 @@ def doubles(row: Row) -> dict[str, Any]:
     import numpy as np
 
     import kovacic
-    from kovacic.doubles.accuracy import measure
+    from kovacic.doubles.lambdify import measure
     from kovacic.errors import KovacicError
     from kovacic.limits import Limits
 
@@ -159,7 +159,7 @@ def number_of(solution: Any, row: Row) -> int:
     """The number of the solution y, by its logarithmic derivative at the middle of the points."""
     import mpmath
 
-    from kovacic.enclosure.certificate import exponentials, omega
+    from kovacic.enclosure.closed_form import exponentials, omega
     from kovacic.enclosure.points import as_point
     from kovacic.enclosure.problem import as_problem
 
@@ -193,7 +193,7 @@ def markdown(rows: list[dict[str, Any]]) -> str:
     lines = [
         "# Stability",
         "",
-        f"Python {platform.python_version()}.  Regenerate: `python benchmarks/numeric_stability.py`.",
+        f"Python {platform.python_version()}.  Regenerate: `python benchmarks/doubles_stability.py`.",
         "",
         "## Enclosures",
         "",
@@ -269,8 +269,8 @@ def main() -> None:
     print(text)
     if not options.quick and options.family is None:
         RESULTS.mkdir(exist_ok=True)
-        (RESULTS / "numeric_stability.json").write_text(json.dumps(rows, indent=1) + "\n")
-        (RESULTS / "numeric_stability.md").write_text(text)
+        (RESULTS / "doubles_stability.json").write_text(json.dumps(rows, indent=1) + "\n")
+        (RESULTS / "doubles_stability.md").write_text(text)
 
 
 if __name__ == "__main__":

@@ -15,8 +15,7 @@ import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.doubles import double_double as dd
-from kovacic.doubles.accuracy import MEDIAN, WORST, measure, warn_unless_accurate
-from kovacic.doubles.lambdify import lambdify
+from kovacic.doubles.lambdify import MEDIAN, WORST, lambdify, measure, warn_unless_accurate
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.tabulate import TabulatedFunction, tabulate
 from kovacic.enclosure.evaluate import AccuracyWarning, evaluate

@@ -1,6 +1,6 @@
 """Decisions next to solvable equations, decimals made exact visibly, and what each kind of call loads and costs.
 
-Regenerate:  python benchmarks/numeric_decisions.py      writes results/numeric_decisions.{json,md}
+Regenerate:  python benchmarks/decisions.py      writes results/decisions.{json,md}
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def timed(action: Callable[[], Any], repeats: int = 5) -> tuple[float, Any]:
 
 def ball(ratio: Fraction) -> Any:
     """The rolling ball's normal form for R/R1 = ratio; reducible exactly when 2 R/R1 is an integer."""
-    from numeric_work_precision import ball_normal_form
+    from enclosure_work_precision import ball_normal_form
 
     return ball_normal_form(str(ratio))
 
@@ -164,12 +164,10 @@ def fresh(S: str, expression: str) -> dict[str, Any]:
 def main() -> None:
     found, exact, costs = decisions(), notices(), skipping()
     RESULTS.mkdir(exist_ok=True)
-    (RESULTS / "numeric_decisions.json").write_text(
+    (RESULTS / "decisions.json").write_text(
         json.dumps({"decisions": found, "notices": exact, "skipping": costs}, indent=1) + "\n"
     )
-    head = (
-        f"Python {platform.python_version()}, processor times.  Regenerate: `python benchmarks/numeric_decisions.py`."
-    )
+    head = f"Python {platform.python_version()}, processor times.  Regenerate: `python benchmarks/decisions.py`."
     lines = [
         "# Decision stability",
         "",
@@ -199,7 +197,7 @@ def main() -> None:
         f"| {r['equation']} | {r['call']} | {r['seconds']:.4f} | {r['first']:.3f} | {', '.join(r['loads']) or 'none'} |"
         for r in costs
     ]
-    (RESULTS / "numeric_decisions.md").write_text("\n".join(lines) + "\n")
+    (RESULTS / "decisions.md").write_text("\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Cost of the Taylor route against the digits: term by term and by binary splitting, and where one takes over.
 
-Regenerate:  python benchmarks/numeric_long_series.py
-writes results/numeric_long_series.{json,md} (about five minutes).  Times are processor times of one call of `evaluate`,
+Regenerate:  python benchmarks/enclosure_long_series.py
+writes results/enclosure_long_series.{json,md} (about five minutes).  Times are processor times of one call of `evaluate`,
 the least of several runs where they are short; the load of the machine is stored with them.
 """
 
@@ -157,7 +157,7 @@ def markdown(data: dict[str, Any]) -> str:
         "",
         f"Python {data['python']}, {data['machine']}; load {data['load'][0]:.1f} at the start, "
         f"{data['load'][1]:.1f} at the end.",
-        "Regenerate: `python benchmarks/numeric_long_series.py`.",
+        "Regenerate: `python benchmarks/enclosure_long_series.py`.",
         "",
         "Seconds of processor time of one call of `evaluate`; the exponent k of digits^k is fitted from 3,000 digits on.",
         "Empty: not waited for.  The exponent of one product is what near-linear methods can have at these lengths, up to",
@@ -203,9 +203,9 @@ def main() -> None:
     }
     data["load"] = [before, os.getloadavg()[0]]
     RESULTS.mkdir(exist_ok=True)
-    (RESULTS / "numeric_long_series.json").write_text(json.dumps(data, indent=1) + "\n")
+    (RESULTS / "enclosure_long_series.json").write_text(json.dumps(data, indent=1) + "\n")
     text = markdown(data)
-    (RESULTS / "numeric_long_series.md").write_text(text)
+    (RESULTS / "enclosure_long_series.md").write_text(text)
     print(text)
 
 

@@ -1,0 +1,81 @@
+"""2x2 matrices of balls that act on states (y, y'), and products of many of them.
+
+With k factors one after the other ball arithmetic would lose up to k bits ("wrapping"); balanced products lose O(log k).
+"""
+
+from __future__ import annotations
+
+from flint import acb
+
+State = tuple["acb", "acb"]
+"""(y, y')"""
+
+Matrix = tuple["acb", "acb", "acb", "acb"]
+"""(m11, m12, m21, m22)"""
+
+
+def multiply(m: Matrix, n: Matrix) -> Matrix:
+    """The product m n."""
+    a, b, c, d = m
+    e, f, g, h = n
+    return a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h
+
+
+def scaled(m: Matrix, factor: acb) -> Matrix:
+    """The matrix times a number."""
+    return m[0] * factor, m[1] * factor, m[2] * factor, m[3] * factor
+
+
+def adjugate(m: Matrix) -> Matrix:
+    """The inverse of a matrix of determinant 1."""
+    a, b, c, d = m
+    return d, -b, -c, a
+
+
+def identity() -> Matrix:
+    """The identity matrix."""
+    return acb(1), acb(0), acb(0), acb(1)
+
+
+def apply(m: Matrix, v: State) -> State:
+    """m v."""
+    return m[0] * v[0] + m[1] * v[1], m[2] * v[0] + m[3] * v[1]
+
+
+class Product:
+    """M_k ... M_1 while k grows: a binary counter of partial products, so that every prefix is O(log k) factors."""
+
+    def __init__(self, factors: list[tuple[int, Matrix]] | None = None) -> None:
+        self._parts = list(factors or ())  # sizes are falling powers of two, the earliest factors first
+
+    def push(self, matrix: Matrix) -> None:
+        """Put one more factor on the left."""
+        size = 1
+        while self._parts and self._parts[-1][0] == size:
+            matrix, size = multiply(matrix, self._parts.pop()[1]), 2 * size
+        self._parts.append((size, matrix))
+
+    def copy(self) -> Product:
+        """An independent copy."""
+        return Product(self._parts)
+
+    def apply(self, state: State) -> State:
+        """M_k ... M_1 v."""
+        for _, matrix in self._parts:
+            state = apply(matrix, state)
+        return state
+
+    def matrix(self) -> Matrix:
+        """M_k ... M_1."""
+        total: Matrix | None = None
+        for _, matrix in self._parts:
+            total = matrix if total is None else multiply(matrix, total)
+        return total if total is not None else identity()
+
+
+def product(matrices: list[Matrix]) -> Matrix:
+    """M_k ... M_1 for the list [M_1, ..., M_k]."""
+    total = Product()
+    for matrix in matrices:
+        total.push(matrix)
+    return total.matrix()
