@@ -397,6 +397,7 @@ def test_constants_need_an_irreducible_polynomial(square: int, right: bool) -> N
     decision = Decision(
         Structure.REDUCIBLE,
         (),
+        invariant=SemiInvariant(2, RatFunc(QQ.poly([])), QQ.poly([1])),
         semi_invariant=SemiInvariant(1, RatFunc(c), one),
         riccati=RiccatiPolynomial(one, one, (one, c)),
     )

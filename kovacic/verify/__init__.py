@@ -15,8 +15,10 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Status, Structure
-from kovacic.verify.evidence import Inspector
-from kovacic.verify.identity import solves_riccati
+from kovacic.limits import Budget
+from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
+from kovacic.verify.group import GroupClaim, group_holds
+from kovacic.verify.identity import is_rational_form, solves_riccati
 
 #: The structures in the order of the proof, with the degree of omega.
 _OMEGA_DEGREE = {
@@ -42,35 +44,54 @@ class Check:
 
 @dataclass(frozen=True)
 class Verification:
-    """All checks of one decision; true exactly when every one passed and there was something to check."""
+    """All checks of one decision; true exactly when every one passed and there was something to check.
+
+    `unchecked` has the statements that the kernel can't recompute.
+    """
 
     checks: tuple[Check, ...]
+    unchecked: tuple[str, ...] = ()
 
     def __bool__(self) -> bool:
         return bool(self.checks) and all(check.passed for check in self.checks)
 
     def __str__(self) -> str:
-        return "\n".join(f"{'passed' if check.passed else 'FAILED'}: {check.statement}" for check in self.checks)
+        lines = [f"{'passed' if check.passed else 'FAILED'}: {check.statement}" for check in self.checks]
+        return "\n".join([*lines, *(f"not checked: {statement}" for statement in self.unchecked)])
 
 
-def verify(S: RatFunc, decision: Decision) -> Verification:
-    """Recompute everything that the decision claims about y'' = S y."""
-    structures = list(_OMEGA_DEGREE)
-    if decision.status is Status.LIOUVILLIAN and decision.structure is not None:
-        checks = _positive(S, decision, decision.structure)
-        required = structures[: structures.index(decision.structure)]
+def verify(
+    S: RatFunc, decision: Decision, group: GroupClaim | None = None, *, budget: Budget | None = None
+) -> Verification:
+    """Recompute everything that the decision claims about y'' = S y, and the group where it is claimed.
+
+    Raises `LimitExceeded` when the budget (by default that of `kovacic.Limits()`) is used up.
+    """
+    inspector = Inspector(S, budget or Budget())
+    structures, structure = list(_OMEGA_DEGREE), decision.structure
+    claimed = [exclusion.structure for exclusion in decision.exclusions]
+    if decision.status is Status.LIOUVILLIAN and structure is not None:
+        checks = _positive(inspector, decision, structure)
+        required = structures[: structures.index(structure)]
     else:
-        checks = []
-        required = structures if decision.status is Status.NONE_EXISTS else [e.structure for e in decision.exclusions]
-    inspector = Inspector(S)
-    by_structure = {exclusion.structure: exclusion.evidence for exclusion in decision.exclusions}
-    for structure in required:
-        checks.append(Check(_EXCLUDED[structure], inspector.excludes(structure, by_structure.get(structure, ()))))
-    return Verification(tuple(checks))
+        nothing = (structure, decision.invariant, decision.semi_invariant, decision.riccati)
+        checks = [] if nothing == (None,) * 4 else [Check("no solution is claimed", False)]
+        required = structures if decision.status is Status.NONE_EXISTS else structures[: len(claimed)]
+    if claimed != required:
+        checks.append(Check("the structures before the answer's are excluded, each once", False))
+    for exclusion in decision.exclusions:
+        passed = inspector.excludes(exclusion.structure, exclusion.evidence)
+        checks.append(Check(_EXCLUDED[exclusion.structure], passed))
+    if group is None or not all(check.passed for check in checks):
+        return Verification(tuple(checks))
+    holds, statement = group_holds(inspector, decision, group), "the Galois group is the one that is named"
+    if holds is None:
+        return Verification(tuple(checks), (f"{statement}: infinite by the orders of a divisor modulo primes",))
+    return Verification((*checks, Check(statement, holds)))
 
 
-def _positive(S: RatFunc, decision: Decision, structure: Structure) -> list[Check]:
-    riccati, form = decision.riccati, decision.semi_invariant
+def _positive(inspector: Inspector, decision: Decision, structure: Structure) -> list[Check]:
+    riccati, form, S = decision.riccati, decision.semi_invariant, inspector.S
     if riccati is None or form is None:
         return [Check("the polynomial of omega is there", False)]
     degree = _OMEGA_DEGREE[structure]
@@ -85,11 +106,22 @@ def _positive(S: RatFunc, decision: Decision, structure: Structure) -> list[Chec
             # theta + P'/P = A_1/(P D)
             and theta.num * D * P == (riccati.numerators[1] - D * P.derivative()) * theta.den,
         ),
+        Check("P has its zeros at ordinary points", P.gcd(S.den.over(P.field)).degree <= 0),
+        Check("the invariant is a rational form", _invariant_holds(inspector, decision, structure)),
     ]
     field = P.field
     if isinstance(field, AlgebraicField) and field != S.field:
         checks.append(Check(f"the polynomial of {field.name} is irreducible", _is_irreducible(field)))
     return checks
+
+
+def _invariant_holds(inspector: Inspector, decision: Decision, structure: Structure) -> bool:
+    """A rational form of the structure's degree; without one the only omega is unique, in case 1."""
+    F = decision.invariant
+    if F is None:
+        return structure is Structure.REDUCIBLE and inspector.dimension_is_at_most(0, 2)
+    degree_is_right = F.degree == INVARIANT_DEGREE[structure]
+    return degree_is_right and is_rational_form(inspector.S, F, inspector.denominator)
 
 
 def _is_irreducible(field: AlgebraicField) -> bool:
@@ -98,4 +130,4 @@ def _is_irreducible(field: AlgebraicField) -> bool:
     return modulus.degree > 1 and len(factors) == 1 and factors[0] == (modulus, 1)
 
 
-__all__ = ["Check", "Verification", "verify"]
+__all__ = ["Check", "GroupClaim", "Verification", "verify"]

@@ -14,13 +14,14 @@ from kovacic.algebra.modular import (
     BadPrimeError,
     fundamental_system,
     null_space,
+    ordinary_point,
     power_series,
     simple_roots,
     square_root,
     square_root_series,
     translate,
 )
-from kovacic.algebra.poly import Homomorphism
+from kovacic.algebra.poly import Homomorphism, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import (
@@ -31,6 +32,7 @@ from kovacic.decision import (
     Rule,
     Structure,
 )
+from kovacic.limits import Budget
 from kovacic.verify.local import (
     Point,
     ZeroCounts,
@@ -48,7 +50,7 @@ _ORDERS = {
     Structure.ICOSAHEDRAL: {1, 2, 3, 5},
 }
 #: The degree of the invariant that the structure would have; together with the uniqueness of omega for reducible groups.
-_INVARIANT_DEGREE = {
+INVARIANT_DEGREE = {
     Structure.REDUCIBLE: 2,
     Structure.IMPRIMITIVE: 4,
     Structure.TETRAHEDRAL: 6,
@@ -57,6 +59,8 @@ _INVARIANT_DEGREE = {
 }
 #: How far down the sequence of primes a record may lie.
 _PRIMES = 4096
+#: Primes modulo which a dimension is bounded where no record names one.
+_PRIMES_FOR_A_DIMENSION = 3
 _APPLIES = {
     Rule.RAMIFIED: {Structure.REDUCIBLE},
     Rule.LOGARITHM: set(Structure) - {Structure.REDUCIBLE},
@@ -72,10 +76,20 @@ class Inspector:
     """Recomputes evidence about y'' = S y."""
 
     S: RatFunc
+    budget: Budget
 
     @cached_property
     def points(self) -> list[Point]:
-        return points(self.S)
+        """All singular places, and infinity."""
+        return points(self.S, self.budget)
+
+    @cached_property
+    def denominator(self) -> Poly:
+        """A polynomial D without a double root more than needed, for which S D^2 is a polynomial."""
+        D = self.S.field.poly([1])
+        for point in self.points[:-1]:
+            D = D * point.factor ** ((point.order + 1) // 2)
+        return D
 
     def excludes(self, structure: Structure, evidence: tuple[Evidence, ...]) -> bool:
         """Does the evidence, recomputed, prove that the group doesn't have this structure?
@@ -85,10 +99,11 @@ class Inspector:
         """
         condition, no_invariant, no_unique_omega = False, False, structure is not Structure.REDUCIBLE
         for item in evidence:
+            self.budget.check()
             if not self._holds(item, structure):
                 return False
             if isinstance(item, NoInvariant):
-                no_invariant |= item.invariant_degree == _INVARIANT_DEGREE[structure]
+                no_invariant |= item.invariant_degree == INVARIANT_DEGREE[structure]
             elif isinstance(item, NoRationalOmega) or item.rule is Rule.NOT_A_SQUARE:
                 no_unique_omega = True
             else:
@@ -138,24 +153,48 @@ class Inspector:
                 break
         return False
 
-    def _no_invariant(self, item: NoInvariant) -> bool:
-        """No rational form of degree m: no room for one, or nullity 0 of the linear system modulo the prime."""
-        m = item.invariant_degree
+    def _valuations(self, m: int) -> tuple[list[int], int] | None:
+        """The least valuations of a rational form of degree m at the finite places, and the room for a polynomial factor.
+
+        None if one of them can't be an integer, so that there is no such form.
+        """
         valuations, room = list[int](), m
         for point in self.points:
             valuation = least_valuation(point, m)
             if valuation is None:
-                return item.prime is None
+                return None
             valuations.append(valuation)
             room -= valuation * point.factor.degree
-        if room < 0 or item.prime is None:
-            return room < 0 and item.prime is None
+        return valuations[:-1], room
+
+    def _no_invariant(self, item: NoInvariant) -> bool:
+        """No rational form of degree m: no room for one, or nullity 0 of the linear system modulo the prime."""
+        m = item.invariant_degree
+        bounds = self._valuations(m)
+        if bounds is None or bounds[1] < 0 or item.prime is None:
+            return item.prime is None and (bounds is None or bounds[1] < 0)
+        valuations, room = bounds
         return item.degree == room and self._at_prime(
-            item.prime, lambda h: self._nullity(h, item.point, m, valuations[:-1], room) == 0
+            item.prime, lambda h: self._nullity(h, item.point, m, valuations, room) == 0
         )
+
+    def dimension_is_at_most(self, bound: int, m: int) -> bool:
+        """Have the rational forms of degree m at most this dimension, as the nullity modulo one of the first primes proves?"""
+        bounds = self._valuations(m)
+        if bounds is None or bounds[1] < 0:
+            return True
+        self.budget.check_degree(bounds[1], f"an invariant of degree {m}")
+        for h in islice(self.S.field.homomorphisms(), _PRIMES_FOR_A_DIMENSION):
+            try:
+                if self._nullity(h, ordinary_point(h.keeping_degree(self.S.den)), m, *bounds) <= bound:
+                    return True
+            except BadPrimeError:
+                continue
+        return False
 
     def _nullity(self, h: Homomorphism, point: int, m: int, valuations: list[int], room: int) -> int:
         """The dimension modulo p of the forms whose quotient by prod p^v is a polynomial of degree <= room, to some terms."""
+        self.budget.check()
         order = room + m + 8
         den = h.keeping_degree(self.S.den)
         if not int(den(point)):
@@ -199,6 +238,7 @@ class Inspector:
         bounds = counts.by_exponent(place)
         s = laurent_numerators(place, h, root, 2 * counts.largest + growth + 2 + nu)
         for start in _first_terms(place, s, p):
+            self.budget.check()
             degree = counts.largest
             if bounds is not None:
                 possible = [n for e, n in bounds if (start[-1] * e.denominator - e.numerator) % p == 0]

@@ -10,12 +10,21 @@ The certificate gives e_k = A_k / (P D^k) with polynomials, A_0 = P.  Cleared of
     P ((k + 1) A_(k+1) - D A_k' + k D' A_k + (m - k + 1) S D^2 A_(k-1)) = A_k (A_1 - D P'),                      (2)
 
 which is trivial for k = 0.
+
+A form F = exp(int R/D) P of degree m in the solutions has e_k F = exp(int R/D) A_k/D^k with
+
+    (k + 1) A_(k+1) = D A_k' + (R - k D') A_k - (m - k + 1) S D^2 A_(k-1),    A_0 = P,    A_(m+1) = 0,             (3)
+
+and conversely.  It is a rational function exactly when R/D has simple poles with integer residues only.
 """
 
 from __future__ import annotations
 
+from fractions import Fraction
+
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import RiccatiPolynomial
+from kovacic.decision import RiccatiPolynomial, SemiInvariant
 
 
 def solves_riccati(S: RatFunc, M: RiccatiPolynomial) -> bool:
@@ -40,3 +49,46 @@ def solves_riccati(S: RatFunc, M: RiccatiPolynomial) -> bool:
         elif P * left != A[k] * mixed:
             return False
     return True
+
+
+def form_numerators(S: RatFunc, F: SemiInvariant, D: Poly) -> list[Poly] | None:
+    """A_0, ..., A_(m+1) of (3); None where D isn't a denominator for them, or F has no P or no degree."""
+    T = (S.num * D * D).exact_quotient(S.den) if D else None
+    R = (F.theta.num * D).exact_quotient(F.theta.den)
+    if T is None or R is None or not F.P or F.degree < 1:
+        return None
+    slope = D.derivative()
+    A = [F.P, D * F.P.derivative() + R * F.P]
+    for k in range(1, F.degree + 1):
+        following = D * A[k].derivative() + (R - k * slope) * A[k] - (F.degree - k + 1) * T * A[k - 1]
+        A.append(following / (k + 1))
+    return A
+
+
+def rational_residues(theta: RatFunc) -> list[tuple[Poly, Fraction]] | None:
+    """The irreducible factors of the denominator with the residues at their roots, for simple poles and rational residues.
+
+    None if there is another pole, also at infinity (theta dx), or another residue.
+    """
+    num, den = theta.num, theta.den
+    if num and num.degree >= den.degree:
+        return None
+    slope = den.derivative()
+    if not num or den.gcd(slope).degree > 0:
+        return [] if not num else None
+    field, residues = den.field, []
+    for p, _ in field.factor(den):
+        value = num * slope.inverse_modulo(p) % p
+        rational = field.rational_value(value) if value.degree <= 0 else None
+        if rational is None:
+            return None
+        residues.append((p, rational))
+    return residues
+
+
+def is_rational_form(S: RatFunc, F: SemiInvariant, D: Poly) -> bool:
+    """Is F a form of its degree in the solutions of y'' = S y, and a rational function?"""
+    A, residues = form_numerators(S, F, D), rational_residues(F.theta)
+    if A is None or A[-1] or residues is None:
+        return False
+    return all(residue.denominator == 1 for _, residue in residues)

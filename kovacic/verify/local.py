@@ -18,6 +18,7 @@ from kovacic.algebra.poly import Homomorphism, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
+from kovacic.limits import Budget
 from kovacic.verify.residue import exponent_difference_squared
 from kovacic.verify.series import convolving_recurrence
 
@@ -30,6 +31,7 @@ class Point:
     num: Poly
     den: Poly
     order: int
+    budget: Budget
     at_infinity: bool = False
 
     @cached_property
@@ -57,13 +59,18 @@ class Point:
 
     @cached_property
     def logarithm(self) -> bool:
-        """Is there a logarithm?  True is proven: for Delta = n a positive integer by an obstruction modulo a prime."""
+        """Is there a logarithm?  True is proven: for Delta = n a positive integer by an obstruction modulo a prime.
+
+        Nothing is claimed where n exceeds the limit for unknown degrees.
+        """
         difference = self.difference
         if self.order == 1 or difference == 0:
             return True
         if self.order != 2 or difference is None or difference.denominator != 1:
             return False
         n = difference.numerator
+        if n > self.budget.limits.unknown_degree:
+            return False
         for h in self.factor.field.homomorphisms():
             try:
                 root = next(simple_roots(h.keeping_degree(self.factor)), None)
@@ -71,20 +78,18 @@ class Point:
                     return _obstruction(laurent_numerators(self, h, root, n + 1), n, h.p) != 0
             except BadPrimeError:
                 pass
+            self.budget.check()
         raise AssertionError("the sequence of primes is infinite")
 
 
-def points(S: RatFunc) -> list[Point]:
+def points(S: RatFunc, budget: Budget) -> list[Point]:
     """Every singular place, and infinity even if it is ordinary."""
     factors = S.field.factor(S.den) if S.den.degree else []
-    return [*(Point(p, S.num, S.den, k) for p, k in factors), _infinity(S)]
-
-
-def _infinity(S: RatFunc) -> Point:
     # S(1/z)/z^4 = z^-order num/den, where num and den have the coefficients of S.num and S.den in reversed order.
     order = S.num.degree - S.den.degree + 4 if S.num else 0
     num, den = S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0))
-    return Point(S.field.poly([0, 1]), num, den, max(order, 0), at_infinity=True)
+    infinity = Point(S.field.poly([0, 1]), num, den, max(order, 0), budget, at_infinity=True)
+    return [*(Point(p, S.num, S.den, k, budget) for p, k in factors), infinity]
 
 
 def least_valuation(point: Point, m: int) -> int | None:

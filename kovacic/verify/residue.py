@@ -33,8 +33,8 @@ def exponent_difference_squared(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
         ahead = p**k
         root = (root + root * (1 - unit * root * root % ahead) / 2) % ahead
         inverse = inverse * (2 - q * inverse % ahead) % ahead
-    residue = _residue(unit * root % modulus * inverse % modulus, p, nu)
-    return 4 * leading * residue * residue % p
+    r = residue(unit * root % modulus * inverse % modulus, p, nu)
+    return 4 * leading * r * r % p
 
 
 def _constant(value: Poly, p: Poly, nu: int) -> Poly:
@@ -58,7 +58,7 @@ def _at(polynomial: Poly, theta: Poly, modulus: Poly) -> Poly:
     return value
 
 
-def _residue(H: Poly, p: Poly, nu: int) -> Poly:
+def residue(H: Poly, p: Poly, nu: int) -> Poly:
     """The residue of H/p^nu at the class of x in K[x]/p: B p'/p^e = (-B/((e-1) p^(e-1)))' + B'/((e-1) p^(e-1)) for e > 1."""
     slope = p.derivative()
     inverse = slope.inverse_modulo(p)
