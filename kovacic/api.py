@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide as decide_structure
-from kovacic.errors import InputError, VerificationFailed
+from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.solution import Solution
-from kovacic.verify import verify
+from kovacic.verify import Verification, verify
 
 if TYPE_CHECKING:
     from kovacic.reading.parsed import Parsed
@@ -81,8 +81,15 @@ def solve(
         text = S.strip()
     else:
         text = parsed.S.to_str(parsed.variable) if parsed.equation is None else parsed.equation.text(caret=False)
-    decision, notices = _decided(parsed, S, assume, limits, certify=True)
-    verification = verify(parsed.S, decision)
+    budget = Budget(limits)
+    decision, notices = _decided(parsed, S, assume, budget, certify=True)
+    try:
+        verification = verify(parsed.S, decision, budget=budget)
+    except LimitExceeded as limit:
+        decision, verification = (
+            Decision(None, (), undecided=f"while the answer was verified: {limit}"),
+            Verification(()),
+        )
     verified = bool(verification)
     if not verified and (verification.checks or decision.status is not Status.UNDECIDED):
         raise VerificationFailed(
@@ -103,15 +110,15 @@ def decide(
     >>> kovacic.decide("-3/(16*x^2) + 1/x").case
     2
     """
-    decision, _ = _decided(_read(S, var, limits), S, assume, limits, certify=False)
+    decision, _ = _decided(_read(S, var, limits), S, assume, Budget(limits), certify=False)
     return Verdict(decision.status, decision.case, decision.undecided)
 
 
 def _decided(
-    parsed: Parsed, S: Any, assume: Mapping[Any, str] | None, limits: Limits, *, certify: bool
+    parsed: Parsed, S: Any, assume: Mapping[Any, str] | None, budget: Budget, *, certify: bool
 ) -> tuple[Decision, tuple[str, ...]]:
     """The decision, under the assumptions if there are any, and the notices."""
-    decision = decide_structure(parsed.S, Budget(limits), certify=certify)
+    decision = decide_structure(parsed.S, budget, certify=certify)
     if assume is None and parsed.S.field.ground == QQ:
         return decision, parsed.notices
     from kovacic.parametric.assumptions import read_assumptions
@@ -122,7 +129,7 @@ def _decided(
         return decision, parsed.notices
     from kovacic.parametric.api import under_assumptions
 
-    decision, sentence = under_assumptions(parsed, decision, known, limits, certify=certify)
+    decision, sentence = under_assumptions(parsed, decision, known, budget.limits, certify=certify)
     return decision, (*parsed.notices, sentence) if sentence else parsed.notices
 
 

@@ -11,6 +11,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Status
 from kovacic.equation import Equation
+from kovacic.errors import VerificationFailed
 from kovacic.verify import Verification, verify
 
 if TYPE_CHECKING:
@@ -94,10 +95,16 @@ class Solution:
 
     @cached_property
     def group(self) -> Group | None:
-        """The differential Galois group of y'' = S y, a subgroup of SL2(C); None if the equation is undecided."""
+        """The differential Galois group of y'' = S y, a subgroup of SL2(C); None if the equation is undecided.
+
+        Raises `VerificationFailed` if the kernel doesn't confirm it, which for an answer of `solve` is a defect.
+        """
         from kovacic.galois import group_of
 
-        return group_of(self.S, self.decision)
+        group = group_of(self.S, self.decision)
+        if group is not None and not (verification := verify(self.S, self.decision, group.claim)):
+            raise VerificationFailed(f"the group of S = {self.S} failed its own check\n{verification}")
+        return group
 
     @cached_property
     def equation_group(self) -> EquationGroup | None:
@@ -160,8 +167,17 @@ class Solution:
         return generic_conditions(self)
 
     def verify(self) -> Verification:
-        """Recompute every claim by independent code; true exactly when all of them hold."""
-        return verify(self.S, self.decision)
+        """Recompute every claim, the group's too, by independent code; true exactly when all of them hold.
+
+        Raises `LimitExceeded` where that takes more than the default limits allow.
+        """
+        from kovacic.galois import group_of
+
+        verification = verify(self.S, self.decision)
+        if not verification:
+            return verification
+        group = group_of(self.S, self.decision)
+        return verification if group is None else verify(self.S, self.decision, group.claim)
 
     def to_json(self, **options: Any) -> str:
         """The answer as one line of JSON, schema 1."""

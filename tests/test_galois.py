@@ -24,7 +24,7 @@ from kovacic.engine.places import analyse
 from kovacic.equation import Equation
 from kovacic.galois import Ground, Group, Kind
 from kovacic.galois.gauged import _residues_on_curve, _torus
-from kovacic.galois.imprimitive import curve_of, has_order
+from kovacic.galois.imprimitive import curve_of, form_of_order
 from kovacic.limits import Budget
 
 X = RatFunc(QQ.poly([0, 1]))
@@ -130,7 +130,8 @@ def test_pull_backs_of_dihedral_equations_on_curves_of_positive_genus(n: int, f:
     problem = analyse(S, Budget())
     assert curve_of(problem, solution.semi_invariant).genus > 0
     assert solution.group.ground is Ground.INVARIANT
-    assert solution.group.n == next(k for k in range(2, 20) if has_order(problem, k))
+    least = next(k for k in range(2, 20) if form_of_order(problem, solution.semi_invariant, k))
+    assert solution.group.n == least
 
 
 @pytest.mark.parametrize("m", [3, 4, 5, 6, 12])

@@ -106,6 +106,10 @@ def test_a_changed_certificate_fails_its_check() -> None:
 def test_a_changed_proof_fails_its_check() -> None:
     data = json.loads(kovacic.solve("x").to_json())
     data["S"] = "x^2 + 3"
+    with pytest.raises(InputError, match="S isn't that of the input"):
+        loads(data)
+    data["input"] = "x^2 + 3"
+    assert not loads(data).verified
     assert not loads(data).verify()
 
 

@@ -5,9 +5,12 @@ Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 1.2 and 4; M. F. Singer 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
+
+from kovacic.decision import SemiInvariant
+from kovacic.verify import GroupClaim
 
 
 class Kind(Enum):
@@ -79,12 +82,19 @@ class Group:
 
     `n` is the parameter of the family where it has one: the order of the cyclic group or of the component group of
     {(c, b; 0, 1/c): c^n = 1}, and a quarter of the order of a dicyclic group.  Kind.IMPRIMITIVE says that the order wasn't
-    determined: then n is the least value that wasn't excluded, and the group may be infinite.  `ground` says why.
+    determined: then n is the least value that wasn't excluded, and the group may be infinite.  `ground` says why; for
+    Ground.INVARIANT `form` is a rational form of degree 2n that isn't a power of y1 y2, where that is needed.
     """
 
     kind: Kind
     ground: Ground
     n: int | None = None
+    form: SemiInvariant | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def claim(self) -> GroupClaim:
+        """What the kernel checks."""
+        return GroupClaim(self.kind.value, self.n, self.form)
 
     @property
     def name(self) -> str:

@@ -34,6 +34,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.jacobian import Jacobian
 from kovacic.algebra.modular import BadPrimeError, simple_roots, square_root
 from kovacic.algebra.poly import Field, Homomorphism, Poly
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalField, RationalHomomorphism
 from kovacic.algebra.splitting import ExtensionHomomorphism
 from kovacic.decision import NoInvariant, SemiInvariant
@@ -138,8 +139,8 @@ def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: Curve, l: int)
         n = l * k
         if 2 * n > _LARGEST_DEGREE:
             break
-        if has_order(problem, n):
-            return Group(Kind.DICYCLIC, Ground.INVARIANT, n)
+        if (form := form_of_order(problem, f, n)) is not None:
+            return Group(Kind.DICYCLIC, Ground.INVARIANT, n, form)
         least = n + l
     else:
         if orders:
@@ -147,13 +148,17 @@ def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: Curve, l: int)
     return Group(Kind.IMPRIMITIVE, Ground.UNDETERMINED, least)
 
 
-def has_order(problem: Problem, n: int) -> bool:
-    """Are there the rational invariants of degree 2n that a dicyclic group of order 4n, or 4n/j, has?
+def form_of_order(problem: Problem, f: SemiInvariant, n: int) -> SemiInvariant | None:
+    """The rational form of degree 2n that a dicyclic group of order 4n, or 4n/j, has beside powers of f = y1 y2.
 
-    For even n they are (y1 y2)^n and y1^(2n) + y2^(2n), for odd n only the latter.  Either answer is proven.
+    For even n the invariants are f^n and y1^(2n) + y2^(2n), for odd n only the latter.  Either answer is proven.
     """
     space = invariants(problem, 2 * n)
-    return not isinstance(space, NoInvariant) and len(space) == (1 if n % 2 else 2)
+    if isinstance(space, NoInvariant) or len(space) != (1 if n % 2 else 2):
+        return None
+    forms = [SemiInvariant(2 * n, RatFunc(F.R, problem.D), F.P) for F in space]
+    power = n * f.logarithmic_derivative
+    return next(form for form in forms if form.logarithmic_derivative != power)
 
 
 def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:

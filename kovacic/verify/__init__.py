@@ -96,7 +96,12 @@ def _positive(inspector: Inspector, decision: Decision, structure: Structure) ->
         return [Check("the polynomial of omega is there", False)]
     degree = _OMEGA_DEGREE[structure]
     P, D, theta = riccati.P, riccati.D, form.theta
-    checks = [
+    field, checks = P.field, []
+    if isinstance(field, AlgebraicField) and field != S.field:
+        checks.append(Check(f"the polynomial of {field.name} is irreducible", _is_irreducible(field)))
+        if not checks[0].passed:
+            return checks
+    checks += [
         Check(f"omega satisfies a polynomial of degree {degree}", riccati.degree == degree),
         Check("the roots of the polynomial solve omega' + omega^2 = S", solves_riccati(S, riccati)),
         Check(
@@ -109,9 +114,6 @@ def _positive(inspector: Inspector, decision: Decision, structure: Structure) ->
         Check("P has its zeros at ordinary points", P.gcd(S.den.over(P.field)).degree <= 0),
         Check("the invariant is a rational form", _invariant_holds(inspector, decision, structure)),
     ]
-    field = P.field
-    if isinstance(field, AlgebraicField) and field != S.field:
-        checks.append(Check(f"the polynomial of {field.name} is irreducible", _is_irreducible(field)))
     return checks
 
 

@@ -170,6 +170,8 @@ class Inspector:
     def _no_invariant(self, item: NoInvariant) -> bool:
         """No rational form of degree m: no room for one, or nullity 0 of the linear system modulo the prime."""
         m = item.invariant_degree
+        if m not in INVARIANT_DEGREE.values():
+            return False
         bounds = self._valuations(m)
         if bounds is None or bounds[1] < 0 or item.prime is None:
             return item.prime is None and (bounds is None or bounds[1] < 0)

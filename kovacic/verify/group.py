@@ -92,7 +92,8 @@ def _imprimitive(inspector: Inspector, decision: Decision, claim: GroupClaim) ->
     if any(point.order > 2 or point.difference is None for point in points):
         return (claim.family, claim.n) == ("infinite dihedral", None)
     if f.P.field != inspector.S.field:  # its conjugates are further forms: three pairs of lines are permuted
-        return (claim.family, claim.n) == ("dicyclic", 2)
+        phi = f.logarithmic_derivative
+        return (claim.family, claim.n) == ("dicyclic", 2) and any((*phi.num.parts[1:], *phi.den.parts[1:]))
     residues = dict(rational_residues(f.theta) or [])
     orders = [2 * residues.get(point.factor, Fraction(0)) for point in points[:-1]]
     zeros = f.P.degree

@@ -43,7 +43,9 @@ from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.equation_parser import parse_expression
 from kovacic.reading.names import Names, parameters_of
 from kovacic.reading.parser import parse_with
+from kovacic.reading.read import read_input
 from kovacic.solution import Solution
+from kovacic.verify import verify
 
 SCHEMA = 1
 
@@ -62,9 +64,9 @@ def dumps(solution: Solution, *, full: bool = False) -> str:
 
 
 def loads(text: str | Mapping[str, Any]) -> Solution:
-    """The answer that `dumps` wrote (or the object that the line stands for), not verified again.
+    """The answer that `dumps` wrote (or the object that the line stands for), verified again: its `verified` isn't believed.
 
-    Raises `InputError` where the text isn't an answer in schema 1.
+    Raises `InputError` where the text isn't an answer in schema 1, or contradicts itself.
     """
     try:
         data = json.loads(text) if isinstance(text, str) else text
@@ -133,7 +135,7 @@ def group_dict(solution: Solution) -> dict[str, Any] | None:
 
 def from_dict(data: Mapping[str, Any]) -> Solution:
     """The answer that `to_dict` made into an object."""
-    variable, proof, constants = data["variable"], data["proof"], data["constants"]
+    variable, proof, constants = _typed(data, "variable", str), data["proof"], data["constants"]
     rational = reader = _base_reader(data.get("field"), variable)
     if constants is not None:
         symbol = constants["symbol"]
@@ -151,21 +153,25 @@ def from_dict(data: Mapping[str, Any]) -> Solution:
         invariant=None if proof["invariant"] is None else rational.semi_invariant(proof["invariant"]),
         semi_invariant=form,
         riccati=polynomial,
-        undecided=proof["undecided"],
+        undecided=_typed(proof, "undecided", str, type(None)),
     )
     if Status(data["status"]) is not decision.status or data["case"] != decision.case:
         raise ValueError("status or case contradict the proof")
     S, equation = rational.ratfunc(data["S"]), _read_equation(data.get("equation"), variable)
     if equation is not None and equation.S != S:
         raise ValueError("S isn't the normal form of the equation")
+    text = _typed(data, "input", str)
+    if read_input(text, var=variable, limits=_LIMITS).S != S:
+        raise ValueError("S isn't that of the input")
+    notices = tuple(_typed({"notice": notice}, "notice", str) for notice in data["notices"])
     return Solution(
-        text=data["input"],
+        text=text,
         variable=variable,
         S=S,
         decision=decision,
-        notices=tuple(data["notices"]),
-        verified=data["verified"],
-        seconds=data["seconds"],
+        notices=notices,
+        verified=bool(verify(S, decision)),
+        seconds=_typed(data, "seconds", int, float, type(None)),
         equation=equation,
     )
 
@@ -322,7 +328,17 @@ def _read_evidence(data: Mapping[str, Any], names: Names) -> Evidence:
             Rule[data["rule"].upper()], tuple(names.internal_place(name) for name in data["places"])
         )
     if kind == "no_invariant":
-        return NoInvariant(data["invariant_degree"], data["prime"], data["point"], data["degree"])
+        degree, point, room = (_typed(data, key, int) for key in ("invariant_degree", "point", "degree"))
+        return NoInvariant(degree, _typed(data, "prime", int, type(None)), point, room)
     if kind == "no_rational_omega":
-        return NoRationalOmega(data["degree"], data["prime"], names.internal_place(data["place"]))
+        prime, place = _typed(data, "prime", int, type(None)), _typed(data, "place", str)
+        return NoRationalOmega(_typed(data, "degree", int), prime, names.internal_place(place))
     raise ValueError(f"unknown evidence {kind!r}")
+
+
+def _typed(data: Mapping[str, Any], key: str, *types: type) -> Any:
+    """The value of this key.  Raises `ValueError` where it has another type; a truth value isn't a number."""
+    value = data[key]
+    if not isinstance(value, types) or isinstance(value, bool) != (types == (bool,)):
+        raise ValueError(f"{key} can't be {value!r}")
+    return value

@@ -1,0 +1,297 @@
+"""The kernel: its series, exponents and groups computed in another way, and forged answers that must fail."""
+
+from __future__ import annotations
+
+import json
+import random
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import pytest
+import strategies
+from flint import nmod_poly
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+import kovacic
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.decision import SemiInvariant
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import Budget, Limits
+from kovacic.verify import GroupClaim, verify
+from kovacic.verify.residue import exponent_difference_squared
+from kovacic.verify.series import convolving_recurrence, fraction_of_series
+
+X = RatFunc(QQ.poly([0, 1]))
+PRIMES = [101, 10007, (1 << 61) - 1]
+
+
+# ------------------------------------------------------------------------------------------- series
+
+
+@given(
+    st.lists(st.integers(0, 100), min_size=1, max_size=5),
+    st.integers(1, 400),
+    st.sampled_from(PRIMES[1:]),
+    st.randoms(use_true_random=False),
+    st.booleans(),
+)
+def test_a_convolving_recurrence_term_by_term(
+    start: list[int], count: int, p: int, rng: random.Random, with_kernel: bool
+) -> None:
+    kernel = [rng.randrange(p) for _ in range(count)] if with_kernel else None
+    factors = [rng.randrange(p) for _ in range(count)]
+    found = convolving_recurrence(start, count, p, lambda a, j, total: factors[j] * total + j + a[j - 1], kernel)
+    a = list(start[:count])
+    for j in range(len(a), count):
+        b = a if kernel is None else kernel
+        total = sum(a[i] * b[j - i] for i in range(1, j))
+        a.append((factors[j] * total + j + a[j - 1]) % p)
+    assert [value % p for value in found] == [value % p for value in a]
+
+
+@given(
+    st.integers(1, 900), st.integers(0, 900), st.sampled_from(PRIMES), st.randoms(use_true_random=False), st.booleans()
+)
+def test_the_fraction_is_that_of_euclids_algorithm(
+    order: int, top: int, p: int, rng: random.Random, rational: bool
+) -> None:
+    assume(top < order)
+    series = nmod_poly([rng.randrange(p) for _ in range(order)], p)
+    if rational:
+        P = nmod_poly([1, *(rng.randrange(p) for _ in range(rng.randrange(order)))], p)
+        series = series.truncate(rng.randrange(order) + 1).mul_low(P.inverse_series_trunc(order), order)
+    r0, r1, t0, t1 = nmod_poly([1], p).left_shift(order), series, nmod_poly([], p), nmod_poly([1], p)
+    while r1.degree() > top:
+        quotient, rest = divmod(r0, r1)
+        r0, r1, t0, t1 = r1, rest, t1, t0 - quotient * t1
+    A, B = fraction_of_series(series, order, top)
+    assert A.degree() == r1.degree()
+    assert A * t1 == B * r1
+    assert A == (B * series).truncate(order)
+
+
+@given(st.data())
+def test_exponents_at_irregular_places_are_those_of_the_square_root(data: st.DataObject) -> None:
+    """The residue of sqrt(S) at a rational point, term by term: S = (sum a_i t^(i-nu))^2 + O(t^(-nu))."""
+    nu, c = data.draw(st.integers(1, 7)), data.draw(strategies.integers(4))
+    a = [data.draw(strategies.fractions(5)) for _ in range(nu)]
+    assume(a[0])
+    t = X - c
+    root = sum((t ** (i - nu) * value for i, value in enumerate(a)), X * 0)
+    S = root * root + t ** (-nu) * data.draw(strategies.integers(3))
+    p = QQ.poly([-c, 1])
+    q, order = S.den.remove(p)
+    assert order == 2 * nu
+    assert exponent_difference_squared(S.num, q, p, nu) == 4 * a[-1] * a[-1]
+
+
+@given(strategies.irreducibles(3), st.integers(1, 4), strategies.polynomials(0, 6), strategies.polynomials(0, 2))
+def test_exponents_at_conjugate_places_by_taylors_formula(p: Any, nu: int, M: Any, q: Any) -> None:
+    """sqrt(S) = M/p^nu is rational, so that r is its residue; S = M^2 q/(p^(2 nu) q)."""
+    assume(p.gcd(M * q).degree == 0)
+    assert exponent_difference_squared(M * M * q, q, p, nu) == 4 * _residue(M, p, nu) ** 2 % p
+
+
+def _residue(M: Any, p: Any, nu: int) -> Any:
+    """The residue of M/p^nu at the class of x: the coefficient of t^(nu-1) in M(x+t) (t/p(x+t))^nu, by Taylor's formula."""
+    terms, current = [], p
+    for k in range(1, nu + 1):
+        current = current.derivative() / k
+        terms.append(current % p)
+    inverse = [terms[0].inverse_modulo(p)]
+    for k in range(1, nu):
+        inverse.append(-sum((terms[j] * inverse[k - j] for j in range(1, k + 1)), M * 0) * inverse[0] % p)
+    series, current = [], M
+    for k in range(nu):
+        series.append(current % p)
+        current = current.derivative() / (k + 1)
+    for _ in range(nu):
+        series = [sum((series[i] * inverse[k - i] for i in range(k + 1)), M * 0) % p for k in range(nu)]
+    return series[nu - 1]
+
+
+# ------------------------------------------------------------------------------------------- groups
+
+NAMED = {
+    "0": ("cyclic", 1),
+    "2": ("multiplicative", None),
+    "2/x^2": ("cyclic", 1),
+    "3/(4*x^2)": ("cyclic", 2),
+    "-2/(9*x^2)": ("cyclic", 3),
+    "x^2 + 3": ("borel", None),
+    "(-4*x^2 + 3)/(4*x^2) + 1": ("cyclic", 2),
+    "-1/(4*x^2)": ("additive", 2),
+    "1/x - 3/(16*x^2)": ("infinite dihedral", None),
+    "-3/(16*x^2) - 2/(9*(x-1)^2) + 3/(16*x*(x-1))": ("tetrahedral", None),
+    "x": ("SL2", None),
+    "(-x^2+1)/(4*x^2)": None,
+    "(-108*x^2 - 756*x - 27)/(256*x^6 - 384*x^4 - 896*x^3 + 144*x^2 + 672*x + 784)": ("dicyclic", 2),
+}
+FAMILIES = ["cyclic", "multiplicative", "additive", "borel", "dicyclic", "infinite dihedral", "tetrahedral", "SL2"]
+
+
+@pytest.mark.parametrize("text", [text for text, claim in NAMED.items() if claim is not None])
+def test_the_group_is_the_named_one_and_no_other(text: str) -> None:
+    answer = kovacic.solve(text)
+    assert answer.group is not None
+    family, n = NAMED[text] or ("", None)
+    assert (answer.group.kind.value, answer.group.n) == (family, n)
+    for other in FAMILIES:
+        for k in (None, 1, 2, 3, 4, 6, 12):
+            verification = verify(answer.S, answer.decision, GroupClaim(other, k, answer.group.form))
+            assert bool(verification) is ((other, k) == (family, n)), (other, k)
+
+
+@settings(max_examples=150)
+@given(strategies.examples(), st.sampled_from(FAMILIES), st.sampled_from([None, 1, 2, 3, 4, 5, 6]))
+def test_every_group_is_confirmed_and_a_random_other_one_refuted(
+    example: strategies.Example, family: str, n: int | None
+) -> None:
+    answer = kovacic.solve((example.S.num.coefficients(), example.S.den.coefficients()))  # type: ignore[attr-defined]
+    group = answer.group
+    assert group is not None
+    right = verify(answer.S, answer.decision, group.claim)
+    assert right
+    if (family, n) != (group.kind.value, group.n):
+        wrong = verify(answer.S, answer.decision, replace(group.claim, family=family, n=n))
+        assert not wrong or (wrong.unchecked and right.unchecked)
+
+
+def test_an_order_on_a_curve_of_positive_genus_needs_its_form() -> None:
+    """The order 12 over x^3 + x + 1: without the form of degree 6, or with a power of y1 y2 instead, it isn't confirmed."""
+    import transform
+
+    third = transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, 3))
+    answer = kovacic.solve((S := transform.pull_back(third, X**3 + X + 1)).to_str("x"))
+    group, f = answer.group, answer.semi_invariant
+    assert group is not None
+    assert f is not None
+    assert group.order == 12
+    assert group.form is not None
+    assert verify(S, answer.decision, group.claim)
+    power = SemiInvariant(6, 3 * f.theta, f.P**3)
+    for form in (None, power, replace(group.form, theta=group.form.theta + X), replace(group.form, degree=12)):
+        assert not verify(S, answer.decision, replace(group.claim, form=form))
+    for n in (1, 2, 4, 6):
+        assert not verify(S, answer.decision, replace(group.claim, n=n))
+
+
+# ------------------------------------------------------------------------------------------- forged answers
+
+
+@pytest.mark.parametrize(
+    ("text", "invariant"),
+    [
+        ("2", None),
+        ("3/(4*x^2)", None),
+        ("x^2 + 3", {"degree": 2, "theta": "0", "P": "1"}),
+        ("x^2 + 3", {"degree": 2, "theta": "-2/x", "P": "x^4 + 1"}),
+        ("1/x - 3/(16*x^2)", None),
+        ("-3/(16*x^2) - 2/(9*(x-1)^2) + 3/(16*x*(x-1))", None),
+    ],
+)
+def test_a_forged_invariant_fails(text: str, invariant: Any) -> None:
+    data = json.loads(kovacic.solve(text).to_json())
+    assert data["proof"]["invariant"] != invariant
+    data["proof"]["invariant"] = invariant
+    forged = kovacic.Solution.from_json(data)
+    assert not forged.verified
+    assert not forged.verify()
+
+
+def test_the_zeros_of_the_form_are_ordinary_points() -> None:
+    """A factor moved from theta to P leaves the logarithmic derivative as it is, and would change the group's order."""
+    answer = kovacic.solve("(-35*x^2 + 35*x - 27)/(144*x^2*(x-1)^2) - 1/(16*x^2)")
+    decision = kovacic.solve("1/x - 3/(16*x^2)").decision
+    f, riccati = decision.semi_invariant, decision.riccati
+    assert answer.verified
+    assert f is not None
+    assert riccati is not None
+    x = QQ.poly([0, 1])
+    moved = replace(
+        decision,
+        semi_invariant=replace(f, theta=f.theta - RatFunc(QQ.poly([1]), x), P=f.P * x),
+        riccati=replace(riccati, P=riccati.P * x, numerators=tuple(A * x for A in riccati.numerators)),
+    )
+    S = kovacic.solve("1/x - 3/(16*x^2)").S
+    assert verify(S, decision)
+    assert not verify(S, moved)
+
+
+def paths(data: Any, prefix: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """Every place of a JSON object."""
+    yield prefix
+    items = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
+    for key, value in items:
+        yield from paths(value, (*prefix, key))
+
+
+WRONG = [None, True, 3, -1, 0.5, "7", "x", "", [], {}, ["x"], 10**30, "1/0", "y'' + (", "infinity"]
+
+
+@pytest.mark.parametrize("text", ["2", "x", "x^2 + 3", "1/x - 3/(16*x^2)", "sqrt(2)/x^2", "x^4 + 6*x"])
+def test_a_field_of_another_type_or_value_fails_or_is_refused_or_says_the_same(text: str) -> None:
+    """Another point, or a multiple of a form, may be right as well."""
+
+    def said(answer: kovacic.Solution) -> tuple[Any, ...]:
+        coefficients = None if answer.riccati is None else answer.riccati.coefficients
+        structures = [exclusion.structure for exclusion in answer.proof]
+        return answer.S, answer.case, answer.reason, coefficients, answer.group, structures
+
+    original = kovacic.solve(text)
+    line = original.to_json()
+    for path in paths(json.loads(line)):
+        for wrong in WRONG if path else ():
+            data = json.loads(line)
+            place = data
+            for key in path[:-1]:
+                place = place[key]
+            if place[path[-1]] == wrong:
+                continue
+            place[path[-1]] = wrong
+            try:
+                forged = kovacic.Solution.from_json(data)
+                passed = bool(forged.verify())
+            except (InputError, LimitExceeded):
+                continue
+            assert not passed or said(forged) == said(original), (path, wrong)
+            assert passed == forged.verified
+
+
+def test_a_claim_beside_the_proof_fails() -> None:
+    """A solution beside a "no" or beside "undecided", and an exclusion that isn't needed."""
+    no, yes = kovacic.solve("x").decision, kovacic.solve("x^2 + 3").decision
+    x, S = kovacic.solve("x").S, kovacic.solve("x^2 + 3").S
+    assert verify(x, no)
+    for part in ("invariant", "semi_invariant", "riccati"):
+        form = getattr(kovacic.solve("2").decision, part)
+        assert form is not None
+        assert not verify(x, replace(no, **{part: form}))
+    assert not verify(S, replace(yes, undecided="a limit was reached"))
+    assert not verify(S, replace(yes, exclusions=no.exclusions))
+    assert not verify(x, replace(no, exclusions=(*no.exclusions, no.exclusions[0])))
+    assert not verify(x, replace(no, exclusions=no.exclusions[::-1]))
+
+
+# ------------------------------------------------------------------------------------------- limits
+
+
+def test_the_check_keeps_to_the_time_limit() -> None:
+    answer = kovacic.solve("x^4 + 4002*x + 1")
+    with pytest.raises(LimitExceeded):
+        verify(answer.S, answer.decision, budget=Budget(Limits(seconds=0.0)))
+
+
+def test_an_answer_whose_check_is_not_finished_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
+    def exhausted(*_: Any, **__: Any) -> None:
+        raise LimitExceeded("the time limit of 1 s is used up", limit="seconds")
+
+    monkeypatch.setattr("kovacic.api.verify", exhausted)
+    answer = kovacic.solve("x^2 + 3")
+    assert answer.status is kovacic.Status.UNDECIDED
+    assert answer.reason == "while the answer was verified: the time limit of 1 s is used up"
+    assert (answer.omega, answer.group, answer.proof, answer.verified) == (None, None, (), False)
