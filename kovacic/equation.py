@@ -94,7 +94,7 @@ def _coefficient(function: RatFunc, variable: str) -> str:
         return function.to_str(variable)
     terms = []
     for power in range(num.degree, -1, -1):
-        number = num.coefficients()[power]
+        number = num.rational_coefficients()[power]  # flint's, which have no limit on the digits that are printed
         if number:
             factor = {0: "", 1: variable}.get(power, f"{variable}**{power}")
             sign, size = ("-" if number < 0 else ""), str(abs(number))

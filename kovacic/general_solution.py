@@ -79,11 +79,11 @@ def _read(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equation
 
     if isinstance(eq, str | Equation):
         if isinstance(eq, str):
-            from kovacic.reading.equation_parser import parse_equation
+            from kovacic.reading.equation import parse_equation
 
             eq, _ = parse_equation(eq, variable=var, limits=limits)
         return eq, sympy.Function(eq.unknown)(sympy.Symbol(eq.variable))
-    from kovacic.reading.equation_sympy import parse_sympy_equation
+    from kovacic.reading.from_sympy import parse_sympy_equation
 
     if not hasattr(eq, "free_symbols"):
         raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
@@ -228,9 +228,9 @@ def _constant(value: Any) -> Any:
     import sympy
 
     if isinstance(value, str):
-        from kovacic.reading.equation_parser import parse_expression
+        from kovacic.reading.symbolic import read_expression
 
-        return parse_expression(value, "_")
+        return read_expression(value, what="the initial value")
     if isinstance(value, float):
         raise InputError(f"the initial value {value!r} is a float", hint="give an exact number, or text such as '0.1'")
     return value if hasattr(value, "free_symbols") else sympy.Rational(value)

@@ -9,7 +9,7 @@ from sympy import I, Rational, cos, exp, sin, sqrt
 
 import kovacic
 from kovacic.general_solution import dsolve, solve_riccati
-from kovacic.reading.equation_parser import parse_expression
+from kovacic.reading.symbolic import read_expression
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
 y = sympy.Function("y")
@@ -116,7 +116,7 @@ def test_no_liouvillian_solution_is_a_proven_reason() -> None:
 
 
 def riccati_residual(p: str, q: str, r: str, value: sympy.Expr) -> sympy.Expr:
-    P, Q, R = (parse_expression(text, "x") for text in (p, q, r))
+    P, Q, R = (read_expression(text) for text in (p, q, r))
     return sympy.simplify(value.diff(x) - P - Q * value - R * value**2)
 
 

@@ -22,8 +22,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import Equation
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
-from kovacic.reading.equation_parser import is_equation, parse_equation
-from kovacic.reading.equation_sympy import parse_sympy_equation
+from kovacic.reading.equation import is_equation, parse_equation
+from kovacic.reading.from_sympy import parse_sympy_equation
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO = X * 0

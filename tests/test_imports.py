@@ -12,7 +12,7 @@ import pytest
 import kovacic
 
 ROOT = Path(kovacic.__file__).parent
-HEAVY = {"sympy", "mpmath", "matplotlib", "numpy", "scipy", "lark", "rich", "joblib", "dask", "hypothesis", "pytest"}
+HEAVY = {"sympy", "mpmath", "matplotlib", "numpy", "scipy", "rich", "joblib", "dask", "hypothesis", "pytest"}
 
 
 def loaded_after(code: str) -> set[str]:

@@ -20,7 +20,7 @@ from kovacic.batch.map import draw_map
 from kovacic.batch.scan import scan, scan_items
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
-from kovacic.reading.parser import parse_rational, parse_with
+from kovacic.reading.expression import parse_rational, parse_with
 
 fractions = st.fractions(min_value=-50, max_value=50, max_denominator=30)
 

@@ -10,7 +10,7 @@ import pytest
 import sympy
 
 import kovacic
-from kovacic.reading.equation_parser import parse_expression
+from kovacic.reading.symbolic import read_expression
 
 EQUATIONS: list[tuple[str, tuple[str, ...] | None]] = [
     # constant coefficients
@@ -98,7 +98,7 @@ def test_the_answer_is_the_books(text: str, expected: tuple[str, ...] | None) ->
     assert sympy.Matrix(columns).rank() == 2
     longest = 0
     for book in expected:
-        solution = parse_expression(book, "x")
+        solution = read_expression(book)
         determinant = sympy.Matrix([*columns, values(solution)]).det()
         assert abs(determinant) < 1e-30
         longest = max(longest, len(str(solution)))
@@ -127,7 +127,7 @@ RICCATI = [
 def test_riccati_equations(p: str, q: str, r: str, count: int) -> None:
     x = sympy.Symbol("x")
     found = kovacic.solve_riccati(p, q, r)
-    P, Q, R = (parse_expression(text, "x") for text in (p, q, r))
+    P, Q, R = (read_expression(text) for text in (p, q, r))
     assert len(found.rational) == count
     for w in [*found.rational, *([] if found.family is None else [found.family])]:
         assert sympy.simplify(w.diff(x) - P - Q * w - R * w**2) == 0

@@ -82,9 +82,19 @@ class Arithmetic:
         self._check(0, bits)
         return Term(value, 0) if bits <= _SMALL_BITS and type(value) is int else _term(value, 0)
 
-    def quotient_of_integers(self, numerator: int, denominator: int) -> Poly:
-        """`numerator/denominator` as a value; the denominator isn't zero."""
-        return QQ.poly([numerator]) * QQ.poly([denominator]).inverse()
+    def decimal(self, text: str) -> Poly:
+        """The rational number that a decimal such as 1.5e-3 denotes."""
+        mantissa, _, scale = text.lower().partition("e")
+        whole, _, digits = mantissa.partition(".")
+        power = (self.signed_integer(scale) if scale else 0) - len(digits)
+        if abs(power) > self.limits.digits:
+            raise LimitExceeded(f"over {self.limits.digits} digits, the limit", limit="digits")
+        return QQ.poly([self.integer(whole + digits) * 10 ** max(power, 0)]) * QQ.poly([10 ** max(-power, 0)]).inverse()
+
+    def number(self, value: Value) -> Fraction | None:
+        """The rational number that a value is, or None."""
+        closed = self.closed(value)
+        return closed.field.rational_value(closed) if isinstance(closed, Poly) and closed.is_constant else None
 
     def rational(self, value: Value) -> RatFunc:
         """The value as a rational function in lowest terms."""
@@ -255,10 +265,7 @@ class Arithmetic:
     def _integer_value(self, exponent: Value) -> int:
         if isinstance(exponent, Term) and exponent.power == 0 and isinstance(exponent.coefficient, int):
             return exponent.coefficient
-        value = self.closed(exponent)
-        if isinstance(value, RatFunc) or not value.is_constant:
-            raise NotAnInteger
-        number = value.field.rational_value(value)
+        number = self.number(exponent)
         if number is None or number.denominator != 1:
             raise NotAnInteger
         return number.numerator

@@ -21,6 +21,9 @@ from kovacic.reading.parsed import ENERGY
 
 T = TypeVar("T")
 
+#: Bits of a number whose square root becomes the name of a field: Python prints integers of at most 4300 digits.
+_LARGEST_RADICAND = 14_000
+
 
 @dataclass(frozen=True)
 class Constants:
@@ -64,7 +67,19 @@ class Constants:
         value = self._number(radicand)
         if value is None:
             return radicand.field.sqrt(radicand) if n == 2 else None
+        if n == 2 and radicand.field == QQ and radicand.height_bits() > _LARGEST_RADICAND:
+            root = QQ.sqrt(radicand)
+            if root is None:
+                said = f"a root of a number of {radicand.height_bits()} bits, above the limit of {_LARGEST_RADICAND}"
+                raise LimitExceeded(said, limit="bits")
+            return root.over(self.field)
         return self._accepted(*self.numbers.radical(value, n, label, self.limits.constants))
+
+    def imaginary_unit(self) -> Poly:
+        """I."""
+        root = self.radical(QQ.poly([-1]), 2, "I")
+        assert root is not None
+        return root
 
     def root(self, minimal: Poly, approximation: Any, label: str) -> Poly:
         """The root of a polynomial over Q that lies nearest to an approximation (an `acb`)."""

@@ -1,4 +1,4 @@
-"""Text into the terminals of `grammar.lark`, with their positions."""
+"""Text into numbers, names and signs, with their positions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from kovacic.errors import ParseError
 
 # Superscript digits count as word characters for `re`; they must not become part of a name.
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
-_PRIMES = "'’′″"
+PRIMES = "'’′″"
 
 _SIGNS = {
     "PLUS": ["+"],
@@ -37,7 +37,7 @@ _KINDS = {
 def _terminals(ascii_only: bool) -> re.Pattern[str]:
     """The pattern of one terminal, or else of one character; for ASCII text a short one, which compiles fast."""
     beyond = "" if ascii_only else _SUPERSCRIPTS
-    primes = "'" if ascii_only else f"[{_PRIMES}]"
+    primes = "'" if ascii_only else f"[{PRIMES}]"
     superscript = "" if ascii_only else rf"[⁺⁻]?[{_SUPERSCRIPTS}]+ |"
     return re.compile(
         rf"""
@@ -57,7 +57,7 @@ def _kind(piece: str) -> str:
     if last in _SUPERSCRIPTS:
         return "SUPERSCRIPT"
     if first.isalnum() and not first.isdecimal():
-        return "PRIMED" if last in _PRIMES else "NAME"
+        return "PRIMED" if last in PRIMES else "NAME"
     return "OTHER"
 
 
@@ -101,6 +101,10 @@ class Tokens:
     def piece(self, begin: int, end: int) -> str:
         """The text of the tokens begin, ..., end - 1."""
         return self.text[self.starts[begin] : self.ends[end - 1]] if end > begin else ""
+
+    def span(self, begin: int, end: int) -> tuple[int, int]:
+        """Position and length of the text of the tokens begin, ..., end - 1."""
+        return self.starts[begin], self.ends[end - 1] - self.starts[begin]
 
     def names(self) -> dict[str, int]:
         """The different plain names in order of appearance, each with the number of its first token."""

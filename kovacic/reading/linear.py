@@ -7,9 +7,9 @@ expression that isn't rational: the right-hand sides of equations contain expone
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Any
 
-from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import NotLinear, NotRational
 from kovacic.limits import Limits
@@ -19,16 +19,23 @@ from kovacic.reading.parsed import TRANSCENDENTAL_HINT
 #: The largest integer power of an expression that isn't rational.
 _LARGEST_POWER = 1000
 
+#: The key of the rational part r of a linear form.
+REST = -1
+
 
 class LinearForm:
-    """`parts[k]` is the coefficient of the k-th derivative, `rest` the rational part (None: 0), `other` SymPy's (None: 0)."""
+    """`parts[k]` is the coefficient of the k-th derivative, `parts[REST]` the rational part, `other` SymPy's (None: 0)."""
 
-    __slots__ = ("other", "parts", "rest")
+    __slots__ = ("other", "parts")
 
-    def __init__(self, parts: Mapping[int, Value], rest: Value | None = None, other: Any = None) -> None:
-        self.parts = dict(parts)
-        self.rest = rest
+    def __init__(self, parts: Mapping[int, Value], other: Any = None) -> None:
+        self.parts = parts
         self.other = other
+
+    @property
+    def coefficients(self) -> dict[int, Value]:
+        """The coefficients of the unknown function and its derivatives, by the order."""
+        return {k: c for k, c in self.parts.items() if k != REST}
 
 
 class LinearArithmetic(Arithmetic):
@@ -43,32 +50,37 @@ class LinearArithmetic(Arithmetic):
         self.variable = variable
         self.unknown = unknown
 
+    @cached_property
+    def _symbolic(self) -> Any:
+        from kovacic.reading.symbolic import SymbolicArithmetic
+
+        return SymbolicArithmetic(self.limits)
+
     def form(self, value: Any) -> LinearForm:
         """Any value as a linear form."""
-        return value if isinstance(value, LinearForm) else LinearForm({}, value)
+        return value if isinstance(value, LinearForm) else LinearForm({REST: value})
 
     def opaque(self, expression: Any) -> LinearForm:
         """A SymPy expression as a form without the unknown function."""
-        return LinearForm({}, None, expression)
+        return LinearForm({}, expression)
 
     def expression(self, value: Any) -> Any:
         """A value without the unknown function as a SymPy expression."""
-        from sympy import Symbol
-
-        from kovacic.closed_form.atoms import Atoms
+        from kovacic.reading.symbolic import expression_of
 
         form = self.form(value)
-        if form.parts:
+        if form.coefficients:
             raise NotLinear(f"the unknown function {self.unknown} within a function or a power")
-        result = 0 if form.rest is None else Atoms(Symbol(self.variable)).ratio(self.rational(form.rest))
-        return result if form.other is None else result + form.other
+        terms = [form.other] if form.other is not None else []
+        if REST in form.parts:
+            terms.append(expression_of(self.rational(form.parts[REST]), self.variable))
+        return sum(terms[1:], terms[0]) if terms else self._symbolic.constant(0)
 
     def negate(self, value: Any) -> Any:
         if not isinstance(value, LinearForm):
             return super().negate(value)
         parts = {k: super(LinearArithmetic, self).negate(c) for k, c in value.parts.items()}
-        rest = None if value.rest is None else super().negate(value.rest)
-        return LinearForm(parts, rest, None if value.other is None else -value.other)
+        return LinearForm(parts, None if value.other is None else -value.other)
 
     def add(self, left: Any, right: Any, *, subtract: bool = False) -> Any:
         if not isinstance(left, LinearForm) and not isinstance(right, LinearForm):
@@ -79,10 +91,29 @@ class LinearArithmetic(Arithmetic):
         parts = dict(first.parts)
         for k, c in second.parts.items():
             parts[k] = super().add(parts[k], c) if k in parts else c
-        rests = [r for r in (first.rest, second.rest) if r is not None]
-        rest = super().add(*rests) if len(rests) == 2 else next(iter(rests), None)
         others = [h for h in (first.other, second.other) if h is not None]
-        return LinearForm(parts, rest, sum(others[1:], others[0]) if others else None)
+        return LinearForm(parts, sum(others[1:], others[0]) if others else None)
+
+    def multiply(self, left: Any, right: Any) -> Any:
+        if not isinstance(left, LinearForm) and not isinstance(right, LinearForm):
+            return super().multiply(left, right)
+        first, second = self.form(left), self.form(right)
+        if first.coefficients and second.coefficients:
+            raise NotLinear(f"a product of {self.unknown} or its derivatives: the equation isn't linear")
+        form, factor = (first, second) if first.coefficients else (second, first)
+        if form.coefficients and factor.other is not None:
+            raise self._not_rational(factor.other)
+        if factor.other is None and form.other is None:
+            return LinearForm(self._scaled(form.parts, factor))
+        rest = LinearForm({REST: form.parts[REST]} if REST in form.parts else {}, form.other)
+        return LinearForm(self._scaled(form.coefficients, factor), self.expression(factor) * self.expression(rest))
+
+    def _scaled(self, parts: Mapping[int, Value], factor: LinearForm) -> dict[int, Value]:
+        """The products with a rational factor."""
+        if not parts or REST not in factor.parts:
+            return {}
+        closed = self.closed(factor.parts[REST])
+        return {k: super(LinearArithmetic, self).multiply(c, closed) for k, c in parts.items()}
 
     def _not_rational(self, coefficient: Any) -> NotRational:
         from sympy import E, Symbol
@@ -92,45 +123,17 @@ class LinearArithmetic(Arithmetic):
             return NotRational(f"a coefficient that isn't a rational function of {self.variable}: {shown}")
         return NotRational(f"{shown} isn't an algebraic number", hint=TRANSCENDENTAL_HINT)
 
-    def multiply(self, left: Any, right: Any) -> Any:
-        if not isinstance(left, LinearForm) and not isinstance(right, LinearForm):
-            return super().multiply(left, right)
-        first, second = self.form(left), self.form(right)
-        if first.parts and second.parts:
-            raise NotLinear(f"a product of {self.unknown} or its derivatives: the equation isn't linear")
-        form, factor = (first, second) if first.parts else (second, first)
-        if form.parts and factor.other is not None:
-            raise self._not_rational(factor.other)
-        if factor.other is not None or form.other is not None:
-            # Without coefficients; or a rational factor of a form with a part that isn't rational.
-            other: Any = self.expression(factor) * self.expression(LinearForm({}, form.rest, form.other))
-            if not form.parts:
-                return self.opaque(other)
-            return LinearForm(self._scaled(form.parts, factor), None, other)
-        scaled = self._scaled(form.parts, factor)
-        both = form.rest is not None and factor.rest is not None
-        return LinearForm(scaled, self._product(form.rest, factor.rest) if both else None)
-
-    def _scaled(self, parts: Mapping[int, Value], factor: LinearForm) -> dict[int, Value]:
-        if factor.rest is None:
-            return {}
-        closed = self.closed(factor.rest)
-        return {k: super(LinearArithmetic, self).multiply(c, closed) for k, c in parts.items()}
-
-    def _product(self, left: Any, right: Any) -> Any:
-        if isinstance(left, Poly) and isinstance(right, Poly):
-            return super()._product(left, right)
-        return super().multiply(left, self.closed(right))
-
     def divide(self, left: Any, right: Any) -> Any:
         if not isinstance(left, LinearForm) and not isinstance(right, LinearForm):
             return super().divide(left, right)
         denominator = self.form(right)
-        if denominator.parts:
+        if denominator.coefficients:
             raise NotLinear(f"{self.unknown} or a derivative of it in a denominator: the equation isn't linear")
-        if denominator.other is not None:
-            return self.multiply(left, self.opaque(1 / self.expression(denominator)))
-        return self.multiply(left, super().divide(self.constant(1), denominator.rest))  # type: ignore[arg-type]
+        one = self.constant(1)
+        if denominator.other is None:
+            return self.multiply(left, super().divide(one, denominator.parts[REST]))
+        inverse = self._symbolic.divide(self.expression(one), self.expression(denominator))
+        return self.multiply(left, self.opaque(inverse))
 
     def power(self, base: Any, exponent: Any) -> Any:
         if isinstance(exponent, LinearForm):
@@ -138,13 +141,21 @@ class LinearArithmetic(Arithmetic):
         if not isinstance(base, LinearForm):
             return super().power(base, exponent)
         n = exponent if isinstance(exponent, int) else self._integer_value(exponent)
-        if base.parts:
+        if base.coefficients:
             if n == 1:
                 return base
             raise NotLinear(f"a power of {self.unknown} or of a derivative: the equation isn't linear")
         if abs(n) > _LARGEST_POWER:
             raise NotRational(f"the power {n} of {base.other}")
-        return self.opaque(self.expression(base) ** n)
+        return self.symbolic_power(base, self.constant(n))
+
+    def symbolic_power(self, base: Any, exponent: Any) -> LinearForm:
+        """`base ** exponent` as a form with a SymPy expression."""
+        return self.opaque(self._symbolic.power(self.expression(base), self.expression(exponent)))
+
+    def applied(self, head: str, argument: Any) -> LinearForm:
+        """An elementary function of a value without the unknown function."""
+        return self.opaque(self._symbolic.applied(head, self.expression(argument)))
 
     def derivative(self, value: Any) -> Any:
         """The derivative with respect to the variable."""
@@ -152,19 +163,15 @@ class LinearArithmetic(Arithmetic):
         parts: dict[int, Value] = {}
         for k, c in form.parts.items():
             closed = self.closed(c)
-            slope = closed.derivative()
-            if slope:
-                parts[k] = super().add(parts[k], slope) if k in parts else slope
-            parts[k + 1] = super().add(parts[k + 1], closed) if k + 1 in parts else closed
-        rest = None if form.rest is None else self.closed(form.rest).derivative()
-        other = None
+            slopes = {k: closed.derivative()} if k == REST else {k: closed.derivative(), k + 1: closed}
+            for order, slope in slopes.items():
+                if slope:
+                    parts[order] = super().add(parts[order], slope) if order in parts else slope
         if form.other is not None:
             from sympy import Symbol
 
-            other = form.other.diff(Symbol(self.variable))
-        if not parts and other is None:
-            return rest
-        return LinearForm(parts, rest, other)
+            return LinearForm(parts, form.other.diff(Symbol(self.variable)))
+        return LinearForm(parts) if any(k != REST for k in parts) else parts.get(REST, self.constant(0))
 
     def closed(self, value: Any) -> Any:
         return value if isinstance(value, LinearForm) else super().closed(value)

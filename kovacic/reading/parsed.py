@@ -34,6 +34,14 @@ NUMBER_NAMES = {
     "nan": "not a number",
 }
 
+_FUNCTIONS = """
+    exp log sin cos tan cot sec csc asin acos atan acot sinh cosh tanh coth asinh acosh atanh erf sqrt cbrt
+"""
+
+#: The functions of one argument that expressions and right-hand sides may contain, with SymPy's names.
+FUNCTION_NAMES = {name: name for name in _FUNCTIONS.split()}
+FUNCTION_NAMES |= {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan"}
+
 # Not the variable unless the caller says so: the energy, a parameter.
 ENERGY = "E"
 

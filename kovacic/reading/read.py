@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
+from numbers import Rational
+from operator import index
 from typing import Any
 
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import Equation
-from kovacic.errors import InputError
+from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.reading.equation_parser import is_equation, parse_equation
+from kovacic.reading.equation import is_equation, parse_equation
+from kovacic.reading.expression import parse_rational
 from kovacic.reading.parsed import DEFAULT_VARIABLE, Parsed
-from kovacic.reading.parser import parse_rational
+from kovacic.reading.parser import shown
 
 
 def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:
@@ -39,17 +44,13 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> P
     if isinstance(S, Equation):
         return _with_equation(S, ())
     if _is_sympy(S):
-        from kovacic.reading.equation_sympy import is_sympy_equation, parse_sympy_equation
+        from kovacic.reading.from_sympy import is_sympy_equation, parse_sympy, parse_sympy_equation
 
         if is_sympy_equation(S):
             equation, notices, _ = parse_sympy_equation(S, variable=variable, limits=limits)
             return _with_equation(equation, notices)
-        from kovacic.reading.from_sympy import parse_sympy
-
         return parse_sympy(S, variable=variable, limits=limits)
     if isinstance(S, tuple | list) and len(S) == 2:
-        from kovacic.reading.coefficients import parse_coefficients
-
         return parse_coefficients(S[0], S[1], variable=variable, limits=limits)
     raise InputError(
         f"{type(S).__name__!r} isn't a form of S that can be read",
@@ -71,11 +72,13 @@ def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits
         chosen = [s for s in symbols if s.name == (name or DEFAULT_VARIABLE)] or (symbols if name is None else [])
         x = chosen[0] if len(chosen) == 1 else sympy.Symbol(name or DEFAULT_VARIABLE)
         y = sympy.Function("y" if "y" not in {s.name for s in symbols} else "y_")(x)
-        from kovacic.reading.equation_sympy import parse_sympy_equation
+        from kovacic.reading.from_sympy import parse_sympy_equation
 
         equation, notices, _ = parse_sympy_equation(a * y.diff(x, 2) + b * y.diff(x) + c * y - f, limits=limits)
         return _with_equation(equation, notices)
-    texts = [value.to_str() if isinstance(value, RatFunc) else str(value) for value in given]
+    numbers = (int, Fraction)  # which Python prints up to 4300 digits only
+    values = [RatFunc(QQ.poly([value])) if isinstance(value, numbers) else value for value in given]
+    texts = [value.to_str() if isinstance(value, RatFunc) else str(value) for value in values]
     line = "({})*y'' + ({})*y' + ({})*y = {}".format(*texts)
     return read_input(line, var=var, limits=limits)
 
@@ -98,3 +101,52 @@ def _variable_name(var: Any) -> str | None:
     if name is not None and not name.isidentifier():
         raise InputError(f"{name!r} can't be the name of a variable", hint="take a letter or a word: x, t, x1")
     return name
+
+
+def parse_coefficients(
+    num: Sequence[Any], den: Sequence[Any], *, variable: str | None = None, limits: Limits = DEFAULT_LIMITS
+) -> Parsed:
+    """The quotient of two polynomials, given by their coefficients from low to high powers.
+
+    Coefficients are integers, fractions, SymPy rationals and numpy integers.  Raises `NotRational` for others, floats
+    among them (a float is rarely the number that was meant), and for a zero denominator; `LimitExceeded`.
+
+    >>> str(parse_coefficients([3, 0, 1], [1]).S)
+    'x**2 + 3'
+    """
+    above, below = _polynomial(num, "numerator", limits), _polynomial(den, "denominator", limits)
+    if not below:
+        raise NotRational("the denominator is zero", hint="give the pair (numerator, denominator), low powers first")
+    return Parsed(RatFunc(above, below), variable or DEFAULT_VARIABLE)
+
+
+def _polynomial(coefficients: Sequence[Any], what: str, limits: Limits) -> Poly:
+    if isinstance(coefficients, str | bytes) or not hasattr(coefficients, "__iter__"):
+        raise InputError(
+            f"the {what} is {type(coefficients).__name__!r}, not a sequence of coefficients",
+            hint="give two sequences of numbers, low powers first: ([3, 0, 1], [1]) is x^2 + 3",
+        )
+    if len(coefficients) > limits.degree + 1:
+        raise LimitExceeded(
+            f"the {what} has {len(coefficients)} coefficients, above the limit of degree {limits.degree}",
+            limit="degree",
+        )
+    numbers = [_rational(value, power, what) for power, value in enumerate(coefficients)]
+    bits = max((max(q.numerator.bit_length(), q.denominator.bit_length()) for q in numbers), default=0)
+    if bits > limits.bits:
+        raise LimitExceeded(
+            f"the {what} has coefficients of {bits} bits, above the limit of {limits.bits}", limit="bits"
+        )
+    return QQ.poly(numbers)
+
+
+def _rational(value: Any, power: int, what: str) -> Fraction | int:
+    if isinstance(value, Rational):  # int, Fraction, numpy's integers; SymPy registers its rationals
+        above, below = index(value.numerator), index(value.denominator)
+        return above if below == 1 else Fraction(above, below)
+    hint = "give integers, Fraction(1, 2) or sympy.Rational(1, 2)"
+    if isinstance(value, float):
+        hint = f"give Fraction({value!r}) if exactly this float is meant, or Fraction({str(value)!r}) for the decimal"
+    raise NotRational(
+        f"the coefficient of power {power} in the {what} is {shown(value)!r}, not a rational number", hint=hint
+    )

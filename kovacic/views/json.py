@@ -40,9 +40,8 @@ from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
-from kovacic.reading.equation_parser import parse_expression
+from kovacic.reading.expression import parse_with
 from kovacic.reading.names import Names, parameters_of
-from kovacic.reading.parser import parse_with
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
 from kovacic.verify import verify
@@ -192,8 +191,19 @@ def _read_equation(data: Mapping[str, Any] | None, variable: str) -> Equation | 
         return None
     reader = _base_reader(data["field"], variable)
     a, b, c, f = (reader.over_field(reader.ratfunc(data[name])) for name in ("a", "b", "c", "f"))
-    h = None if data["h"] is None else parse_expression(data["h"], variable)
+    h = None if data["h"] is None else _read_symbolic(data, variable)
     return Equation(a, b, c, f, h, variable, data["unknown"])
+
+
+def _read_symbolic(data: Mapping[str, Any], variable: str) -> Any:
+    """The part of the right-hand side that isn't rational, as SymPy wrote it."""
+    from sympy import E, Symbol
+
+    from kovacic.reading.symbolic import read_expression
+
+    parameters = data["field"]["parameters"] if data["field"] else []
+    names = {name: Symbol(name) for name in (*parameters, variable)}
+    return read_expression(data["h"], names={"E": E, **names}, limits=_LIMITS)
 
 
 def _generic(solution: Solution) -> dict[str, list[str]] | None:

@@ -1,0 +1,234 @@
+"""Text into an equation a y'' + b y' + c y = f.
+
+>>> equation, notices = parse_equation("x^2 y'' + x y' + (x^2 - 1/4) y = 0")
+>>> print(equation)
+x^2*y'' + x*y' + (x^2 - 1/4)*y = 0
+>>> print(parse_equation("diff((1-t^2)*diff(y(t),t),t) + 6*y(t) = exp(t)")[0])
+(-t^2 + 1)*y'' - 2*t*y' + 6*y = exp(t)
+
+The grammar is that of expressions; an expression without an equals sign is one that is zero.  The unknown function is the
+one that is differentiated, and its derivatives are written y'', y''(x), diff(y, x, 2), diff(y(x), (x, 2)) or Derivative.
+Within an equation the unknown function may follow a coefficient without a sign: x y'' + 2x y'.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.equation import Equation
+from kovacic.errors import InputError, NotLinear, NotRational, ParseError
+from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
+from kovacic.reading.constants import Constants, read_with_constants
+from kovacic.reading.expression import Place, RationalReader, tokens_of
+from kovacic.reading.lexer import PRIMES, Tokens
+from kovacic.reading.linear import REST, LinearArithmetic, LinearForm
+from kovacic.reading.parsed import DEFAULT_VARIABLE, ENERGY, FUNCTION_NAMES, NUMBER_NAMES, UNKNOWN
+from kovacic.reading.parser import Site, evaluate
+
+_DERIVATIVES = frozenset({"diff", "Diff", "Derivative", "D"})
+_LARGEST_ORDER = 100
+
+#: What an equation contains, and S alone doesn't.
+_MARKS = ("=", *PRIMES, *(f"{name}(" for name in _DERIVATIVES))
+
+#: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
+_USUAL_VARIABLES = frozenset("xtzsruvwXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
+
+
+def is_equation(text: str) -> bool:
+    """Does a text mean an equation rather than S alone: has it an equals sign, a prime or a derivative?"""
+    return any(map(text.__contains__, _MARKS))
+
+
+def parse_equation(
+    text: str, *, variable: str | None = None, unknown: str | None = None, limits: Limits = DEFAULT_LIMITS
+) -> tuple[Equation, tuple[str, ...]]:
+    """The equation that `text` denotes, and what the user should know about how it was read.
+
+    Raises `NotLinear` for an equation that isn't linear of second order in one unknown function, `NotRational` if its
+    coefficients aren't rational functions, `ParseError` for what isn't an equation, all with the position where there is
+    one; `LimitExceeded`.
+    """
+    tokens = tokens_of(text, limits, what="equation", hint="for example y'' = (x^2 + 3) y")
+    y = unknown or _unknown_of(tokens)
+    x = variable or _variable_of(tokens, y)
+
+    def read(constants: Constants) -> tuple[Equation, tuple[str, ...]]:
+        reader = EquationReader(x, y, LinearArithmetic(limits, x, y), constants)
+        equation = reader.equation_of(evaluate(tokens, reader), text)
+        return equation, (*reader.notices(), *constants.notices())
+
+    return read_with_constants(read, limits)
+
+
+class EquationReader(RationalReader):
+    """What texts and SymPy expressions mean in which the unknown function and its derivatives occur linearly."""
+
+    arithmetic: LinearArithmetic
+    constants: Constants
+
+    def __init__(self, variable: str, unknown: str, arithmetic: LinearArithmetic, constants: Constants) -> None:
+        super().__init__({variable: VARIABLE}, variable, arithmetic, constants)
+        self.unknown = unknown
+
+    def equation_of(self, value: Any, text: str | None) -> Equation:
+        """The equation that says that a linear form is zero; `text` is what it was read from."""
+        form, y = self.arithmetic.form(value), self.unknown
+        coefficients = {k: self.arithmetic.rational(c) for k, c in form.parts.items()}
+        order = max((k for k, c in coefficients.items() if k != REST and c), default=0)
+        if order != 2:
+            what = f"is of order {order}" if order else f"contains no derivative of {y}"
+            raise NotLinear(
+                f"an equation of second order is expected, and this one {what}",
+                text=text,
+                position=None if text is None else 0,
+                length=len(text or ""),
+                hint=f"for example {y}'' = (x^2 + 3) {y}",
+            )
+        field = self.constants.field
+
+        def coefficient(k: int) -> RatFunc:
+            if k not in coefficients:
+                return RatFunc(field.poly([]))
+            return RatFunc(coefficients[k].num.over(field), coefficients[k].den.over(field), reduced=True)
+
+        c, b, a = map(coefficient, range(3))
+        h = None if form.other is None or form.other == 0 else -form.other
+        return Equation(a, b, c, -coefficient(REST), h, self.variable, y)
+
+    def name(self, name: str) -> Any:
+        if name == self.unknown:
+            return self._derivative_of_unknown("")
+        if name != self.variable and name in ("e", "pi", "π"):
+            import sympy
+
+            return self.arithmetic.opaque(sympy.E if name == "e" else sympy.pi)
+        if name == UNKNOWN:  # the unknown function has another name
+            return self.constants.parameter(name)
+        return super().name(name)
+
+    def derivative(self, text: str) -> Any:
+        name = text.rstrip(PRIMES)
+        if name != self.unknown:
+            raise NotLinear(f"{text} is a derivative of something else than {self.unknown}")
+        return self._derivative_of_unknown(text[len(name) :])
+
+    def equation(self, left: Any, right: Any) -> Any:
+        if not self.arithmetic.form(left).coefficients:  # f = a y'' + b y' + c y
+            left, right = right, left
+        return self.arithmetic.add(left, right, subtract=True)
+
+    def follows_without_sign(self, name: str) -> bool:
+        """A coefficient may stand before the unknown function without a sign."""
+        return name.rstrip(PRIMES) == self.unknown or name in _DERIVATIVES
+
+    def power(self, base: Any, exponent: Any, place: Place) -> Any:
+        try:
+            return self.arithmetic.power(base, exponent)
+        except NotAnInteger:
+            pass
+        if not isinstance(base, LinearForm) and not isinstance(exponent, LinearForm):
+            try:
+                return self._rational_power(base, exponent, place)
+            except NotRational:
+                pass
+        if ENERGY in self.constants.parameters and self.arithmetic.closed(base) == self.constants.parameter(ENERGY):
+            hint = f"write exp(...) or e^x for the exponential function; {ENERGY} is the energy"
+            raise NotLinear(f"a power of {ENERGY}, which is a parameter", hint=hint)
+        return self.arithmetic.symbolic_power(base, exponent)
+
+    def call(self, head: str, arguments: list[Any], site: Site) -> Any:
+        bare = head.rstrip(PRIMES)
+        if bare == self.unknown:
+            if len(arguments) != 1 or not self._is_variable(arguments[0]):
+                raise NotLinear(f"{self.unknown} is a function of {self.variable} alone")
+            return self._derivative_of_unknown(head[len(bare) :])
+        if head in _DERIVATIVES:
+            return self._differentiated(arguments)
+        if head in self.names:
+            hint = f"for a product write {head}*({site.inside()})"
+            raise ParseError(f"{head} is followed by a parenthesis like a function", hint=hint)
+        try:
+            return super().call(head, arguments, site)
+        except NotRational:
+            if head not in FUNCTION_NAMES or len(arguments) != 1 or isinstance(arguments[0], tuple):
+                raise
+            return self.arithmetic.applied(head, arguments[0])
+
+    def _derivative_of_unknown(self, primes: str) -> LinearForm:
+        order = sum(2 if mark == "″" else 1 for mark in primes)
+        return LinearForm({order: Term(1, 0)})
+
+    def _is_variable(self, value: Any) -> bool:
+        if isinstance(value, LinearForm | tuple):
+            return False
+        return bool(self.arithmetic.closed(value) == self.arithmetic.closed(VARIABLE))
+
+    def _differentiated(self, arguments: list[Any]) -> Any:
+        """diff(y, x), diff(y, x, 2), diff(y, (x, 2)), diff(y, x, x), diff(y): the order is the number of differentiations."""
+        function, *rest = arguments
+        order, previous = 0, False  # was the argument before this one the variable?
+        for argument in rest:
+            if isinstance(argument, tuple) and self._is_variable(argument[0]):
+                order, previous = order + self._order(argument[1]), False
+            elif self._is_variable(argument):
+                order, previous = order + 1, True
+            elif previous and not isinstance(argument, tuple):
+                order, previous = order + self._order(argument) - 1, False
+            else:
+                raise NotLinear(f"a derivative with respect to something else than {self.variable}")
+        if isinstance(function, tuple) or order > _LARGEST_ORDER:
+            raise NotLinear("this isn't a derivative that can be read")
+        for _ in range(order if rest else 1):
+            function = self.arithmetic.derivative(function)
+        return function
+
+    def _order(self, value: Any) -> int:
+        number = None if isinstance(value, LinearForm | tuple) else self.arithmetic.number(value)
+        if number is None or number.denominator != 1 or number < 0:
+            raise NotLinear("the order of a derivative is a number 0, 1, 2, ...")
+        return number.numerator
+
+
+def _unknown_of(tokens: Tokens) -> str:
+    """The name that has primes, or that is differentiated; else y."""
+    for kind, piece in zip(tokens.kinds, tokens.pieces, strict=True):
+        bare = piece.rstrip(PRIMES)
+        if kind in ("PRIMED", "HEAD") and bare != piece:
+            return bare
+    for k, kind in enumerate(tokens.kinds[:-3]):
+        if kind == "HEAD" and tokens.pieces[k] in _DERIVATIVES:
+            following, after, inner = tokens.kinds[k + 2], tokens.kinds[k + 3], tokens.pieces[k + 2]
+            if following == "HEAD" and inner not in _DERIVATIVES | FUNCTION_NAMES.keys():
+                return inner
+            if following == "NAME" and after in ("COMMA", "RPAR"):
+                return inner
+    return UNKNOWN
+
+
+def _variable_of(tokens: Tokens, unknown: str) -> str:
+    """The argument of the unknown function, or what is differentiated by; else the only name, or x."""
+    kinds = tokens.kinds
+    for k in range(len(kinds) - 3):
+        is_unknown = tokens.pieces[k].rstrip(PRIMES) == unknown
+        if is_unknown and kinds[k : k + 4] == ["HEAD", "LPAR", "NAME", "RPAR"]:
+            return tokens.pieces[k + 2]
+        if is_unknown and kinds[k : k + 3] == ["NAME", "COMMA", "NAME"]:
+            return tokens.pieces[k + 2]
+    excluded = {*NUMBER_NAMES, ENERGY, unknown, "e"}
+    names = [name for name in tokens.names() if name not in excluded]
+    if DEFAULT_VARIABLE in names or not names:
+        return DEFAULT_VARIABLE
+    usual = [name for name in names if name in _USUAL_VARIABLES]
+    if len(usual) != 1 or len(names) > 1:
+        question = "is it the variable, or a parameter" if len(names) == 1 else "which is the variable"
+        raise InputError(
+            f"{', '.join(names[:6])}: {question}?",
+            text=tokens.text,
+            position=tokens.starts[tokens.names()[names[-1]]],
+            length=len(names[-1]),
+            hint=f"write {unknown}''(x) for the derivative, or name the variable: var='x' (--var x)",
+        )
+    return usual[0]
