@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import flint
@@ -300,3 +301,32 @@ def test_cancellation_is_no_reason_to_fail() -> None:
     assert form is not None
     assert form.checked == "exact"
     assert sympy.degree(form.y1, x) == 60
+
+
+@pytest.mark.parametrize("third", ["1/9", "4/25", "2", "-2", "5/7"])
+@pytest.mark.parametrize(("k", "l"), [(1, 3), (3, 3), (15, 15), (41, 25), (30 + 1, 17), (101, 101)])
+def test_half_integer_exponent_differences_need_no_roots(k: int, l: int, third: str) -> None:  # noqa: E741
+    """Exponent differences k/2, l/2 and a third one of the given square: a conic with (k + l)/2 - 1 zeros of y1 y2."""
+    a, b, c = Fraction(k * k, 16) - Fraction(1, 4), Fraction(l * l, 16) - Fraction(1, 4), (Fraction(third) - 1) / 4
+    answer = kovacic.solve((a / X**2 + b / (X - 1) ** 2 + (c - a - b) / (X * (X - 1))).to_str())
+    form = answer.closed_form
+    assert form is not None
+    assert form.checked == "exact"
+    assert form.notes == ()
+    assert not any(y.has(sympy.RootSum, sympy.CRootOf, sympy.Integral) for y in form)
+    assert len(str(form.y1)) < 200 + (k + l) ** 2 // 3
+    if k < 50:
+        check_at(answer, acb("0.31", "0.83").mid())
+
+
+def test_gathered_zeros_are_the_spread_ones() -> None:
+    """The short form and the one with a square root and logarithms at the zeros have the same logarithmic derivatives."""
+    answer = kovacic.solve("(-32*x^2+32*x+8613)/(144*x^2*(x-1)^2)")
+    form = build(answer.S, answer.decision, answer.gauge)
+    assert isinstance(form, OnCurve)
+    assert form.zeros is not None
+    assert form.spread.zeros is None
+    for curve in (form, form.spread):
+        assert is_exact_solution(curve, answer.S, answer.gauge)
+    changed = replace(form, zeros=replace(form.zeros, A=form.zeros.A * 2))
+    assert not is_exact_solution(changed, answer.S, answer.gauge)

@@ -304,12 +304,33 @@ def test_two_products_of_powers_have_the_group_of_their_exponents(exponents: lis
         ("y'' + y'/(3*x) + x*y = 0", "SL2 with the scalars mu_6", False),
         ("y'' + 2*y' - x*y = 0", "GL2", False),
         ("y'' = 0", "trivial", True),
+        ("4*x*y'' + 2*y' + y = 0", "O(2)", False),
+        ("x*y'' - y'/2 + y = 0", "O(2)", False),
+        ("y'' = (1/x - 3/(16*x^2))*y", "N(T)", False),
     ],
 )
 def test_groups_of_equations(text: str, name: str, finite: bool) -> None:
     answer = kovacic.solve(text)
-    assert answer.equation_group.name == name
+    assert str(answer.equation_group) == answer.equation_group.name == name
     assert answer.is_algebraic is finite
+
+
+@pytest.mark.parametrize(
+    ("gauge", "name"),
+    [
+        (Fraction(1, 2) / X, "N(T)"),
+        (Fraction(1, 4) / X, "O(2)"),
+        (Fraction(1, 4) / (X - 1), "N(T) with the scalars mu_4"),
+        (Fraction(1, 8) / X, "N(T) with the scalars mu_4, twisted"),
+        (Fraction(1, 3) / X, "N(T) with the scalars mu_6"),
+        (Fraction(1, 6) / X, "N(T) with the scalars mu_6"),
+        (X, "N(T) with the scalars G_m"),
+    ],
+)
+def test_infinite_dihedral_groups_with_scalars(gauge: RatFunc, name: str) -> None:
+    """y1 y2 = sqrt(x) for the normal form; the gauge factor x^(1/4) makes y1 and y2 cos and sin of sqrt(x), times sqrt(x)."""
+    S = kovacic.solve("y'' = (-1/x - 3/(16*x^2))*y").S
+    assert str(kovacic.solve(with_gauge(S, gauge)).equation_group) == name
 
 
 def with_gauge(S: RatFunc, rho: RatFunc) -> Equation:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpq
@@ -22,7 +23,14 @@ from kovacic.closed_form.primitive import (
     RationalPrimitive,
 )
 from kovacic.closed_form.product import Product
-from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
+from kovacic.closed_form.structure import (
+    ClosedStructure,
+    Conjugate,
+    Diagonal,
+    OnCurve,
+    Triangular,
+    logarithmic_derivative,
+)
 
 DIGITS = 50
 
@@ -80,6 +88,9 @@ def _conjugate(form: Conjugate, S: RatFunc, gauge: RatFunc) -> bool:
 def _on_curve(form: OnCurve, S: RatFunc, gauge: RatFunc) -> bool:
     """omega = u +- kappa r/sqrt(g): u' + u^2 + kappa^2 r^2/g = S and (r/sqrt(g))' + 2 u r/sqrt(g) = 0."""
     u, r, g = _without(gauge, form.common), form.integral.integrand, RatFunc(form.integral.g)
+    if form.zeros is not None:
+        u = u + logarithmic_derivative(form.zeros.norm(g.num)) * Fraction(1, 2)
+        r = r + form.zeros.integrand(g.num)
     rate = r.derivative() / r - g.derivative() / (2 * g)
     if not _is_complete(form.integral):
         return False

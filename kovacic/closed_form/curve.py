@@ -76,18 +76,18 @@ def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
         branch = not g % p
         # ((B/p^j) s)' s has the leading term (1/2 - j) B p' u/p^j for g = p u, and -j B p' g/p^(j+1) for p prime to g.
         unit = (g // p if branch else g) % p
-        inverse = (p.derivative() * unit).inverse_modulo(p) if p.degree > 1 else (p.derivative() * unit % p).inverse()
+        inverse = (p.derivative() * unit).inverse_modulo(p)
         for k in range(multiplicity, 0 if branch else 1, -1):
             j = k if branch else k - 1
             cofactor, count = r.den.remove(p)
             if count < k:
                 continue
-            leading = r.num * _inverse(cofactor, p) % p
+            leading = r.num * cofactor.inverse_modulo(p) % p
             scale = Fraction(1, 2) - j if branch else Fraction(-j)
             C = RatFunc(leading * inverse % p * (1 / scale), p**j)
             exact, r = exact + C, reduce(r, C)
         if not branch and not r.den % p:
-            value = r.num * _inverse(r.den // p * p.derivative(), p) % p
+            value = r.num * (r.den // p * p.derivative()).inverse_modulo(p) % p
             residues.append(Residue(p, value))
             r = r - residues[-1].logarithmic
     rest = r.num
@@ -97,7 +97,3 @@ def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
         C = RatFunc(x**j * rest.lc * (1 / (j + Fraction(d, 2))))
         exact, rest = exact + C, reduce(RatFunc(rest), C).num
     return CurveIntegral(g, exact, tuple(residues), rest)
-
-
-def _inverse(element: Poly, p: Poly) -> Poly:
-    return element.inverse_modulo(p) if p.degree > 1 else (element % p).inverse()

@@ -39,22 +39,36 @@ def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, tuple[s
 
 
 def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
-    """common * exp(+-kappa int r dx/sqrt(g)); with cos and sin where kappa is imaginary; and notes."""
+    """The two solutions, with cos and sin where kappa is imaginary, and notes."""
     form = _oriented(form)
-    terms = _terms(form.integral, atoms, alone=True)
+    zeros, square = form.zeros, atoms.constant(form.kappa_squared)
+    kappa = sqrt(-square if square.is_negative else square)
+    terms = _terms(form.integral, atoms, alone=zeros is None)
     common = display(form.common, atoms)
-    square = atoms.constant(form.kappa_squared)
+    A, B = (
+        (Integer(1), Integer(0)) if zeros is None else _zeros(zeros, kappa * sqrt(atoms.poly(form.integral.g)), atoms)
+    )
+    if not terms.others and not terms.logarithms:
+        return common * A, common * B, terms.notes
     if square.is_negative:
-        kappa = sqrt(-square)
         angle = Add(
             *(_times(kappa, t) for t in terms.others), *(_times(kappa, c) * log(b) for c, b in terms.logarithms)
         )
-        return common * cos(angle), common * sin(angle), terms.notes
-    kappa = sqrt(square)
+        c, s = cos(angle), sin(angle)
+        return common * (A * c - B * s), common * (A * s + B * c), terms.notes
     powers = [(base, _times(kappa, c)) for c, base in terms.logarithms]
     inner = Add(*(_times(kappa, t) for t in terms.others))
-    first, second = (Mul(common, *(b ** (sign * e) for b, e in powers), exp(sign * inner)) for sign in (1, -1))
+    first, second = (
+        Mul(common, A + sign * B, *(b ** (sign * e) for b, e in powers), exp(sign * inner)) for sign in (1, -1)
+    )
     return first, second, terms.notes
+
+
+def _zeros(zeros: Unit, t: Expr, atoms: Atoms) -> tuple[Expr, Expr]:
+    """A and B t, up to a common factor, without denominators."""
+    (a, A), (b, B) = atoms.primitive(zeros.A), atoms.primitive(zeros.B)
+    numbers, roots = (rational(b / a) * t).as_coeff_Mul()
+    return numbers.q * A, numbers.p * B * roots
 
 
 def _times(factor: Expr, term: Expr) -> Expr:
@@ -90,7 +104,8 @@ def _oriented(form: OnCurve) -> OnCurve:
     if any(value is None or value > 0 for value in values):
         return form
     turned = replace(integral, g=-integral.g, exact=-integral.exact)
-    return OnCurve(form.common, -form.kappa_squared, turned)
+    zeros = form.zeros and replace(form.zeros, B=-form.zeros.B)
+    return OnCurve(form.common, -form.kappa_squared, turned, zeros)
 
 
 def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
@@ -133,7 +148,7 @@ def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr,
         A, B = A * (1 / content), B * (1 / content)
     if square.is_negative:
         eta = sqrt(-square)
-        others.append(atan(sympy.cancel(atoms.poly(A) / atoms.poly(B)) / (eta * root)) * -factor / eta)
+        others.append(atan(atoms.ratio(RatFunc(A, B)) / (eta * root)) * -factor / eta)
         return
     tau = sqrt(square)
     top = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root

@@ -43,6 +43,7 @@ from kovacic.closed_form.product import Power, Product, product
 from kovacic.decision import SemiInvariant, Structure
 from kovacic.engine.places import Problem, analyse
 from kovacic.engine.riccati import Form, hessian, jacobian, normalised, root
+from kovacic.engine.singular import residue
 from kovacic.limits import Budget
 
 Monomials = dict[tuple[int, int], Fraction]
@@ -233,9 +234,6 @@ def _polynomial(problem: Problem, structure: Structure, F: Form, H: Form, T: For
 def singular_part(problem: Problem, R: Poly) -> RatFunc:
     """Q = prod p^(v_p) with Q'/Q = R/D."""
     result = RatFunc(problem.field.poly([1]))
-    for power in product(RatFunc(R, problem.D)).powers:
-        exponent = power.rational_exponent
-        if exponent is None or exponent.denominator != 1:
-            raise AssertionError("an invariant is a rational function")
-        result = result * RatFunc(power.base) ** int(exponent)
+    for place in problem.finite_places:
+        result = result * RatFunc(place.factor) ** residue(problem, R, place)
     return result

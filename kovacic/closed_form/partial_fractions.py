@@ -78,7 +78,7 @@ def _hermite(numerator: Poly, p: Poly, k: int, field: Field) -> tuple[RatFunc, P
     if k == 1:
         return RatFunc(field.poly([])), numerator % p
     slope = p.derivative()
-    inverse = slope.inverse_modulo(p) if p.degree > 1 else field.poly([1])
+    inverse = slope.inverse_modulo(p)
     parts = []
     for power in range(k, 1, -1):
         # numerator = B (1 - power) p' + C p, so numerator/p^power = (B/p^(power-1))' + (C - B')/p^(power-1).

@@ -18,6 +18,7 @@ from kovacic.closed_form.partial_fractions import Decomposition, decompose
 from kovacic.closed_form.primitive import Primitive, integrate_inverse_square
 from kovacic.closed_form.product import Product, product
 from kovacic.closed_form.torsion import completed
+from kovacic.closed_form.units import Unit, gathered_zeros
 from kovacic.decision import Decision, SemiInvariant, Structure
 
 
@@ -54,11 +55,27 @@ class Triangular:
 
 @dataclass(frozen=True)
 class OnCurve:
-    """Case 2: y = common * exp(+-kappa int r dx/sqrt(g)), kappa^2 = `kappa_squared`, a constant."""
+    """Case 2: y = common * (A +- B kappa s) * exp(+-kappa int r dx/s), s = sqrt(g), kappa^2 = `kappa_squared`, a constant.
+
+    A and B are those of `zeros`, where the zeros of y are gathered; 1 and 0 without.
+    """
 
     common: Product
     kappa_squared: Poly
     integral: CurveIntegral
+    zeros: Unit | None = None
+
+    @property
+    def spread(self) -> OnCurve:
+        """The same with A +- B kappa s as a square root of its norm, in `common`, and logarithms at the zeros."""
+        if self.zeros is None:
+            return self
+        g = self.integral.g
+        common = product(
+            self.common.logarithmic_derivative + logarithmic_derivative(self.zeros.norm(g)) * Fraction(1, 2)
+        )
+        r = self.integral.integrand + self.zeros.integrand(g)
+        return OnCurve(common, self.kappa_squared, completed(integrate_on_curve(r, g)))
 
 
 ClosedStructure = Diagonal | Conjugate | Triangular | OnCurve | KleinForm
@@ -123,14 +140,24 @@ def _imprimitive(S: RatFunc, semi: SemiInvariant, gauge: RatFunc) -> OnCurve:
         if exponent % 2:
             g = g * factor
     r = 1 / h
-    kappa_squared = square * RatFunc(g) * h * h
+    constant = square * RatFunc(g) * h * h
     # r = 1/h has h' numerator and denominator monic, so that kappa alone carries the constant.
-    if not kappa_squared.is_polynomial or kappa_squared.num.degree > 0:
+    if not constant.is_polynomial or constant.num.degree > 0:
         raise AssertionError("the squared Wronskian is a constant")
-    common = product((semi.theta + gauge * 2) * Fraction(1, 2))
-    if semi.P.degree > 0:
-        common = product(common.logarithmic_derivative + RatFunc(semi.P.derivative(), semi.P) * Fraction(1, 2))
-    return OnCurve(common, kappa_squared.num, completed(integrate_on_curve(r, g)))
+    kappa_squared = constant.num
+    common = (semi.theta + gauge * 2) * Fraction(1, 2)
+    zeros = gathered_zeros(g, r, kappa_squared, semi.P)
+    if zeros is None:
+        common = common + logarithmic_derivative(semi.P) * Fraction(1, 2)
+    else:
+        common = common - logarithmic_derivative(zeros.p // semi.P) * Fraction(1, 2)
+        r = r - zeros.integrand(g)
+    return OnCurve(product(common), kappa_squared, completed(integrate_on_curve(r, g)), zeros)
+
+
+def logarithmic_derivative(polynomial: Poly) -> RatFunc:
+    """p'/p."""
+    return RatFunc(polynomial.derivative(), polynomial)
 
 
 def _rational_powers(parts: Decomposition) -> list[tuple[Poly, int]]:

@@ -95,7 +95,7 @@ def _common_tau(integral: CurveIntegral, at_infinity: Poly) -> Poly | None:
     values = []
     for residue in integral.residues:
         p, rho = residue.factor, residue.value
-        inverse = rho.inverse_modulo(p) if rho.degree > 0 else rho.inverse()
+        inverse = rho.inverse_modulo(p)
         square = integral.radicand(residue) * inverse * inverse % p
         if square.degree > 0:
             return None
@@ -127,22 +127,11 @@ def _unit(problem: Problem, integral: CurveIntegral, phi: RatFunc, n: int, kappa
     A, B = even.num * (common // even.den), odd.num * (common // odd.den)
     divisor = A.gcd(B)
     A, B = A // divisor, B // divisor
-    norm = (A * A - B * B * g * kappa_squared).monic()
-    root = _square_root(norm)
+    root = (A * A - B * B * g * kappa_squared).monic().root(2)
     if root is None:
         return UNDECIDED
     found = Unit(A, B, root, kappa_squared, Fraction(1, 2 * n))
     return found if found.integrand(g) == r else UNDECIDED
-
-
-def _square_root(square: Poly) -> Poly | None:
-    """The monic square root of a monic polynomial; None if it isn't a square."""
-    root = square.field.poly([1])
-    for factor, multiplicity in square.field.factor(square) if square.degree > 0 else []:
-        if multiplicity % 2:
-            return None
-        root = root * factor ** (multiplicity // 2)
-    return root
 
 
 def _rational(problem: Problem, form: Form) -> RatFunc:

@@ -199,6 +199,7 @@ def _on_curve(problem: NumericProblem, which: int, region: Region, base: Point) 
         return None
     form = build(S, decision, S * 0)
     assert isinstance(form, OnCurve)
+    form = form.spread
     c = conjugates(P.field)[0]
     z = to_acb(base)
     conic = conic_of(embed(form.integral.g, c), z.real)

@@ -8,6 +8,7 @@ gamma, a subgroup of G x Gamma, where G is the group of the normal form and Gamm
   group with the characters Z^2/L; a unipotent part stays as it is.
 - Imprimitive and finite on a curve of genus 0: the same with the residues on the curve z^2 = g of `imprimitive`, where every
   divisor of degree 0 is principal; the diagonal part has index 2.
+- N(T): see `_infinite_dihedral`.
 - Primitive: |group| = |G| N/(e k), e the degree of the largest common quotient of G and Gamma (at most 3, 2, 1 for SL(2,3),
   the binary octahedral group, SL(2,5): the semi-invariant of Kovacic's degree decides it), and k = 2 if (-1, -1) lies in H.
 - SL2: with scalars mu_N, or GL2.
@@ -69,6 +70,9 @@ class EquationGroup:
     finite: bool | None
     order: int | None = None
 
+    def __str__(self) -> str:
+        return self.name
+
 
 def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatFunc) -> EquationGroup | None:
     """The group of the equation with the gauge rho; None over a field with parameters if rho isn't zero."""
@@ -94,16 +98,27 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
         return EquationGroup(
             normal_form, N, name, not unipotent and torus.rank == 0, None if unipotent else torus.order
         )
-    if N is None or normal_form.finite is False:
-        with_scalars = "with the scalars " + (
-            "G_m" if N is None else f"mu_{lcm(2, N)} up to a subgroup of index 1, 2 or 4"
-        )
-        return EquationGroup(normal_form, N, f"{normal_form.name} {with_scalars}", False)
+    if N is None:
+        return EquationGroup(normal_form, N, f"{normal_form.name} with the scalars G_m", False)
+    if kind is Kind.INFINITE_DIHEDRAL:
+        return EquationGroup(normal_form, N, _infinite_dihedral(N, f, rho), False)
     order = _finite_order(S, normal_form, f, rho, N)
     name = f"{normal_form.name} with scalars" if order is None else f"{normal_form.name} with scalars, order {order}"
     if order == normal_form.order and N <= 2:
         name = f"{normal_form.name}, twisted by signs" if order is not None else name
     return EquationGroup(normal_form, N, name, normal_form.finite, order)
+
+
+def _infinite_dihedral(N: int, f: SemiInvariant, rho: RatFunc) -> str:
+    """The name of T mu_n with a coset: n = N, or N/2 if gamma^(N/2)/f is rational; the scalars in it are mu_lcm(2, n).
+
+    T is connected, so that over C(x, f) it and gamma are independent.  In the second case the coset is that of w zeta, w in
+    N(T) of square -1 and zeta of order N; it makes a difference where zeta isn't in mu_lcm(2, n): (w zeta)^2 = 1 for N = 4.
+    """
+    twisted = N % 4 == 0 and _is_integral(rho * (N // 2) - f.theta)
+    if twisted:
+        return "O(2)" if N == 4 else f"N(T) with the scalars mu_{N // 2}, twisted"
+    return "N(T)" if N == 2 else f"N(T) with the scalars mu_{lcm(2, N)}"
 
 
 def _is_number_field(field: Field) -> bool:
