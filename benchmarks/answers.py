@@ -51,7 +51,7 @@ def answer(text: str) -> Record:
         "latex": attempt(solution._repr_latex_),
         "explained": attempt(solution.explain),
         "group": attempt(lambda: solution.group),
-        "equation group": attempt(lambda: solution.equation_group),
+        "equation group": attempt(lambda: repr(solution.equation_group)),
         "closed form": attempt(lambda: solution.solutions),
         "generic": attempt(lambda: solution.generic_conditions),
     }

@@ -10,8 +10,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import sympy
+from sympy import cos, cot, csc, expand, sec, sin, tan
+
 from kovacic.algebra.poly import Poly
 from kovacic.api import solve
+from kovacic.closed_form.atoms import Atoms
 from kovacic.decision import Status
 from kovacic.equation import Equation
 from kovacic.errors import InputError
@@ -44,8 +48,6 @@ def dsolve(
     >>> print(dsolve("y'' - 2*x*y' + 2*y = 0", ics={"y(0)": 0, "y'(0)": 5}))
     Eq(y(x), 5*x)
     """
-    import sympy
-
     equation, function = _read(eq, func, var, limits)
     solution = solve(equation, limits=limits)
     if solution.case is None:
@@ -75,8 +77,6 @@ def no_solution(solution: Solution) -> str:
 
 
 def _read(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equation, Any]:
-    import sympy
-
     if isinstance(eq, str | Equation):
         if isinstance(eq, str):
             from kovacic.reading.equation import parse_equation
@@ -93,10 +93,6 @@ def _read(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equation
 
 def _particular(equation: Equation, y1: Any, y2: Any, x: Any, start: Any) -> Any:
     """A particular solution, by variation of parameters; integrals that aren't done begin at `start` where it is given."""
-    import sympy
-
-    from kovacic.closed_form.atoms import Atoms
-
     atoms = Atoms(x)
     if equation.h is None and (polynomial := _polynomial_solution(equation)) is not None:
         return atoms.poly(polynomial)
@@ -136,8 +132,6 @@ def _polynomial_solution(equation: Equation) -> Poly | None:
 
 def _wronskian(y1: Any, y2: Any, x: Any) -> Any:
     """y1 y2' - y1' y2, simplified: over the field of the functions that occur, and by trigonometry where that's needed."""
-    import sympy
-
     value = sympy.expand(y1 * y2.diff(x) - y1.diff(x) * y2)
     if value.has(sympy.sin, sympy.cos):
         value = sympy.trigsimp(value)
@@ -147,15 +141,11 @@ def _wronskian(y1: Any, y2: Any, x: Any) -> Any:
 
 
 def _simplified(expression: Any) -> Any:
-    import sympy
-
     return sympy.simplify(expression) if expression.count_ops() < _SIMPLIFIED else expression
 
 
 def _integral(integrand: Any, x: Any, start: Any) -> Any:
     """The antiderivative by SymPy's rules for hand calculation, else an `Integral`."""
-    import sympy
-
     parts = []
     for term in sympy.Add.make_args(_prepared(integrand)):
         done = sympy.Integral(term, x).doit(manual=True)
@@ -171,9 +161,6 @@ def _integral(integrand: Any, x: Any, start: Any) -> Any:
 
 def _prepared(integrand: Any) -> Any:
     """Expanded, in sines and cosines, and without sin^2 over a cosine: as tables have it."""
-    import sympy
-    from sympy import cos, cot, csc, expand, sec, sin, tan
-
     if integrand.has(tan, cot, sec, csc):
         integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
         integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
@@ -185,8 +172,6 @@ def _prepared(integrand: Any) -> Any:
 
 
 def _with_secants(term: Any) -> Any:
-    from sympy import cos, csc, sec, sin
-
     inverse = {cos: sec, sin: csc}
     return term.replace(
         lambda e: e.is_Pow and e.exp.is_Integer and e.exp < 0 and e.base.func in inverse,
@@ -204,8 +189,6 @@ class _Start:
 
 
 def _initial_values(ics: Mapping[Any, Any], function: Any, equation: Equation) -> _Start:
-    import sympy
-
     points, given = set(), {}
     for key, value in ics.items():
         point, order = _text_key(key, equation) if isinstance(key, str) else _sympy_key(key, function)
@@ -214,8 +197,6 @@ def _initial_values(ics: Mapping[Any, Any], function: Any, equation: Equation) -
     if len(points) != 1:
         raise InputError("the initial values belong to one point")
     (point,) = points
-    from kovacic.closed_form.atoms import Atoms
-
     x = sympy.Symbol(equation.variable)
     for coefficient in (equation.a, equation.b, equation.c):
         quotient = coefficient / equation.a
@@ -225,8 +206,6 @@ def _initial_values(ics: Mapping[Any, Any], function: Any, equation: Equation) -
 
 
 def _constant(value: Any) -> Any:
-    import sympy
-
     if isinstance(value, str):
         from kovacic.reading.symbolic import read_expression
 
@@ -263,8 +242,6 @@ def _sympy_key(key: Any, function: Any) -> tuple[Any, int]:
 
 def _constants(start: _Start, y1: Any, y2: Any, particular: Any, x: Any, names: tuple[Any, Any]) -> dict[Any, Any]:
     """The constants that the initial values determine."""
-    import sympy
-
     equations = []
     for order, value in enumerate((start.value, start.slope)):
         if value is not None:
@@ -278,8 +255,6 @@ def _constants(start: _Start, y1: Any, y2: Any, particular: Any, x: Any, names: 
 
 def _value_at(expression: Any, x: Any, point: Any) -> Any:
     """The value at an ordinary point, where the expression may be of the form 0/0."""
-    import sympy
-
     expression = sympy.sympify(expression, strict=True)
     value = expression.subs(x, point)
     if value.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):
@@ -320,9 +295,6 @@ def solve_riccati(
     >>> found.rational, found.family, found.all_algebraic
     (((x**2 + 1)/x,), None, False)
     """
-    import sympy
-
-    from kovacic.closed_form.atoms import Atoms
     from kovacic.reading.read import read_coefficients
 
     if str(r).strip() in ("0", "0.0"):

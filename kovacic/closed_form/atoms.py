@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -16,7 +15,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.partial_fractions import Decomposition, Residue
+from kovacic.closed_form.partial_fractions import Residue
 
 Expr = Any  # SymPy publishes no types
 
@@ -179,30 +178,6 @@ class Atoms:
         over = sympy.Poly(polynomial, self.root)
         kind = RootSum if over.domain.is_EX else sympy.RootSum
         return kind(over, sympy.Lambda(self.root, body), auto=False)
-
-    def integral(self, parts: Decomposition) -> Expr:
-        """The integral of a decomposed rational function: rational part and logarithms."""
-        return Add(self.sum(parts.exact), *self.logarithms(parts.residues))
-
-    def logarithms(self, residues: Iterable[Residue]) -> list[Expr]:
-        """Logarithms; those of two linear factors with opposite residues as one, real between the roots if 0 lies there."""
-        pending, terms = list(residues), []
-        while pending:
-            first = pending.pop()
-            partner = None
-            if first.is_constant and first.factor.degree == 1:
-                candidates = (r for r in pending if r.is_constant and r.factor.degree == 1 and r.value == -first.value)
-                partner = next(candidates, None)
-            if partner is None:
-                terms.append(self.log_sum(first))
-                continue
-            pending.remove(partner)
-            top, bottom = self.primitive(first.factor)[1], self.primitive(partner.factor)[1]
-            at_zero = first.factor.field.rational_value(first.factor[0] * partner.factor[0])
-            if at_zero is not None and at_zero < 0:
-                bottom = -bottom
-            terms.append(self.constant(first.value) * log(top / bottom, evaluate=False))
-        return terms[::-1]
 
 
 def _is_the_smaller_root(field: AlgebraicField) -> bool:

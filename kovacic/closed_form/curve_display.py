@@ -148,7 +148,8 @@ def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr,
         A, B = A * (1 / content), B * (1 / content)
     if square.is_negative:
         eta = sqrt(-square)
-        others.append(atan(atoms.ratio(RatFunc(A, B)) / (eta * root)) * -factor / eta)
+        (a, top), (b, bottom) = atoms.primitive(A), atoms.primitive(B)
+        others.append(atan(Mul(rational(a / b) / eta, top, 1 / bottom, 1 / root)) * -factor / eta)
         return
     tau = sqrt(square)
     top = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from fractions import Fraction
 from math import gcd, lcm
@@ -13,6 +14,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr, rational
 from kovacic.closed_form.curve_display import curve_integral
+from kovacic.closed_form.partial_fractions import Residue
 from kovacic.closed_form.primitive import (
     CurvePrimitive,
     ExponentialPrimitive,
@@ -70,8 +72,29 @@ def _rational(form: Triangular, primitive: RationalPrimitive, first: Factors, at
     if exact:
         terms.append(_scaled(*factors(form.first, atoms, exact)))
     scale, parts = first
-    terms += [_scaled(scale, [*parts, term]) for term in atoms.logarithms(residues)]
+    terms += [_scaled(scale, [*parts, term]) for term in logarithms(residues, atoms)]
     return _sum(terms)
+
+
+def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
+    """Logarithms; those of two linear factors with opposite residues as one, real between the roots if 0 lies there."""
+    pending, terms = list(residues), []
+    while pending:
+        first = pending.pop()
+        partner = None
+        if first.is_constant and first.factor.degree == 1:
+            candidates = (r for r in pending if r.is_constant and r.factor.degree == 1 and r.value == -first.value)
+            partner = next(candidates, None)
+        if partner is None:
+            terms.append(atoms.log_sum(first))
+            continue
+        pending.remove(partner)
+        top, bottom = atoms.primitive(first.factor)[1], atoms.primitive(partner.factor)[1]
+        at_zero = first.factor.field.rational_value(first.factor[0] * partner.factor[0])
+        if at_zero is not None and at_zero < 0:
+            bottom = -bottom
+        terms.append(atoms.constant(first.value) * sympy.log(top / bottom, evaluate=False))
+    return terms[::-1]
 
 
 def _normalised_constant(exact: RatFunc) -> RatFunc:

@@ -54,33 +54,11 @@ class Product:
             total = total + residue.logarithmic
         return total
 
-    @property
-    def is_radical(self) -> bool:
-        """Is this a product of rational powers of polynomials: a root of a rational function?"""
-        return (
-            not self.roots
-            and self.exponential.is_polynomial
-            and self.exponential.num.degree <= 0
-            and all(power.rational_exponent is not None for power in self.powers)
-        )
-
     def to_power(self, n: int) -> Product:
         """y^n."""
         powers = tuple(Power(power.base, power.exponent * n) for power in self.powers)
         roots = tuple(Residue(residue.factor, residue.value * n) for residue in self.roots)
         return Product(powers, roots, self.exponential * n)
-
-    def rational_square(self) -> RatFunc | None:
-        """y^2 if that is a rational function, else None."""
-        if not self.is_radical:
-            return None
-        square = RatFunc(self.field.poly([1]))
-        for power in self.powers:
-            exponent = 2 * (power.rational_exponent or Fraction(0))
-            if exponent.denominator != 1:
-                return None
-            square = square * RatFunc(power.base) ** int(exponent)
-        return square
 
 
 def product(logarithmic_derivative: RatFunc, zeros: Poly | None = None) -> Product:

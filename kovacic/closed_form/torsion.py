@@ -32,7 +32,6 @@ from kovacic.closed_form.units import Unit
 from kovacic.decision import NoInvariant, SemiInvariant
 from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Problem, analyse, rational_square_root
-from kovacic.engine.riccati import Form
 from kovacic.errors import LimitExceeded
 from kovacic.galois.group import Kind
 from kovacic.galois.imprimitive import imprimitive_group
@@ -114,7 +113,7 @@ def _unit(problem: Problem, integral: CurveIntegral, phi: RatFunc, n: int, kappa
         return UNDECIDED
     g, r = integral.g, integral.integrand
     for form in space:
-        G = _rational(problem, form)
+        G = singular_part(problem, form.R) * form.P
         difference = G.derivative() - G * phi * n
         if difference:
             break
@@ -132,7 +131,3 @@ def _unit(problem: Problem, integral: CurveIntegral, phi: RatFunc, n: int, kappa
         return UNDECIDED
     found = Unit(A, B, root, kappa_squared, Fraction(1, 2 * n))
     return found if found.integrand(g) == r else UNDECIDED
-
-
-def _rational(problem: Problem, form: Form) -> RatFunc:
-    return singular_part(problem, form.R) * form.P
