@@ -21,6 +21,7 @@ from kovacic.reading.expression import parse_rational
 from kovacic.reading.lexer import tokenize
 from kovacic.reading.parser import Site, evaluate
 from kovacic.reading.read import read_input
+from kovacic.reading.symbolic import read_expression
 
 # Far from every root that the small numbers of the strategies produce.
 POINTS = (Fraction(10007, 13), Fraction(-9973, 17))
@@ -583,3 +584,66 @@ def test_other_objects_are_refused(S: Any, words: str) -> None:
 def test_names_that_are_none(var: Any) -> None:
     with pytest.raises(InputError):
         read_input("1", var=var)
+
+
+def test_symbols_that_a_rational_function_would_confuse_are_refused() -> None:
+    with pytest.raises(InputError, match="same name"):
+        read_input(sympy.Dummy("x") + x)
+    a, b = sympy.symbols("a b", commutative=False)
+    for expression in (a * b - b * a + x, a * sympy.Function("y")(x).diff(x, 2) - x):
+        with pytest.raises(InputError, match="don't commute"):
+            read_input(expression)
+
+
+@pytest.mark.parametrize("text", ["sqrt({})*x", "sqrt(2/{})", "{}^(1/2)", "y'' + y = {}*exp(x)", "y'' = exp({}*x)"])
+def test_numbers_that_python_does_not_print_are_over_a_limit_or_read(text: str) -> None:
+    with pytest.raises(LimitExceeded, match="bits"):
+        read_input(text.format("7" * 5001))
+    assert str(read_input(f"y'' + {'7' * 5001}*y").equation).count("7") == 5001
+
+
+# ------------------------------------------------------------------------------------------ SymPy's expressions
+
+
+@given(expressions(max_leaves=6))
+@settings(max_examples=60)
+def test_expressions_have_their_exact_value_in_sympy_too(expression: Expression) -> None:
+    values = expected(expression)
+    if values is not None:
+        symbolic = read_expression(expression.text)
+        for point, exact in zip(POINTS, values, strict=True):
+            assert symbolic.subs(x, sympy.Rational(point)) == sympy.Rational(exact)
+
+
+@pytest.mark.parametrize(
+    ("text", "expression"),
+    [
+        ("2sin(x)^2 + cbrt(x)", 2 * sympy.sin(x) ** 2 + sympy.cbrt(x)),
+        ("root(x, 4) - pi*I", x ** sympy.Rational(1, 4) - sympy.pi * sympy.I),
+        ("e^x/arctan(0.5)", sympy.exp(x) / sympy.atan(sympy.Rational(1, 2))),
+        ("x^n", x**n),
+        ("-2^2", sympy.Integer(-4)),
+    ],
+)
+def test_sympys_expressions(text: str, expression: Any) -> None:
+    assert read_expression(text) == expression
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "words"),
+    [
+        ("", InputError, "is empty"),
+        ("z + x", InputError, "can't contain z"),
+        ("x'", InputError, "derivative"),
+        ("x = 1", InputError, "not an equation"),
+        ("gamma(x)", InputError, r"can't contain gamma\(x\)"),
+        ("log(0)", InputError, "isn't finite"),
+        ("1/(x - x)", NotRational, "division by zero"),
+        ("9^9^9", LimitExceeded, "exponent"),
+        ("exp(9^5*log(9))", LimitExceeded, "exponent"),
+        ("sin(" * 200 + "x" + ")" * 200, LimitExceeded, "nested"),
+    ],
+)
+def test_expressions_that_are_refused(text: str, kind: type[Exception], words: str) -> None:
+    with pytest.raises(kind, match=words):
+        read_expression(text, names={"x": x})
