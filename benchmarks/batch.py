@@ -31,9 +31,8 @@ import families
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.batch.items import Item, Job
 from kovacic.batch.pool import Pool
-from kovacic.batch.summary import Summary
+from kovacic.batch.records import Item, Job, Summary
 from kovacic.reading.read import read_input
 
 HERE = Path(__file__).parent

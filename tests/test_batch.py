@@ -20,11 +20,9 @@ from hypothesis import strategies as st
 
 import kovacic
 from kovacic.batch.child import _START
-from kovacic.batch.items import LABELS, Item, Job, Record
-from kovacic.batch.output import Answers, take_up
+from kovacic.batch.files import Answers, count_items, guess_format, item_from, opened, read_items, take_up
 from kovacic.batch.pool import GRACE_SECONDS, Pool
-from kovacic.batch.reading import count_items, guess_format, item_from, opened, read_items
-from kovacic.batch.summary import Summary
+from kovacic.batch.records import LABELS, Item, Job, Record, Summary
 from kovacic.batch.worker import decode_item, decode_record, encode_item, encode_record, solve_item
 from kovacic.errors import InputError, KovacicError
 from kovacic.limits import DEFAULT_LIMITS, Limits
@@ -306,7 +304,7 @@ def test_a_worker_that_cannot_start_is_an_error(monkeypatch: pytest.MonkeyPatch)
 def test_workers_end_with_their_parent() -> None:
     program = (
         "import os, time\n"
-        "from kovacic.batch.items import Item, Job\nfrom kovacic.batch.pool import Pool\n"
+        "from kovacic.batch.records import Item, Job\nfrom kovacic.batch.pool import Pool\n"
         f"pool = Pool(1, Job())\nrecords = pool.run([Item(1, 'x'), Item(2, {SLOW!r})])\n"
         "next(records)\nprint(pool.pids()[0], flush=True)\nos.kill(os.getpid(), 9)\n"
     )
@@ -493,8 +491,8 @@ def test_quantiles_and_exit_status() -> None:
     summary = Summary()
     for k in range(1, 1001):
         summary.add(Record(k, "none", k / 1000, ""))
-    assert summary.quantile(0.5) == pytest.approx(0.5, rel=0.06)
-    assert summary.quantile(0.9) == pytest.approx(0.9, rel=0.06)
+    assert summary.quantile(0.5) == pytest.approx(0.5, rel=0.01)
+    assert summary.quantile(0.9) == pytest.approx(0.9, rel=0.01)
     assert summary.slowest is not None
     assert summary.slowest.number == 1000
     assert summary.exit_status == 0

@@ -14,10 +14,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kovacic.batch.grid import parse_grid, points, substitute
-from kovacic.batch.items import Record, label_of
 from kovacic.batch.map import draw_map
-from kovacic.batch.scan import scan, scan_items
+from kovacic.batch.records import Record, label_of
+from kovacic.batch.scan import Template, parse_grid, points, scan, scan_items
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_rational, parse_with
@@ -32,7 +31,11 @@ def command(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 def values(text: str) -> list[Fraction]:
-    return list(parse_grid(text).values)
+    return list(parse_grid(text))
+
+
+def substitute(text: str, values: dict[str, Fraction]) -> str:
+    return Template(text, list(values)).filled(values)
 
 
 def test_grids() -> None:
@@ -42,7 +45,7 @@ def test_grids() -> None:
     assert values("n=1:-1:-.5") == [1, Fraction(1, 2), 0, Fraction(-1, 2), -1]
     assert values("n=0:1:0.3") == [0, Fraction(3, 10), Fraction(6, 10), Fraction(9, 10)]
     assert values("n= 1 , -5/2") == [1, Fraction(-5, 2)]
-    assert len(parse_grid("n=0:1:1/100000000").values) == 10**8 + 1
+    assert len(parse_grid("n=0:1:1/100000000")) == 10**8 + 1
 
 
 @pytest.mark.parametrize(

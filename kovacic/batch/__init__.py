@@ -1,9 +1,11 @@
 """Many equations: worker processes that can be killed, or other machines; an answer for every input.
 
-    reading   files into items            pool      items into records, with limits that hold
-    feed      items when they are needed  backends  the same through joblib: loky, Dask, Ray
-    worker    the child process           output    the file of records, and taking it up again
-    child     the parent's end of it      summary   what was found, in numbers
+Texts, or files of them, go in; a `Record` with a line of JSON for every one of them comes out.  `records` first: what travels.
+
+    files    files into items; the answers   pool     items into records, with limits that hold
+    scan     grids of parameters as items    child    the parent's end of a worker process
+    map      a picture of a scan             worker   the process
+    backends the pool through joblib: loky, Dask, Ray
 
 >>> import kovacic
 >>> [record.case for record in kovacic.solve_many(["x^2 + 3", "x", "-3/(16*x^2) + 1/x"], jobs=1)]
@@ -16,7 +18,7 @@ import os
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from kovacic.batch.items import Item, Job, Record
+from kovacic.batch.records import Item, Job, Record
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
@@ -47,7 +49,7 @@ def solve_many(
 
     Raises `InputError` for options that don't fit together.  Closing the iterator ends the processes.
     """
-    from kovacic.batch.reading import item_from
+    from kovacic.batch.files import item_from
 
     job = make_job(timeout=timeout, memory=memory, group=group, limits=limits)
     items = (item_from(number, value, var=var, limits=limits) for number, value in enumerate(equations, start=1))
@@ -73,12 +75,8 @@ def run_items(
         return run_on_backend(items, job, backend=backend, jobs=jobs, scheduler=scheduler, ordered=ordered)
     if scheduler is not None:
         raise InputError("a scheduler needs a backend", hint="backend='dask' (--backend dask)")
-    return _run_here(items, job, jobs or usable_cores(), ordered, stream)
-
-
-def usable_cores() -> int:
-    """The number of cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return _run_here(items, job, jobs or cores, ordered, stream)
 
 
 def _run_here(items: Iterable[Item], job: Job, jobs: int, ordered: bool, stream: bool) -> Iterator[Record]:

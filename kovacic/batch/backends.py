@@ -13,14 +13,14 @@ import pickle
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from functools import partial
 from itertools import chain, islice
 from tempfile import TemporaryDirectory, mkstemp
 from typing import Any
 
-from kovacic.batch.items import Item, Job, Record
 from kovacic.batch.pool import Pool
+from kovacic.batch.records import Item, Job, Record
 from kovacic.errors import InputError, KovacicError
 
 BACKENDS = ("loky", "dask", "ray")
@@ -176,21 +176,18 @@ def _configured(backend: str, jobs: int | None, scheduler: str | None) -> Iterat
     """joblib's configuration for this backend; connections that are made here are closed here."""
     from joblib import parallel_config
 
-    n_jobs = -1 if jobs is None else jobs
-    if backend == "loky":
-        if scheduler is not None:
+    with ExitStack() as stack:
+        options = {"n_jobs": -1 if jobs is None else jobs}
+        if backend == "dask":
+            options["client"] = stack.enter_context(_dask_client(scheduler))
+        elif backend == "ray":
+            _connect_ray(scheduler)
+        elif backend != "loky":
+            raise InputError(f"{backend!r} isn't a backend", hint=f"one of {', '.join(BACKENDS)}")
+        elif scheduler is not None:
             raise InputError("loky has no scheduler", hint="--backend dask --scheduler tcp://host:8786")
-        with parallel_config("loky", n_jobs=n_jobs):
-            yield
-    elif backend == "dask":
-        with _dask_client(scheduler) as client, parallel_config("dask", n_jobs=n_jobs, client=client):
-            yield
-    elif backend == "ray":
-        _connect_ray(scheduler)
-        with parallel_config("ray", n_jobs=n_jobs):
-            yield
-    else:
-        raise InputError(f"{backend!r} isn't a backend", hint=f"one of {', '.join(BACKENDS)}")
+        stack.enter_context(parallel_config(backend, **options))
+        yield
 
 
 @contextmanager
@@ -225,6 +222,3 @@ def _connect_ray(address: str | None) -> None:
     if address is not None:
         ray.init(address=address, ignore_reinit_error=True)
     register_ray()
-
-
-__all__ = ["BACKENDS", "CHUNK", "run_chunk", "run_on_backend"]

@@ -17,7 +17,7 @@ from collections import deque
 from contextlib import suppress
 from queue import SimpleQueue
 
-from kovacic.batch.items import Item, Job
+from kovacic.batch.records import Item, Job
 from kovacic.batch.worker import encode_item
 
 # The interpreter looks for modules where this one does, and not in the current directory.

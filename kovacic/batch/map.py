@@ -7,26 +7,20 @@ from collections.abc import Mapping
 from fractions import Fraction
 from itertools import pairwise
 
-from kovacic.batch.grid import Grid
-from kovacic.batch.items import CASES, ERROR, FAILED, LABELS, NONE, UNDECIDED
+from kovacic.batch.scan import Grid
 from kovacic.errors import InputError
 
 # Okabe and Ito's palette, which colour-blind readers can tell apart; "none" is light, so that the solvable values stand out.
-_COLOURS = {
-    "case 1": "#0072b2",
-    "case 2": "#e69f00",
-    "case 3 (4)": "#009e73",
-    "case 3 (6)": "#cc79a7",
-    "case 3 (12)": "#d55e00",
-    NONE: "#eeeeee",
-    UNDECIDED: "#f0e442",
-    ERROR: "#777777",
-    FAILED: "#000000",
-}
-_MEANINGS = dict(zip(CASES, ("1", "2", "3, tetrahedral", "3, octahedral", "3, icosahedral"), strict=True))
-_NAMES = {label: f"case {_MEANINGS[label]}" if label in _MEANINGS else label for label in LABELS} | {
-    NONE: "no Liouvillian solution",
-    ERROR: "not defined",
+_COLOURS_AND_NAMES = {
+    "case 1": ("#0072b2", "case 1"),
+    "case 2": ("#e69f00", "case 2"),
+    "case 3 (4)": ("#009e73", "case 3, tetrahedral"),
+    "case 3 (6)": ("#cc79a7", "case 3, octahedral"),
+    "case 3 (12)": ("#d55e00", "case 3, icosahedral"),
+    "none": ("#eeeeee", "no Liouvillian solution"),
+    "undecided": ("#f0e442", "undecided"),
+    "bad input": ("#777777", "not defined"),
+    "failed": ("#000000", "failed"),
 }
 _LARGEST = 4_000_000
 
@@ -45,10 +39,11 @@ def draw_map(
     from matplotlib.patches import Patch
 
     upwards, rightwards = grids
-    height, width = len(upwards.values), len(rightwards.values)
+    height, width = len(upwards), len(rightwards)
     if height * width > _LARGEST:
         raise InputError(f"a map of {height} x {width} points is too large for a picture")
-    codes = [[_code(labels.get(1 + i * width + k)) for k in range(width)] for i in range(height)]
+    code = {label: number for number, label in enumerate(_COLOURS_AND_NAMES, start=1)}
+    codes = [[code.get(labels.get(1 + i * width + k, ""), 0) for k in range(width)] for i in range(height)]
     figure = Figure(figsize=(7.5, 5.0), layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
@@ -56,15 +51,19 @@ def draw_map(
         _edges(rightwards),
         _edges(upwards),
         codes,
-        cmap=ListedColormap(["white", *_COLOURS.values()]),
-        norm=BoundaryNorm([k - 0.5 for k in range(len(LABELS) + 2)], len(LABELS) + 1),
+        cmap=ListedColormap(["white", *(colour for colour, _ in _COLOURS_AND_NAMES.values())]),
+        norm=BoundaryNorm([k - 0.5 for k in range(len(code) + 2)], len(code) + 1),
     )
     axes.set_xlabel(rightwards.name)
     axes.set_ylabel(upwards.name)
     axes.set_title(f"y'' = S y,  S = {expression if len(expression) <= 70 else expression[:67] + '...'}", fontsize=10)
     shown = set(labels.values())
     figure.legend(
-        handles=[Patch(facecolor=_COLOURS[k], edgecolor="#444444", label=_NAMES[k]) for k in LABELS if k in shown],
+        handles=[
+            Patch(facecolor=colour, edgecolor="#444444", label=name)
+            for label, (colour, name) in _COLOURS_AND_NAMES.items()
+            if label in shown
+        ],
         loc="outside right upper",
         fontsize=9,
         frameon=False,
@@ -72,13 +71,9 @@ def draw_map(
     figure.savefig(path, dpi=150)
 
 
-def _code(label: str | None) -> int:
-    return 0 if label is None else 1 + tuple(_COLOURS).index(label)
-
-
 def _edges(grid: Grid) -> list[float]:
     """Half-way between neighbouring values, and as far beyond the first and the last one."""
-    values = list(grid.values)
+    values = list(grid)
     if len(values) == 1:
         values = [values[0] - Fraction(1, 2), values[0], values[0] + Fraction(1, 2)]
         return [float((a + b) / 2) for a, b in pairwise(values)]

@@ -14,18 +14,18 @@ from __future__ import annotations
 import math
 import re
 import signal
+import threading
 import time
 from collections import deque
 from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from queue import Empty, SimpleQueue
-from types import TracebackType
+from queue import Empty, Queue, SimpleQueue
 
 from kovacic.batch.child import Child, Event
-from kovacic.batch.feed import DirectFeed, Feed, StreamFeed
-from kovacic.batch.items import Item, Job, Record, lost, refused, stopped
+from kovacic.batch.records import Item, Job, Record, lost, refused, stopped
 from kovacic.batch.worker import READY, decode_record
-from kovacic.errors import KovacicError
+from kovacic.errors import InputError, KovacicError
 
 # A process has so many seconds beyond the timeout to end by itself, with an answer that says what it has excluded.
 GRACE_SECONDS = 0.25
@@ -36,6 +36,9 @@ _START_ATTEMPTS = 4
 
 # In order of the input, at most so many items are read beyond the first one that has no answer.
 ORDERED_WINDOW = 10_000
+
+# Items that are read from a stream before they are needed.
+_AHEAD = 256
 
 # More text could fill the pipe of a busy process, and make the parent wait.
 _WAITING_CHARACTERS = 30_000
@@ -56,10 +59,10 @@ class _Entry:
     losses: int = 0
 
 
-class Pool:
+class Pool(AbstractContextManager["Pool"]):
     """`jobs` worker processes for one job; a context manager, which kills them at the end.
 
-    >>> from kovacic.batch.items import Item, Job
+    >>> from kovacic.batch.records import Item, Job
     >>> with Pool(1, Job(timeout=60)) as pool:
     ...     [record.label for record in pool.run([Item(1, "x^2 + 3"), Item(2, "x"), Item(3, "x+")])]
     ['case 1', 'none', 'bad input']
@@ -73,14 +76,10 @@ class Pool:
         self._entries: dict[int, _Entry] = {}
         self._again: deque[_Entry] = deque()
         self._failed_starts = 0
+        self._exhausted = False
         self.replaced = 0
 
-    def __enter__(self) -> Pool:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
 
     def close(self) -> None:
@@ -100,7 +99,8 @@ class Pool:
 
         The numbers of the items must differ.  `stream` says that the items may be long in coming.
         """
-        feed: Feed = StreamFeed(items, self._events) if stream else DirectFeed(items)
+        feed = _read_ahead(items, self._events) if stream else iter(items)
+        self._exhausted = False
         if not ordered:
             yield from self._records(feed, deque())
             return
@@ -111,18 +111,20 @@ class Pool:
             while order and order[0] in ready:
                 yield ready.pop(order.popleft())
 
-    def _records(self, feed: Feed, order: deque[int], *, window: int | None = None) -> Iterator[Record]:
+    def _records(
+        self, feed: Iterator[Item | None], order: deque[int], *, window: int | None = None
+    ) -> Iterator[Record]:
         """The records as they come; the numbers of the items are appended to `order` as they are taken."""
         while len(self._children) < self._jobs:
             self._children.append(Child(self._job, self._events))
         while True:
             yield from self._hand_out(feed, order, window)
-            if feed.exhausted and not self._entries:
+            if self._exhausted and not self._entries:
                 return
             self._share_waiting()
             yield from self._handle(self._wait())
 
-    def _hand_out(self, feed: Feed, order: deque[int], window: int | None) -> Iterator[Record]:
+    def _hand_out(self, feed: Iterator[Item | None], order: deque[int], window: int | None) -> Iterator[Record]:
         for depth in range(1, max(child.room for child in self._children) + 1):
             for child in self._children:
                 if not child.ready or len(child.assigned) != depth - 1 or depth > child.room:
@@ -144,13 +146,17 @@ class Pool:
                         child.give(item)
                         break
 
-    def _next(self, feed: Feed, order: deque[int], window: int | None) -> _Entry | None:
+    def _next(self, feed: Iterator[Item | None], order: deque[int], window: int | None) -> _Entry | None:
         if self._again:
             return self._again.popleft()
-        if feed.exhausted or (window is not None and len(order) >= window):
+        if self._exhausted or (window is not None and len(order) >= window):
             return None
-        item = feed.take()
-        if item is None:
+        try:
+            item = next(feed)
+        except StopIteration:
+            self._exhausted = True
+            return None
+        if item is None:  # for the moment
             return None
         if window is not None:
             order.append(item.number)
@@ -239,36 +245,63 @@ class Pool:
             self._failed_starts += 1
             if self._failed_starts >= _START_ATTEMPTS:
                 raise KovacicError(f"worker processes can't be started: {_cause(status, words)}\n{words}")
-        seconds = time.monotonic() - child.busy_since
         head = child.assigned[0] if child.assigned else None
         if head is not None and self._owned(head, child):
+            seconds = time.monotonic() - child.busy_since
             entry = self._entries[head.number]
-            if self._job.memory is not None and _OUT_OF_MEMORY.search(words):
+            entry.losses += 1
+            limit = self._limit_behind(status, words)
+            if limit is not None or entry.losses >= _processes_for(status):
                 del self._entries[head.number]
-                yield stopped(head, f"the memory limit of {self._job.memory} MiB is used up (process ended)", seconds)
-            elif -status == signal.SIGALRM:
-                del self._entries[head.number]
-                assert self._job.timeout is not None
-                yield stopped(head, f"the time limit of {self._job.timeout:g} s is used up (process ended)", seconds)
-            else:
-                entry.losses += 1
-                if entry.losses >= _processes_for(status):
-                    del self._entries[head.number]
-                    yield lost(head, _cause(status, words), seconds)
+                yield lost(head, _cause(status, words), seconds) if limit is None else stopped(head, limit, seconds)
         self._replace(child)
+
+    def _limit_behind(self, status: int, words: str) -> str | None:
+        """Which limit the end of a process means; None for another reason."""
+        if self._job.memory is not None and _OUT_OF_MEMORY.search(words):
+            return f"the memory limit of {self._job.memory} MiB is used up (process ended)"
+        if self._job.timeout is not None and -status == getattr(signal, "SIGALRM", None):
+            return f"the time limit of {self._job.timeout:g} s is used up (process ended)"
+        return None
 
     def _replace(self, child: Child) -> None:
         """Kill a process, put what it still owns back to the front, and start another one."""
-        again = []
-        for item in child.assigned:
-            if self._owned(item, child):
-                entry = self._entries[item.number]
-                entry.owner = None
-                again.append(entry)
+        again = [self._entries[item.number] for item in child.assigned if self._owned(item, child)]
+        for entry in again:
+            entry.owner = None
         self._again.extendleft(reversed(again))
         child.kill()
         self._children[self._children.index(child)] = Child(self._job, self._events)
         self.replaced += 1
+
+
+def _read_ahead(items: Iterable[Item], events: SimpleQueue[Event | None]) -> Iterator[Item | None]:
+    """The items of a stream, read by a thread, so that answers come out while it is silent; None where there is none yet."""
+    queue: Queue[Item | InputError | None] = Queue(_AHEAD)
+
+    def read() -> None:
+        end = None
+        try:
+            for item in items:
+                queue.put(item)
+                events.put(None)
+        except InputError as error:  # a broken compressed stream, for example
+            end = error
+        queue.put(end)
+        events.put(None)
+
+    threading.Thread(target=read, daemon=True).start()
+    while True:
+        try:
+            item = queue.get_nowait()
+        except Empty:
+            yield None
+            continue
+        if isinstance(item, InputError):
+            raise item
+        if item is None:
+            return
+        yield item
 
 
 def _processes_for(status: int) -> int:
@@ -282,6 +315,3 @@ def _cause(status: int, words: str) -> str:
     end = f"signal {signal.Signals(-status).name}" if status < 0 else f"exit status {status}"
     last_line = words.splitlines()[-1].strip() if words else ""
     return f"the worker process ended with {end}" + (f": {last_line}" if last_line else "")
-
-
-__all__ = ["GRACE_SECONDS", "ORDERED_WINDOW", "Pool"]

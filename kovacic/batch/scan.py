@@ -1,15 +1,133 @@
-"""The points of a scan as a batch, and its records as rows of a table."""
+"""Scans: exact values of parameters, substituted into the text of S; the points as a batch, its records as a table.
+
+A value takes the place of the parameter's name as a number in parentheses, which is what a name is to the grammar: an atom.
+So the result means what the text meant, no arithmetic is done here, and the text of each point can be given to
+`kovacic solve` as it is.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import lcm
 from typing import Any
 
-from kovacic.batch import make_job, run_items
-from kovacic.batch.grid import Grid, Template, points
-from kovacic.batch.items import Item, Record
-from kovacic.errors import InputError
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.batch import solve_many
+from kovacic.batch.records import Item, Record
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.reading.lexer import tokenize
+
+_NUMBER = re.compile(r"[+-]?(\d+(/\d+)?|\d*\.\d+|\d+\.)")
+_NUMBER_LENGTH = 1000
+_LARGEST_GRID = 10**9
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """The values of one parameter, in the order in which they are taken: numerators over one denominator."""
+
+    name: str
+    numerators: Sequence[int]
+    denominator: int
+
+    def __len__(self) -> int:
+        return len(self.numerators)
+
+    def __iter__(self) -> Iterator[Fraction]:
+        return (Fraction(numerator, self.denominator) for numerator in self.numerators)
+
+
+def parse_grid(text: str) -> Grid:
+    """The grid that `NAME=START:STOP:STEP` (STOP included, STEP 1 by default) or `NAME=VALUE,VALUE,...` denotes.
+
+    Numbers are integers, fractions or decimals, taken exactly.  Raises `InputError` for anything else, and `LimitExceeded`
+    for more than 10^9 values.
+
+    >>> grid = parse_grid("n=0:1:1/4")
+    >>> grid.name, [str(value) for value in grid]
+    ('n', ['0', '1/4', '1/2', '3/4', '1'])
+    >>> [str(value) for value in parse_grid("mu=1,5/2,-0.75")]
+    ['1', '5/2', '-3/4']
+    """
+    name, separator, rest = text.partition("=")
+    name = name.strip()
+    if not separator or not name.isidentifier():
+        raise InputError(f"{text!r} isn't a grid", hint="NAME=START:STOP:STEP or NAME=VALUE,VALUE: n=0:10:1/4")
+    values = [_number(part, text) for part in re.split("[:,]" if ":" in rest else ",", rest)]
+    if ":" not in rest:
+        denominator = lcm(*(value.denominator for value in values))
+        return Grid(name, [int(value * denominator) for value in values], denominator)
+    if "," in rest or len(values) > 3:
+        raise InputError(f"{text!r} has more than START:STOP:STEP", hint="n=0:10:1/4")
+    start, stop, step = (*values, Fraction(1))[:3]
+    if not step or (stop - start) / step < 0:
+        raise InputError(f"{text!r}: no value lies between {start} and {stop} in steps of {step}")
+    count = int((stop - start) / step) + 1
+    if count > _LARGEST_GRID:
+        raise LimitExceeded(f"{text!r} has {count} values, above the limit of {_LARGEST_GRID}", limit="text_length")
+    denominator = lcm(start.denominator, step.denominator)
+    first, difference = int(start * denominator), int(step * denominator)
+    return Grid(name, range(first, first + count * difference, difference), denominator)
+
+
+def _number(part: str, text: str) -> Fraction:
+    part = part.strip()
+    if len(part) > _NUMBER_LENGTH or _NUMBER.fullmatch(part) is None:
+        raise InputError(f"{text!r}: {part[:40]!r} isn't a number", hint="integers, fractions, decimals: n=0:10:1/4")
+    try:
+        return Fraction(part)
+    except ZeroDivisionError:
+        raise InputError(f"{text!r}: {part!r} has the denominator 0") from None
+
+
+class Template:
+    """A text whose parameters have been found, to be filled with many values.
+
+    Raises `InputError` where the text has no such name, or uses one as a function.
+
+    >>> Template("(4*n^2 - 1)/(4*x^2) - n", ["n"]).filled({"n": Fraction(-1, 2)})
+    '(4*(-1/2)^2 - 1)/(4*x^2) - (-1/2)'
+    """
+
+    def __init__(self, text: str, names: Sequence[str]) -> None:
+        tokens = tokenize(text)
+        self._pieces: list[tuple[str, str]] = []
+        end = 0
+        for kind, start, stop in zip(tokens.kinds, tokens.starts, tokens.ends, strict=True):
+            token = text[start:stop]
+            if token not in names:
+                continue
+            if kind != "NAME":
+                raise InputError(
+                    f"the parameter {token} is followed by a parenthesis like a function",
+                    text=text,
+                    position=start,
+                    length=stop - start,
+                    hint=f"for a product write {token}*(...)",
+                )
+            self._pieces.append((text[end:start], token))
+            end = stop
+        for name in names:
+            if name not in (token for _, token in self._pieces):
+                raise InputError(f"the expression has no parameter {name}", text=text)
+        self._rest = text[end:]
+
+    def filled(self, values: Mapping[str, Fraction]) -> str:
+        """The text with these values."""
+        return "".join(f"{before}({values[name]})" for before, name in self._pieces) + self._rest
+
+
+def points(grids: Sequence[Grid]) -> Iterator[dict[str, Fraction]]:
+    """Every combination of values, the last parameter changing fastest."""
+    if not grids:
+        yield {}
+        return
+    first, *others = grids
+    for value in first:
+        for rest in points(others):
+            yield {first.name: value, **rest}
 
 
 def scan_items(expression: Any, grids: Sequence[Grid], *, var: str | None = None) -> Iterator[Item]:
@@ -30,26 +148,13 @@ def scan_items(expression: Any, grids: Sequence[Grid], *, var: str | None = None
 
 
 def scan(
-    expression: Any,
-    grids: Sequence[Grid],
-    *,
-    var: str | None = None,
-    jobs: int | None = None,
-    timeout: float | None = None,
-    memory: int | None = None,
-    group: bool = True,
-    ordered: bool = True,
-    backend: str | None = None,
-    scheduler: str | None = None,
-    limits: Limits = DEFAULT_LIMITS,
+    expression: Any, grids: Sequence[Grid], *, var: str | None = None, group: bool = True, **options: Any
 ) -> Iterator[Record]:
     """One record for each point of the grids: as `kovacic.solve_many`, with `parameters` and the group in the JSON.
 
     At points where the expression isn't defined (a division by zero) the record has an `error`.
     """
-    job = make_job(timeout=timeout, memory=memory, group=group, limits=limits)
-    items = scan_items(expression, grids, var=var)
-    return run_items(items, job, jobs=jobs, ordered=ordered, backend=backend, scheduler=scheduler)
+    return solve_many(scan_items(expression, grids, var=var), group=group, **options)
 
 
 def columns(grids: Sequence[Grid]) -> tuple[str, ...]:
@@ -66,13 +171,6 @@ def row(record: Record) -> tuple[str, ...]:
     data = record.data
     riccati, group = data.get("riccati") or {}, data.get("group") or {}
     remark = data["error"]["message"] if "error" in data else data["proof"]["undecided"]
-    cells = (
-        data["status"],
-        data.get("case"),
-        riccati.get("degree"),
-        group.get("name"),
-        group.get("order"),
-        data.get("seconds"),
-        remark,
-    )
+    cells = (data["status"], data.get("case"), riccati.get("degree"), group.get("name"), group.get("order"),
+             data.get("seconds"), remark)  # fmt: skip
     return (*data["parameters"].values(), *("" if cell is None else str(cell) for cell in cells))

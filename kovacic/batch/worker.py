@@ -17,15 +17,15 @@ import signal
 import sys
 import threading
 import time
-from typing import IO, Any
+from collections.abc import Callable
+from typing import Any
 
 import kovacic
-from kovacic.batch.items import Item, Job, Record, refused, solved
+from kovacic.batch.records import Item, Job, Record, refused, solved
 from kovacic.errors import KovacicError
 from kovacic.limits import Limits
 
 READY = "ready"
-_MIB = 1 << 20
 _ORPHAN_CHECK_SECONDS = 1.0
 
 
@@ -38,17 +38,19 @@ def main() -> None:
     job = Job.loads(sys.stdin.readline())
     limits = job.engine_limits
     solve_item(Item(0, "x**2 + 3"), job, limits)  # the modules are loaded before the clock of the first equation starts
-    memory = None if job.memory is None else _MemoryLimit(job)
+    renew_memory = None if job.memory is None else _memory_limit(job.memory)
     gc.freeze()  # what is loaded stays: the collector needn't look at it again
-    _write(answers, READY)
+    print(READY, file=answers, flush=True)
     for line in sys.stdin:
         item = decode_item(line)
-        if memory is not None:
-            memory.renew()
-        _set_alarm(job)
+        if renew_memory is not None:
+            renew_memory()
+        if job.timeout is not None:
+            _set_alarm(job.timeout + 5.0)
         record = solve_item(item, job, limits)
-        _clear_alarm(job)
-        _write(answers, encode_record(record))
+        if job.timeout is not None:
+            _set_alarm(0.0)
+        print(encode_record(record), file=answers, flush=True)
 
 
 def solve_item(item: Item, job: Job, limits: Limits) -> Record:
@@ -68,8 +70,7 @@ def encode_item(item: Item) -> str:
 
 
 def decode_item(line: str) -> Item:
-    number, text, var, extra = json.loads(line)
-    return Item(number, text, var, extra)
+    return Item(*json.loads(line))
 
 
 def encode_record(record: Record) -> str:
@@ -80,11 +81,6 @@ def encode_record(record: Record) -> str:
 def decode_record(line: str) -> Record:
     number, label, seconds, text = line.rstrip("\n").split("\t", 3)
     return Record(int(number), label, float(seconds), text)
-
-
-def _write(stream: IO[str], line: str) -> None:
-    stream.write(line + "\n")
-    stream.flush()
 
 
 def _leave_with_parent() -> None:
@@ -99,37 +95,30 @@ def _leave_with_parent() -> None:
     threading.Thread(target=watch, daemon=True).start()
 
 
-class _MemoryLimit:
-    """The job's bound on the address space, moved along with what the process has when an equation begins."""
+def _memory_limit(mebibytes: int) -> Callable[[], None]:
+    """What moves the bound on the address space along with what the process has when an equation begins."""
+    resource: Any = __import__("resource")  # not on every system; `Job` with `memory` needs it
+    page, hard = resource.getpagesize(), resource.getrlimit(resource.RLIMIT_AS)[1]
+    statm = os.open("/proc/self/statm", os.O_RDONLY)
+    last = -1
 
-    def __init__(self, job: Job) -> None:
-        assert job.memory is not None
-        self._resource: Any = __import__("resource")  # not on every system; `Job` with `memory` needs it
-        self._page = self._resource.getpagesize()
-        self._allowed = job.memory * _MIB
-        self._hard = self._resource.getrlimit(self._resource.RLIMIT_AS)[1]
-        self._statm = os.open("/proc/self/statm", os.O_RDONLY)
-        self._pages = -1
+    def renew() -> None:
+        nonlocal last
+        pages = int(os.pread(statm, 32, 0).split(maxsplit=1)[0])
+        if pages != last:
+            last = pages
+            wanted = pages * page + (mebibytes << 20)
+            resource.setrlimit(
+                resource.RLIMIT_AS, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard)
+            )
 
-    def renew(self) -> None:
-        pages = int(os.pread(self._statm, 32, 0).split(maxsplit=1)[0])
-        if pages == self._pages:
-            return
-        self._pages = pages
-        wanted = pages * self._page + self._allowed
-        wanted = wanted if self._hard == self._resource.RLIM_INFINITY else min(wanted, self._hard)
-        self._resource.setrlimit(self._resource.RLIMIT_AS, (wanted, self._hard))
+    return renew
 
 
-def _set_alarm(job: Job) -> None:
+def _set_alarm(seconds: float) -> None:
     """Let the system end the process if the parent, which kills it earlier, can't: the default action isn't Python's."""
-    if job.timeout is not None and hasattr(signal, "setitimer"):
-        signal.setitimer(signal.ITIMER_REAL, job.timeout + 5.0)
-
-
-def _clear_alarm(job: Job) -> None:
-    if job.timeout is not None and hasattr(signal, "setitimer"):
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_REAL, seconds)
 
 
 if __name__ == "__main__":

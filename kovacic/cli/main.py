@@ -1,4 +1,4 @@
-"""The entry point of the command, and what its exit status means.
+"""The entry point of the command, its subcommands, and what its exit status means.
 
 0: everything was decided, either way; 2: bad input or usage; 3: undecided, a limit was reached; 4: an answer failed its
 own check; 130: interrupted; 141: the reader of the output went away.
@@ -9,8 +9,57 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from importlib import import_module
+
+import click
+
+import kovacic
 
 DECIDED, BAD_INPUT, UNDECIDED, CHECK_FAILED, INTERRUPTED, PIPE_CLOSED = 0, 2, 3, 4, 130, 141
+
+# Name: what it does.  The module kovacic.cli.<name> has the click command as `command`.
+COMMANDS = {
+    "solve": "Decide equations y'' = S(x) y: omega and its polynomial, or a proof that there is none.",
+    "explain": "The derivation, step by step, as a reader of Kovacic's paper follows it.",
+    "conditions": "For which values of the parameters do Liouvillian solutions exist?",
+    "batch": "Decide many equations from a file, in parallel, with a result for every line.",
+    "scan": "Tabulate the case over a grid of parameter values.",
+    "ball": "The ball on the sphere: its equation, its motion.",
+    "plot": "Draw solutions.",
+}
+
+
+class LazyGroup(click.Group):
+    """A group that knows its commands by name and imports one at a time: `kovacic solve` must not pay for plots."""
+
+    def list_commands(self, context: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, context: click.Context, name: str) -> click.Command | None:
+        if name not in COMMANDS:
+            return None
+        command = import_module(f"kovacic.cli.{name}").command
+        assert isinstance(command, click.Command)
+        return command
+
+    def format_commands(self, context: click.Context, formatter: click.HelpFormatter) -> None:
+        """The list of commands, without importing them."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+
+@click.group(cls=LazyGroup)
+@click.version_option(kovacic.__version__, message="kovacic %(version)s")
+def cli() -> None:
+    """Liouvillian solutions of y'' = S(x) y, or a proof that there are none (Kovacic's algorithm).
+
+    \b
+    kovacic solve "x^2 + 3"
+    kovacic solve --json "x" "-3/(16*x^2) + 1/x"
+
+    Exit status: 0 decided (either way), 2 bad input or usage, 3 undecided (a limit was reached), 4 a self-check
+    failed, 130 interrupted.
+    """
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -21,8 +70,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def run(arguments: Sequence[str] | None = None) -> int:
     """The exit status of a command line (by default that of the process)."""
     try:
-        return _run(arguments)
-    except KeyboardInterrupt:
+        # Not cli.main(), which turns an interrupt and a closed pipe into exit statuses of its own.
+        with cli.make_context("kovacic", list(sys.argv[1:] if arguments is None else arguments)) as context:
+            status = cli.invoke(context)
+        sys.stdout.flush()
+        return status if isinstance(status, int) else DECIDED
+    except click.exceptions.Exit as ending:
+        return ending.exit_code
+    except click.ClickException as error:
+        error.show()
+        return BAD_INPUT
+    except kovacic.KovacicError as error:
+        return reported(error)
+    except (KeyboardInterrupt, click.Abort):
         print("kovacic: interrupted", file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
@@ -31,31 +91,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return PIPE_CLOSED
 
 
-def _run(arguments: Sequence[str] | None) -> int:
-    import click
-
-    from kovacic.cli.group import cli
-    from kovacic.errors import InputError, LimitExceeded, VerificationFailed
-
-    try:
-        # Not cli.main(), which turns an interrupt and a closed pipe into exit statuses of its own.
-        with cli.make_context("kovacic", list(sys.argv[1:] if arguments is None else arguments)) as context:
-            status = cli.invoke(context)
-        sys.stdout.flush()
-    except click.exceptions.Exit as ending:
-        return ending.exit_code
-    except click.Abort:
-        raise KeyboardInterrupt from None
-    except click.ClickException as error:
-        error.show()
+def reported(error: Exception) -> int:
+    """Say what was wrong, on standard error; the exit status for it."""
+    print(f"kovacic: {error}", file=sys.stderr)
+    if isinstance(error, kovacic.InputError):
         return BAD_INPUT
-    except InputError as error:
-        print(f"kovacic: {error}", file=sys.stderr)
-        return BAD_INPUT
-    except LimitExceeded as error:
-        print(f"kovacic: {error}", file=sys.stderr)
-        return UNDECIDED
-    except VerificationFailed as error:
-        print(f"kovacic: {error}", file=sys.stderr)
-        return CHECK_FAILED
-    return status if isinstance(status, int) else DECIDED
+    return UNDECIDED if isinstance(error, kovacic.LimitExceeded) else CHECK_FAILED

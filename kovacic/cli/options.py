@@ -1,16 +1,38 @@
-"""What several commands have in common: limits, and equations from arguments or standard input."""
+"""What several commands have in common: equations, limits and assumptions as arguments, answers, colours."""
 
 from __future__ import annotations
 
+import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from kovacic.cli.main import BAD_INPUT, CHECK_FAILED, DECIDED, UNDECIDED, reported
+
 if TYPE_CHECKING:
     from kovacic.limits import Limits
+    from kovacic.solution import Solution
+
+#: Options that commands share; equations that begin with - aren't options.
+EQUATIONS = {"ignore_unknown_options": True}
+var_option = click.option(
+    "--var", metavar="NAME", help="The name of the variable; by default the only symbol of S, or x."
+)
+assume_option = click.option(
+    "--assume", metavar="NAME=WHAT", multiple=True, help="What is known about a parameter: n=integer."
+)
+limit_option = click.option(
+    "--limit",
+    "limits",
+    metavar="NAME=VALUE",
+    multiple=True,
+    help="Change a limit: seconds, degree, bits, digits, exponent, text_length, unknown_degree.",
+)
+
+_CODES = {"title": "1", "good": "32", "bad": "31", "unsure": "33", "faint": "2"}
 
 
 def parse_limits(settings: Sequence[str]) -> Limits:
@@ -45,14 +67,41 @@ def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
     return found or None
 
 
-def expressions(arguments: Sequence[str]) -> Iterator[str]:
+def answer_each(
+    equations: Sequence[str],
+    show: Callable[[Solution], str],
+    *,
+    var: str | None,
+    limits: Sequence[str],
+    assume: Sequence[str] = (),
+    gap: str = "",
+) -> int:
+    """Solve every equation and print what `show` makes of it; the status is that of the most serious outcome."""
+    from kovacic.api import solve
+    from kovacic.decision import Status
+    from kovacic.errors import KovacicError
+
+    refuse_options(equations)
+    chosen, assumptions = parse_limits(limits), parse_assumptions(assume)
+    outcomes = [DECIDED]
+    between = ""
+    for text in _expressions(equations):
+        try:
+            answer = solve(text, var=var, assume=assumptions, limits=chosen)
+        except KovacicError as error:
+            outcomes.append(reported(error))
+            continue
+        outcomes.append(UNDECIDED if answer.status is Status.UNDECIDED else DECIDED)
+        print(between + show(answer), flush=True)
+        between = gap
+    return max(outcomes, key=(DECIDED, UNDECIDED, BAD_INPUT, CHECK_FAILED).index)
+
+
+def _expressions(arguments: Sequence[str]) -> Iterator[str]:
     """The arguments, `-` standing for the lines of standard input; empty lines and those beginning with # are skipped."""
     for argument in arguments:
         if argument == "-":
-            for line in sys.stdin:
-                text = line.strip()
-                if text and not text.startswith("#"):
-                    yield text
+            yield from (text for line in sys.stdin if (text := line.strip()) and not text.startswith("#"))
         else:
             yield argument
 
@@ -62,3 +111,9 @@ def refuse_options(arguments: Sequence[str]) -> None:
     for argument in arguments:
         if argument.startswith("--") and argument[2:3].isalpha():
             raise click.UsageError(f"no such option: {argument} (write (--x) if it is an expression)")
+
+
+def styled(text: str, role: str) -> str:
+    """`text` with the colour of its role, on a terminal that shows colours, unless NO_COLOR is set (https://no-color.org)."""
+    wanted = sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    return f"\x1b[{_CODES[role]}m{text}\x1b[0m" if wanted else text

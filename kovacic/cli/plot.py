@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
-from kovacic.cli.options import parse_limits, refuse_options
+from kovacic.cli.options import EQUATIONS, limit_option, parse_limits, refuse_options
 
 _PICTURES = (".png", ".svg", ".pdf")
 
 
-@click.command(context_settings={"ignore_unknown_options": True})
+@click.command(context_settings=EQUATIONS)
 @click.argument("equation", metavar="EQUATION")
 @click.option("--from", "start", required=True, metavar="A", help="Left end of the interval (a number or p/q).")
 @click.option("--to", "stop", required=True, metavar="B", help="Right end of the interval.")
@@ -25,19 +26,8 @@ _PICTURES = (".png", ".svg", ".pdf")
 @click.option(
     "--digits", default=8, show_default=True, type=click.IntRange(1, 1000), help="Proven digits of each value."
 )
-@click.option("--limit", "limits", metavar="NAME=VALUE", multiple=True, help="Change a limit, as for `kovacic solve`.")
-def command(
-    equation: str,
-    start: str,
-    stop: str,
-    output: Path,
-    x0: str | None,
-    y0: str,
-    dy0: str,
-    points: int,
-    digits: int,
-    limits: tuple[str, ...],
-) -> None:
+@limit_option
+def command(equation: str, start: str, stop: str, output: Path, limits: tuple[str, ...], **numbers: Any) -> None:
     """Draw the solution of y'' = S(x) y, or of an equation with y'' in it, with y(x0) = y0, y'(x0) = dy0.
 
     Every sample is the midpoint of an enclosure whose error is proven.  Singular points on the axis are marked; beyond
@@ -56,19 +46,8 @@ def command(
     if not output.absolute().parent.is_dir():
         raise click.BadParameter(f"there is no directory {output.parent}", param_hint="--output")
     try:
-        plot(
-            equation,
-            start,
-            stop,
-            x0=x0,
-            y0=y0,
-            dy0=dy0,
-            points=points,
-            digits=digits,
-            title=_title(equation),
-            output=output,
-            limits=parse_limits(limits),
-        )
+        title = _title(equation)
+        plot(equation, start, stop, title=title, output=output, limits=parse_limits(limits), **numbers)
     except OSError as error:
         raise click.ClickException(f"the picture can't be written: {error}") from error
     except ModuleNotFoundError as error:

@@ -1,23 +1,27 @@
-"""What goes into a batch and what comes out of it: items, records, and the conditions of a job.
+"""What goes into a batch and what comes out of it: items, records, the conditions of a job, and a summary in numbers.
 
-The three are plain data that travel between processes and machines as one line of text each.
+Items, records and jobs are plain data that travel between processes and machines as one line of text each.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from array import array
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from kovacic.errors import InputError, KovacicError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.solution import Solution
+from kovacic.views.json import group_dict
 
 # What a record says about its equation in one word; the degree of omega is added in case 3.
 CASES = ("case 1", "case 2", "case 3 (4)", "case 3 (6)", "case 3 (12)")
 NONE, UNDECIDED, ERROR, FAILED = "none", "undecided", "bad input", "failed"
 LABELS = (*CASES, NONE, UNDECIDED, ERROR, FAILED)
+_EXIT_STATUS = {FAILED: 4, ERROR: 2, UNDECIDED: 3}
 
 # Types of errors that aren't the input's.
 _PROCESS_LOST = "ProcessLost"
@@ -109,8 +113,7 @@ def solved(item: Item, solution: Solution, job: Job) -> Record:
     """The record of an answer."""
     added = {"line": item.number, **item.extra}
     if job.group:
-        group = solution.group
-        added["group"] = None if group is None else {"name": group.name, "order": group.order, "finite": group.finite}
+        added["group"] = group_dict(solution)
     head = json.dumps(added, ensure_ascii=False)
     degree = 0 if solution.riccati is None else solution.riccati.degree
     label = _label(solution.status.value, solution.case, degree)
@@ -173,3 +176,42 @@ def stopped(item: Item, reason: str, seconds: float) -> Record:
 def _without_answer(item: Item, label: str, error: Mapping[str, Any], seconds: float) -> Record:
     data = {"line": item.number, **item.extra, "schema": 1, "input": item.text, "status": "error", "error": error}
     return Record(item.number, label, seconds, json.dumps(data))
+
+
+class Summary:
+    """Counts by case, and the quantiles of the time of an equation."""
+
+    def __init__(self) -> None:
+        self.counts: Counter[str] = Counter()
+        self.slowest: Record | None = None
+        self._times = array("d")
+
+    def add(self, record: Record) -> None:
+        self.counts[record.label] += 1
+        self._times.append(record.seconds)
+        if self.slowest is None or record.seconds > self.slowest.seconds:
+            self.slowest = record
+
+    @property
+    def total(self) -> int:
+        return len(self._times)
+
+    def quantile(self, q: float) -> float:
+        """The time, in seconds, within which a fraction q < 1 of the equations was answered; 0 for an empty batch.
+
+        >>> summary = Summary()
+        >>> for k in range(1, 101):
+        ...     summary.add(Record(k, "none", k / 100, ""))
+        >>> summary.quantile(0.5)
+        0.51
+        """
+        return sorted(self._times)[int(q * self.total)] if self._times else 0.0
+
+    def rows(self) -> Iterator[tuple[str, int]]:
+        """The labels that occur, in their order, with their counts."""
+        return ((label, self.counts[label]) for label in LABELS if self.counts[label])
+
+    @property
+    def exit_status(self) -> int:
+        """As for `kovacic solve`: 4 if a self-check failed, else 2 if an input was bad, else 3 if one is undecided, else 0."""
+        return next((status for label, status in _EXIT_STATUS.items() if self.counts[label]), 0)

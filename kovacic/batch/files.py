@@ -1,7 +1,10 @@
-"""Items from files: JSONL, CSV, or an expression a line; compressed with gzip or not; or from standard input.
+"""Items from files: JSONL, CSV, or an expression a line, compressed with gzip or not; and the file of answers.
 
 A line that can't be read becomes an item with its error, never an exception.  Items are numbered by the line on which they
 begin, so that a number names the place in the file.  Empty lines, and lines of plain files that begin with `#`, are no items.
+
+Answers are appended line by line, and taken up again after an interruption: whatever that leaves behind (half a line, a block
+of zero bytes after a power cut) is recognised by not being a whole line of JSON with a line number, and is removed first.
 """
 
 from __future__ import annotations
@@ -11,18 +14,21 @@ import gzip
 import io
 import itertools
 import json
+import os
 import sys
+import tempfile
+import time
 import zlib
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, suppress
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import IO, Any, BinaryIO
 
-from kovacic.batch.items import Item
+from kovacic.batch.records import Item, Record, label_of
 from kovacic.errors import InputError, LimitExceeded, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
-FORMATS = ("lines", "jsonl", "csv")
 _SUFFIXES = {".jsonl": "jsonl", ".ndjson": "jsonl", ".csv": "csv"}
 
 # Names of the column or key with the expression, in the order in which they are looked for.
@@ -30,6 +36,12 @@ _EXPRESSION_KEYS = ("S", "input", "expression")
 
 # Bytes of a line for each character that an expression may have: UTF-8, and escapes of JSON.
 _BYTES_PER_CHARACTER = 6
+
+# Number and content of a line.
+_Line = tuple[int, bytes | LimitExceeded]
+
+# Answers are on the disk after so many seconds at most.
+_SYNC_SECONDS = 2.0
 
 
 def guess_format(name: str) -> str | None:
@@ -59,7 +71,7 @@ def opened(name: str) -> Iterator[BinaryIO]:
 def read_items(
     stream: BinaryIO, *, form: str | None = None, var: str | None = None, limits: Limits = DEFAULT_LIMITS
 ) -> Iterator[Item]:
-    """The items of a stream in one of `FORMATS`; by default JSONL if its first item begins with `{` or `"`, else lines.
+    """The items of "lines", "jsonl" or "csv"; by default JSONL if the first item begins with `{` or `"`, else lines.
 
     A line of JSONL is a string, or an object with the key "S" (or "input", "expression"), and perhaps "id" and "var".  A CSV
     file has such columns, or no header and the expressions in its first column.  `var` names the variable of all items
@@ -99,6 +111,8 @@ def count_items(name: str, *, form: str | None = None) -> int:
 
 def item_from(number: int, value: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Item:
     """The item for whatever `kovacic.solve` takes, or for a mapping with the keys of a line of JSONL."""
+    if isinstance(value, Item):
+        return value
     if isinstance(value, str):
         return Item(number, value, var)
     if isinstance(value, Mapping):
@@ -112,17 +126,12 @@ def item_from(number: int, value: Any, *, var: str | None = None, limits: Limits
     return Item(number, parsed.S.to_str(parsed.variable), parsed.variable)
 
 
-def _decompressed(stream: Any) -> BinaryIO:
-    raw = stream if isinstance(stream, io.BufferedReader) else io.BufferedReader(stream)
-    plain: Any = gzip.GzipFile(fileobj=raw) if raw.peek(2)[:2] == b"\x1f\x8b" else raw
-    return plain  # type: ignore[no-any-return]
-
-
-def _lines(stream: BinaryIO, longest: int) -> Iterator[tuple[int, bytes | LimitExceeded]]:
+def _lines(stream: BinaryIO, longest: int) -> Iterator[_Line]:
     """The lines with their numbers; of a line that is too long, nothing but that is kept."""
     number = 0
     try:
-        plain = _decompressed(stream)
+        raw = stream if isinstance(stream, io.BufferedReader) else io.BufferedReader(stream)  # type: ignore[type-var]
+        plain: Any = gzip.GzipFile(fileobj=raw) if raw.peek(2)[:2] == b"\x1f\x8b" else raw
         while line := plain.readline(longest + 1):
             number += 1
             if len(line) <= longest:
@@ -135,9 +144,8 @@ def _lines(stream: BinaryIO, longest: int) -> Iterator[tuple[int, bytes | LimitE
         raise InputError(f"the input can't be read beyond line {number}: {error}") from None
 
 
-def _sniffed(
-    lines: Iterator[tuple[int, bytes | LimitExceeded]],
-) -> tuple[str, Iterator[tuple[int, bytes | LimitExceeded]]]:
+def _sniffed(lines: Iterator[_Line]) -> tuple[str, Iterator[_Line]]:
+    """The format that the first line with anything in it shows, and all the lines."""
     seen = []
     for entry in lines:
         seen.append(entry)
@@ -173,7 +181,7 @@ def _mapping_item(number: int, value: Mapping[str, Any], text: str, var: str | N
     return Item(number, value[key], own, extra)
 
 
-def _csv_items(lines: Iterable[tuple[int, bytes | LimitExceeded]], var: str | None) -> Iterator[Item]:
+def _csv_items(lines: Iterable[_Line], var: str | None) -> Iterator[Item]:
     """Rows of a CSV file.  The reader sees undecodable bytes as surrogates, which the row's item then reports."""
 
     def texts() -> Iterator[str]:
@@ -213,3 +221,80 @@ def _csv_item(number: int, row: list[str], header: list[str] | None, var: str | 
     if len(row) != len(header):
         return Item(number, shown, var, error=ParseError(f"{len(row)} cells in a table of {len(header)} columns"))
     return _mapping_item(number, {key: cell.strip() for key, cell in zip(header, row, strict=True)}, shown, var)
+
+
+class Answers(AbstractContextManager["Answers"]):
+    """A file of records, one JSON object a line; a context manager.
+
+    Every line is flushed to the system at once, and to the disk every two seconds and at the end.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._stream: IO[str] = path.open("a", encoding="utf-8", errors="backslashreplace", newline="\n")
+        self._synced = time.monotonic()
+
+    def write(self, record: Record) -> None:
+        self._stream.write(record.json + "\n")
+        self._stream.flush()
+        if time.monotonic() - self._synced > _SYNC_SECONDS:
+            os.fsync(self._stream.fileno())
+            self._synced = time.monotonic()
+
+    def __exit__(self, *error: object) -> None:
+        with self._stream:
+            self._stream.flush()
+            os.fsync(self._stream.fileno())
+
+
+@dataclass(frozen=True)
+class Done:
+    """What a file of answers has already: by line number, a checksum of the input that is answered, and the label."""
+
+    checksums: dict[int, int] = field(default_factory=dict)
+    labels: dict[int, str] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.checksums)
+
+    def __contains__(self, item: Item) -> bool:
+        """Has the item been answered?  Raises `InputError` if its line number belongs to another input."""
+        known = self.checksums.get(item.number)
+        if known is not None and known != _checksum(item.text):
+            raise InputError(
+                f"line {item.number} of the input isn't what the answers in the output file belong to",
+                hint="give the input file of the interrupted run, or another output file",
+            )
+        return known is not None
+
+
+def take_up(path: Path) -> Done:
+    """Read a file of answers, if there is one, and remove what isn't a whole answer and what occurs twice.
+
+    The file is replaced by the repaired one in a single step, and not touched if there is nothing to repair.
+    """
+    done, broken = Done(), 0
+    if not path.exists():
+        return done
+    with (
+        path.open("rb") as stream,
+        tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name, delete=False) as copy,
+    ):
+        for line in stream:
+            if line.endswith(b"\n"):
+                with suppress(ValueError, KeyError, TypeError, AttributeError):  # not an answer
+                    data = json.loads(line)
+                    number, checksum, label = int(data["line"]), _checksum(data["input"]), label_of(data)
+                    if number not in done.checksums:
+                        done.checksums[number], done.labels[number] = checksum, label
+                        copy.write(line)
+                        continue
+            broken += 1
+        copy.flush()
+        os.fsync(copy.fileno())
+    os.chmod(copy.name, path.stat().st_mode)
+    os.replace(copy.name, path) if broken else os.unlink(copy.name)
+    return done
+
+
+def _checksum(text: str) -> int:
+    return zlib.crc32(text.encode("utf-8", errors="backslashreplace"))

@@ -1,0 +1,141 @@
+"""What `kovacic batch` and `kovacic scan` have in common: their options, the run itself, the progress bar, the summary."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from kovacic.cli.options import limit_option
+
+if TYPE_CHECKING:
+    from kovacic.batch.files import Done
+    from kovacic.batch.records import Record, Summary
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+_OPTIONS = [
+    click.option("-j", "--jobs", type=click.IntRange(min=1), help="Worker processes; by default one for each core."),
+    click.option(
+        "--timeout", type=click.FloatRange(min=0, min_open=True), metavar="SECONDS", help="For each equation."
+    ),
+    click.option("--memory", type=click.IntRange(min=1), metavar="MIB", help="For each equation."),
+    limit_option,
+    click.option("--backend", type=click.Choice(["loky", "dask", "ray"]), help="Run on an engine of joblib's."),
+    click.option("--scheduler", metavar="ADDRESS", help="The engine's address, for example tcp://host:8786."),
+    click.option("--progress/--no-progress", default=None, help="By default if standard error is a terminal."),
+    click.option("-q", "--quiet", is_flag=True, help="No summary."),
+]
+
+
+def batch_options(command: Command) -> Command:
+    """The options of a command that answers many equations; `limits` and so on arrive as keywords."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+def already_answered(output: Path | None, resume: bool) -> Done:
+    """What the output file of an interrupted run has.  A file that isn't empty is never written to by accident."""
+    from kovacic.batch.files import Done, take_up
+
+    if resume:
+        if output is None:
+            raise click.UsageError("--resume needs --output FILE, the JSONL file of the interrupted run")
+        return take_up(output)
+    if output is not None and output.exists() and output.stat().st_size:
+        raise click.UsageError(f"{output} isn't empty: --resume continues it")
+    return Done()
+
+
+def write_line(record: Record) -> None:
+    """A record to standard output, at once."""
+    sys.stdout.write(record.json + "\n")
+    sys.stdout.flush()
+
+
+def answer_all(
+    records: Iterator[Record],
+    write: Callable[[Record], None],
+    *,
+    total: Callable[[], int | None],
+    answered: int,
+    progress: bool | None,
+    quiet: bool,
+) -> Summary:
+    """Write every record, with a progress bar where it is wanted, and at the end, be it an interruption, the summary.
+
+    `total` counts the equations where that is possible, `answered` those that needn't be answered again.
+    """
+    from kovacic.batch.records import Summary
+
+    summary, start = Summary(), time.monotonic()
+    with ExitStack() as stack:
+        if not quiet:
+            stack.callback(lambda: _print_summary(summary, answered, time.monotonic() - start))
+        if progress is None:
+            progress = sys.stderr.isatty() and not sys.stdout.isatty()
+        advance = stack.enter_context(_Meter(total())).advance if progress else None
+        for record in records:
+            write(record)
+            summary.add(record)
+            if advance is not None:
+                advance(summary)
+    return summary
+
+
+class _Meter(AbstractContextManager["_Meter"]):
+    """A bar with the number done, the rate, the remaining time and the counts by case; a context manager."""
+
+    def __init__(self, total: int | None) -> None:
+        from rich.console import Console
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+        self._progress = Progress(
+            BarColumn(bar_width=24),
+            MofNCompleteColumn(),
+            TextColumn("{task.fields[rate]}"),
+            TimeRemainingColumn(elapsed_when_finished=True),
+            TextColumn("{task.fields[counts]}", style="dim"),
+            console=Console(stderr=True),
+        )
+        self._task = self._progress.add_task("", total=total, counts="", rate="")
+        self._progress.start()
+
+    def __exit__(self, *error: object) -> None:
+        self._progress.stop()
+
+    def advance(self, summary: Summary) -> None:
+        """One more record, which is in the summary already."""
+        counts = "  ".join(f"{label} {count}" for label, count in summary.rows())
+        speed = self._progress.tasks[0].finished_speed or self._progress.tasks[0].speed or 0.0
+        rate = f"{speed:.0f}/s" if speed >= 10 else f"{speed:.2g}/s"
+        self._progress.update(self._task, completed=summary.total, counts=counts, rate=rate)
+
+
+def _print_summary(summary: Summary, answered: int, seconds: float) -> None:
+    """Counts by case and the times, as a table on standard error."""
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(stderr=True)
+    table = Table(show_edge=False, pad_edge=False)
+    table.add_column("outcome")
+    table.add_column("equations", justify="right")
+    for label, count in summary.rows():
+        table.add_row(label, str(count))
+    table.add_section()
+    table.add_row("all", str(summary.total))
+    console.print(table)
+    if answered:
+        console.print(f"{answered} more had been answered before")
+    if summary.slowest is not None:
+        quantiles = f"median {summary.quantile(0.5):.2g} s, 90 % within {summary.quantile(0.9):.2g} s"
+        slowest = f"slowest {summary.slowest.seconds:.2g} s (line {summary.slowest.number})"
+        console.print(f"time of an equation: {quantiles}, {slowest}")
+    console.print(f"{seconds:.1f} s in all, {summary.total / max(seconds, 1e-9):.0f} equations a second")
