@@ -18,7 +18,6 @@ _NAMES = {
     "batch": ("solve_many",),
     "decision": ("Status", "Structure"),
     "enclosure.evaluate": ("evaluate",),
-    "equation": ("Equation",),
     "errors": (
         "InputError",
         "KovacicError",
@@ -31,8 +30,8 @@ _NAMES = {
     "general_solution": ("dsolve", "solve_riccati"),
     "limits": ("Limits",),
     "parametric.api": ("conditions",),
-    "api": ("Verdict", "decide", "solve"),
-    "solution": ("Solution",),
+    "reading.given": ("Equation",),
+    "solution": ("Solution", "Verdict", "decide", "solve"),
 }
 _MODULES = {name: f"kovacic.{module}" for module, names in _NAMES.items() for name in names}
 

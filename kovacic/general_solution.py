@@ -14,13 +14,12 @@ import sympy
 from sympy import cos, cot, csc, expand, sec, sin, tan
 
 from kovacic.algebra.poly import Poly
-from kovacic.api import solve
 from kovacic.closed_form.atoms import Atoms
 from kovacic.decision import Status
-from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.solution import Solution
+from kovacic.reading.given import Equation
+from kovacic.solution import Solution, solve
 
 #: The largest expression (in operations) that is handed to SymPy's general simplification.
 _SIMPLIFIED = 150

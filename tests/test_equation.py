@@ -20,10 +20,10 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.equation import Equation
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
 from kovacic.reading.equation import is_equation, parse_equation
 from kovacic.reading.from_sympy import parse_sympy_equation
+from kovacic.reading.given import Equation
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO = X * 0

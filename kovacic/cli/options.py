@@ -77,9 +77,9 @@ def answer_each(
     gap: str = "",
 ) -> int:
     """Solve every equation and print what `show` makes of it; the status is that of the most serious outcome."""
-    from kovacic.api import solve
     from kovacic.decision import Status
     from kovacic.errors import KovacicError
+    from kovacic.solution import solve
 
     refuse_options(equations)
     chosen, assumptions = parse_limits(limits), parse_assumptions(assume)

@@ -16,12 +16,12 @@ from __future__ import annotations
 from typing import Any
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.equation import Equation
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import Place, RationalReader, tokens_of
+from kovacic.reading.given import Equation
 from kovacic.reading.lexer import PRIMES, Tokens
 from kovacic.reading.linear import REST, LinearArithmetic, LinearForm
 from kovacic.reading.parsed import DEFAULT_VARIABLE, ENERGY, FUNCTION_NAMES, NUMBER_NAMES, UNKNOWN

@@ -14,13 +14,13 @@ from typing import Any
 from flint import acb, arb
 
 from kovacic.algebra.rationals import QQ
-from kovacic.equation import Equation
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Term
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.equation import EquationReader
 from kovacic.reading.expression import RationalReader, chosen_variable
+from kovacic.reading.given import Equation
 from kovacic.reading.linear import LinearArithmetic, LinearForm
 from kovacic.reading.parsed import TRANSCENDENTAL_HINT, Parsed
 from kovacic.reading.parser import shown

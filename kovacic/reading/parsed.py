@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.equation import Equation
+from kovacic.reading.given import Equation
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,11 +11,11 @@ from typing import Any
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.equation import Equation
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.equation import is_equation, parse_equation
 from kovacic.reading.expression import parse_rational
+from kovacic.reading.given import Equation
 from kovacic.reading.parsed import DEFAULT_VARIABLE, Parsed
 from kovacic.reading.parser import shown
 

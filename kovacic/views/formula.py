@@ -11,7 +11,7 @@ from math import gcd
 
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.equation import Equation
+from kovacic.reading.given import Equation
 from kovacic.reading.names import Names, parameters_of
 
 _GREEK = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega"
