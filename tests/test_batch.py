@@ -378,7 +378,18 @@ def records(numbers: list[int]) -> list[Record]:
 
 
 @pytest.mark.parametrize(
-    "rest", [b"", b'{"line": 9, "inp', b"\0" * 4096, b'{"line": 9}\n', b"\n", b"[]\n", b'"\xff"\n']
+    "rest",
+    [
+        b"",
+        b'{"line": 9, "inp',
+        b"\0" * 4096,
+        b'{"line": 9}\n',
+        b"\n",
+        b"[]\n",
+        b'"\xff"\n',
+        b'{"line": 3, "input": "x + 3", "case": 99}\n',
+        b'{"line": 3, "input": "x + 3", "schema": 1, "status": "error"}\n',
+    ],
 )
 def test_what_an_interruption_leaves_is_removed(tmp_path: Path, rest: bytes) -> None:
     path = tmp_path / "answers.jsonl"
@@ -393,6 +404,34 @@ def test_what_an_interruption_leaves_is_removed(tmp_path: Path, rest: bytes) -> 
     with pytest.raises(InputError, match="isn't what the answers"):
         _ = Item(2, "x^2") in done
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"case": 99},
+        {"case": None},
+        {"case": 2},
+        {"status": "none"},
+        {"status": "liouville"},
+        {"status": "undecided"},
+        {"riccati": None},
+        {"riccati": {"variable": "w", "degree": 2, "coefficients": ["1", "x", "1"]}},
+        {"verified": False},
+        {"schema": 2},
+        {"proof": {}},
+        {"proof": {"structure": None, "undecided": None}},
+    ],
+    ids=str,
+)
+def test_a_record_that_contradicts_itself_is_no_answer(tmp_path: Path, change: dict[str, object]) -> None:
+    path = tmp_path / "answers.jsonl"
+    right = solve_item(Item(1, "x^2 + 3"), Job(), DEFAULT_LIMITS).data
+    path.write_text(json.dumps(right) + "\n")
+    assert len(take_up(path)) == 1
+    path.write_text(json.dumps({**right, **change}) + "\n")
+    assert len(take_up(path)) == 0
+    assert path.read_bytes() == b""
 
 
 def test_broken_and_repeated_lines_in_the_middle_are_removed(tmp_path: Path) -> None:
@@ -428,8 +467,8 @@ def test_the_command_answers_every_line(tmp_path: Path) -> None:
     assert [answer["line"] for answer in answers] == list(range(1, 7))
     assert [answer["status"] for answer in answers] == ["liouvillian", "none", *["liouvillian"] * 3, "error"]
     assert answers[0]["group"] == {"name": "Borel", "order": None, "finite": False}
-    assert re.search(r"case 1\s+│\s+3", ran.stderr)
-    assert re.search(r"bad input\s+│\s+1", ran.stderr)
+    assert re.search(r"case 1\s+3\n", ran.stderr)
+    assert re.search(r"bad input\s+1\n", ran.stderr)
     assert "6/6" in ran.stderr
 
 

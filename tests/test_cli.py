@@ -186,6 +186,48 @@ def test_a_closed_pipe_is_quiet() -> None:
     assert done.stderr == ""
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full device")
+@pytest.mark.parametrize(
+    "arguments",
+    [["solve", "x"], ["--help"], ["conditions", "n/x^2"], ["explain", "2"], ["batch", "-"], ["scan", "x+n", "n=1:3"]],
+    ids=str,
+)
+def test_a_full_disk_is_told(arguments: list[str]) -> None:
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            [*COMMAND, *arguments], input="x\n", stdout=full, stderr=subprocess.PIPE, text=True, check=False, timeout=60
+        )
+        assert done.returncode == 5
+        assert "kovacic: the output can't be written: No space left" in done.stderr
+        assert "Traceback" not in done.stderr
+        assert (
+            subprocess.run([*COMMAND, *arguments], input=b"x\n", stdout=full, stderr=full, timeout=60).returncode == 5
+        )
+    if arguments[0] in ("batch", "scan"):
+        done = run(*arguments, "-o", "/dev/full", stdin="x\n")
+        assert done.returncode == 5
+        assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("command", [["batch", "-"], ["scan", "x+n", "n=1:3"]])
+def test_an_output_in_a_missing_folder_is_refused_before_any_work(tmp_path: Path, command: list[str]) -> None:
+    done = run(*command, "-o", str(tmp_path / "missing" / "answers.jsonl"), stdin="x\n")
+    assert done.returncode == 2
+    assert "there is no folder" in done.stderr
+    assert done.stdout == ""
+
+
+@pytest.mark.parametrize("redirected", ["", "2>&1"])
+@pytest.mark.parametrize("command", ["batch -", "scan x^2+n n=1:300", "scan x^2+n n=1:300 --format csv"])
+def test_a_batch_whose_reader_goes_away_ends(command: str, redirected: str) -> None:
+    program = f"seq 1 300 | {sys.executable} -m kovacic {command} {redirected} | head -1; echo ${{PIPESTATUS[1]}}"
+    done = subprocess.run(
+        program, shell=True, executable="/bin/bash", capture_output=True, text=True, check=True, timeout=60
+    )
+    assert done.stdout.splitlines()[1] == "141"
+    assert "Traceback" not in done.stderr
+
+
 def on_terminal(env: dict[str, str]) -> str:
     """What the command writes when standard output is a terminal."""
     leader, follower = pty.openpty()

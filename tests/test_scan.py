@@ -14,8 +14,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kovacic.batch.map import draw_map
-from kovacic.batch.records import Record, label_of
+from kovacic.batch.map import _COLOURS_AND_NAMES, draw_map
+from kovacic.batch.records import LABELS, Record, label_of
 from kovacic.batch.scan import Template, parse_grid, points, scan, scan_items
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
@@ -165,6 +165,10 @@ def test_wrong_usage(arguments: list[str]) -> None:
     assert "Traceback" not in ran.stderr
 
 
+def test_every_label_has_a_colour() -> None:
+    assert tuple(_COLOURS_AND_NAMES) == LABELS
+
+
 def test_maps_show_each_label_in_its_place(tmp_path: Path) -> None:
     matplotlib = pytest.importorskip("matplotlib.image")
     grids = (parse_grid("a=0:1"), parse_grid("b=0:2"))
@@ -191,5 +195,5 @@ def test_a_map_needs_values_in_order(tmp_path: Path) -> None:
 
 
 def test_labels_are_read_back() -> None:
-    record = Record(1, "failed", 0.0, '{"error": {"type": "ProcessLost"}, "status": "error"}')
+    record = Record(1, "failed", 0.0, '{"schema": 1, "error": {"type": "ProcessLost"}, "status": "error"}')
     assert label_of(record.data) == record.label

@@ -231,19 +231,24 @@ class Answers(AbstractContextManager["Answers"]):
 
     def __init__(self, path: Path) -> None:
         self._stream: IO[str] = path.open("a", encoding="utf-8", errors="backslashreplace", newline="\n")
+        self._on_disk = path.is_file()  # and not a pipe or a device
         self._synced = time.monotonic()
 
     def write(self, record: Record) -> None:
         self._stream.write(record.json + "\n")
         self._stream.flush()
         if time.monotonic() - self._synced > _SYNC_SECONDS:
+            self._sync()
+
+    def _sync(self) -> None:
+        if self._on_disk:
             os.fsync(self._stream.fileno())
-            self._synced = time.monotonic()
+        self._synced = time.monotonic()
 
     def __exit__(self, *error: object) -> None:
         with self._stream:
             self._stream.flush()
-            os.fsync(self._stream.fileno())
+            self._sync()
 
 
 @dataclass(frozen=True)

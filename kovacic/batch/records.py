@@ -21,6 +21,15 @@ from kovacic.views.json import group_dict
 CASES = ("case 1", "case 2", "case 3 (4)", "case 3 (6)", "case 3 (12)")
 NONE, UNDECIDED, ERROR, FAILED = "none", "undecided", "bad input", "failed"
 LABELS = (*CASES, NONE, UNDECIDED, ERROR, FAILED)
+# By the structure of the group: label, case, degree of omega.
+_LABELS: dict[str | None, tuple[str, int | None, int]] = {
+    None: (NONE, None, 0),
+    "reducible": (CASES[0], 1, 1),
+    "imprimitive": (CASES[1], 2, 2),
+    "tetrahedral": (CASES[2], 3, 4),
+    "octahedral": (CASES[3], 3, 6),
+    "icosahedral": (CASES[4], 3, 12),
+}
 _EXIT_STATUS = {FAILED: 4, ERROR: 2, UNDECIDED: 3}
 
 # Types of errors that aren't the input's.
@@ -115,22 +124,27 @@ def solved(item: Item, solution: Solution, job: Job) -> Record:
     if job.group:
         added["group"] = group_dict(solution)
     head = json.dumps(added, ensure_ascii=False)
-    degree = 0 if solution.riccati is None else solution.riccati.degree
-    label = _label(solution.status.value, solution.case, degree)
+    structure = solution.decision.structure
+    label = UNDECIDED if solution.reason else _LABELS[None if structure is None else structure.value][0]
     return Record(item.number, label, solution.seconds or 0.0, f"{head[:-1]}, {solution.to_json()[1:]}")
 
 
 def label_of(data: Mapping[str, Any]) -> str:
-    """The label of a record that has been read from a file."""
-    if "error" in data:
+    """The label of a record that has been read from a file.
+
+    Raises `ValueError`, `KeyError` or `TypeError` where it isn't a whole record, or contradicts itself.
+    """
+    if data["schema"] != 1:
+        raise ValueError("another schema")
+    if data["status"] == "error":
         return FAILED if data["error"]["type"] in _FAILURES else ERROR
-    return _label(data["status"], data["case"], (data["riccati"] or {"degree": 0})["degree"])
-
-
-def _label(status: str, case: int | None, degree: int) -> str:
-    if case is None:
-        return status
-    return f"case 3 ({degree})" if case == 3 else f"case {case}"
+    if data["status"] == UNDECIDED and data["proof"]["undecided"]:
+        return UNDECIDED
+    label, case, degree = _LABELS[data["proof"]["structure"]]
+    found = data["status"], data["case"], len(data["riccati"]["coefficients"]) - 1 if data["riccati"] else 0
+    if found != ("none" if case is None else "liouvillian", case, degree) or not data["verified"]:
+        raise ValueError("the answer contradicts itself")
+    return label
 
 
 def refused(item: Item, error: KovacicError, seconds: float = 0.0) -> Record:

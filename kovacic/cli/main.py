@@ -1,7 +1,7 @@
 """The entry point of the command, its subcommands, and what its exit status means.
 
 0: everything was decided, either way; 2: bad input or usage; 3: undecided, a limit was reached; 4: an answer failed its
-own check; 130: interrupted; 141: the reader of the output went away.
+own check; 5: the output can't be written; 130: interrupted; 141: the reader of the output went away.
 """
 
 from __future__ import annotations
@@ -9,13 +9,14 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from importlib import import_module
 
 import click
 
 import kovacic
 
-DECIDED, BAD_INPUT, UNDECIDED, CHECK_FAILED, INTERRUPTED, PIPE_CLOSED = 0, 2, 3, 4, 130, 141
+DECIDED, BAD_INPUT, UNDECIDED, CHECK_FAILED, NOT_WRITTEN, INTERRUPTED, PIPE_CLOSED = 0, 2, 3, 4, 5, 130, 141
 
 # Name: what it does.  The module kovacic.cli.<name> has the click command as `command`.
 COMMANDS = {
@@ -58,7 +59,7 @@ def cli() -> None:
     kovacic solve --json "x" "-3/(16*x^2) + 1/x"
 
     Exit status: 0 decided (either way), 2 bad input or usage, 3 undecided (a limit was reached), 4 a self-check
-    failed, 130 interrupted.
+    failed, 5 the output can't be written, 130 interrupted, 141 its reader went away.
     """
 
 
@@ -86,9 +87,23 @@ def run(arguments: Sequence[str] | None = None) -> int:
         print("kovacic: interrupted", file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
-        # Python would complain once more when it flushes standard output at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return PIPE_CLOSED
+        return _given_up(PIPE_CLOSED)
+    except OSError as error:
+        with suppress(OSError):  # standard error may be full as well
+            where = f" to {error.filename}" if error.filename else ""
+            print(f"kovacic: the output can't be written{where}: {error.strerror}", file=sys.stderr)
+        return _given_up(NOT_WRITTEN)
+
+
+def _given_up(status: int) -> int:
+    """The status, after an output has failed: Python would complain once more when it flushes its streams at exit."""
+    null = os.open(os.devnull, os.O_WRONLY)
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            stream.flush()
+        except OSError:
+            os.dup2(null, stream.fileno())
+    return status
 
 
 def reported(error: Exception) -> int:

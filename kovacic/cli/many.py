@@ -44,11 +44,13 @@ def already_answered(output: Path | None, resume: bool) -> Done:
     """What the output file of an interrupted run has.  A file that isn't empty is never written to by accident."""
     from kovacic.batch.files import Done, take_up
 
+    if output is not None and not output.absolute().parent.is_dir():
+        raise click.BadParameter(f"there is no folder {output.parent}", param_hint="--output")
     if resume:
         if output is None:
             raise click.UsageError("--resume needs --output FILE, the JSONL file of the interrupted run")
         return take_up(output)
-    if output is not None and output.exists() and output.stat().st_size:
+    if output is not None and output.is_file() and output.stat().st_size:
         raise click.UsageError(f"{output} isn't empty: --resume continues it")
     return Done()
 
@@ -119,23 +121,15 @@ class _Meter(AbstractContextManager["_Meter"]):
 
 
 def _print_summary(summary: Summary, answered: int, seconds: float) -> None:
-    """Counts by case and the times, as a table on standard error."""
-    from rich.console import Console
-    from rich.table import Table
+    """Counts by case and the times, on standard error."""
+    from kovacic.views.document import FORMATS, Paragraph, Table
 
-    console = Console(stderr=True)
-    table = Table(show_edge=False, pad_edge=False)
-    table.add_column("outcome")
-    table.add_column("equations", justify="right")
-    for label, count in summary.rows():
-        table.add_row(label, str(count))
-    table.add_section()
-    table.add_row("all", str(summary.total))
-    console.print(table)
-    if answered:
-        console.print(f"{answered} more had been answered before")
+    counts = Table(("outcome", "equations"), [[[k], [str(n)]] for k, n in [*summary.rows(), ("all", summary.total)]])
+    lines = [f"{seconds:.1f} s in all, {summary.total / max(seconds, 1e-9):.0f} equations a second"]
     if summary.slowest is not None:
         quantiles = f"median {summary.quantile(0.5):.2g} s, 90 % within {summary.quantile(0.9):.2g} s"
         slowest = f"slowest {summary.slowest.seconds:.2g} s (line {summary.slowest.number})"
-        console.print(f"time of an equation: {quantiles}, {slowest}")
-    console.print(f"{seconds:.1f} s in all, {summary.total / max(seconds, 1e-9):.0f} equations a second")
+        lines.insert(0, f"time of an equation: {quantiles}, {slowest}")
+    if answered:
+        lines.insert(0, f"{answered} more had been answered before")
+    print(FORMATS["text"].render([counts, Paragraph(["\n".join(lines)])]), end="", file=sys.stderr)
