@@ -6,6 +6,7 @@ Choose one with the environment variable HYPOTHESIS_PROFILE; KOVACIC_FUZZ sets t
 from __future__ import annotations
 
 import os
+import signal
 
 from hypothesis import HealthCheck, settings
 
@@ -17,3 +18,8 @@ settings.register_profile(
 settings.register_profile("dev", deadline=None, suppress_health_check=SLOW)
 settings.register_profile("fuzz", deadline=None, database=None, suppress_health_check=SLOW, print_blob=True)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+# In the background (`pytest &` in a script) an interrupt is ignored, and the processes that tests start and interrupt
+# would inherit that; where this process handles it, they have the system's default.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -13,10 +13,12 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from processes import started
 
 import kovacic
 from kovacic.batch.child import _START
@@ -295,6 +297,33 @@ def test_an_unexpected_exception_is_reported_once_and_costs_nobody_else_an_answe
     assert "ZeroDivisionError" in (found[5].error or "")
 
 
+_MISSING = ("SIGALRM", "SIGKILL", "setitimer", "ITIMER_REAL")
+
+
+@pytest.mark.parametrize("end", ["1/0", "os._exit(1)", "os.kill(os.getpid(), 15)", "os.kill(os.getpid(), 40)"])
+def test_a_worker_that_dies_is_reported_where_a_system_lacks_signals(monkeypatch: pytest.MonkeyPatch, end: str) -> None:
+    """As on Windows, in both processes; timeouts hold there, too."""
+    known = [one for one in signal.Signals if one.name not in _MISSING]
+    monkeypatch.setattr("kovacic.batch.pool.signal", SimpleNamespace(Signals=known))
+    monkeypatch.delattr(os, "sched_getaffinity")
+    lacking = f"import os, signal; [delattr(signal, name) for name in {_MISSING}]; sys.modules['resource'] = None; "
+    broken = (
+        f"import kovacic; real = kovacic.solve; kovacic.solve = lambda S, **o: real(S, **o) if S != 'x^7' else {end}; "
+    )
+    start = "from kovacic.batch.worker import main; main()"
+    monkeypatch.setattr("kovacic.batch.child._START", _START.replace(start, lacking + broken + start))
+    records = list(kovacic.solve_many(["x", "x^7", "x^2 + 3", SLOW, "x"], timeout=1.0))
+    assert [record.label for record in records] == ["none", "failed", "case 1", "undecided", "none"]
+    assert "the worker process ended with" in records[1].error
+
+
+def test_memory_limits_are_refused_where_the_system_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    exists = os.path.exists
+    monkeypatch.setattr(os.path, "exists", lambda path: path != "/proc/self/statm" and exists(path))
+    with pytest.raises(InputError, match="memory limits need a Linux system"):
+        kovacic.solve_many(["x"], memory=100)
+
+
 def test_a_worker_that_cannot_start_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kovacic.batch.child._START", "import sys; sys.exit('no such module')")
     with Pool(1, Job()) as pool, pytest.raises(KovacicError, match="no such module"):
@@ -473,14 +502,8 @@ def test_the_command_answers_every_line(tmp_path: Path) -> None:
 
 
 def test_the_command_reads_standard_input_and_answers_at_once() -> None:
-    with subprocess.Popen(
-        [sys.executable, "-m", "kovacic", "batch", "-", "-j", "1", "-q"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as process:
-        assert process.stdin is not None
-        assert process.stdout is not None
+    arguments = [sys.executable, "-m", "kovacic", "batch", "-", "-j", "1", "-q"]
+    with started(arguments, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
         for text, case in (("x^2 + 3", 1), ("x", None)):
             process.stdin.write(text + "\n")
             process.stdin.flush()
@@ -506,10 +529,8 @@ def test_an_interrupted_run_is_resumed(tmp_path: Path, signal_sent: int) -> None
     count = 2000
     source.write_text("".join(f"x^2 + {k % 20}\n" for k in range(count)))
     arguments = [str(source), "-o", str(output), "-j", "2", "--as-finished"]
-    with subprocess.Popen(
-        [sys.executable, "-m", "kovacic", "batch", *arguments], stderr=subprocess.PIPE, text=True
-    ) as process:
-        while not output.exists() or output.read_bytes().count(b"\n") < 50:
+    with started([sys.executable, "-m", "kovacic", "batch", *arguments], stderr=subprocess.PIPE) as process:
+        while process.poll() is None and (not output.exists() or output.read_bytes().count(b"\n") < 50):
             time.sleep(0.01)
         process.send_signal(signal_sent)
         _, errors = process.communicate(timeout=60)

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from processes import started
 
 import kovacic
 from kovacic.cli import main
@@ -156,16 +157,13 @@ def test_a_failed_self_check_is_status_4(monkeypatch: pytest.MonkeyPatch, capsys
 
 
 def test_ctrl_c_is_status_130() -> None:
-    process = subprocess.Popen(
-        [*COMMAND, "solve", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-    assert process.stdin is not None
-    assert process.stdout is not None
-    process.stdin.write("x\n")
-    process.stdin.flush()
-    assert process.stdout.readline() == "y'' = x y\n"  # it runs, and waits for more
-    process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=30)
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+    with started([*COMMAND, "solve", "-"], **pipes) as process:
+        process.stdin.write("x\n")
+        process.stdin.flush()
+        assert process.stdout.readline() == "y'' = x y\n"  # it runs, and waits for more
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=30)
     assert process.returncode == 130
     assert "Traceback" not in errors
 
@@ -231,21 +229,20 @@ def test_a_batch_whose_reader_goes_away_ends(command: str, redirected: str) -> N
 def on_terminal(env: dict[str, str]) -> str:
     """What the command writes when standard output is a terminal."""
     leader, follower = pty.openpty()
-    process = subprocess.Popen(
-        [*COMMAND, "solve", "x^2+3"], stdout=follower, stderr=follower, stdin=subprocess.DEVNULL, env=env
-    )
-    os.close(follower)
-    output = b""
-    while True:
-        try:
-            piece = os.read(leader, 4096)
-        except OSError:  # the other end is closed
-            break
-        if not piece:
-            break
-        output += piece
-    os.close(leader)
-    process.wait(timeout=30)
+    options = {"stdout": follower, "stderr": follower, "stdin": subprocess.DEVNULL, "env": env}
+    with started([*COMMAND, "solve", "x^2+3"], **options) as process:
+        os.close(follower)
+        output = b""
+        while True:
+            try:
+                piece = os.read(leader, 4096)
+            except OSError:  # the other end is closed
+                break
+            if not piece:
+                break
+            output += piece
+        os.close(leader)
+        process.wait(timeout=30)
     return output.decode()
 
 

@@ -85,7 +85,7 @@ class Child:
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         self._process.stdout.close()
-        with suppress(BrokenPipeError):  # something was still waiting to be written
+        with suppress(OSError):  # something was still waiting to be written
             self._process.stdin.close()
         self._errors.close()
 
@@ -98,7 +98,7 @@ class Child:
 
     def _send(self, line: str) -> None:
         assert self._process.stdin is not None
-        with suppress(BrokenPipeError):  # the end of the process arrives as an event
+        with suppress(OSError):  # a broken pipe: the end of the process arrives as an event
             self._process.stdin.write(line.encode())
             self._process.stdin.flush()
 

@@ -260,7 +260,7 @@ class Pool(AbstractContextManager["Pool"]):
         """Which limit the end of a process means; None for another reason."""
         if self._job.memory is not None and _OUT_OF_MEMORY.search(words):
             return f"the memory limit of {self._job.memory} MiB is used up (process ended)"
-        if self._job.timeout is not None and -status == getattr(signal, "SIGALRM", None):
+        if self._job.timeout is not None and _signal_name(status) == "SIGALRM":
             return f"the time limit of {self._job.timeout:g} s is used up (process ended)"
         return None
 
@@ -308,10 +308,15 @@ def _processes_for(status: int) -> int:
     """How many processes an item may lose in this way: an exception repeats itself, a kill came from somebody else."""
     if status >= 0:
         return 1
-    return 4 if -status in (signal.SIGKILL, signal.SIGTERM) else 2
+    return 4 if _signal_name(status) in ("SIGKILL", "SIGTERM") else 2
 
 
 def _cause(status: int, words: str) -> str:
-    end = f"signal {signal.Signals(-status).name}" if status < 0 else f"exit status {status}"
+    end = f"signal {_signal_name(status)}" if status < 0 else f"exit status {status}"
     last_line = words.splitlines()[-1].strip() if words else ""
     return f"the worker process ended with {end}" + (f": {last_line}" if last_line else "")
+
+
+def _signal_name(status: int) -> str:
+    """The name of the signal that ended a process, or its number; not every system knows all of them."""
+    return next((known.name for known in signal.Signals if known == -status), str(-status))
