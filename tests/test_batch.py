@@ -169,7 +169,7 @@ def test_solve_many_answers_in_order_with_schema_1() -> None:
 def test_answers_validate_against_the_schema(pool: Pool) -> None:
     import jsonschema
 
-    schema = json.loads((Path(kovacic.__file__).parent / "views" / "solution.schema.json").read_text())
+    schema = json.loads((Path(kovacic.__file__).parent / "views" / "schema.json").read_text())
     with Pool(1, Job(timeout=0.2)) as short:
         records = [*pool.run(items(QUICK)), *short.run(items([SLOW]))]
     for record in records:

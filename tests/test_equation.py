@@ -258,7 +258,7 @@ def test_the_full_json_has_group_and_solutions() -> None:
     assert data["group"] == {"name": "G_m", "order": None, "finite": False}
     assert data["gauge"] == "-1/(2*x)"
     assert [sympy.sympify(s) for s in data["solutions"]] == [sympy.cos(x) / sympy.sqrt(x), sympy.sin(x) / sympy.sqrt(x)]
-    schema = json.loads((Path(kovacic.__file__).parent / "views" / "solution.schema.json").read_text("utf-8"))
+    schema = json.loads((Path(kovacic.__file__).parent / "views" / "schema.json").read_text("utf-8"))
     jsonschema.validate(data, schema)
     assert json.loads(kovacic.solve("x").to_json(full=True))["solutions"] is None
 

@@ -17,7 +17,7 @@ from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.views.json import dumps, loads
 
-SCHEMA = json.loads((Path(kovacic.__file__).parent / "views" / "solution.schema.json").read_text(encoding="utf-8"))
+SCHEMA = json.loads((Path(kovacic.__file__).parent / "views" / "schema.json").read_text(encoding="utf-8"))
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 PUBLISHED = load()
 

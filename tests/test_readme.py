@@ -65,5 +65,5 @@ def test_the_equation_of_the_first_command_is_solved(capsys: pytest.CaptureFixtu
 
 
 def test_files_that_it_mentions_exist() -> None:
-    for name in ("kovacic/views/solution.schema.json", "kovacic/verify", "examples", "CITATION.cff", "LICENSE"):
+    for name in ("kovacic/views/schema.json", "kovacic/verify", "examples", "CITATION.cff", "LICENSE"):
         assert (README.parent / name).exists()

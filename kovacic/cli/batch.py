@@ -49,7 +49,8 @@ def command(
     kovacic batch equations.jsonl -o answers.jsonl --timeout 10 --memory 500 --resume
     generate | kovacic batch - --as-finished | jq .case
 
-    Exit status: 0 all decided, 3 some undecided, 2 some bad input, 4 a self-check or a process failed.
+    Exit status: 0 all decided, 3 some undecided, 2 some bad input, 4 a self-check or a process failed, 5 the output can't
+    be written.
     """
     from kovacic.batch import make_job, run_items
     from kovacic.batch.files import Answers, count_items, guess_format, opened, read_items

@@ -27,6 +27,7 @@ COMMANDS = {
     "scan": "Tabulate the case over a grid of parameter values.",
     "ball": "The ball on the sphere: its equation, its motion.",
     "plot": "Draw solutions.",
+    "schema": "The JSON Schema of what the commands print as JSON.",
 }
 
 

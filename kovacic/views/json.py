@@ -1,4 +1,4 @@
-"""Answers as JSON, schema 1: a contract, described by `solution.schema.json` beside this file.
+"""Answers as JSON, schema 1: a contract, described by `schema.json` beside this file.
 
     {"schema": 1, "input": "2", "variable": "x", "S": "2", "status": "liouvillian", "case": 1,
      "riccati": {"variable": "w", "degree": 1, "coefficients": ["-c", "1"]},

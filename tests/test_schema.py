@@ -1,0 +1,130 @@
+"""One published schema describes every line of JSON that any command prints: on real output."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+
+import kovacic
+from kovacic.batch.records import Item, Job, lost, stopped
+from kovacic.batch.worker import solve_item
+from kovacic.cli.main import run
+from kovacic.limits import DEFAULT_LIMITS, Limits
+
+EQUATIONS = [
+    "x^2 + 3",
+    "x",
+    "1/x - 3/(16*x^2)",
+    "2",
+    "-3/(16*x^2) - 2/(9*(x-1)^2) + 3/(16*x*(x-1))",
+    "0",
+    "sqrt(2)*x + I",
+    "(4*n^2-1)/(4*x^2) - 1",
+    "x^2*y'' + x*y' + (x^2 - 1/4)*y = exp(x)",
+]
+WRONG = ['{"S": "x+", "id": [1, {"a": null}]}', '{"id": 3}', "5", '{"S": 5}', "not json", '{"S": "sin(x)"}', "\x00"]
+BALL = ["--mass", "1", "--radius", "1", "--sphere", "3"]
+
+
+@pytest.fixture(scope="module")
+def schema() -> dict[str, Any]:
+    return json.loads((Path(kovacic.__file__).parent / "views" / "schema.json").read_text("utf-8"))
+
+
+@pytest.fixture
+def validator(schema: dict[str, Any]) -> jsonschema.Draft202012Validator:
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(schema)
+
+
+def printed(capsys: pytest.CaptureFixture[str], *arguments: str, status: int = 0) -> Iterator[dict[str, Any]]:
+    assert run(arguments) == status
+    return map(json.loads, capsys.readouterr().out.splitlines())
+
+
+def test_the_command_prints_it(schema: dict[str, Any], capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["schema"]) == 0
+    assert json.loads(capsys.readouterr().out) == schema
+
+
+def test_lines_of_solve(validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]) -> None:
+    lines = [
+        *printed(capsys, "solve", "--json", *EQUATIONS),
+        *printed(capsys, "solve", "--json", "--full", *EQUATIONS[:4]),
+        *printed(capsys, "solve", "--json", "x^2-100001", "--limit", "unknown_degree=9", status=3),
+    ]
+    assert len(lines) == len(EQUATIONS) + 5
+    for line in lines:
+        validator.validate(line)
+
+
+def test_lines_of_batch(
+    tmp_path: Path, validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]
+) -> None:
+    source = tmp_path / "in.jsonl"
+    good = [json.dumps({"S": S, "id": k}) for k, S in enumerate([*EQUATIONS, "x^100001", "(x+1)^15000/(x^3000-x-1)"])]
+    source.write_text("\n".join([*good, *WRONG]) + "\n")
+    lines = list(printed(capsys, "batch", str(source), "-q", "--group", "--timeout", "2", status=2))
+    assert [line["line"] for line in lines] == list(range(1, len(good) + len(WRONG) + 1))
+    assert [line["status"] for line in lines[len(EQUATIONS) :]] == ["undecided"] * 2 + ["error"] * len(WRONG)
+    for line in lines:
+        validator.validate(line)
+
+
+def test_lines_of_lost_processes_and_failed_checks(
+    validator: jsonschema.Draft202012Validator, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    item = Item(3, "x", extra={"id": "a"})
+    validator.validate(lost(item, "the worker process ended with signal SIGKILL", 0.5).data)
+    validator.validate(stopped(item, "the memory limit of 30 MiB is used up", 0.5).data)
+    validator.validate(solve_item(item, Job(), Limits(degree=1, text_length=0)).data)
+
+    def failing(*arguments: object, **options: object) -> None:
+        raise kovacic.VerificationFailed("the answer failed its own check; please report it")
+
+    monkeypatch.setattr(kovacic, "solve", failing)
+    record = solve_item(item, Job(), DEFAULT_LIMITS)
+    assert record.label == "failed"
+    validator.validate(record.data)
+
+
+def test_lines_of_scan(validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]) -> None:
+    lines = list(printed(capsys, "scan", "x^2 + 1/n", "n=-1:1:1/2", "-q", status=2))
+    assert [line["parameters"]["n"] for line in lines] == ["-1", "-1/2", "0", "1/2", "1"]
+    for line in lines:
+        validator.validate(line)
+
+
+@pytest.mark.parametrize("S", ["(4*n^2-1)/(4*x^2) - 1", "x^4 + mu*x", "x^2 + n", "1/(n*x)"])
+def test_lines_of_conditions(
+    S: str, validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (line,) = printed(capsys, "conditions", "--json", S)
+    validator.validate(line)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["--ratio", "3/2"], ["--ratio", "1/3", "--latex"], BALL, [*BALL, "--simulate", "--time", "1"]],
+    ids=str,
+)
+def test_lines_of_ball(
+    arguments: list[str], validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (line,) = printed(capsys, "ball", "--json", *arguments)
+    validator.validate(line)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [{}, {"line": 1}, {"line": 1, "schema": 1, "input": "x", "status": "error"}, {"S": "x", "variable": "x"}, [], "x"],
+    ids=str,
+)
+def test_other_lines_are_refused(line: object, validator: jsonschema.Draft202012Validator) -> None:
+    with pytest.raises(jsonschema.ValidationError):
+        validator.validate(line)
