@@ -22,6 +22,7 @@ _NAMES = {
         "InputError",
         "KovacicError",
         "LimitExceeded",
+        "MissingExtra",
         "NotLinear",
         "NotRational",
         "ParseError",

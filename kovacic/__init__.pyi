@@ -6,6 +6,7 @@ from kovacic.enclosure.evaluate import evaluate as evaluate
 from kovacic.errors import InputError as InputError
 from kovacic.errors import KovacicError as KovacicError
 from kovacic.errors import LimitExceeded as LimitExceeded
+from kovacic.errors import MissingExtra as MissingExtra
 from kovacic.errors import NotLinear as NotLinear
 from kovacic.errors import NotRational as NotRational
 from kovacic.errors import ParseError as ParseError

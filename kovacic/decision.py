@@ -8,14 +8,14 @@ no Liouvillian solution.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum
+from enum import Enum, StrEnum
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 
 
-class Status(Enum):
-    """What is known about the Liouvillian solutions of an equation."""
+class Status(StrEnum):
+    """What is known about the Liouvillian solutions of an equation; equal to its string."""
 
     LIOUVILLIAN = "liouvillian"
     NONE_EXISTS = "none"

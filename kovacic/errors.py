@@ -6,6 +6,9 @@ A mathematical "no" is a value, never an exception.  An exhausted budget is a va
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 
 class KovacicError(Exception):
     """Base class of every exception that this package raises on purpose."""
@@ -84,3 +87,18 @@ def _rebuild_limit_exceeded(message: str, limit: str) -> LimitExceeded:
 
 class VerificationFailed(KovacicError):
     """A result of the engine did not pass its own exact check: a defect of this package, please report it."""
+
+
+class MissingExtra(KovacicError, ImportError):
+    """A package isn't installed that only some parts of this one need; the message has the command that installs it."""
+
+
+@contextmanager
+def needs(extra: str, what: str) -> Iterator[None]:
+    """Imports in the block belong to this extra of `pyproject.toml`; `what` is that for which they are needed."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.startswith("kovacic"):
+            raise
+        raise MissingExtra(f"{what} needs {error.name.partition('.')[0]}: pip install 'kovacic[{extra}]'") from error

@@ -13,7 +13,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Status
 from kovacic.engine.decide import decide as decide_structure
-from kovacic.errors import InputError, LimitExceeded, VerificationFailed
+from kovacic.errors import InputError, LimitExceeded, VerificationFailed, needs
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.reading.given import Equation
 from kovacic.verify import Verification, verify
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from kovacic.reading.parsed import Parsed
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Solution:
     """The answer for one equation y'' = S y: frozen, comparable, picklable, verified.
 
@@ -143,15 +143,17 @@ class Solution:
 
     def lambdify(self, **options: Any) -> ProductForm | TabulatedFunction:
         """A solution as a NumPy function, its error measured; see `kovacic.doubles.lambdify.lambdify`."""
-        from kovacic.doubles.lambdify import lambdify
+        with needs("numeric", "lambdify"):
+            from kovacic.doubles.lambdify import lambdify
 
-        return lambdify(self, **options)
+            return lambdify(self, **options)
 
     def plot(self, start: Any, stop: Any, **options: Any) -> Figure:
         """A matplotlib figure of proven values over [start, stop]; see `kovacic.views.plot.plot`."""
-        from kovacic.views.plot import plot
+        with needs("plot", "a picture"):
+            from kovacic.views.plot import plot
 
-        return plot(self, start, stop, **options)
+            return plot(self, start, stop, **options)
 
     def compare_with_monodromy(self, **options: Any) -> Agreement:
         """Does the monodromy, by analytic continuation, agree with `group`?  See `kovacic.enclosure.agreement`."""
@@ -224,6 +226,9 @@ class Solution:
 
     def __bool__(self) -> bool:
         raise TypeError("ask for .status or .case: an answer is neither true nor false")
+
+    def __repr__(self) -> str:
+        return f"<Solution of {self}>"
 
     def __str__(self) -> str:
         from kovacic.views.text import one_line

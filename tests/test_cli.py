@@ -274,6 +274,37 @@ def test_the_help_names_the_commands_without_importing_them(capsys: pytest.Captu
     assert "solve" in capsys.readouterr().out
 
 
+def test_a_mistyped_command_gets_a_suggestion(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main.run(["slove", "x"]) == 2
+    assert "did you mean solve?" in capsys.readouterr().err
+    assert main.run(["x^2+3"]) == 2
+    assert "the commands are solve, " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", [[], *([name] for name in main.COMMANDS)], ids=str)
+def test_h_is_help_everywhere(command: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main.run([*command, "-h"]) == 0
+    short = capsys.readouterr().out
+    assert main.run([*command, "--help"]) == 0
+    assert short == capsys.readouterr().out
+    assert short.startswith("Usage: kovacic " + "".join(command))
+
+
+@pytest.mark.parametrize(("words", "offered"), [("s", {"solve", "scan", "schema"}), ("solve --la", {"--latex"})])
+def test_the_shell_completes(words: str, offered: set[str]) -> None:
+    """As the README says, by click's own mechanism."""
+    env = {
+        "COMP_WORDS": f"kovacic {words}",
+        "COMP_CWORD": str(len(words.split())),
+        "_KOVACIC_COMPLETE": "bash_complete",
+    }
+    done = run(env=env)
+    assert done.returncode == 0
+    assert {line.partition(",")[2] for line in done.stdout.splitlines()} == offered
+    script = run(env={"_KOVACIC_COMPLETE": "bash_source"})
+    assert "complete -o nosort -F _kovacic_completion kovacic" in script.stdout
+
+
 def test_the_version_is_the_packages(capsys: pytest.CaptureFixture[str]) -> None:
     assert main.run(["--version"]) == 0
     assert capsys.readouterr().out == f"kovacic {kovacic.__version__}\n"

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pickle
+import subprocess
+import sys
 
 import pytest
 
@@ -35,3 +37,35 @@ def test_an_answer_pickles_after_its_parts_were_used() -> None:
     assert copy == answer
     assert copy.verify()
     assert copy.solutions == answer.solutions
+
+
+def test_the_interpreter_shows_the_verdict() -> None:
+    assert repr(kovacic.solve("x^2 + 3")) == "<Solution of y'' = (x^2 + 3) y: case 1, omega = (x^2 + 1)/x>"
+    assert repr(kovacic.solve("x")) == "<Solution of y'' = x y: no Liouvillian solution>"
+
+
+def test_a_status_is_equal_to_its_string() -> None:
+    assert kovacic.solve("x").status == "none"
+    assert kovacic.solve("2").status == "liouvillian" == kovacic.Status.LIOUVILLIAN
+    assert {"none": 1}[kovacic.Status.NONE_EXISTS] == 1
+    assert repr(kovacic.Status.NONE_EXISTS) == "<Status.NONE_EXISTS: 'none'>"
+
+
+@pytest.mark.parametrize(
+    ("missing", "code", "extra"),
+    [
+        ("numpy", "answer.lambdify(interval=(1, 3))([2.0])", "numeric"),
+        ("matplotlib", "answer.plot(1, 2, x0=1, points=5)", "plot"),
+        ("matplotlib", "draw_map('n*x + m', (parse_grid('n=1'), parse_grid('m=1')), {}, 'map.png')", "plot"),
+    ],
+)
+def test_a_missing_extra_names_the_command_that_installs_it(missing: str, code: str, extra: str) -> None:
+    program = (
+        f"import sys; sys.modules[{missing!r}] = None\n"
+        "import kovacic\nfrom kovacic.batch.map import draw_map\nfrom kovacic.batch.scan import parse_grid\n"
+        "answer = kovacic.solve('x^2 + 3')\n"
+        f"try:\n    {code}\nexcept kovacic.MissingExtra as error:\n    print(error)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=60)
+    assert f"needs {missing}" in done.stdout
+    assert f"pip install 'kovacic[{extra}]'" in done.stdout

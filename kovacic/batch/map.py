@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from kovacic.batch.scan import Grid
-from kovacic.errors import InputError
+from kovacic.errors import InputError, needs
 
 # Okabe and Ito's palette, which colour-blind readers can tell apart; "none" is light, so that the solvable values stand out.
 _COLOURS_AND_NAMES = {
@@ -33,10 +33,11 @@ def draw_map(
     `labels` are those of the records by their numbers.  A cell reaches half-way to the neighbouring values, and a missing
     number leaves it white.  Raises `InputError` for a grid that isn't increasing or decreasing, or too large for a picture.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.colors import BoundaryNorm, ListedColormap
-    from matplotlib.figure import Figure
-    from matplotlib.patches import Patch
+    with needs("plot", "a map"):
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.colors import BoundaryNorm, ListedColormap
+        from matplotlib.figure import Figure
+        from matplotlib.patches import Patch
 
     upwards, rightwards = grids
     height, width = len(upwards), len(rightwards)

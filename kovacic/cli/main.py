@@ -44,13 +44,25 @@ class LazyGroup(click.Group):
         assert isinstance(command, click.Command)
         return command
 
+    def resolve_command(
+        self, context: click.Context, arguments: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """As click does it, with a suggestion where there is no such command."""
+        if arguments[0] not in COMMANDS:
+            from difflib import get_close_matches
+
+            near = get_close_matches(arguments[0], COMMANDS, n=1, cutoff=0.5)
+            hint = f"did you mean {near[0]}?" if near else f"the commands are {', '.join(COMMANDS)}"
+            context.fail(f"no such command: {arguments[0]} ({hint})")
+        return super().resolve_command(context, arguments)
+
     def format_commands(self, context: click.Context, formatter: click.HelpFormatter) -> None:
         """The list of commands, without importing them."""
         with formatter.section("Commands"):
             formatter.write_dl(list(COMMANDS.items()))
 
 
-@click.group(cls=LazyGroup)
+@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(kovacic.__version__, message="kovacic %(version)s")
 def cli() -> None:
     """Liouvillian solutions of y'' = S(x) y, or a proof that there are none (Kovacic's algorithm).
@@ -66,6 +78,11 @@ def cli() -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and leave the process with its exit status."""
+    instruction = os.environ.get("_KOVACIC_COMPLETE")
+    if instruction is not None:
+        from click.shell_completion import shell_complete
+
+        sys.exit(shell_complete(cli, {}, "kovacic", "_KOVACIC_COMPLETE", instruction))
     sys.exit(run(arguments))
 
 
@@ -110,6 +127,6 @@ def _given_up(status: int) -> int:
 def reported(error: Exception) -> int:
     """Say what was wrong, on standard error; the exit status for it."""
     print(f"kovacic: {error}", file=sys.stderr)
-    if isinstance(error, kovacic.InputError):
+    if isinstance(error, kovacic.InputError | ImportError):
         return BAD_INPUT
     return UNDECIDED if isinstance(error, kovacic.LimitExceeded) else CHECK_FAILED

@@ -37,6 +37,7 @@ def command(equation: str, start: str, stop: str, output: Path, limits: tuple[st
     kovacic plot "x" --from -12 --to 2 -o airy.png
     kovacic plot "-1/x - 3/(16*x^2)" --from -3 --to 30 -o bessel.png
     """
+    from kovacic.errors import needs
     from kovacic.views.plot import plot
 
     refuse_options((equation,))
@@ -47,11 +48,10 @@ def command(equation: str, start: str, stop: str, output: Path, limits: tuple[st
         raise click.BadParameter(f"there is no directory {output.parent}", param_hint="--output")
     try:
         title = _title(equation)
-        plot(equation, start, stop, title=title, output=output, limits=parse_limits(limits), **numbers)
+        with needs("plot", "a picture"):
+            plot(equation, start, stop, title=title, output=output, limits=parse_limits(limits), **numbers)
     except OSError as error:
         raise click.ClickException(f"the picture can't be written: {error}") from error
-    except ModuleNotFoundError as error:
-        raise click.ClickException(f"pictures need {error.name}: pip install kovacic[plot]") from error
     click.echo(f"wrote {output}")
 
 
