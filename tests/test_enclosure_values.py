@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import pickle
 import random
+from concurrent.futures import ThreadPoolExecutor
 from decimal import Decimal
 from fractions import Fraction
 
@@ -19,8 +20,9 @@ from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_state
 from kovacic.enclosure.frame import make_frame, ray_bound, shift
 from kovacic.enclosure.matrices import product
 from kovacic.enclosure.points import Point, as_point
+from kovacic.enclosure.precision import Method
 from kovacic.enclosure.problem import System, check_segment, distance_lower
-from kovacic.enclosure.transport import piece_matrices
+from kovacic.enclosure.transport import cover, piece_matrices
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits
 
@@ -435,3 +437,71 @@ def test_poles_of_the_first_coefficient_are_singular_even_where_the_normal_form_
         evaluate("x*y'' + 2*y' - x*y = 0", 1, x0=-1, y0=1, dy0=0)
     with pytest.raises(InputError, match="homogeneous"):
         evaluate("y'' - y = x", 1, x0=0, y0=1, dy0=0)
+
+
+# --- numbers of discs --------------------------------------------------------------------------------------------------
+
+
+def discs(pole: Fraction, a: Point, b: Point) -> int:
+    system = System.make((3,), (-pole.numerator, pole.denominator))
+    return sum(1 for _ in cover(system, a, b, 74, Budget(Limits(seconds=5))))
+
+
+def discs_stay_few(rng: random.Random, count: int) -> None:
+    """From a distance m/10^k of a pole to a length beyond: ties of the rounding of centres are common there."""
+    for _ in range(count):
+        pole = rng.choice([Fraction(0), Fraction(1), Fraction(1, 3)])
+        near = Fraction(rng.randint(1, 9), 10 ** rng.randint(0, 9))
+        length = rng.choice([Fraction(1), Fraction(2), Fraction(4), Fraction(1, 2), Fraction(1, 4), Fraction(7, 5)])
+        turn = rng.choice([Point(Fraction(1)), Point(Fraction(-1)), Point(Fraction(3, 5), Fraction(4, 5))])
+        ends = [Point(pole) + turn.scaled(near), Point(pole) + turn.scaled(near + length)]
+        rng.shuffle(ends)
+        assert discs(pole, ends[0], ends[1]) <= 3 + 1.5 * math.log2((near + length) / near)
+
+
+def test_a_path_from_close_to_a_singular_point_doesnt_stall() -> None:
+    ball = evaluate("1/x", "1.000001", x0="0.000001", y0=1, dy0=0, limits=Limits(seconds=20))
+    assert ball.digits >= 15
+    assert ball.overlaps(evaluate("1/x", "1.000001", x0="0.000001", y0=1, dy0=0, path=["1/3"], digits=25))
+    discs_stay_few(random.Random(1), 150)
+
+
+@pytest.mark.slow
+def test_thousands_of_paths_take_few_discs() -> None:
+    discs_stay_few(random.Random(2), 5000)
+
+
+# --- threads -----------------------------------------------------------------------------------------------------------
+
+
+def test_threads_get_the_balls_that_each_would_get_alone_and_leave_the_precision_alone() -> None:
+    def task(number: int) -> Ball:
+        return evaluate(["x", "1/x", "x^2 + 1"][number % 3], 3, x0=1, y0=1, dy0=0, digits=15 + 40 * number)
+
+    before = flint.ctx.prec
+    alone = [task(number) for number in range(8)]
+    with ThreadPoolExecutor(8) as threads:
+        for _ in range(3):
+            assert list(threads.map(task, range(8))) == alone
+    assert flint.ctx.prec == before
+
+
+# --- real problems -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("method", ["taylor", "closed form", None])
+@pytest.mark.parametrize(
+    "equation", ["-1", "-2", "-1/(4*x^2)", "x^2 + 3", "9/(2*x^4 + 16*x^3 + 72*x^2 + 160*x + 200)", "y'' + y' + y = 0"]
+)
+def test_a_real_problem_has_a_real_ball(equation: str, method: Method | None) -> None:
+    import kovacic
+
+    solution = kovacic.solve(equation)
+    balls = evaluate(solution, [3, "1/2"], x0=1, y0=1, dy0="-1/7", path=[2, "3/2"], method=method)
+    assert isinstance(balls, tuple)
+    assert all(ball.real for ball in balls)
+    around = evaluate(solution, 3, x0=1, y0=1, dy0="-1/7", path=[2 + 1j], method=method)
+    assert isinstance(around, Ball)
+    assert around.overlaps(balls[0])
+    assert not around.real
+    assert float(kovacic.solve("-1").at(1, x0=0, y0=1, dy0=0)) == math.cos(1)

@@ -141,24 +141,25 @@ def log_2() -> tuple[float, float]:
         return pair_of(arb(2).log())
 
 
+def _table(values: list[arb]) -> Pair:
+    """Numbers as a pair of arrays."""
+    high, low = zip(*map(pair_of, values), strict=True)
+    return np.array(high), np.array(low)
+
+
 @cache
-def _logarithms() -> tuple[Any, Any]:
+def _logarithms() -> Pair:
     """log(k/64) for k = 0, ..., 92 (0 in place of log 0)."""
     with working_precision(_WORKING_BITS):
-        values = [pair_of((arb(max(k, 1)) / 64).log()) for k in range(93)]
-    return np.array([v[0] for v in values]), np.array([v[1] for v in values])
+        return _table([(arb(max(k, 1)) / 64).log() for k in range(93)])
 
 
 @cache
-def _circle() -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+def _circle() -> tuple[Pair, Pair]:
     """cos(k/32) and sin(k/32) for k = -101, ..., 101."""
+    angles = [arb(k) / 32 for k in range(-101, 102)]
     with working_precision(_WORKING_BITS):
-        both = [(arb(k) / 32).sin_cos() for k in range(-101, 102)]
-        sines, cosines = ([pair_of(v[i]) for v in both] for i in (0, 1))
-    return (
-        (np.array([v[0] for v in cosines]), np.array([v[1] for v in cosines])),
-        (np.array([v[0] for v in sines]), np.array([v[1] for v in sines])),
-    )
+        return _table([t.cos() for t in angles]), _table([t.sin() for t in angles])
 
 
 @cache

@@ -27,10 +27,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 
-from flint import acb, arb, fmpq
+from flint import acb, acb_mat, arb, fmpq
 
 from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.matrices import Matrix, adjugate, identity, multiply
 from kovacic.enclosure.monodromy import LocalMonodromy, monodromy
 from kovacic.enclosure.problem import System, as_problem
 from kovacic.enclosure.working import working_precision
@@ -46,6 +45,7 @@ _WORDS = 12
 """The number of products that are compared with one another."""
 
 _BITS = 400
+_TWO = acb(2)
 
 _HIGHEST_ORDER = 120
 """Eigenvalues are compared with roots of unity up to this order."""
@@ -57,17 +57,7 @@ _IMPRIMITIVE = (Kind.DICYCLIC, Kind.INFINITE_DIHEDRAL, Kind.IMPRIMITIVE)
 _PRIMITIVE = {
     Kind.TETRAHEDRAL: {"0": 1, "1/2": 1, "1/4": 6, "1/3": 8, "1/6": 8},
     Kind.OCTAHEDRAL: {"0": 1, "1/2": 1, "1/4": 18, "1/3": 8, "1/6": 8, "1/8": 6, "3/8": 6},
-    Kind.ICOSAHEDRAL: {
-        "0": 1,
-        "1/2": 1,
-        "1/4": 30,
-        "1/3": 20,
-        "1/6": 20,
-        "1/5": 12,
-        "2/5": 12,
-        "1/10": 12,
-        "3/10": 12,
-    },
+    Kind.ICOSAHEDRAL: {"0": 1, "1/2": 1, "1/4": 30, "1/3": 20, "1/6": 20, "1/5": 12, "2/5": 12, "1/10": 12, "3/10": 12},
 }
 
 
@@ -122,9 +112,13 @@ def compare(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> 
         return _families(_words(generators), group, fuchsian)
 
 
-def _matrix(local: LocalMonodromy) -> Matrix:
-    (a, b), (c, d) = local.matrix
-    return ball_to_flint(a), ball_to_flint(b), ball_to_flint(c), ball_to_flint(d)
+def _matrix(local: LocalMonodromy) -> acb_mat:
+    return acb_mat([[ball_to_flint(entry) for entry in row] for row in local.matrix])
+
+
+def _inverse(m: acb_mat) -> acb_mat:
+    """The inverse of a matrix of determinant 1."""
+    return acb_mat([[m[1, 1], -m[0, 1]], [-m[1, 0], m[0, 0]]])
 
 
 def _angles(group: Group) -> dict[Fraction, int] | None:
@@ -140,18 +134,18 @@ def _angles(group: Group) -> dict[Fraction, int] | None:
     return dict(found)
 
 
-def _enumerate(generators: list[Matrix], angles: dict[Fraction, int], group: Group) -> Agreement:
+def _enumerate(generators: list[acb_mat], angles: dict[Fraction, int], group: Group) -> Agreement:
     """A finite group: its elements by their traces."""
     traces = {angle: _cosine(angle) for angle in angles}
     order = sum(angles.values())
-    elements, found, position = [identity()], Counter([Fraction(0)]), 0
+    elements, found, position = [acb_mat([[1, 0], [0, 1]])], Counter([Fraction(0)]), 0
     while position < len(elements):
         for generator in generators:
-            candidate = multiply(generator, elements[position])
-            own = [angle for angle, value in traces.items() if _trace(candidate).overlaps(value)]
+            candidate = generator * elements[position]
+            own = [angle for angle, value in traces.items() if candidate.trace().overlaps(value)]
             if not own:
                 return Agreement(False, f"the monodromy group has an element whose trace isn't one of {group}")
-            quotients = [multiply(candidate, adjugate(other)) for other in elements]
+            quotients = [candidate * _inverse(other) for other in elements]
             equal = [_is_identity(quotient, traces) for quotient in quotients]
             if any(same and not _may_be_identity(q) for same, q in zip(equal, quotients, strict=True)):
                 return Agreement(False, f"the monodromy group has a unipotent element, unlike {group}")
@@ -170,21 +164,21 @@ def _enumerate(generators: list[Matrix], angles: dict[Fraction, int], group: Gro
     return Agreement(True, f"the monodromy group has {order} {plural}, with the traces of {group}")
 
 
-def _is_identity(matrix: Matrix, traces: dict[Fraction, acb]) -> bool | None:
+def _is_identity(matrix: acb_mat, traces: dict[Fraction, acb]) -> bool | None:
     """Is an element of a group with these traces the identity?  None if its ball leaves that open."""
-    trace = _trace(matrix)
+    trace = matrix.trace()
     if not trace.overlaps(traces[Fraction(0)]):
         return False
     others = any(trace.overlaps(value) for angle, value in traces.items() if angle)
     return None if others else True
 
 
-def _families(words: list[Matrix], group: Group, fuchsian: bool) -> Agreement:
+def _families(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
     """An infinite group (or a large one): the conditions (1)."""
     commutators = [_commutator(a, b) for a, b in combinations(words, 2)]
     commuting = all(_may_be_identity(c) for c in commutators)
-    reducible = all(_trace(c).overlaps(_two()) for c in commutators)
-    monomial = all(_may_be_identity(_commutator(_square(a), _square(b))) for a, b in combinations(words, 2))
+    reducible = all(c.trace().overlaps(_TWO) for c in commutators)
+    monomial = all(_may_be_identity(_commutator(a**2, b**2)) for a, b in combinations(words, 2))
     if group.kind in _TRIANGULAR and not reducible:
         return Agreement(False, f"the monodromy matrices have no common eigenvector, unlike {group}")
     if group.kind in _DIAGONAL and not commuting:
@@ -192,24 +186,24 @@ def _families(words: list[Matrix], group: Group, fuchsian: bool) -> Agreement:
     if group.kind in _IMPRIMITIVE and not monomial:
         return Agreement(False, f"the squares of the monodromy matrices don't commute, unlike those of {group}")
     if group.kind in (Kind.CYCLIC, Kind.ADDITIVE) and group.n is not None:
-        if not all(_power_trace(word, group.n).overlaps(_two()) for word in words):
+        if not all((word**group.n).trace().overlaps(_TWO) for word in words):
             return Agreement(False, f"an eigenvalue of a monodromy matrix isn't a root of unity of {group}")
         if fuchsian and _is_proper_order(words, group.n):
             return Agreement(
                 False, f"the eigenvalues of the monodromy matrices have a lower order than those of {group}"
             )
     if group.kind is Kind.SL2:
-        longer = [*words, *commutators, *(multiply(a, b) for a, b in combinations(words, 2))]
+        longer = [*words, *commutators, *(a * b for a, b in combinations(words, 2))]
         finite = any(all(_may_be_in(word, kind) for word in longer) for kind in _PRIMITIVE)
         if not reducible and not monomial and not finite:
             return Agreement(True, "the monodromy matrices generate a group that is dense in SL2")
         return Agreement(None, "the monodromy matrices alone don't exclude every smaller group")
     if not fuchsian:
         return Agreement(True, f"the monodromy lies in {group} (irregular: it needn't be dense)")
-    torsion = all(any(_power_trace(word, k).overlaps(_two()) for k in range(1, _HIGHEST_ORDER + 1)) for word in words)
+    torsion = all(any((word**k).trace().overlaps(_TWO) for k in range(1, _HIGHEST_ORDER + 1)) for word in words)
     smaller = {
         Kind.MULTIPLICATIVE: torsion,
-        Kind.ADDITIVE: commuting and all(_may_be_identity(_power(word, group.n or 1)) for word in words),
+        Kind.ADDITIVE: commuting and all(_may_be_identity(word ** (group.n or 1)) for word in words),
         Kind.BOREL: commuting or torsion,
         Kind.INFINITE_DIHEDRAL: reducible or torsion,
     }
@@ -218,65 +212,35 @@ def _families(words: list[Matrix], group: Group, fuchsian: bool) -> Agreement:
     return Agreement(True, f"the monodromy lies in {group}, and in none of the smaller groups that were tried")
 
 
-def _is_proper_order(words: list[Matrix], n: int) -> bool:
+def _is_proper_order(words: list[acb_mat], n: int) -> bool:
     """Do the n-th roots of unity that are eigenvalues provably have orders whose common multiple is less than n?"""
     primes = [p for p in range(2, n + 1) if n % p == 0 and all(p % q for q in range(2, p))] if n <= _LARGEST else []
-    return any(all(_power_trace(word, n // p).real > _cosine(Fraction(1, p)).real for word in words) for p in primes)
+    return any(all((word ** (n // p)).trace().real > _cosine(Fraction(1, p)).real for word in words) for p in primes)
 
 
-def _words(generators: list[Matrix]) -> list[Matrix]:
+def _words(generators: list[acb_mat]) -> list[acb_mat]:
     """The generators and their products in pairs; with one generator, itself and its square."""
-    products = [multiply(a, b) for a, b in combinations(generators, 2)] or [_square(g) for g in generators]
+    products = [a * b for a, b in combinations(generators, 2)] or [g**2 for g in generators]
     return [*generators, *products][: max(_WORDS, len(generators))]
 
 
-def _multiply_all(*factors: Matrix) -> Matrix:
-    total = identity()
-    for factor in reversed(factors):
-        total = multiply(factor, total)
-    return total
+def _commutator(a: acb_mat, b: acb_mat) -> acb_mat:
+    return a * b * _inverse(a) * _inverse(b)
 
 
-def _square(m: Matrix) -> Matrix:
-    return multiply(m, m)
+def _may_be_identity(m: acb_mat) -> bool:
+    return bool(m.overlaps(acb_mat([[1, 0], [0, 1]])))
 
 
-def _power(m: Matrix, n: int) -> Matrix:
-    total, square = identity(), m
-    while n:
-        total, square, n = (multiply(square, total) if n % 2 else total), _square(square), n // 2
-    return total
-
-
-def _commutator(a: Matrix, b: Matrix) -> Matrix:
-    return _multiply_all(a, b, adjugate(a), adjugate(b))
-
-
-def _trace(m: Matrix) -> acb:
-    return m[0] + m[3]
-
-
-def _power_trace(m: Matrix, n: int) -> acb:
-    return _trace(_power(m, n))
-
-
-def _may_be_identity(m: Matrix) -> bool:
-    return all(bool(entry.overlaps(one)) for entry, one in zip(m, identity(), strict=True))
-
-
-def _may_be_in(m: Matrix, kind: Kind) -> bool:
+def _may_be_in(m: acb_mat, kind: Kind) -> bool:
     """Can the matrix be an element of this primitive group?  In a finite group +-1 are alone with their traces."""
-    if _trace(m).overlaps(_two()):
+    if m.trace().overlaps(_TWO):
         return _may_be_identity(m)
-    if _trace(m).overlaps(-_two()):
-        return _may_be_identity(multiply(m, m))
-    return any(bool(_trace(m).overlaps(_cosine(Fraction(angle)))) for angle in _PRIMITIVE[kind])
+    if m.trace().overlaps(-_TWO):
+        return _may_be_identity(m**2)
+    return any(bool(m.trace().overlaps(_cosine(Fraction(angle)))) for angle in _PRIMITIVE[kind])
 
 
 def _cosine(angle: Fraction) -> acb:
     """2 cos(2 pi angle)."""
     return acb(2 * arb.cos_pi_fmpq(fmpq(2 * angle.numerator, angle.denominator)))
-
-
-def _two() -> acb:
-    return acb(2)

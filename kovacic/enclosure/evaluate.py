@@ -71,7 +71,7 @@ def evaluate(
     False True 2.730883017890
     """
     many = isinstance(x, Iterable) and not isinstance(x, str)
-    points = list(x) if isinstance(x, Iterable) and not isinstance(x, str) else [x]
+    points: list[object] = list(x) if many else [x]  # type: ignore[call-overload]
     results = evaluate_states(
         equation, points, x0=x0, y0=y0, dy0=dy0, digits=digits, method=method, path=path, limits=limits
     )
@@ -131,9 +131,21 @@ def _route(problem: NumericProblem, itinerary: Itinerary, start: Start, method: 
         def legs(a: Point, b: Point) -> list[Matrix]:
             return piece_matrices(problem.system, a, b, prec, budget) if closed is None else closed.legs(a, b, budget)
 
-        return carry(with_gauge(problem.gauge, legs), itinerary, start)
+        return carry(_real_on_the_axis(with_gauge(problem.gauge, legs)), itinerary, start)
 
     return route, "taylor" if closed is None else "closed form"
+
+
+def _real_on_the_axis(legs: Legs) -> Legs:
+    """The legs, with real matrices along the real axis, where those of a real equation are real."""
+
+    def real(a: Point, b: Point) -> list[Matrix]:
+        found = legs(a, b)
+        if a.is_real() and b.is_real():
+            return [(acb(p.real), acb(q.real), acb(r.real), acb(s.real)) for p, q, r, s in found]
+        return found
+
+    return real
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import acb, acb_poly, arb
+from flint import acb, acb_mat, acb_poly, arb
 
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
 from kovacic.enclosure.evaluate import transition_matrix
@@ -52,22 +52,22 @@ class LocalMonodromy:
     @property
     def consistent(self) -> bool:
         """False would disprove the computation: the trace of the matrix and the exponents, and the determinant 1."""
-        (a, b), (c, d) = self.matrix
-        determinant = _sum_of_products(a, d, b, c, -1)
-        if not determinant.overlaps(Ball.exact(1)):
-            return False
-        return self.trace is None or _sum_of_products(a, Ball.exact(1), d, Ball.exact(1), 1).overlaps(self.trace)
+        with working_precision(1000):
+            m = acb_mat([[ball_to_flint(entry) for entry in row] for row in self.matrix])
+            return m.det().contains(1) and (self.trace is None or m.trace().overlaps(ball_to_flint(self.trace)))
 
     def is_identity_to_the_power(self, order: int) -> bool:
         """True if the matrix to this power may be the identity; False proves that it isn't."""
         with working_precision(1000):
-            a, b, c, d = (ball_to_flint(entry) for row in self.matrix for entry in row)
-            t = a + d if self.trace is None else ball_to_flint(self.trace)
+            m, one = (
+                acb_mat([[ball_to_flint(entry) for entry in row] for row in self.matrix]),
+                acb_mat([[1, 0], [0, 1]]),
+            )
+            t = m.trace() if self.trace is None else ball_to_flint(self.trace)
             before, now = acb(0), acb(1)  # M^n = U_n M - U_(n-1), U_(n+1) = t U_n - U_(n-1) (Cayley and Hamilton)
             for _ in range(order - 1):
                 before, now = now, t * now - before
-            entries = (now * a - before - 1, now * b, now * c, now * d - before - 1)
-            return all(entry.contains(0) for entry in entries)
+            return bool((m * now - one * before).contains(one))
 
 
 def monodromy(equation: object, *, digits: int = 15, limits: Limits | None = None) -> tuple[LocalMonodromy, ...]:
@@ -94,15 +94,10 @@ def monodromy(equation: object, *, digits: int = 15, limits: Limits | None = Non
 
 def _places(system: System) -> list[tuple[Point, Fraction]]:
     """Rational approximations of the singular points, each with half the distance to its neighbour (1 if alone)."""
-    points = []
-    for root, _ in system.roots("den", 64):
-        parts = [part.mid().man_exp() for part in (root.real, root.imag)]
-        points.append(Point(*(Fraction(int(m)) * Fraction(2) ** int(e) for m, e in parts)))
-    places = []
+    points, places = system.singular_points(64), []
     for i, p in enumerate(points):
         gap = min([Fraction(2), *(_root_below((p - q).norm_squared()) for j, q in enumerate(points) if j != i)])
-        unit = Fraction(2) ** (gap.numerator.bit_length() - gap.denominator.bit_length() - 8)
-        places.append((Point(round(p.re / unit) * unit, round(p.im / unit) * unit), gap / 2))
+        places.append((p.rounded(gap.numerator.bit_length() - gap.denominator.bit_length() - 8), gap / 2))
     return places
 
 
@@ -180,8 +175,3 @@ def _ball(value: acb) -> Ball:
     if ball is None:
         raise LimitExceeded("a local exponent has no finite enclosure at this precision", limit="digits")
     return ball
-
-
-def _sum_of_products(a: Ball, b: Ball, c: Ball, d: Ball, sign: int) -> Ball:
-    with working_precision(1000):
-        return _ball(ball_to_flint(a) * ball_to_flint(b) + sign * ball_to_flint(c) * ball_to_flint(d))

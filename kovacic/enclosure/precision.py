@@ -6,12 +6,14 @@ First digits + guard bits, then as many bits more as were missing.  The global p
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal, Protocol
+from typing import Literal
 
 from flint import acb
 
 from kovacic.enclosure.ball import Ball, Dyadic, ball_from_flint
+from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import Point
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError, LimitExceeded
@@ -41,10 +43,8 @@ class Evaluation:
     runs: int
 
 
-class Route(Protocol):
-    """One way of carrying states along a path: the states (y, y') at each target in turn, at about `prec` bits."""
-
-    def __call__(self, prec: int, budget: Budget) -> list[tuple[acb, acb]]: ...
+Route = Callable[[int, Budget], list[State]]
+"""One way of carrying states along a path: the states (y, y') at each target in turn, at about so many bits."""
 
 
 def start_bits(digits: int) -> int:
@@ -80,14 +80,14 @@ def raise_precision(
         except LimitExceeded as limit:
             if previous is None:
                 raise
-            return tuple(_with_note(result, str(limit)) for result in previous)
+            return tuple(result if result.reached else replace(result, note=str(limit)) for result in previous)
         if missing == 0 and found is not None:
             return found
         stalled = not exact and previous is not None and found is not None and _stalled(previous, found)
         if prec >= highest or stalled:
             if found is None:
                 raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
-            return tuple(_with_note(result, _reason(result)) for result in found)
+            return tuple(result if result.reached else replace(result, note=_reason(result)) for result in found)
         previous = found or previous
         prec = min(prec + missing + 16, highest)
 
@@ -125,12 +125,8 @@ def _reason(result: Evaluation) -> str:
     return f"only {known:.1f} of {result.digits} digits: the initial values or the limits allow no more"
 
 
-def _with_note(result: Evaluation, note: str) -> Evaluation:
-    return result if result.reached else replace(result, note=note)
-
-
 def _as_evaluations(
-    states: list[tuple[acb, acb]], targets: tuple[Point, ...], digits: int, method: Method, prec: int, runs: int
+    states: list[State], targets: tuple[Point, ...], digits: int, method: Method, prec: int, runs: int
 ) -> tuple[Evaluation, ...] | None:
     results = []
     for target, (y, dy) in zip(targets, states, strict=True):

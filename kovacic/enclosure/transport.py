@@ -17,6 +17,7 @@ less where the solutions grow by more than a fixed share of the working precisio
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -57,11 +58,29 @@ class Disc:
 def piece_matrices(system: System, a: Point, b: Point, prec: int, budget: Budget) -> list[Matrix]:
     """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about
     2^-prec)."""
-    step = b - a
-    if step.norm_squared() == 0:
-        return []
-    check_segment(system, a, b)
     result: list[Matrix] = []
+    for disc in cover(system, a, b, prec, budget):
+        frame, worst = disc.frame, disc.bounds[0].worst(disc.bounds[1])
+        if is_split(system, prec):
+            start, stop = legs(system, frame, disc.enter, disc.leave, worst, prec, budget)
+        else:
+            expansion = expand(system, frame, prec, worst, budget)
+            start, stop = (
+                [] if point == frame.centre else [transition(expansion, point, bound)]
+                for point, bound in zip((disc.enter, disc.leave), disc.bounds, strict=True)
+            )
+        result.append(multiply(product(stop), adjugate(product(start))) if start else product(stop))
+        if len(result) > _MAX_DISCS:
+            raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
+    return result
+
+
+def cover(system: System, a: Point, b: Point, prec: int, budget: Budget) -> Iterator[Disc]:
+    """The discs that cover the straight piece from a to b, in order: O(log(far/near)) of them for each singular point at a
+    distance between near and far."""
+    if a == b:
+        return
+    check_segment(system, a, b)
     piece = Piece(a, b)
     t, enter = Fraction(0), a
     guess: int | None = None
@@ -69,29 +88,11 @@ def piece_matrices(system: System, a: Point, b: Point, prec: int, budget: Budget
         budget.check()
         disc = _next_disc(system, piece, t, enter, prec, guess)
         if disc is None:  # the junction beside the path is too far from it for a disc that fits: back to the path
-            result += piece_matrices(system, enter, piece.at(t), prec, budget)
+            yield from cover(system, enter, piece.at(t), prec, budget)
             enter = piece.at(t)
-            continue
-        guess = disc.frame.e
-        start, stop = _legs(system, disc, prec, budget)
-        result.append(multiply(product(stop), adjugate(product(start))) if start else product(stop))
-        t, enter = disc.stop, disc.leave
-        if len(result) > _MAX_DISCS:
-            raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
-    return result
-
-
-def _legs(system: System, disc: Disc, prec: int, budget: Budget) -> tuple[list[Matrix], list[Matrix]]:
-    """Factors, in order, of the matrices from the centre to the junctions where the disc is entered and left."""
-    frame, worst = disc.frame, disc.bounds[0].worst(disc.bounds[1])
-    if is_split(system, prec):
-        return legs(system, frame, disc.enter, disc.leave, worst, prec, budget)
-    expansion = expand(system, frame, prec, worst, budget)
-    start, stop = (
-        [] if point == frame.centre else [transition(expansion, point, bound)]
-        for point, bound in zip((disc.enter, disc.leave), disc.bounds, strict=True)
-    )
-    return start, stop
+        else:
+            yield disc
+            guess, t, enter = disc.frame.e, disc.stop, disc.leave
 
 
 @dataclass(frozen=True)

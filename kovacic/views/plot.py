@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 from kovacic.enclosure.evaluate import evaluate_states
 from kovacic.enclosure.points import Point, as_point
 from kovacic.enclosure.precision import Evaluation
-from kovacic.enclosure.problem import System, as_problem
+from kovacic.enclosure.problem import as_problem
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 
@@ -65,8 +65,8 @@ def sample(
     if points < 2:
         raise InputError("at least 2 points are needed")
     problem = as_problem(equation)
-    singular = _singular_points(problem.system)
-    cuts = sorted({x for x, y in singular if y == 0 and a.re <= x <= b.re})
+    singular = problem.system.singular_points(128)
+    cuts = sorted({z.re for z in singular if z.is_real() and a.re <= z.re <= b.re})
     intervals = _regular_intervals(a.re, b.re, cuts)
     longest = max(intervals, key=lambda i: i[1] - i[0])
     origin = Point((longest[0] + longest[1]) / 2) if x0 is None else as_point(x0, "x0")
@@ -80,19 +80,7 @@ def sample(
         lift = Point(Fraction(0), height)
         path = None if direct else [origin + lift, middle + lift, middle]
         runs.append(evaluate_states(problem, grid, x0=origin, y0=y0, dy0=dy0, digits=digits, path=path, limits=limits))
-    return Samples(tuple(runs), tuple(complex(float(x), float(y)) for x, y in singular))
-
-
-def _singular_points(system: System) -> list[tuple[Fraction, Fraction]]:
-    """Midpoints of the enclosures (128 bits); the imaginary part is exactly 0 for real zeros."""
-    result = []
-    for root, _ in system.roots("den", 128):
-        parts = []
-        for part in (root.real, root.imag):
-            mantissa, exponent = part.mid().man_exp()
-            parts.append(Fraction(int(mantissa)) * Fraction(2) ** int(exponent))
-        result.append((parts[0], Fraction(0) if root.imag.is_zero() else parts[1]))
-    return result
+    return Samples(tuple(runs), tuple(complex(float(z.re), float(z.im)) for z in singular))
 
 
 def _regular_intervals(a: Fraction, b: Fraction, cuts: list[Fraction]) -> list[tuple[Fraction, Fraction]]:
@@ -106,10 +94,9 @@ def _regular_intervals(a: Fraction, b: Fraction, cuts: list[Fraction]) -> list[t
     return result
 
 
-def _height(singular: list[tuple[Fraction, Fraction]], width: Fraction) -> Fraction:
+def _height(singular: list[Point], width: Fraction) -> Fraction:
     """How far above the axis the way around its singular points leads: below every other singular point."""
-    above = [y for _, y in singular if y > 0]
-    height = min([width / 8, *(y / 2 for y in above)])
+    height = min([width / 8, *(z.im / 2 for z in singular if z.im > 0)])
     return Fraction(height).limit_denominator(10**6) or height
 
 
