@@ -141,7 +141,7 @@ def test_the_shifted_equation_is_the_equation(
     scale = Point(step, turn)
     if system.is_singular(centre) or not scale.norm_squared():
         return
-    shifted = shift(system, centre, scale)
+    p, q = shift(system, centre, scale)
 
     def at(parts: tuple[list[int], list[int] | None], u: Point) -> Point:
         total = Point(Fraction(0))
@@ -158,11 +158,11 @@ def test_the_shifted_equation_is_the_equation(
 
     u = Point(Fraction(2, 5), Fraction(1, 7))
     x = centre + u * scale
-    left = at(shifted.p, u) * original(system.den, x)
-    right = at(shifted.q, u) * original(system.num, x) * scale * scale
+    left = at(p, u) * original(system.den, x)
+    right = at(q, u) * original(system.num, x) * scale * scale
     assert left == right
-    assert shifted.q[0][0] > 0
-    assert shifted.q[1] is None or shifted.q[1][0] == 0
+    assert q[0][0] > 0
+    assert q[1] is None or q[1][0] == 0
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -177,9 +177,10 @@ def test_the_bounds_along_a_ray_hold_at_its_points(seed: int) -> None:
     bound = ray_bound(frame, centre + as_point(u, "u").scaled(frame.scale))
     if bound is None:
         return
-    shifted = shift(system, centre, Point(frame.scale))
-    q = [complex(a, b) for a, b in zip(shifted.q[0], shifted.q[1] or [0] * len(shifted.q[0]), strict=True)]
-    p = [complex(a, b) for a, b in zip(shifted.p[0], shifted.p[1] or [0] * len(shifted.p[0]), strict=True)]
+    p, q = (
+        [complex(a, b) for a, b in zip(re, im or [0] * len(re), strict=True)]
+        for re, im in shift(system, centre, Point(frame.scale))
+    )
     smallest, rise, slope, step = math.inf, 0.0, 0.0, 0.9 / 200
     for k in range(200):
         t = u * k / 200

@@ -30,8 +30,8 @@ from kovacic.doubles.tabulate import TabulatedFunction, tabulate
 from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
 from kovacic.enclosure.closed_form import finite_base, omega
 from kovacic.enclosure.evaluate import AccuracyWarning, evaluate_states
-from kovacic.enclosure.points import Point, as_point
-from kovacic.enclosure.problem import NumericProblem, as_problem
+from kovacic.enclosure.points import as_point
+from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Limits
@@ -83,17 +83,13 @@ def lambdify(
     with working_precision(_PREC):
         found: ProductForm | TabulatedFunction | None = product_form(problem, which, region, base)
     if found is None:
-        found = _table(problem, which, region, base)
+        if not region.is_real:
+            raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
+        slope = ball_from_flint(omega(problem, which, base, _SLOPE_BITS))
+        found = tabulate(problem, region.low.real, region.high.real, x0=base, y0=1, dy0=slope)
     if check:
         warn_unless_accurate(found, problem, which)
     return found
-
-
-def _table(problem: NumericProblem, which: int, region: Region, base: Point) -> TabulatedFunction:
-    if not region.is_real:
-        raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
-    slope = ball_from_flint(omega(problem, which, base, _SLOPE_BITS))
-    return tabulate(problem, region.low.real, region.high.real, x0=base, y0=1, dy0=slope)
 
 
 class Measured(NamedTuple):

@@ -176,18 +176,15 @@ class ProductForm:
         """y = mantissa * 2^binary * exp(size + i phase); phase None for a real function."""
         zero = 0.0 * x.real
         point: Complex = ((x.real, zero), (x.imag + zero, zero))
-        t, s = (point, None) if self.conic is None else self._on_curve(point[0])
-        total = self.exponent(point)
-        if s is not None and self.sheet:
-            total = complex_add(total, complex_multiply(self.sheet(point), (s, (zero, zero))))
+        t, total = point, self.exponent(point)
+        if self.conic is not None:
+            parameter, s = self.conic.coordinates(point[0])
+            t = (parameter, (zero, zero))
+            if self.sheet:
+                total = complex_add(total, complex_multiply(self.sheet(point), (s, (zero, zero))))
         if self.is_real:
             return self._real_product(t[0], total[0])
         return self._complex_product(t, total)
-
-    def _on_curve(self, x: Pair) -> tuple[Complex, Pair]:
-        assert self.conic is not None
-        t, s = self.conic.coordinates(x)
-        return (t, (0.0 * t[0], 0.0 * t[0])), s
 
     def _real_product(self, t: Pair, size: Pair) -> tuple[Complex, Any, Pair, None]:
         zero = 0.0 * t[0]
@@ -200,8 +197,9 @@ class ProductForm:
             double = 2 if f.paired else 1
             if f.whole is not None:
                 for _ in range(f.whole):
-                    mantissa, shift = _normalised(multiply(mantissa, base))
-                    binary = binary + shift + double * e
+                    mantissa = multiply(mantissa, base)
+                    shift = np.frexp(mantissa[0])[1]
+                    mantissa, binary = two_sum(*scaled(mantissa, -shift)), binary + shift + double * e
                 continue
             negated = base[0] < 0
             logarithm = log((np.abs(base[0]), np.where(negated, -base[1], base[1])))
@@ -242,8 +240,3 @@ def _conjugate(z: Complex) -> Complex:
 def _exponent(a: Any, b: Any) -> Any:
     """The binary exponent of the larger of |a| and |b| (0 for 0)."""
     return np.frexp(np.maximum(np.abs(a), np.abs(b)))[1]
-
-
-def _normalised(value: Pair) -> tuple[Pair, Any]:
-    _, e = np.frexp(value[0])
-    return two_sum(*scaled(value, -e)), e

@@ -8,7 +8,6 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from flint import acb
 
 from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.problem import NumericProblem, System
@@ -79,29 +78,26 @@ def region_of(problem: NumericProblem, interval: tuple[object, object]) -> tuple
 
 def hull(region: Region, point: Point) -> Region:
     """The least rectangle that contains the region and the point (to double precision)."""
-    z = complex(float(point.re), float(point.im))
+    z = complex(point)
     low = complex(min(region.low.real, z.real), min(region.low.imag, z.imag))
     high = complex(max(region.high.real, z.real), max(region.high.imag, z.imag))
     return Region(low, high)
 
 
 def _singular_ends(problem: NumericProblem, low: Point, high: Point) -> tuple[bool, bool]:
-    at_low = at_high = False
+    at_low, at_high, a, b = False, False, to_acb(low), to_acb(high)
     systems = [problem.system] if problem.gauge is None else [problem.system, System.of(problem.gauge)]
     for system in systems:
         for root, _ in system.roots("den", _PREC):
-            here, there = root.overlaps(to_acb(low)), root.overlaps(to_acb(high))
+            here, there = root.overlaps(a), root.overlaps(b)
             at_low, at_high = at_low or here, at_high or there
-            if not (here or there) and _inside(root, low, high):
+            x, y = root.real, root.imag
+            outside = x < a.real or x > b.real or y < a.imag or y > b.imag
+            if not (here or there or outside):
                 text = root.real.mid().str(12, radius=False)
                 text += "" if root.imag.contains(0) else f" + {root.imag.mid().str(12, radius=False)}i"
                 raise InputError(f"the interval contains the singular point {text}")
     return at_low, at_high
-
-
-def _inside(root: acb, low: Point, high: Point) -> bool:
-    a, b = to_acb(low), to_acb(high)
-    return not (root.real < a.real or root.real > b.real or root.imag < a.imag or root.imag > b.imag)
 
 
 def _up(value: Fraction) -> float:

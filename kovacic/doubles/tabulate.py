@@ -72,7 +72,9 @@ class TabulatedFunction:
         u = scaled(two_sum(points, -self.centres[index]), -self.exponents[index])
         parts = [self._sum(part[:, :, index], u) for part in self.coefficients]
         result = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
-        return result if self.gauge is None else result * (self.gauge(points) / self.gauge(_rounded(self.base)))
+        base = complex(self.base)
+        one = base.real if self.base.is_real() else base
+        return result if self.gauge is None else result * (self.gauge(points) / self.gauge(one))
 
     @staticmethod
     def _sum(rows: Any, u: Pair) -> Any:
@@ -80,10 +82,6 @@ class TabulatedFunction:
         for n in range(rows.shape[1] - 1, -1, -1):
             total = add(multiply(total, u), (rows[0, n], rows[1, n]))
         return total[0] + total[1]
-
-
-def _rounded(point: Point) -> complex | float:
-    return float(point.re) if point.is_real() else complex(float(point.re), float(point.im))
 
 
 def tabulate(

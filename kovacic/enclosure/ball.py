@@ -174,8 +174,7 @@ class Ball:
 
 
 def ball_from_flint(value: acb | arb) -> Ball | None:
-    """The ball around a flint ball (a disc around the rectangle of an acb); None where nothing is known (not
-    finite)."""
+    """The ball around a flint ball (a disc around the rectangle of an acb); None where nothing is known (not finite)."""
     value = acb(value)
     if not value.is_finite():
         return None

@@ -33,7 +33,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.partial_fractions import decompose
 from kovacic.decision import Decision
 from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, sharp_roots
-from kovacic.enclosure.matrices import Matrix, State, adjugate, multiply, scaled
+from kovacic.enclosure.matrices import Matrix, State, adjugate, multiply
 from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import NumericProblem, check_segment
 from kovacic.enclosure.working import working_precision
@@ -201,7 +201,8 @@ def _two_exponentials(branches: tuple[Exponential, ...], a: acb, b: acb) -> Matr
         at_a.append((P(a), theta.value(a) * P(a) + slope(a)))
         at_b.append((growth * P(b), growth * (theta.value(b) * P(b) + slope(b))))
     start = fundamental(*at_a)
-    return scaled(multiply(fundamental(*at_b), adjugate(start)), 1 / (start[0] * start[3] - start[1] * start[2]))
+    m, determinant = multiply(fundamental(*at_b), adjugate(start)), start[0] * start[3] - start[1] * start[2]
+    return m[0] / determinant, m[1] / determinant, m[2] / determinant, m[3] / determinant
 
 
 def _integral_leg(closed: ClosedForm, a: acb, b: acb, budget: Budget) -> Matrix:

@@ -21,7 +21,7 @@ from flint import acb, arb
 
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
 from kovacic.enclosure.exponential import Legs, with_gauge
-from kovacic.enclosure.matrices import Matrix, Product, State
+from kovacic.enclosure.matrices import Matrix, Product, State, real_part
 from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.precision import METHODS, Evaluation, Method, Route, check_digits, raise_precision, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
@@ -131,21 +131,14 @@ def _route(problem: NumericProblem, itinerary: Itinerary, start: Start, method: 
         def legs(a: Point, b: Point) -> list[Matrix]:
             return piece_matrices(problem.system, a, b, prec, budget) if closed is None else closed.legs(a, b, budget)
 
-        return carry(_real_on_the_axis(with_gauge(problem.gauge, legs)), itinerary, start)
+        gauged = with_gauge(problem.gauge, legs)
+
+        def known(a: Point, b: Point) -> list[Matrix]:  # along the real axis the matrices of a real equation are real
+            return [real_part(m) for m in gauged(a, b)] if a.is_real() and b.is_real() else gauged(a, b)
+
+        return carry(known, itinerary, start)
 
     return route, "taylor" if closed is None else "closed form"
-
-
-def _real_on_the_axis(legs: Legs) -> Legs:
-    """The legs, with real matrices along the real axis, where those of a real equation are real."""
-
-    def real(a: Point, b: Point) -> list[Matrix]:
-        found = legs(a, b)
-        if a.is_real() and b.is_real():
-            return [(acb(p.real), acb(q.real), acb(r.real), acb(s.real)) for p, q, r, s in found]
-        return found
-
-    return real
 
 
 @dataclass(frozen=True)
@@ -207,17 +200,13 @@ def _branches(plan: Itinerary) -> list[list[int]]:
 
     Straight lines to points on one ray from there share their way: on the real axis two chains (right and left).
     """
-    indices = list(range(len(plan.targets)))
+    origin, indices = plan.trunk[-1], range(len(plan.targets))
     if plan.chain:
-        return [indices]
-    origin = plan.trunk[-1]
-    if not origin.is_real():
-        return [[i] for i in indices]
-    real = [i for i in indices if plan.targets[i].is_real()]
-    right = sorted((i for i in real if plan.targets[i].re >= origin.re), key=lambda i: plan.targets[i].re)
-    left = sorted((i for i in real if plan.targets[i].re < origin.re), key=lambda i: -plan.targets[i].re)
-    chains = [right, left, *([i] for i in indices if not plan.targets[i].is_real())]
-    return [chain for chain in chains if chain]
+        return [list(indices)]
+    ahead = {i: t.re - origin.re for i, t in enumerate(plan.targets) if origin.is_real() and t.is_real()}
+    right = sorted((i for i in ahead if ahead[i] >= 0), key=ahead.__getitem__)
+    left = sorted((i for i in ahead if ahead[i] < 0), key=ahead.__getitem__, reverse=True)
+    return [chain for chain in (right, left, *([i] for i in indices if i not in ahead)) if chain]
 
 
 def transition_matrix(
@@ -226,8 +215,7 @@ def transition_matrix(
     """Balls around the matrix that carries (y, y') along the polygon through `vertices` (determinant 1), for the
     normal form y'' = S y.
 
-    The radii are at most 10^-digits relative to the largest entry, unless a limit is reached first (then
-    LimitExceeded).
+    The radii are at most 10^-digits relative to the largest entry, unless a limit is reached first (then LimitExceeded).
 
     >>> ((a, b), (c, d)) = transition_matrix(([1], [1]), [0, 1])   # cosh, sinh
     >>> float(a), float(b)

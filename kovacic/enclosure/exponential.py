@@ -77,8 +77,7 @@ def zeros(poly: Poly, c: acb | None) -> list[tuple[acb, int]]:
 
 
 def sharp_roots(poly: acb_poly) -> list[acb]:
-    """All zeros of a squarefree polynomial, isolated and refined; an empty list where the coefficients don't allow
-    it."""
+    """All zeros of a squarefree polynomial, isolated and refined; an empty list where the coefficients don't allow it."""
     for share in (0.95, 0.85, 0.75, 0.6, 0.45, 0.3):
         try:
             roots: list[acb] = poly.roots(tol=arb(2) ** -int(ctx.prec * share), maxprec=4 * ctx.prec)

@@ -32,16 +32,8 @@ _LARGEST = 900
 """Growth of the majorant along a ray, in bits."""
 
 
-@dataclass(frozen=True)
-class Shifted:
-    """q y'' = p y over Z[i], low to high, with q_0 > 0 and without a common factor."""
-
-    p: Parts
-    q: Parts
-
-
-def shift(system: System, centre: Point, scale: Point) -> Shifted:
-    """The exact equation in the variable (x - centre)/scale."""
+def shift(system: System, centre: Point, scale: Point) -> tuple[Parts, Parts]:
+    """p and q of the exact equation q y'' = p y in the variable (x - centre)/scale, with q_0 > 0, without a common factor."""
     q, p = along(system.den, centre, scale), along(system.num, centre, scale)
     re, im = (to_fraction(part[0]) for part in q)
     turn = Point(re, -im) if im else Point(Fraction(1 if re > 0 else -1))  # makes q_0 positive
@@ -50,7 +42,7 @@ def shift(system: System, centre: Point, scale: Point) -> Shifted:
     whole = [(part * common).numer() for part in parts]
     content = math.gcd(*(int(part.content()) for part in whole))
     p_re, p_im, q_re, q_im = ([int(c) for c in (part // content).coeffs()] for part in whole)
-    return Shifted(_paired(p_re, p_im), _paired(q_re, q_im))
+    return _paired(p_re, p_im), _paired(q_re, q_im)
 
 
 def _times(part: tuple[fmpq_poly, fmpq_poly], factor: Point) -> tuple[fmpq_poly, fmpq_poly]:
@@ -101,9 +93,9 @@ def make_frame(system: System, centre: Point, e: int) -> Frame:
             power = e * (2 + len(system.num) - len(system.den))
             lead = arb(abs(system.num[-1]) if system.num else 0) / system.den[-1] * arb((1, power))
             return Frame(centre, e, poles, zeros, lead)
-        shifted = shift(system, centre, Point(Fraction(2) ** e))
-        leading = acb(*(0 if part is None else part[-1] for part in shifted.q))
-        return Frame(centre, e, poles, (), arb(norm(shifted.p)) / abs(leading))
+        p, q = shift(system, centre, Point(Fraction(2) ** e))
+        leading = acb(*(0 if part is None else part[-1] for part in q))
+        return Frame(centre, e, poles, (), arb(norm(p)) / abs(leading))
 
 
 @dataclass(frozen=True)

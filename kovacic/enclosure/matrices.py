@@ -26,6 +26,11 @@ def scaled(m: Matrix, factor: acb) -> Matrix:
     return m[0] * factor, m[1] * factor, m[2] * factor, m[3] * factor
 
 
+def real_part(m: Matrix) -> Matrix:
+    """The real parts of the entries."""
+    return acb(m[0].real), acb(m[1].real), acb(m[2].real), acb(m[3].real)
+
+
 def adjugate(m: Matrix) -> Matrix:
     """The inverse of a matrix of determinant 1."""
     a, b, c, d = m

@@ -2,14 +2,11 @@
 
 The guarantee: each ball contains the exact entry, for the loop that is described by `loop`.
 
-Mathematics.  At a double pole zeta of S with b = lim (x - zeta)^2 S the exponents are 1/2 +- sqrt(1/4 + b); around it
-a solution
-basis is multiplied by a matrix M with determinant 1 and trace -2 cos(pi Delta), Delta = sqrt(1 + 4 b) (whether or not
-there is a
-logarithm), and a simple pole has Delta = 1, so trace 2.  These traces come from b alone and the matrices from
-analytic continuation: they
-check each other.  When the differential Galois group is finite of exponent N, M^N = 1; the monodromy group is a
-subgroup.
+Mathematics.  At a double pole zeta of S with b = lim (x - zeta)^2 S the exponents are 1/2 +- sqrt(1/4 + b); around it a
+solution basis is multiplied by a matrix M with determinant 1 and trace -2 cos(pi Delta), Delta = sqrt(1 + 4 b) (whether or
+not there is a logarithm), and a simple pole has Delta = 1, so trace 2.  These traces come from b alone and the matrices
+from analytic continuation: they check each other.  When the differential Galois group is finite of exponent N, M^N = 1; the
+monodromy group is a subgroup.
 
 Reference: M. van der Put and M. F. Singer, "Galois Theory of Linear Differential Equations" (2003), ch. 5.
 """
@@ -36,10 +33,9 @@ BallMatrix = tuple[tuple[Ball, Ball], tuple[Ball, Ball]]
 class LocalMonodromy:
     """One singular point: its enclosure, the multiplicity of the pole of S, exponents, loop and matrix.
 
-    `exponents` and `trace` (-2 cos(pi Delta), from the exponents) are None at an irregular singular point
-    (multiplicity 3 or more).
-    The loop runs once counter-clockwise around this point alone, from and to the base point; `matrix` acts on (y, y')
-    there.
+    `exponents` and `trace` (-2 cos(pi Delta), from the exponents) are None at an irregular singular point (multiplicity 3
+    or more). The loop runs once counter-clockwise around this point alone, from and to the base point; `matrix` acts on (y,
+    y') there.
     """
 
     point: Ball

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Rational
+from typing import Any
 
 from flint import acb, arb, fmpq, fmpz
 
@@ -50,6 +51,9 @@ class Point:
     def norm_squared(self) -> Fraction:
         """|z|^2, exactly."""
         return self.re * self.re + self.im * self.im
+
+    def __complex__(self) -> complex:
+        return complex(float(self.re), float(self.im))
 
     def is_real(self) -> bool:
         """True if the imaginary part is zero."""
@@ -110,7 +114,7 @@ def _text(text: str, name: str) -> Fraction:
     return _real(Decimal(match[3]), name)
 
 
-def _foreign(value: object, name: str) -> Point:
+def _foreign(value: Any, name: str) -> Point:
     """Numbers of mpmath, SymPy, NumPy, flint and our own balls, recognised without importing any of these libraries."""
     if hasattr(value, "is_exact") and hasattr(value, "midpoint"):
         if not value.is_exact():
@@ -121,10 +125,8 @@ def _foreign(value: object, name: str) -> Point:
         return as_point(value.item(), name)
     if isinstance(value, fmpz | fmpq):
         return Point(to_fraction(fmpq(value)))
-    if module == "mpmath" and hasattr(value, "_mpf_"):
-        return Point(_mpf(value._mpf_, name))
-    if module == "mpmath" and hasattr(value, "_mpc_"):
-        return Point(*(_mpf(part, name) for part in value._mpc_))
+    if module == "mpmath" and (hasattr(value, "_mpf_") or hasattr(value, "_mpc_")):
+        return Point(*(_mpf(part, name) for part in getattr(value, "_mpc_", None) or (value._mpf_,)))
     if module == "sympy" and hasattr(value, "as_real_imag"):
         parts = value.as_real_imag()
         if all(part.is_Rational for part in parts):

@@ -10,9 +10,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from flint import acb
+from flint import acb, arb
 
-from kovacic.enclosure.ball import Ball, Dyadic, ball_from_flint
+from kovacic.enclosure.ball import Ball, ball_from_flint
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import Point
 from kovacic.enclosure.working import working_precision
@@ -27,9 +27,8 @@ METHODS: tuple[Method, ...] = ("taylor", "closed form")
 class Evaluation:
     """The solution at one point: enclosures of y and y', and how they were obtained.
 
-    `reached` says whether the relative radius of y is at most 10^-digits; if not, `note` says why.  `bits` is the
-    working precision of
-    the run that gave the enclosures, `runs` the number of runs (the precision was raised runs - 1 times).
+    `reached` says whether the relative radius of y is at most 10^-digits; if not, `note` says why.  `bits` is the working
+    precision of the run that gave the enclosures, `runs` the number of runs (the precision was raised runs - 1 times).
     """
 
     x: Point
@@ -105,16 +104,8 @@ def _missing_bits(y: acb, digits: int, prec: int) -> int:
 
 
 def _stalled(previous: tuple[Evaluation, ...], found: tuple[Evaluation, ...]) -> bool:
-    """True if a higher precision hasn't made the balls smaller: their size comes from the initial values."""
-    return all(
-        f.reached or _binary_order(f.y.rad) >= _binary_order(p.y.rad) for p, f in zip(previous, found, strict=True)
-    )
-
-
-def _binary_order(number: Dyadic) -> int:
-    """The exponent of 2, without the limits of a double."""
-    mantissa, exponent = number
-    return abs(mantissa).bit_length() + exponent
+    """True if a higher precision hasn't halved the balls: their size comes from the initial values."""
+    return all(f.reached or 2 * arb(f.y.rad) > arb(p.y.rad) for p, f in zip(previous, found, strict=True))
 
 
 def _reason(result: Evaluation) -> str:

@@ -10,8 +10,9 @@ isolation of the common factor of two polynomials over Q.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 from flint import acb, arb, fmpq_poly, fmpz_poly
 
@@ -45,7 +46,6 @@ class System:
 
     num: tuple[int, ...]
     den: tuple[int, ...]
-    _cache: dict[tuple[str, int], Zeros] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @classmethod
     def make(cls, num: tuple[int, ...], den: tuple[int, ...]) -> System:
@@ -69,19 +69,9 @@ class System:
             *(tuple(int(c) for c in part.coeffs()) for part in (p.numer() * q.denom(), q.numer() * p.denom()))
         )
 
-    def __reduce__(self) -> tuple[type[System], tuple[tuple[int, ...], tuple[int, ...]]]:
-        return System, (self.num, self.den)
-
     def roots(self, which: str, prec: int) -> Zeros:
-        """Enclosures of the zeros of "num" or "den" at about `prec` bits, with multiplicities (kept for the next
-        call)."""
-        level = max(64, 1 << (prec - 1).bit_length())
-        if (which, level) not in self._cache:
-            poly = fmpz_poly(list(getattr(self, which)))
-            with working_precision(level):
-                found = tuple((root, int(k)) for root, k in poly.complex_roots()) if poly.degree() > 0 else ()
-            self._cache[which, level] = found
-        return self._cache[which, level]
+        """Enclosures of the zeros of "num" or "den" at about `prec` bits, with multiplicities."""
+        return _isolated(getattr(self, which), max(64, 1 << (prec - 1).bit_length()))
 
     def singular_points(self, prec: int) -> list[Point]:
         """The midpoints of the enclosures of the singular points; on the real axis exactly where the singular point is."""
@@ -110,8 +100,7 @@ class NumericProblem:
 
 
 def as_problem(equation: object) -> NumericProblem:
-    """The numerical problem that `equation` stands for; see `kovacic.enclosure.evaluate.evaluate` for what is
-    accepted."""
+    """The numerical problem that `equation` stands for; see `kovacic.enclosure.evaluate.evaluate` for what is accepted."""
     if isinstance(equation, NumericProblem):
         return equation
     if isinstance(equation, System):
@@ -129,6 +118,13 @@ def as_problem(equation: object) -> NumericProblem:
     if not given.is_homogeneous:
         raise InputError("numerical evaluation needs a homogeneous equation (right-hand side 0)")
     return NumericProblem(system, S, decision, given.gauge or None)
+
+
+@lru_cache(maxsize=64)
+def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
+    poly = fmpz_poly(list(coefficients))
+    with working_precision(prec):
+        return tuple((root, int(k)) for root, k in poly.complex_roots()) if poly.degree() > 0 else ()
 
 
 def along(coefficients: tuple[int, ...], a: Point, step: Point) -> tuple[fmpq_poly, fmpq_poly]:

@@ -44,7 +44,7 @@ from typing import Any
 
 from flint import acb, acb_mat, arb, arb_mat, fmpz_mat, fmpz_poly
 
-from kovacic.enclosure.frame import Frame, Parts, RayBound, make_frame, norm, ray_to, shift
+from kovacic.enclosure.frame import Frame, Parts, RayBound, log2, make_frame, norm, ray_to, shift
 from kovacic.enclosure.matrices import Matrix
 from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import System
@@ -94,7 +94,7 @@ class Run:
         """`first`, then this."""
         return Run(
             _times(self.C, first.C),
-            _plus(_times(self.R, first.C), _scaled(first.R, self.D)),
+            _plus(_times(self.R, first.C), _times(first.R, (self.D, None))),
             self.D * first.D,
         )
 
@@ -106,15 +106,11 @@ def _times(a: Gauss, b: Gauss) -> Gauss:
     if bi is None:
         return ar * br, ai * br
     x, y = ar * br, ai * bi
-    return x - y, (ar + ai) * (br + bi) - x - y
+    return x + y * -1, (ar + ai) * (br + bi) + (x + y) * -1
 
 
 def _plus(a: Gauss, b: Gauss) -> Gauss:
     return a[0] + b[0], b[1] if a[1] is None else a[1] if b[1] is None else a[1] + b[1]
-
-
-def _scaled(a: Gauss, factor: Any) -> Gauss:
-    return a[0] * factor, None if a[1] is None else a[1] * factor
 
 
 class Table:
@@ -133,9 +129,6 @@ class Table:
 
     def __add__(self, other: Table) -> Table:
         return Table([[x + y for x, y in zip(a, b, strict=True)] for a, b in zip(self.rows, other.rows, strict=True)])
-
-    def __sub__(self, other: Table) -> Table:
-        return Table([[x - y for x, y in zip(a, b, strict=True)] for a, b in zip(self.rows, other.rows, strict=True)])
 
     def at(self, m: int) -> fmpz_mat:
         """The matrix of integers at m."""
@@ -217,8 +210,7 @@ def _sum_series(
     system: System, frame: Frame, z: Point, bound: RayBound, mirror: bool, prec: int, budget: Budget
 ) -> Series:
     """Blocks until the bound of the tail is about 2^-prec."""
-    seen = shift(system, frame.centre, z.scaled(frame.scale))
-    steps = Recurrence(seen.p, seen.q)
+    steps = Recurrence(*shift(system, frame.centre, z.scaled(frame.scale)))
     leaf, r, m = steps.leaf(mirror), steps.order, 2
     goal = prec + int(bound.log2_growth) + 20
     full = goal + 64
@@ -233,11 +225,11 @@ def _sum_series(
             heights = [sum((V[n, k].abs_upper() for n in range(r)), arb(0)).upper() for k in (0, 1)]
             radii = [error_radii((h * steps.size(m) * scale).upper(), steps.Q[0][0], bound) for h in heights]
             errors = tuple((e, (slope * length).upper()) for e, slope in radii)
-            if all(_order(e) <= -goal for pair in errors for e in pair):
+            if all(log2(e) < -goal for pair in errors for e in pair):
                 return Series(sums, errors)  # type: ignore[arg-type]
             if m > 40 * full + 4000:
                 raise LimitExceeded(f"a Taylor expansion needs more than {m} terms", limit="unknown_degree")
-            needed = max(64, full + 32 + max(map(_order, heights)))
+            needed = max(64, full + 33 + int(max(map(log2, heights))))
             leaves = _leaves(steps, m, needed, before)
             block = make_block(leaf, m, leaves, budget)
             m, before = m + leaves * LEAF, (m, needed)
@@ -261,12 +253,6 @@ def _leaves(steps: Recurrence, m: int, needed: int, before: tuple[int, int] | No
 
 def _balls(a: Gauss) -> Any:
     return arb_mat(a[0]) if a[1] is None else acb_mat(a[0]) + acb_mat(a[1]) * acb(0, 1)
-
-
-def _order(x: arb) -> int:
-    """An integer e with x < 2^e, for an exact x >= 0."""
-    mantissa, exponent = x.man_exp()
-    return int(exponent) + int(mantissa).bit_length() if mantissa else -(1 << 60)
 
 
 def is_split(system: System, prec: int) -> bool:

@@ -9,20 +9,17 @@ dyadic, so nothing is rounded).  The recurrence for the coefficients,
     q_0 (n+2)(n+1) a_(n+2) = sum_j p_j a_(n-j) - sum_(j>=1) q_j (n+2-j)(n+1-j) a_(n+2-j),
 
 runs in fixed point, with integers A_n for a_n 2^w and division with remainder.  So the defect r = q Y'' - p Y of the
-polynomial
-Y = sum A_n 2^-w u^n is known: its coefficients are those remainders, smaller than the divisors, and a few more at the
-end that consist
-of the last A_n only.  Nothing is assumed about the stability of the recurrence.  The error e = y - Y satisfies
+polynomial Y = sum A_n 2^-w u^n is known: its coefficients are those remainders, smaller than the divisors, and a few more
+at the end that consist of the last A_n only.  Nothing is assumed about the stability of the recurrence.  The error e = y -
+Y satisfies
 
     q e'' = p e - r,   e(0) = e'(0) = 0.
 
-Along the ray from 0 to u, |e''| <= sigma |e| + rho with sigma >= |p/q|, rho >= |r/q|, piecewise constant; so |e| and
-|e'| stay
-below the solution of z'' = sigma z + rho (a Volterra inequality with a positive kernel, iterated).  This majorant
-covers the
-truncation of the series and every rounding at once, and is sharp where classical majorant series are not: the
-coefficients of 1/q never enter with absolute values.  The bounds of |p/q| and 1/|q| on the pieces come from the
-enclosed zeros.
+Along the ray from 0 to u, |e''| <= sigma |e| + rho with sigma >= |p/q|, rho >= |r/q|, piecewise constant; so |e| and |e'|
+stay below the solution of z'' = sigma z + rho (a Volterra inequality with a positive kernel, iterated).  This majorant
+covers the truncation of the series and every rounding at once, and is sharp where classical majorant series are not: the
+coefficients of 1/q never enter with absolute values.  The bounds of |p/q| and 1/|q| on the pieces come from the enclosed
+zeros.
 
 Symbols: c centre, H = h 2^e scale, u = (x - c)/H, w bits after the binary point, N the number of terms.
 
@@ -64,13 +61,13 @@ class Expansion:
 def expand(system: System, frame: Frame, prec: int, bound: RayBound, budget: Budget) -> Expansion:
     """Both columns at `frame` so that the error on rays within `bound` should be about 2^-prec (what it is,
     `transition` says)."""
-    shifted = shift(system, frame.centre, Point(frame.scale))
-    real, q_0 = shifted.p[1] is None and shifted.q[1] is None, shifted.q[0][0]
-    loss = max(0.0, log2(arb(norm(shifted.q)) / q_0) - bound.log2_least)
+    p, q = shift(system, frame.centre, Point(frame.scale))
+    real, q_0 = p[1] is None and q[1] is None, q[0][0]
+    loss = max(0.0, log2(arb(norm(q)) / q_0) - bound.log2_least)
     quiet = 6 + int(loss)  # rounding errors keep the terms above about 2^loss units: they count as zero below 2^quiet
     w = prec + quiet + int(loss + bound.log2_growth) + 12 + 3 * max(6, prec.bit_length() + 1)
     excess = max(0, q_0.bit_length() - (w + 40))
-    p, q = _cut(shifted.p, excess), _cut(shifted.q, excess)
+    p, q = _cut(p, excess), _cut(q, excess)
     columns, defects = [], []
     for start in (0, 1):
         budget.check()
@@ -155,11 +152,9 @@ def _recurrence_complex(p: Parts, q: Parts, w: int, start: int, small: int) -> t
 def _proven_defect(p: Parts, q: Parts, excess: int, re: list[Any], im: list[Any] | None, small: int) -> int:
     """A bound of sum |r_n| 2^w for the column, r = q Y'' - p Y with the untrimmed coefficients.
 
-    With N terms and D_n = q_0 (n+1)(n+2): r_n is the remainder of the n-th division for n <= N - 3, below sqrt(2)
-    D_n, and
+    With N terms and D_n = q_0 (n+1)(n+2): r_n is the remainder of the n-th division for n <= N - 3, below sqrt(2) D_n, and
     sum D_n <= q_0 N^3 / 2; for n >= N - 2 it involves the last terms only, all below `small` in both parts when the
-    recurrence
-    stopped.  A trimmed coefficient is off by less than 2^excess in both parts.
+    recurrence stopped.  A trimmed coefficient is off by less than 2^excess in both parts.
     """
     n = len(re)
     width = max(len(p[0]), len(q[0])) + 3

@@ -41,8 +41,7 @@ _MAX_DISCS = 200_000
 
 @dataclass(frozen=True)
 class Disc:
-    """One expansion: its frame, the junctions where it is entered and left, and the parameter t in [0, 1] of the
-    latter.
+    """One expansion: its frame, the junctions where it is entered and left, and the parameter t in [0, 1] of the latter.
 
     A junction is a short dyadic point beside the point a + t (b - a) of the piece; the disc contains both.  `bounds` are
     those of the rays to the two junctions.
@@ -56,8 +55,7 @@ class Disc:
 
 
 def piece_matrices(system: System, a: Point, b: Point, prec: int, budget: Budget) -> list[Matrix]:
-    """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about
-    2^-prec)."""
+    """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about 2^-prec)."""
     result: list[Matrix] = []
     for disc in cover(system, a, b, prec, budget):
         frame, worst = disc.frame, disc.bounds[0].worst(disc.bounds[1])
@@ -118,8 +116,7 @@ class Piece:
 
 
 def _next_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int, guess: int | None) -> Disc | None:
-    """The disc that is entered at the parameter t: as large as the singular points and the growth of the solutions
-    allow.
+    """The disc that is entered at the parameter t: as large as the singular points and the growth of the solutions allow.
 
     None if the junction `enter` lies off the path and no disc down to an eighth of the last one contains both.
     """

@@ -1,14 +1,11 @@
 """Pictures of solutions: real and imaginary part over an interval of the real axis, with the singular points marked.
 
-What is drawn are midpoints of proven enclosures at every sample point; the error band is drawn where it's visible at
-all.
-Between sample points the curve is a straight line, which proves nothing.  Beyond a singular point on the axis the
-solution is the
-continuation through the upper half-plane.
+What is drawn are midpoints of proven enclosures at every sample point; the error band is drawn where it's visible at all.
+Between sample points the curve is a straight line, which proves nothing.  Beyond a singular point on the axis the solution
+is the continuation through the upper half-plane.
 
-matplotlib is needed (`pip install kovacic[plot]`) and imported here only, with a canvas of its own: no window is
-opened, and
-neither the backend nor the state of pyplot is touched.
+matplotlib is needed (`pip install kovacic[plot]`) and imported here only, with a canvas of its own: no window is opened,
+and neither the backend nor the state of pyplot is touched.
 """
 
 from __future__ import annotations
@@ -54,8 +51,7 @@ def sample(
     digits: int = 8,
     limits: Limits | None = None,
 ) -> Samples:
-    """Enclosures at about `points` points of [start, stop]; x0 is the middle of the longest regular interval by
-    default.
+    """Enclosures at about `points` points of [start, stop]; x0 is the middle of the longest regular interval by default.
 
     Raises InputError if start isn't below stop, and what `evaluate` raises.
     """
@@ -80,7 +76,7 @@ def sample(
         lift = Point(Fraction(0), height)
         path = None if direct else [origin + lift, middle + lift, middle]
         runs.append(evaluate_states(problem, grid, x0=origin, y0=y0, dy0=dy0, digits=digits, path=path, limits=limits))
-    return Samples(tuple(runs), tuple(complex(float(z.re), float(z.im)) for z in singular))
+    return Samples(tuple(runs), tuple(map(complex, singular)))
 
 
 def _regular_intervals(a: Fraction, b: Fraction, cuts: list[Fraction]) -> list[tuple[Fraction, Fraction]]:
