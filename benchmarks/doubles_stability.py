@@ -4,9 +4,9 @@ Regenerate:  python benchmarks/doubles_stability.py      writes results/doubles_
 
 Every solution is known in closed form.  Two tables:
 
-- enclosures: route (b), which knows nothing of the closed form, against mpmath at 160 digits and more (the reference).
+- enclosures: the Taylor route, which knows nothing of the closed form, against mpmath at 160 digits and more (the reference).
   "right" says that the reference lies in the ball.  "naive" is SymPy's lambdify of the known closed form with NumPy.
-- double precision: `lambdify` on 24 points of each row, in units in the last place against route (b) at 50 digits; and
+- double precision: `lambdify` on 24 points of each row, in units in the last place against the Taylor route at 50 digits; and
   SymPy's lambdify of the same solution (polynomials expanded) measured in the same way.
 """
 

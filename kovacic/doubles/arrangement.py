@@ -42,8 +42,7 @@ _WHOLE = 16
 _MAX_ZEROS = 200
 """Polynomials of a higher degree are not split into their zeros (which takes degree^4 time)."""
 
-Powers = list[tuple[acb, acb]]
-"""(zeta, exponent)"""
+Powers = list[tuple[acb, acb]]  # (zeta, exponent)
 
 
 def product_form(problem: NumericProblem, which: int, region: Region, base: Point) -> ProductForm | None:
@@ -69,7 +68,7 @@ def _exponential(branch: Exponential, region: Region, base: Point) -> ProductFor
         return None
     c = branch.constant()
     theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
-    powers = [(pole.zeta, pole.coefficients[0]) for pole in theta.poles] + _zeros_of(branch.P, c)
+    powers = [(pole.zeta, pole.coefficients[0]) for pole in theta.poles] + [(z, acb(k)) for z, k in zeros(branch.P, c)]
     is_real = region.is_real and _all_real([*theta.num.coeffs(), *theta.den.coeffs(), *P.coeffs()])
     return ProductForm(
         region,
@@ -80,10 +79,6 @@ def _exponential(branch: Exponential, region: Region, base: Point) -> ProductFor
         None,
         is_real,
     )
-
-
-def _zeros_of(P: Any, c: acb | None) -> Powers:
-    return [(z, acb(k)) for z, k in zeros(P, c)]
 
 
 def _all_real(values: list[acb]) -> bool:
@@ -246,7 +241,7 @@ def _branch_points(theta: RatFunc) -> int:
 def _places(smooth: LogDerivative, P: Any, residues: tuple[Any, ...], c: acb | None) -> list[_Place]:
     zero = acb(0)
     found = [_Place(pole.zeta, pole.coefficients[0], zero) for pole in smooth.poles]
-    found += [_Place(a, k / 2, zero) for a, k in _zeros_of(P, c)]
+    found += [_Place(a, acb(k) / 2, zero) for a, k in zeros(P, c)]
     for residue in residues:
         for a, _ in zeros(residue.factor, c):
             found.append(_Place(a, zero, embed(residue.value, c)(a)))

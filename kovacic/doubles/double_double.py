@@ -117,7 +117,7 @@ def complex_reciprocal(a: Complex) -> Complex:
     return divide(a[0], norm), negative(divide(a[1], norm))
 
 
-def horner(coefficients: tuple[tuple[float, float], ...], x: Pair) -> Pair:
+def horner(coefficients: tuple[Pair, ...], x: Pair) -> Pair:
     """A real polynomial (coefficients high to low, as pairs) at x."""
     total: Pair = (0.0 * x[0], 0.0 * x[0])
     for c in coefficients:

@@ -16,7 +16,7 @@ real on an interval.  With X = x + g'(0)/2 and g = X^2 + m for deg g = 2 (g is m
 - |turn_j| = 1, and (t - zeta_j)/turn_j > 0 at the middle of the interval, so that the principal power is the continuous
   one along the straight line from there: a quotient of points on a line that misses 0 never meets the negative real axis.
 
-Nothing is proven about rounding errors here; `kovacic.doubles.accuracy` measures them.
+Nothing is proven about rounding errors here; `kovacic.doubles.lambdify` measures them.
 """
 
 from __future__ import annotations

@@ -5,9 +5,9 @@ distance from c to the nearest singular point and so small that the solutions gr
 
     y(c + H u) = sum a_n u^n,    |u| <= 1,
 
-with the coefficients of route (b), whose truncation is proven below 2^-110 (`kovacic.enclosure.taylor`), from enclosures of
-y(c) and y'(c) to 34 digits.  Coefficients and Horner's scheme are double-doubles, so that the error is some 2^-95 of the
-largest value on the piece: the value itself keeps its digits near zeros, and where it is far smaller than its neighbours.
+with coefficients whose truncation is proven below 2^-110 (`kovacic.enclosure.taylor`), from enclosures of y(c) and y'(c) to 34
+digits.  Coefficients and Horner's scheme are double-doubles, so that the error is some 2^-95 of the largest value on the
+piece: the value itself keeps its digits near zeros, and where it is far smaller than its neighbours.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ import numpy as np
 from flint import acb, arb
 
 from kovacic.doubles.arrangement import gauge_form
-from kovacic.doubles.double_double import Pair, add, multiply, pair_of, scaled, two_sum
+from kovacic.doubles.double_double import horner, pair_of, scaled, two_sum
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Region, hull, region_of
 from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
@@ -70,18 +70,11 @@ class TabulatedFunction:
         points = self.region.points(x)
         index = np.searchsorted(self.edges, points, side="right")
         u = scaled(two_sum(points, -self.centres[index]), -self.exponents[index])
-        parts = [self._sum(part[:, :, index], u) for part in self.coefficients]
+        rows = [part[:, ::-1, index] for part in self.coefficients]
+        parts = [sum(horner(tuple((part[0, n], part[1, n]) for n in range(part.shape[1])), u)) for part in rows]
         result = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
-        base = complex(self.base)
-        one = base.real if self.base.is_real() else base
-        return result if self.gauge is None else result * (self.gauge(points) / self.gauge(one))
-
-    @staticmethod
-    def _sum(rows: Any, u: Pair) -> Any:
-        total: Pair = (0.0 * u[0], 0.0 * u[0])
-        for n in range(rows.shape[1] - 1, -1, -1):
-            total = add(multiply(total, u), (rows[0, n], rows[1, n]))
-        return total[0] + total[1]
+        base = float(self.base.re) if self.base.is_real() else complex(self.base)
+        return result if self.gauge is None else result * (self.gauge(points) / self.gauge(base))
 
 
 def tabulate(
