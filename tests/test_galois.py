@@ -16,7 +16,6 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.algebra.jacobian import Jacobian
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind as PlaceKind
@@ -24,6 +23,7 @@ from kovacic.engine.places import analyse
 from kovacic.galois import Ground, Group, Kind
 from kovacic.galois.gauged import _residues_on_curve, _torus
 from kovacic.galois.imprimitive import curve_of, form_of_order
+from kovacic.galois.jacobian import Jacobian
 from kovacic.limits import Budget
 from kovacic.reading.given import Equation
 

@@ -14,14 +14,18 @@ from fractions import Fraction
 from math import lcm
 from typing import Any
 
-from flint import fmpq
+from flint import fmpq, fmpz
 
 from kovacic.algebra import splitting
 from kovacic.algebra.lattice import Ideals
 from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
+from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.traces import coefficients_from_traces, power_sums
+
+#: Bits of the primes whose squares are taken out of a radicand.
+_SMOOTH_BITS = 15
 
 
 @dataclass(frozen=True, slots=True)
@@ -300,3 +304,25 @@ def norm(polynomial: Poly) -> Poly:
         traces.append(sum((part * s for part, s in zip(power.parts, sums, strict=True)), field.base.poly([])))
         power = power * polynomial
     return coefficients_from_traces(traces)[n] * (-1 if n % 2 else 1)
+
+
+def adjoined_square_root(field: Field, value: Poly) -> Poly:
+    """A square root of a non-zero constant: in the field if it has one, else in K(c) with c^2 the simplified radicand."""
+    root = field.sqrt(value)
+    if root is not None:
+        return root
+    radicand, factor = _without_squares(field, value)
+    return AlgebraicField(field, field.poly([-radicand, 0, 1])).generator * factor
+
+
+def _without_squares(field: Field, value: Poly) -> tuple[Poly, Poly]:
+    """`(r, f)` with value = r f^2; over Q, r is an integer without the squares of small primes."""
+    one = field.poly([1])
+    if field != QQ:
+        return value, one
+    fraction = to_fraction(value.rational_coefficients()[0])
+    product, radicand, factor = fraction.numerator * fraction.denominator, 1, 1
+    for p, exponent in fmpz(abs(product)).factor_smooth(_SMOOTH_BITS):
+        radicand *= int(p) ** (exponent % 2)
+        factor *= int(p) ** (exponent // 2)
+    return field.poly([radicand if product > 0 else -radicand]), field.poly([factor]) / fraction.denominator

@@ -129,7 +129,7 @@ class FunctionField(Field):
         assert isinstance(constant, FunctionPoly)
         if not constant:
             return constant
-        roots = [square_root(part, self.context) for part in (constant.num, constant.den)]
+        roots = [square_root(part) for part in (constant.num, constant.den)]
         return None if roots[0] is None or roots[1] is None else self.make(roots[0], roots[1])
 
     def cleared(self, num: Poly, den: Poly) -> tuple[Poly, Poly]:

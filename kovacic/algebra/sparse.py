@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import gcd, isqrt, lcm
+from math import gcd, lcm
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
+from flint.utils.flint_exceptions import DomainError
 
 
 def laurent_constant(num: Any, den: Any, variable: int) -> Any:
@@ -71,15 +72,13 @@ def _factored_over_q(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
     return constant_term(rest), factors
 
 
-def square_root(polynomial: Any, context: Any) -> Any | None:
-    constant, factors = factorisation(polynomial)
-    root = isqrt(constant) if constant >= 0 else -1
-    if root < 0 or root * root != constant or any(k % 2 for _, k in factors):
+def square_root(polynomial: Any) -> Any | None:
+    """The square root with a positive leading coefficient, or None."""
+    try:
+        root = polynomial.sqrt()
+    except DomainError:
         return None
-    result = context.constant(root)
-    for factor, k in factors:
-        result = result * factor ** (k // 2)
-    return -result if int(result.leading_coefficient()) < 0 else result
+    return -root if int(root.leading_coefficient()) < 0 else root
 
 
 def format_terms(polynomial: Any, names: Sequence[str]) -> str:

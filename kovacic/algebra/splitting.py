@@ -8,9 +8,10 @@ rare; then one root for each prime has to do, and `lattice` finds the way back.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from copy import copy
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from itertools import islice
+from itertools import islice, tee
 from typing import Any
 
 from flint import nmod_poly
@@ -74,7 +75,7 @@ def bundles(
 ) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
     """All homomorphisms over each prime that splits completely; one over each with a simple root where those are rare."""
     if allowed is None:
-        return iter(_remembered(base, modulus))
+        return copy(_remembered(base, modulus))
     return _bundles(base, modulus, allowed)
 
 
@@ -102,25 +103,10 @@ def _bundles(
             continue
 
 
-class _Remembered:
-    """A sequence that remembers what an iterator gave, so that primes are searched once for each field."""
-
-    def __init__(self, source: Iterator[tuple[ExtensionHomomorphism, ...]]) -> None:
-        self._source = source
-        self._known: list[tuple[ExtensionHomomorphism, ...]] = []
-
-    def __iter__(self) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
-        position = 0
-        while True:
-            if position == len(self._known):
-                self._known.append(next(self._source))
-            yield self._known[position]
-            position += 1
-
-
 @lru_cache(maxsize=64)
-def _remembered(base: Field, modulus: Poly) -> _Remembered:
-    return _Remembered(_bundles(base, modulus))
+def _remembered(base: Field, modulus: Poly) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
+    """An iterator whose copies share what was found, so that primes are searched once for each field."""
+    return tee(_bundles(base, modulus), 1)[0]
 
 
 def coordinates(

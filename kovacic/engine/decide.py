@@ -16,9 +16,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Structure
 from kovacic.engine import imprimitive, primitive, reducible
 from kovacic.engine.necessary import excluded_by_local_data
-from kovacic.engine.outcome import Found, Outcome
 from kovacic.engine.places import Problem, analyse
-from kovacic.engine.riccati import Form
+from kovacic.engine.riccati import Form, Found, Outcome
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 

@@ -11,10 +11,8 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.decision import Exclusion, NoInvariant, Structure
 from kovacic.engine.invariants import invariants
-from kovacic.engine.outcome import Found, Outcome
 from kovacic.engine.places import Problem
-from kovacic.engine.riccati import Form, hessian, root
-from kovacic.engine.singular import singular_factor
+from kovacic.engine.riccati import Form, Found, Outcome, hessian, root, singular_factor
 
 
 def decide(problem: Problem) -> Outcome:

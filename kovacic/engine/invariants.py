@@ -11,7 +11,6 @@ References: Ulmer & Weil, J. Symb. Comp. 22 (1996); van Hoeij & Weil, J. Pure Ap
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -31,7 +30,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.decision import NoInvariant
 from kovacic.engine.expansion import polynomial_invariant
 from kovacic.engine.places import Kind, Place, Problem
-from kovacic.engine.riccati import Form
+from kovacic.engine.riccati import Form, singular_part
 
 #: Equations beyond the number of unknowns, so that accidental solutions are improbable.
 _MARGIN = 6
@@ -131,14 +130,6 @@ def _recurrence_is_cheaper(problem: Problem, m: int, N: int, primes_used: int) -
     """
     products = ((m + 1) * (problem.D.degree + 1)) ** 2
     return problem.field == QQ and primes_used * (N + 20) >= products
-
-
-def singular_part(problem: Problem, valuations: Sequence[int]) -> Any:
-    """R0 with Q0'/Q0 = R0/D for Q0 = prod p^(v_p)."""
-    R = problem.field.poly([])
-    for place, v in zip(problem.finite_places, valuations, strict=True):
-        R = R + v * (problem.D // place.factor) * place.factor.derivative()
-    return R
 
 
 def invariants_modulo(h: Homomorphism, problem: Problem, m: int, bound: Bounds, margin: int) -> tuple[list[Any], int]:

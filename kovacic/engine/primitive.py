@@ -11,13 +11,11 @@ from __future__ import annotations
 
 from functools import partial
 
+from kovacic.algebra.extension import adjoined_square_root
 from kovacic.decision import Exclusion, NoInvariant, Structure
-from kovacic.engine.constants import square_root
 from kovacic.engine.invariants import invariants
-from kovacic.engine.outcome import Found, Outcome
 from kovacic.engine.places import Problem
-from kovacic.engine.riccati import Form, hessian, jacobian, normalised, root
-from kovacic.engine.singular import singular_factor
+from kovacic.engine.riccati import Form, Found, Outcome, hessian, jacobian, normalised, root, singular_factor
 
 INVARIANT_DEGREE = {Structure.TETRAHEDRAL: 6, Structure.OCTAHEDRAL: 8, Structure.ICOSAHEDRAL: 12}
 
@@ -56,7 +54,7 @@ def _tetrahedral(problem: Problem, F: Form) -> Form:
     b = rest.lc / pattern.lc if rest else problem.field.poly([])
     if not b or rest != pattern * b:
         raise AssertionError("T^2 = a H^3 + b F^4 holds for the tetrahedral group")
-    return root(Form(12, T.R, T.P + square_root(problem.field, b) * G), 3, problem)
+    return root(Form(12, T.R, T.P + adjoined_square_root(problem.field, b) * G), 3, problem)
 
 
 _FORMS = {

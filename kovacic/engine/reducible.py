@@ -15,20 +15,18 @@ from fractions import Fraction
 from itertools import count, islice
 from typing import Any
 
+from kovacic.algebra.extension import adjoined_square_root
 from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Homomorphism, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.decision import Evidence, Exclusion, NoInvariant, NoRationalOmega, Structure
-from kovacic.engine.constants import square_root
 from kovacic.engine.degree_bound import DegreeBound, degree_bound, irrational_exponents, is_cheap
 from kovacic.engine.invariants import invariants
 from kovacic.engine.local import chart, exponential_parts, omega_parts, rational_omega
-from kovacic.engine.outcome import Found, Outcome
 from kovacic.engine.places import Kind, Place, Problem
-from kovacic.engine.riccati import Form, normalised
-from kovacic.engine.singular import singular_factor
+from kovacic.engine.riccati import Form, Found, Outcome, normalised, singular_factor
 from kovacic.errors import LimitExceeded
 
 #: Up to this degree P1 is lifted with R; above, its recurrence is faster.
@@ -74,7 +72,7 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
             raise AssertionError("an invariant of degree 2 without discriminant is the square of a solution")
         return Form(1, R, y1)
     weight = singular_factor(problem, F.R, 1)
-    w = square_root(problem.field, value / weight(point) ** 2)
+    w = adjoined_square_root(problem.field, value / weight(point) ** 2)
     field, Y = w.field, w * weight
     if field == QQ and P.degree <= _EXACT_DEGREE:
         return Form(1, *_first_factor(problem.D, P, X, Y, Fraction(1, 2)))

@@ -16,11 +16,13 @@ Symbols: Q = exp(int R/D); theta = R/D; phi = f'/f = theta + P'/P.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from kovacic.algebra.poly import Poly
-from kovacic.engine.places import Problem
+from kovacic.decision import Exclusion, Structure
+from kovacic.engine.places import Place, Problem
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,22 @@ class Form:
     def is_form(self, problem: Problem) -> bool:
         """Is this really a form in the solutions of the equation?"""
         return not self.numerators(problem)[-1]
+
+
+@dataclass(frozen=True)
+class Found:
+    """The group has this structure.
+
+    `form()` is the semi-invariant whose linear factors are the solutions with the omega that Kovacic's algorithm looks for;
+    it is computed on demand.  `invariant` is the rational invariant that showed the structure, None if there was none.
+    """
+
+    structure: Structure
+    form: Callable[[], Form]
+    invariant: Form | None = None
+
+
+Outcome = Found | tuple[Exclusion, ...]
 
 
 def normalised(form: Form, problem: Problem) -> Form:
@@ -94,3 +112,33 @@ def jacobian(f: Form, g: Form, problem: Problem) -> Form:
     B0, B1 = g.P, problem.D * g.P.derivative() + g.R * g.P
     R = f.R + g.R - problem.D.derivative()
     return Form(f.degree + g.degree - 2, R, f.degree * A0 * B1 - g.degree * A1 * B0)
+
+
+def singular_part(problem: Problem, valuations: Sequence[int]) -> Poly:
+    """R0 with Q0'/Q0 = R0/D for Q0 = prod p^(v_p)."""
+    R = problem.field.poly([])
+    for place, v in zip(problem.finite_places, valuations, strict=True):
+        R = R + v * (problem.D // place.factor) * place.factor.derivative()
+    return R
+
+
+def singular_factor(problem: Problem, R: Poly, power: int) -> Poly:
+    """D^power / Q0 for Q0 = prod p^(v_p) with Q0'/Q0 = R/D, where no v_p exceeds power times the weight of p."""
+    result = problem.field.poly([1])
+    for place in problem.finite_places:
+        result = result * place.factor ** (power * place.weight - residue(problem, R, place))
+    return result
+
+
+def residue(problem: Problem, R: Poly, place: Place) -> int:
+    """The integer residue v of R/D at the roots of a factor p: R/D = v p'/p + something regular at p."""
+    p = place.factor
+    rest = R if place.weight == 1 else R.exact_quotient(p ** (place.weight - 1))
+    if rest is None:
+        raise AssertionError("the logarithmic derivative of a rational function has simple poles")
+    rest, cofactor = rest % p, problem.D // p**place.weight * p.derivative() % p
+    value = rest[cofactor.degree] / cofactor.lc
+    rational = problem.field.rational_value(value)
+    if rest != cofactor * value or rational is None or rational.denominator != 1:
+        raise AssertionError("the residues of the logarithmic derivative of a rational function are integers")
+    return int(rational)

@@ -31,7 +31,6 @@ from typing import Any
 from flint import nmod_poly
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.jacobian import Jacobian
 from kovacic.algebra.modular import BadPrimeError, simple_roots, square_root
 from kovacic.algebra.poly import Field, Homomorphism, Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -41,9 +40,10 @@ from kovacic.decision import NoInvariant, SemiInvariant
 from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Kind as PlaceKind
 from kovacic.engine.places import Problem
-from kovacic.engine.singular import residue
+from kovacic.engine.riccati import residue
 from kovacic.errors import LimitExceeded
 from kovacic.galois.group import Ground, Group, Kind
+from kovacic.galois.jacobian import Jacobian
 
 #: Primes whose orders must agree before the invariants are asked.
 _AGREEING_PRIMES = 3

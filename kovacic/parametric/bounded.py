@@ -22,9 +22,8 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.sparse import factorisation
-from kovacic.engine.invariants import singular_part
 from kovacic.engine.places import Kind, Place, Problem
-from kovacic.engine.riccati import Form
+from kovacic.engine.riccati import Form, singular_part
 from kovacic.parametric.pivots import without_constant_pivots
 
 #: Determinants whose common factors are taken.
