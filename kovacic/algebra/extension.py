@@ -239,19 +239,16 @@ class ExtensionPoly(Poly):
             remainder = remainder - quotient[shift]._mul(x**shift)._mul(other)
         return self._field.poly(quotient), remainder
 
-    def gcd(self, other: Poly) -> ExtensionPoly:
-        """The monic greatest common divisor, through its images modulo primes, checked by division."""
-        first, second = self, self._coerce(other)
-        if second is None:
-            raise TypeError("both polynomials must lie over the same field")
-        if not first or not second:
-            return (first or second).monic()
-        if first.degree == 0 or second.degree == 0:
+    def _gcd(self, other: ExtensionPoly) -> ExtensionPoly:
+        """Through its images modulo primes, checked by division."""
+        if not self or not other:
+            return (self or other).monic()
+        if self.degree == 0 or other.degree == 0:
             return self._field.poly([1])
         lifter = Lifter(self._field)
         for bundle in self._field.bundles():
             try:
-                images = [[h.keeping_degree(first).gcd(h.keeping_degree(second))] for h in bundle]
+                images = [[h.keeping_degree(self).gcd(h.keeping_degree(other))] for h in bundle]
             except BadPrimeError:
                 continue
             if len({image[0].degree() for image in images}) > 1:
@@ -259,7 +256,7 @@ class ExtensionPoly(Poly):
             if images[0][0].degree() == 0:
                 break
             proposal = lifter.add(bundle, images)
-            if proposal and not first % proposal[0] and not second % proposal[0]:
+            if proposal and not self % proposal[0] and not other % proposal[0]:
                 return proposal[0]  # type: ignore[return-value]
         return self._field.poly([1])
 

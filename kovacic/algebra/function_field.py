@@ -234,24 +234,21 @@ class FunctionPoly(Poly):
 
     def __floordiv__(self, other: Poly | Scalar) -> FunctionPoly:
         """The quotient; the division is exact in most cases, and then flint's is faster by far."""
-        value = self._coerce(other)
-        exact = self.exact_quotient(value) if value else None
+        exact = self.exact_quotient(other) if other else None
         return super().__floordiv__(other) if exact is None else exact
 
-    def exact_quotient(self, divisor: Poly) -> FunctionPoly | None:
-        value = self._coerce(divisor)
-        if value is None or not value:
-            raise ZeroDivisionError("an exact quotient needs a divisor over the same field that isn't zero")
-        content = value.content()
-        quotient, remainder = divmod(self.num, value.num // content)
-        return None if remainder else self._field.make(quotient * value.den, self.den * content)
+    def exact_quotient(self, divisor: Poly | Scalar) -> FunctionPoly | None:
+        pair = self._common(divisor)
+        if pair is None or not pair[1]:
+            raise ZeroDivisionError("an exact quotient needs a divisor that isn't zero")
+        if pair[0] is not self:
+            return pair[0].exact_quotient(pair[1])  # type: ignore[no-any-return]
+        content = pair[1].content()
+        quotient, remainder = divmod(self.num, pair[1].num // content)
+        return None if remainder else self._field.make(quotient * pair[1].den, self.den * content)
 
-    def gcd(self, other: Poly) -> FunctionPoly:
-        value = self._coerce(other)
-        if value is None:
-            raise TypeError("both polynomials must lie over the same field")
-        common = FunctionPoly(self._field, self.num.gcd(value.num), self._field.context.constant(1))
-        return common.monic()
+    def _gcd(self, other: FunctionPoly) -> FunctionPoly:
+        return FunctionPoly(self._field, self.num.gcd(other.num), self._field.context.constant(1)).monic()
 
     def derivative(self) -> FunctionPoly:
         return self._field.make(self.num.derivative(0), self.den)

@@ -61,8 +61,7 @@ class Poly(ABC):
     def _divmod(self, other: Self) -> tuple[Self, Self]: ...
 
     @abstractmethod
-    def gcd(self, other: Self) -> Self:
-        """The monic greatest common divisor; zero when both are zero."""
+    def _gcd(self, other: Self) -> Self: ...
 
     @abstractmethod
     def derivative(self) -> Self:
@@ -93,54 +92,43 @@ class Poly(ABC):
     def coefficient_strings(self) -> list[str]:
         """The coefficients in Python syntax, low to high; they must have integer coordinates."""
 
-    def _coerce(self, other: object) -> Self | None:
+    def _common(self, other: object) -> tuple[Any, Any] | None:
+        """Both over the larger one of their fields; None if neither field extends the other one, and for other types."""
         field = self.field
         if isinstance(other, Poly):
             if other.field is field or other.field == field:
-                return other  # type: ignore[return-value]
-            return field.embed(other) if field.extends(other.field) else None  # type: ignore[return-value]
-        if isinstance(other, (int, Fraction)):
-            return field.poly([other])  # type: ignore[return-value]
-        return None
-
-    def _extended(self, other: object, operation: str) -> Any:
-        """The operation over the field of `other`, where that is an extension of this one.
-
-        Python doesn't try the reflected operation of two objects of one class, as polynomials over a tower are.
-        """
-        if isinstance(other, Poly) and other.field.extends(self.field):
-            return getattr(other.field.embed(self), operation)(other)
-        return NotImplemented
+                return self, other
+            if field.extends(other.field):
+                return self, field.embed(other)
+            return (other.field.embed(self), other) if other.field.extends(field) else None
+        return (self, field.poly([other])) if isinstance(other, (int, Fraction)) else None
 
     def __add__(self, other: Poly | Scalar) -> Self:
-        value = self._coerce(other)
-        return self._extended(other, "__add__") if value is None else self._add(value)
+        pair = self._common(other)
+        return NotImplemented if pair is None else pair[0]._add(pair[1])
 
     __radd__ = __add__
 
     def __sub__(self, other: Poly | Scalar) -> Self:
-        value = self._coerce(other)
-        return self._extended(other, "__sub__") if value is None else self._add(-value)
+        pair = self._common(other)
+        return NotImplemented if pair is None else pair[0]._add(-pair[1])
 
     def __rsub__(self, other: Poly | Scalar) -> Self:
-        value = self._coerce(other)
-        return NotImplemented if value is None else value._add(-self)
+        return -self + other
 
     def __mul__(self, other: Poly | Scalar) -> Self:
-        value = self._coerce(other)
-        if value is None:
-            return other * self if isinstance(other, Poly) and other.field.extends(self.field) else NotImplemented
-        return self._mul(value)
+        pair = self._common(other)
+        return NotImplemented if pair is None else pair[0]._mul(pair[1])
 
     __rmul__ = __mul__
 
     def __divmod__(self, other: Poly | Scalar) -> tuple[Self, Self]:
-        value = self._coerce(other)
-        if value is None:
-            return self._extended(other, "__divmod__")  # type: ignore[no-any-return]
-        if value.degree < 0:
+        pair = self._common(other)
+        if pair is None:
+            return NotImplemented
+        if not pair[1]:
             raise ZeroDivisionError("division by the zero polynomial")
-        return self._divmod(value)
+        return pair[0]._divmod(pair[1])  # type: ignore[no-any-return]
 
     def __floordiv__(self, other: Poly | Scalar) -> Self:
         return divmod(self, other)[0]
@@ -150,8 +138,15 @@ class Poly(ABC):
 
     def __truediv__(self, other: Poly | Scalar) -> Self:
         """Division by a non-zero constant."""
-        value = self._coerce(other)
-        return self._extended(other, "__truediv__") if value is None else self._mul(value.inverse())
+        pair = self._common(other)
+        return NotImplemented if pair is None else pair[0]._mul(pair[1].inverse())
+
+    def gcd(self, other: Poly) -> Poly:
+        """The monic greatest common divisor; zero when both are zero."""
+        pair = self._common(other)
+        if pair is None:
+            raise TypeError("both polynomials must lie over the same field, or over one field and an extension of it")
+        return pair[0]._gcd(pair[1])  # type: ignore[no-any-return]
 
     def __pow__(self, exponent: int) -> Self:
         if exponent < 0:
@@ -167,12 +162,8 @@ class Poly(ABC):
         return result  # type: ignore[no-any-return]
 
     def __eq__(self, other: object) -> bool:
-        value = self._coerce(other)
-        if value is None:
-            return (
-                other._coerce(self) == other if isinstance(other, Poly) and other.field.extends(self.field) else False
-            )
-        return self.key() == value.key()
+        pair = self._common(other)
+        return pair is not None and pair[0].key() == pair[1].key()
 
     def __hash__(self) -> int:
         return hash(self.key())

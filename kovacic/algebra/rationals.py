@@ -74,15 +74,6 @@ class RationalPoly(Poly):
     def __neg__(self) -> RationalPoly:
         return RationalPoly(-self.rep)
 
-    def _coerce(self, other: object) -> RationalPoly | None:
-        if isinstance(other, RationalPoly):
-            return other
-        if isinstance(other, int):
-            return RationalPoly(fmpq_poly([other]))
-        if isinstance(other, Fraction):
-            return RationalPoly(fmpq_poly([to_fmpq(other)]))
-        return None
-
     # Python's overhead is most of the time for small polynomials: hence the operators with a short way for the common cases.
     def __add__(self, other: Poly | Scalar) -> RationalPoly:
         if type(other) is RationalPoly:
@@ -121,13 +112,12 @@ class RationalPoly(Poly):
         return RationalPoly(self.rep * other.rep)
 
     def __call__(self, point: Poly | Scalar) -> Poly:
-        if type(point) is int:
-            return RationalPoly(fmpq_poly([self.rep(point)]))
-        value = self._coerce(point)
-        if value is None:
+        if isinstance(point, (int, Fraction)):
+            return RationalPoly(fmpq_poly([self.rep(to_fmpq(point))]))
+        if type(point) is not RationalPoly:
             return super().__call__(point)
-        constant = value.degree <= 0  # evaluation is much faster than composition with a constant
-        return RationalPoly(fmpq_poly([self.rep(value.rep[0])]) if constant else self.rep(value.rep))
+        constant = point.degree <= 0  # evaluation is much faster than composition with a constant
+        return RationalPoly(fmpq_poly([self.rep(point.rep[0])]) if constant else self.rep(point.rep))
 
     def _divmod(self, other: RationalPoly) -> tuple[RationalPoly, RationalPoly]:
         quotient, remainder = divmod(self.rep, other.rep)
@@ -148,9 +138,7 @@ class RationalPoly(Poly):
     def monic(self) -> RationalPoly:
         return RationalPoly(self.rep / self.rep.leading_coefficient()) if self.rep else self
 
-    def gcd(self, other: Poly) -> RationalPoly:
-        if not isinstance(other, RationalPoly):
-            raise TypeError("both polynomials must lie over the same field")
+    def _gcd(self, other: RationalPoly) -> RationalPoly:
         return RationalPoly(self.rep.gcd(other.rep))
 
     def reversed(self, shift: int = 0) -> RationalPoly:
