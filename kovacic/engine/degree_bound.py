@@ -145,6 +145,7 @@ def _square_root_term(
 
 def _taylor(polynomial: Poly, p: Poly, start: int, count: int) -> list[Any]:
     """Taylor coefficients at the class of x in K[x]/p, from number `start` on: classes, or scalars of K for a linear p."""
+    polynomial = polynomial % p ** (start + count)  # what else there is doesn't matter, and may be long
     if p.degree == 1:
         shifted = polynomial(p.field.poly([-p[0], 1])) if p[0] else polynomial
         return [p.field.scalar(shifted, i) for i in range(start, start + count)]
