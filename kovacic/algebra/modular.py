@@ -122,33 +122,52 @@ def rational_function_from_series(series: Any, order: int, top: int) -> tuple[An
     return r1, t1
 
 
-def series_solution(second: Any, first: Any, zeroth: Any, order: int, *, start: int = 1) -> Any:
+#: Terms of a solution that are computed one by one before their share of all later ones is added.
+_BLOCK = 64
+
+
+def series_solution(second: Any, first: Any, zeroth: Any, order: int) -> Any:
     """u = 1 + O(t) with `second u'' + first u' + zeroth u = 0` to `order` terms, at a singular point t = 0.
 
     second(0) = 0, and the coefficient of t^(j-1) determines u_j through the indicial factor
-    `j (second_1 (j - 1) + first_0)`.  Raises `BadPrimeError` if that vanishes modulo p for some j below `order`.
+    `j (second_1 (j - 1) + first_0)`.  The terms are computed in halves: the first half's share of the coefficients that
+    determine the second half comes from products of polynomials [van der Hoeven, J. Symb. Comp. 34 (2002)].
+    Raises `BadPrimeError` if the indicial factor vanishes modulo p for some j below `order`.
     """
     p = second.modulus()
-    a, b, c = ([int(v) for v in f.coeffs()] for f in (second, first, zeroth))
-    a1, b0 = (a[1] if len(a) > 1 else 0), (b[0] if b else 0)
-    tail_a, tail_b = a[2:], b[1:]
-    back_a, back_b, back_c = -len(tail_a) - 1, -len(tail_b) - 1, -len(c) - 1
-    u = [1]
-    weighted = [0]  # k u_k
-    twice_weighted = [0]  # k (k - 1) u_k
-    for j in range(1, order):
-        pivot = j * (a1 * (j - 1) + b0) % p
-        if pivot == 0:
-            raise BadPrimeError(f"{p} meets an indicial factor")
-        # Scalar products of the coefficients with the last terms, backwards.
-        total = sum(map(mul, c, u[:back_c:-1]))
-        total += sum(map(mul, tail_b, weighted[:back_b:-1]))
-        total += sum(map(mul, tail_a, twice_weighted[:back_a:-1]))
-        value = -total * pow(pivot, -1, p) % p
-        u.append(value)
-        weighted.append(j * value % p)
-        twice_weighted.append(j * (j - 1) * value % p)
-    return nmod_poly(u, p)
+    a1, b0 = int(second[1]), int(first[0])
+    operators = [second.right_shift(2), first.right_shift(1), zeroth]
+    a, b, c = ([int(v) for v in f.truncate(_BLOCK).coeffs()] for f in operators)
+    reach = max(len(a), len(b), len(c))
+    # k (k - 1) u_k, k u_k and u_k, from place 1 on
+    twice_weighted, weighted, u = terms = [0, 0], [0, 0], [0, 1]
+    shares = [0] * order
+
+    def extend(start: int, end: int) -> None:
+        if end - start > _BLOCK:
+            middle, width = (start + end + 1) // 2, end - start - 1
+            extend(start, middle)
+            blocks = [nmod_poly(row[start + 1 : middle + 1], p) for row in terms]
+            share = sum((f.mul_low(g, width) for f, g in zip(operators, blocks, strict=True)), nmod_poly([], p))
+            for j, value in enumerate(share.coeffs()[middle - 1 - start :], middle):
+                shares[j] += int(value)
+            extend(middle, end)
+            return
+        for j in range(start or 1, end):
+            pivot = j * (a1 * (j - 1) + b0) % p
+            if pivot == 0:
+                raise BadPrimeError(f"{p} meets an indicial factor")
+            # Scalar products of the coefficients with the last terms, backwards.
+            back = max(start, j - reach)
+            total = shares[j] + sum(map(mul, c, u[:back:-1]))
+            total += sum(map(mul, b, weighted[:back:-1])) + sum(map(mul, a, twice_weighted[:back:-1]))
+            value = -total * pow(pivot, -1, p) % p
+            u.append(value)
+            weighted.append(j * value % p)
+            twice_weighted.append(j * (j - 1) * value % p)
+
+    extend(0, order)
+    return nmod_poly(u[1:], p)
 
 
 def square_root(value: int, p: int) -> int | None:

@@ -296,6 +296,19 @@ def _parenthesised(text: str, separators: str) -> str:
     return f"({text})" if any(separator in text.lstrip("-").replace("**", "^") for separator in separators) else text
 
 
+def product(factors: Sequence[Poly]) -> Poly:
+    """The product of at least one polynomial, by halves, which is faster for many."""
+    half = len(factors) // 2
+    return product(factors[:half]) * product(factors[half:]) if half else factors[0]
+
+
+def remainders(polynomial: Poly, moduli: Sequence[Poly]) -> list[Poly]:
+    """The polynomial modulo each of the moduli, by way of their products [Modern Computer Algebra, sec. 10.1]."""
+    rest = polynomial % product(moduli)
+    half = len(moduli) // 2
+    return [rest] if not half else remainders(rest, moduli[:half]) + remainders(rest, moduli[half:])
+
+
 class Homomorphism(ABC):
     """A ring homomorphism from the p-integral elements of a field to F_p, extended to polynomials."""
 

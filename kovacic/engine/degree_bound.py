@@ -25,7 +25,7 @@ def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
         if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED) and place.delta is None:
             p = place.factor
             bottom = _leading_coefficient(place)
-            top = place.num % p if place.kind is Kind.UNRAMIFIED else bottom + 4 * place.num
+            top = place.top % p if place.kind is Kind.UNRAMIFIED else bottom + 4 * place.top
             if is_provably_not_a_square(top * bottom % p, p):
                 return NecessaryCondition(Rule.NOT_A_SQUARE, (str(place),))
     return None
@@ -34,8 +34,7 @@ def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
 def _leading_coefficient(place: Place) -> Poly:
     """E with S = num / (t^order E) to leading order at the class of x in K[x]/p."""
     p = place.factor
-    cofactor = place.den // p**place.order % p
-    return cofactor if p.degree == 1 else p.derivative() ** place.order * cofactor % p
+    return place.cofactor % p if p.degree == 1 else p.derivative() ** place.order * place.cofactor % p
 
 
 @dataclass(frozen=True)
@@ -107,7 +106,7 @@ def _trace(place: Place) -> Poly | None:
         if place.delta_squared is not None:
             return trace_of_square_root(place.delta_squared, place.factor)
         p = place.factor
-        return trace_of_square_root((1 + 4 * place.num * _leading_coefficient(place).inverse_modulo(p)) % p, p)
+        return trace_of_square_root((1 + 4 * place.top * _leading_coefficient(place).inverse_modulo(p)) % p, p)
     return trace_of_square_root(irregular_difference_squared(place), place.factor)
 
 
@@ -116,13 +115,15 @@ def irregular_difference_squared(place: Place) -> Poly:
 
     Here S = s(t)/t^(2 nu) with t = x - c, c the class of x modulo p.
     """
-    p, nu, field = place.factor, place.order // 2, place.factor.field
-    N = _taylor(place.num, p, 0, nu)
-    E = _taylor(place.den, p, place.order, nu)
+    p, k, field = place.factor, place.order, place.factor.field
+    nu = k // 2
     if p.degree == 1:  # K[x]/p is K
+        t = field.poly([-p[0], 1])
+        N, E = ([field.scalar(part(t), i) for i in range(nu)] for part in (place.top, place.cofactor))
         one = field.scalar(field.poly([1]), 0)
         s0, rho = _square_root_term(N, E, nu, lambda element: element, lambda element: one / element)
         return field.from_scalars([4 * s0 * rho * rho])
+    N, E = _taylor(place.top, p, nu), _taylor(p**k * place.cofactor, p, k + nu)[k:]
     s0, rho = _square_root_term(N, E, nu, lambda element: element % p, lambda element: element.inverse_modulo(p))
     square: Poly = 4 * s0 * rho * rho % p
     return square
@@ -143,14 +144,10 @@ def _square_root_term(
     return s[0], rho[nu - 1]
 
 
-def _taylor(polynomial: Poly, p: Poly, start: int, count: int) -> list[Any]:
-    """Taylor coefficients at the class of x in K[x]/p, from number `start` on: classes, or scalars of K for a linear p."""
-    polynomial = polynomial % p ** (start + count)  # what else there is doesn't matter, and may be long
-    if p.degree == 1:
-        shifted = polynomial(p.field.poly([-p[0], 1])) if p[0] else polynomial
-        return [p.field.scalar(shifted, i) for i in range(start, start + count)]
-    coefficients, current = [], polynomial
-    for i in range(start + count):
-        coefficients.append(current % p)
-        current = current.derivative() * Fraction(1, i + 1)
-    return coefficients[start:]
+def _taylor(polynomial: Poly, p: Poly, count: int) -> list[Any]:
+    """The first Taylor coefficients at the class of x in K[x]/p."""
+    coefficients = []
+    for i in range(count):
+        coefficients.append(polynomial % p)
+        polynomial = polynomial.derivative() * Fraction(1, i + 1)
+    return coefficients

@@ -15,6 +15,7 @@ Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 2.1.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -25,9 +26,12 @@ from typing import Any
 from flint import nmod_poly
 
 from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Field, Poly, remainders
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget
+
+#: From so many factors of a denominator on, remainders modulo all of them are quicker by a tree.
+_MANY_FACTORS = 32
 
 
 class Kind(Enum):
@@ -43,7 +47,8 @@ class Kind(Enum):
 class Place:
     """All roots of one irreducible factor, or infinity (the root 0 in the coordinate z = 1/x).
 
-    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den.  At a regular place
+    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den; `top` is num, and
+    `cofactor` den/factor^order, both modulo factor^order: what leading coefficients depend on.  At a regular place
     `delta_squared` is the square of the exponent difference where it is the same constant of K at all roots, else None
     (then Delta is irrational at every root); `delta` is Delta >= 0 where it is rational, else None.  `logarithm` says that
     a logarithm occurs, which is proven; False only says that no proof was found.
@@ -54,6 +59,8 @@ class Place:
     order: int
     num: Poly
     den: Poly
+    top: Poly
+    cofactor: Poly
     delta_squared: Poly | None
     delta: Fraction | None
     logarithm: bool
@@ -130,14 +137,25 @@ class Problem:
 
 def analyse(S: RatFunc, budget: Budget) -> Problem:
     """The singular places of y'' = S y and their local data."""
+    factors = S.field.factor(S.den) if S.den.degree > 0 else []
     places = []
-    for factor, order in S.field.factor(S.den) if S.den.degree > 0 else []:
+    for (factor, order), (top, cofactor) in zip(factors, _leading_parts(S.num, S.den, factors), strict=True):
         budget.check()
-        places.append(_place(S.num, S.den, factor, order, budget, at_infinity=False))
+        places.append(_place(S.num, S.den, factor, order, top, cofactor, budget, at_infinity=False))
     num, den, order = at_infinity(S)
     z = S.field.poly([0, 1])
-    places.append(_place(num, den, z, order, budget, at_infinity=True))
+    ((top, cofactor),) = _leading_parts(num, den, [(z, order)])
+    places.append(_place(num, den, z, order, top, cofactor, budget, at_infinity=True))
     return Problem(S, tuple(places), budget)
+
+
+def _leading_parts(num: Poly, den: Poly, factors: list[tuple[Poly, int]]) -> Iterator[tuple[Poly, Poly]]:
+    """num and den/p^k modulo p^k for each factor p^k of den; of many factors all at once, by trees of remainders."""
+    powers = [factor**order for factor, order in factors]
+    if len(powers) < _MANY_FACTORS:
+        return ((num % power, den // power % power) for power in powers)
+    tops, bottoms = remainders(num, powers), remainders(den, [power * power for power in powers])
+    return ((top, bottom // power) for top, bottom, power in zip(tops, bottoms, powers, strict=True))
 
 
 def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:
@@ -149,19 +167,21 @@ def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:
     return S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0)), max(order, 0)
 
 
-def _place(num: Poly, den: Poly, factor: Poly, order: int, budget: Budget, *, at_infinity: bool) -> Place:
+def _place(
+    num: Poly, den: Poly, factor: Poly, order: int, top: Poly, cofactor: Poly, budget: Budget, *, at_infinity: bool
+) -> Place:
     delta_squared: Poly | None = None
     delta: Fraction | None = None
     logarithm = False
     if order == 1:
         delta_squared, delta, logarithm = num.field.poly([1]), Fraction(1), True
     elif order == 2:
-        delta_squared = _delta_squared(num, den, factor)
+        delta_squared = _delta_squared(top, cofactor, factor)
         if delta_squared is not None:
             delta = rational_square_root(delta_squared)
         if delta is not None and delta.denominator == 1:
             logarithm = delta == 0 or _has_logarithm(num, den, factor, int(delta), budget)
-    return Place(factor, at_infinity, order, num, den, delta_squared, delta, logarithm)
+    return Place(factor, at_infinity, order, num, den, top, cofactor, delta_squared, delta, logarithm)
 
 
 def rational_square_root(constant: Poly) -> Fraction | None:
@@ -173,14 +193,14 @@ def rational_square_root(constant: Poly) -> Fraction | None:
     return Fraction(p, q) if p * p == value.numerator and q * q == value.denominator else None
 
 
-def _delta_squared(num: Poly, den: Poly, factor: Poly) -> Poly | None:
+def _delta_squared(top: Poly, cofactor: Poly, p: Poly) -> Poly | None:
     """1 + 4b for a pole of order 2, b = num/(p'^2 q) mod p with den = p^2 q; None if b isn't constant modulo p."""
-    bottom = den // (factor * factor) % factor
-    if factor.degree > 1:
-        bottom = factor.derivative() ** 2 * bottom % factor
-    top = num % factor
+    bottom = cofactor % p
+    if p.degree > 1:
+        bottom = p.derivative() ** 2 * bottom % p
+    top = top % p
     b = top[bottom.degree] / bottom.lc
-    return 4 * b + 1 if factor.degree == 1 or top == bottom * b else None
+    return 4 * b + 1 if p.degree == 1 or top == bottom * b else None
 
 
 def _has_logarithm(num: Poly, den: Poly, factor: Poly, delta: int, budget: Budget) -> bool:
