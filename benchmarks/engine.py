@@ -172,6 +172,8 @@ def markdown(report: dict[str, Any]) -> str:
         "poles": "poles",
         "digits": "digits of the parameters of the construction (digits of the coefficients of S in brackets)",
         "order": "order of the poles",
+        "degree of P": "degree of P",
+        "degree of S": "degree of S, a polynomial",
     }
     for kind, title in titles.items():
         chosen = [one for one in report["series"] if one["kind"] == kind]
@@ -209,7 +211,7 @@ def main() -> None:
         child(options.child[0], options.child[1], int(options.child[2]))
         return
     report: dict[str, Any] = {"environment": environment(), "published": published(), "series": []}
-    largest = {"poles": 20, "digits": 100, "order": 12} if options.quick else {}
+    largest = {"poles": 20, "digits": 100, "degree of P": 1000, "degree of S": 200} if options.quick else {}
     for kind, items in families.series():
         chosen = [(name, k) for name, k in items if options.only in name and k <= largest.get(kind, k)]
         if not chosen:

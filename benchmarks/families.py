@@ -17,13 +17,15 @@ sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 
 import transform
 
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Poly, product
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 
-SIZES = (5, 10, 20, 40, 80, 100)
-DIGITS = (1, 10, 100, 1000)
+SIZES = (5, 10, 20, 40, 80, 100, 200, 400)
+DIGITS = (1, 10, 100, 1000, 10000, 25000)
 ORDERS = (2, 4, 6, 8, 10, 12)
+DEGREES_OF_P = (1000, 2000, 5000, 10000, 20000)
+DEGREES_OF_S = (100, 200, 500, 1000, 2000)
 X = RatFunc(QQ.poly([0, 1]))
 
 
@@ -117,6 +119,17 @@ def none_accessory(n: int, rng: Random) -> RatFunc:
     return Fraction(3, 16) * slope.derivative() + RatFunc(accessory, p)
 
 
+def _equal_orders(k: int) -> Callable[[int, Random], RatFunc]:
+    """The sum of 1/(x-i)^k for i = 1, ..., n; no solution, as for the accessory parameters."""
+
+    def build(n: int, rng: Random) -> RatFunc:
+        powers = [QQ.poly([-i, 1]) ** k for i in range(1, n + 1)]
+        den = product(powers)
+        return RatFunc(sum((den // power for power in powers), QQ.poly([])), den)
+
+    return build
+
+
 FAMILIES: dict[str, tuple[Callable[[int, Random], RatFunc], int | None]] = {
     "case 1, unique, rational poles": (unique_rational, 1),
     "case 1, unique, quintics": (unique_irreducible, 1),
@@ -128,6 +141,7 @@ FAMILIES: dict[str, tuple[Callable[[int, Random], RatFunc], int | None]] = {
     # (1/3, 1/3, 1/5) has the denominators of the icosahedral group, but the wrong parity: SL2 [Kimura 1969].
     "none, pull-back": (_pull_back(Fraction(1, 3), Fraction(1, 5)), None),
     "none, accessory parameters": (none_accessory, None),
+    **{f"none, poles of order {k}": (_equal_orders(k), None) for k in (1, 2, 4, 6)},
 }
 
 
@@ -174,6 +188,15 @@ def by_order(kind: str, order: int) -> Sample:
     return Sample(name, order, transform.from_omega(omega), 1)
 
 
+def by_degree(name: str, degree: int) -> Sample:
+    """S without poles: Hermite's equation, whose P has this degree, or S of this degree with a solution or without one."""
+    if name == "degree of P, Hermite":
+        return Sample(name, degree, X**2 - (2 * degree + 1), 1)
+    if name == "degree of S, case 1":
+        return Sample(name, degree, transform.from_omega(RatFunc(_random_poly(Random(name), degree // 2))), 1)
+    return Sample(name, degree, X**degree + X + 1, None)
+
+
 DIGIT_KINDS = ("case 1", "case 2", "case 3", "none")
 ORDER_KINDS = ("rational", "quintic")
 
@@ -186,6 +209,9 @@ def series() -> Iterator[tuple[str, list[tuple[str, int]]]]:
         yield "digits", [(f"{kind}, digits", d) for d in DIGITS]
     for kind in ORDER_KINDS:
         yield "order", [(f"pole order, {kind}", k) for k in ORDERS]
+    yield "degree of P", [("degree of P, Hermite", d) for d in DEGREES_OF_P]
+    for case in ("case 1", "none"):
+        yield "degree of S", [(f"degree of S, {case}", d) for d in DEGREES_OF_S]
 
 
 def sample(name: str, parameter: int) -> Sample:
@@ -194,4 +220,6 @@ def sample(name: str, parameter: int) -> Sample:
         return by_size(name, parameter)
     if name.endswith(", digits"):
         return by_digits(name.removesuffix(", digits"), parameter)
+    if name.startswith("degree"):
+        return by_degree(name, parameter)
     return by_order(name.removeprefix("pole order, "), parameter)
