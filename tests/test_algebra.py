@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from kovacic.algebra import modular
 from kovacic.algebra.extension import AlgebraicField, norm
 from kovacic.algebra.lifting import Lifter, prime, rational_reconstruction
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Poly, product, remainders
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.algebra.recurrence import polynomial_solution
@@ -191,6 +191,26 @@ def test_mutation_is_refused() -> None:
         QQ.poly([1]).rep = None  # type: ignore[misc]
     with pytest.raises(AttributeError):
         RatFunc(QQ.poly([1])).num = QQ.poly([2])  # type: ignore[misc]
+
+
+@pytest.mark.parametrize("degree", [0, 2, 7, 90])
+@pytest.mark.parametrize("order", [1, 2, 63, 64, 65, 66, 129, 300])
+def test_series_at_a_singular_point_satisfy_the_equation(degree: int, order: int) -> None:
+    """One by one or by halves: the equation holds to as many terms as are known."""
+    rng = random.Random(f"{degree}/{order}")
+    second, first, zeroth = (nmod_poly([rng.randrange(P) for _ in range(degree + 1)], P) for _ in range(3))
+    second = second.left_shift(1)
+    u = modular.series_solution(second, first, zeroth, order)
+    assert u[0] == 1
+    assert u.degree() < order
+    residual = second * u.derivative().derivative() + first * u.derivative() + zeroth * u
+    assert not residual.truncate(order - 1)
+
+
+@given(st.lists(polynomials.filter(lambda f: f.degree > 0), min_size=1, max_size=9), polynomials)
+def test_remainders_by_a_tree_are_those_of_divisions(moduli: list[RationalPoly], a: RationalPoly) -> None:
+    assert product(moduli) == prod(moduli, start=QQ.poly([1]))
+    assert remainders(a**5, moduli) == [a**5 % modulus for modulus in moduli]
 
 
 @given(st.lists(small, min_size=1, max_size=5), st.lists(small, min_size=1, max_size=5), st.integers(2, 40))
