@@ -113,7 +113,7 @@ class RationalPoly(Poly):
 
     def __call__(self, point: Poly | Scalar) -> Poly:
         if isinstance(point, (int, Fraction)):
-            return RationalPoly(fmpq_poly([self.rep(to_fmpq(point))]))
+            return RationalPoly(fmpq_poly([self.rep(point if type(point) is int else to_fmpq(point))]))
         if type(point) is not RationalPoly:
             return super().__call__(point)
         constant = point.degree <= 0  # evaluation is much faster than composition with a constant

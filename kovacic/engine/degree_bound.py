@@ -25,7 +25,7 @@ def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
         if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED) and place.delta is None:
             p = place.factor
             bottom = _leading_coefficient(place)
-            top = place.top % p if place.kind is Kind.UNRAMIFIED else bottom + 4 * place.top
+            top = place.local_num % p if place.kind is Kind.UNRAMIFIED else bottom + 4 * place.local_num
             if is_provably_not_a_square(top * bottom % p, p):
                 return NecessaryCondition(Rule.NOT_A_SQUARE, (str(place),))
     return None
@@ -106,7 +106,7 @@ def _trace(place: Place) -> Poly | None:
         if place.delta_squared is not None:
             return trace_of_square_root(place.delta_squared, place.factor)
         p = place.factor
-        return trace_of_square_root((1 + 4 * place.top * _leading_coefficient(place).inverse_modulo(p)) % p, p)
+        return trace_of_square_root((1 + 4 * place.local_num * _leading_coefficient(place).inverse_modulo(p)) % p, p)
     return trace_of_square_root(irregular_difference_squared(place), place.factor)
 
 
@@ -117,13 +117,14 @@ def irregular_difference_squared(place: Place) -> Poly:
     """
     p, k, field = place.factor, place.order, place.factor.field
     nu = k // 2
+    top = place.local_num % p**nu
     if p.degree == 1:  # K[x]/p is K
         t = field.poly([-p[0], 1])
-        N, E = ([field.scalar(part(t), i) for i in range(nu)] for part in (place.top, place.cofactor))
+        N, E = ([field.scalar(part(t), i) for i in range(nu)] for part in (top, place.cofactor))
         one = field.scalar(field.poly([1]), 0)
         s0, rho = _square_root_term(N, E, nu, lambda element: element, lambda element: one / element)
         return field.from_scalars([4 * s0 * rho * rho])
-    N, E = _taylor(place.top, p, nu), _taylor(p**k * place.cofactor, p, k + nu)[k:]
+    N, E = _taylor(top, p, nu), _taylor(p**k * place.cofactor, p, k + nu)[k:]
     s0, rho = _square_root_term(N, E, nu, lambda element: element % p, lambda element: element.inverse_modulo(p))
     square: Poly = 4 * s0 * rho * rho % p
     return square

@@ -15,7 +15,6 @@ Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 2.1.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -31,7 +30,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget
 
 #: From so many factors of a denominator on, remainders modulo all of them are quicker by a tree.
-_MANY_FACTORS = 32
+_MANY_FACTORS = 250
 
 
 class Kind(Enum):
@@ -47,8 +46,8 @@ class Kind(Enum):
 class Place:
     """All roots of one irreducible factor, or infinity (the root 0 in the coordinate z = 1/x).
 
-    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den; `top` is num, and
-    `cofactor` den/factor^order, both modulo factor^order: what leading coefficients depend on.  At a regular place
+    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den; `local_num` is num modulo
+    factor^order, and `local_den` den modulo factor^(2 order), or something congruent to them.  At a regular place
     `delta_squared` is the square of the exponent difference where it is the same constant of K at all roots, else None
     (then Delta is irrational at every root); `delta` is Delta >= 0 where it is rational, else None.  `logarithm` says that
     a logarithm occurs, which is proven; False only says that no proof was found.
@@ -59,8 +58,8 @@ class Place:
     order: int
     num: Poly
     den: Poly
-    top: Poly
-    cofactor: Poly
+    local_num: Poly
+    local_den: Poly
     delta_squared: Poly | None
     delta: Fraction | None
     logarithm: bool
@@ -69,6 +68,12 @@ class Place:
     def degree(self) -> int:
         """How many points of the Riemann sphere the place stands for."""
         return self.factor.degree
+
+    @cached_property
+    def cofactor(self) -> Poly:
+        """den/factor^order modulo factor^order."""
+        power = self.factor**self.order
+        return self.local_den // power % power
 
     @cached_property
     def name(self) -> str:
@@ -138,24 +143,17 @@ class Problem:
 def analyse(S: RatFunc, budget: Budget) -> Problem:
     """The singular places of y'' = S y and their local data."""
     factors = S.field.factor(S.den) if S.den.degree > 0 else []
+    powers = [factor**order for factor, order in factors] if len(factors) >= _MANY_FACTORS else []
+    nums = remainders(S.num, powers) if powers else [S.num] * len(factors)
+    dens = remainders(S.den, [power * power for power in powers]) if powers else [S.den] * len(factors)
     places = []
-    for (factor, order), (top, cofactor) in zip(factors, _leading_parts(S.num, S.den, factors), strict=True):
+    for (factor, order), local_num, local_den in zip(factors, nums, dens, strict=True):
         budget.check()
-        places.append(_place(S.num, S.den, factor, order, top, cofactor, budget, at_infinity=False))
+        places.append(_place(S.num, S.den, factor, order, local_num, local_den, budget, at_infinity=False))
     num, den, order = at_infinity(S)
     z = S.field.poly([0, 1])
-    ((top, cofactor),) = _leading_parts(num, den, [(z, order)])
-    places.append(_place(num, den, z, order, top, cofactor, budget, at_infinity=True))
+    places.append(_place(num, den, z, order, num, den, budget, at_infinity=True))
     return Problem(S, tuple(places), budget)
-
-
-def _leading_parts(num: Poly, den: Poly, factors: list[tuple[Poly, int]]) -> Iterator[tuple[Poly, Poly]]:
-    """num and den/p^k modulo p^k for each factor p^k of den; of many factors all at once, by trees of remainders."""
-    powers = [factor**order for factor, order in factors]
-    if len(powers) < _MANY_FACTORS:
-        return ((num % power, den // power % power) for power in powers)
-    tops, bottoms = remainders(num, powers), remainders(den, [power * power for power in powers])
-    return ((top, bottom // power) for top, bottom, power in zip(tops, bottoms, powers, strict=True))
 
 
 def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:
@@ -168,7 +166,15 @@ def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:
 
 
 def _place(
-    num: Poly, den: Poly, factor: Poly, order: int, top: Poly, cofactor: Poly, budget: Budget, *, at_infinity: bool
+    num: Poly,
+    den: Poly,
+    factor: Poly,
+    order: int,
+    local_num: Poly,
+    local_den: Poly,
+    budget: Budget,
+    *,
+    at_infinity: bool,
 ) -> Place:
     delta_squared: Poly | None = None
     delta: Fraction | None = None
@@ -176,12 +182,12 @@ def _place(
     if order == 1:
         delta_squared, delta, logarithm = num.field.poly([1]), Fraction(1), True
     elif order == 2:
-        delta_squared = _delta_squared(top, cofactor, factor)
+        delta_squared = _delta_squared(local_num, local_den, factor)
         if delta_squared is not None:
             delta = rational_square_root(delta_squared)
         if delta is not None and delta.denominator == 1:
             logarithm = delta == 0 or _has_logarithm(num, den, factor, int(delta), budget)
-    return Place(factor, at_infinity, order, num, den, top, cofactor, delta_squared, delta, logarithm)
+    return Place(factor, at_infinity, order, num, den, local_num, local_den, delta_squared, delta, logarithm)
 
 
 def rational_square_root(constant: Poly) -> Fraction | None:
@@ -193,14 +199,14 @@ def rational_square_root(constant: Poly) -> Fraction | None:
     return Fraction(p, q) if p * p == value.numerator and q * q == value.denominator else None
 
 
-def _delta_squared(top: Poly, cofactor: Poly, p: Poly) -> Poly | None:
+def _delta_squared(num: Poly, den: Poly, factor: Poly) -> Poly | None:
     """1 + 4b for a pole of order 2, b = num/(p'^2 q) mod p with den = p^2 q; None if b isn't constant modulo p."""
-    bottom = cofactor % p
-    if p.degree > 1:
-        bottom = p.derivative() ** 2 * bottom % p
-    top = top % p
+    bottom = den // (factor * factor) % factor
+    if factor.degree > 1:
+        bottom = factor.derivative() ** 2 * bottom % factor
+    top = num % factor
     b = top[bottom.degree] / bottom.lc
-    return 4 * b + 1 if p.degree == 1 or top == bottom * b else None
+    return 4 * b + 1 if factor.degree == 1 or top == bottom * b else None
 
 
 def _has_logarithm(num: Poly, den: Poly, factor: Poly, delta: int, budget: Budget) -> bool:
