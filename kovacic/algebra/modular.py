@@ -135,39 +135,53 @@ def series_solution(second: Any, first: Any, zeroth: Any, order: int) -> Any:
     Raises `BadPrimeError` if the indicial factor vanishes modulo p for some j below `order`.
     """
     p = second.modulus()
-    a1, b0 = int(second[1]), int(first[0])
+    indicial = int(second[1]), int(first[0])
     operators = [second.right_shift(2), first.right_shift(1), zeroth]
-    a, b, c = ([int(v) for v in f.truncate(_BLOCK).coeffs()] for f in operators)
-    reach = max(len(a), len(b), len(c))
-    # k (k - 1) u_k, k u_k and u_k, from place 1 on
-    twice_weighted, weighted, u = terms = [0, 0], [0, 0], [0, 1]
+    tails = [[int(v) for v in f.coeffs()[:_BLOCK]] for f in operators]
+    terms = [0, 0], [0, 0], [0, 1]  # k (k - 1) u_k, k u_k and u_k, from place 1 on
     shares = [0] * order
 
     def extend(start: int, end: int) -> None:
-        if end - start > _BLOCK:
-            middle, width = (start + end + 1) // 2, end - start - 1
-            extend(start, middle)
-            blocks = [nmod_poly(row[start + 1 : middle + 1], p) for row in terms]
-            share = sum((f.mul_low(g, width) for f, g in zip(operators, blocks, strict=True)), nmod_poly([], p))
-            for j, value in enumerate(share.coeffs()[middle - 1 - start :], middle):
-                shares[j] += int(value)
-            extend(middle, end)
+        if end - start <= _BLOCK:
+            _extend_one_by_one(p, start, end, indicial, tails, shares, terms)
             return
-        for j in range(start or 1, end):
-            pivot = j * (a1 * (j - 1) + b0) % p
-            if pivot == 0:
-                raise BadPrimeError(f"{p} meets an indicial factor")
-            # Scalar products of the coefficients with the last terms, backwards.
-            back = max(start, j - reach)
-            total = shares[j] + sum(map(mul, c, u[:back:-1]))
-            total += sum(map(mul, b, weighted[:back:-1])) + sum(map(mul, a, twice_weighted[:back:-1]))
-            value = -total * pow(pivot, -1, p) % p
-            u.append(value)
-            weighted.append(j * value % p)
-            twice_weighted.append(j * (j - 1) * value % p)
+        middle, width = (start + end + 1) // 2, end - start - 1
+        extend(start, middle)
+        blocks = [nmod_poly(row[start + 1 : middle + 1], p) for row in terms]
+        share = sum((f.mul_low(g, width) for f, g in zip(operators, blocks, strict=True)), nmod_poly([], p))
+        for j, value in enumerate(share.coeffs()[middle - 1 - start :], middle):
+            shares[j] += int(value)
+        extend(middle, end)
 
     extend(0, order)
-    return nmod_poly(u[1:], p)
+    return nmod_poly(terms[2][1:], p)
+
+
+def _extend_one_by_one(
+    p: int,
+    start: int,
+    end: int,
+    indicial: tuple[int, int],
+    tails: Sequence[list[int]],
+    shares: list[int],
+    terms: Sequence[list[int]],
+) -> None:
+    """Append the terms from number `start` on, `shares` having what the terms before contribute."""
+    (a1, b0), (a, b, c), (twice_weighted, weighted, u) = indicial, tails, terms
+    reach = max(map(len, tails))
+    for j in range(start or 1, end):
+        pivot = j * (a1 * (j - 1) + b0) % p
+        if pivot == 0:
+            raise BadPrimeError(f"{p} meets an indicial factor")
+        # Scalar products of the coefficients with the last terms, backwards.
+        back = start if j < start + reach else j - reach
+        total = shares[j] + sum(map(mul, c, u[:back:-1]))
+        total += sum(map(mul, b, weighted[:back:-1]))
+        total += sum(map(mul, a, twice_weighted[:back:-1]))
+        value = -total * pow(pivot, -1, p) % p
+        u.append(value)
+        weighted.append(j * value % p)
+        twice_weighted.append(j * (j - 1) * value % p)
 
 
 def square_root(value: int, p: int) -> int | None:
