@@ -171,6 +171,7 @@ def markdown(report: dict[str, Any]) -> str:
     titles = {
         "poles": "poles",
         "digits": "digits of the parameters of the construction (digits of the coefficients of S in brackets)",
+        "many digits": "digits of the parameters, up to coefficients of 10^5 digits",
         "order": "order of the poles",
         "degree of P": "degree of P",
         "degree of S": "degree of S, a polynomial",
@@ -197,7 +198,7 @@ def markdown(report: dict[str, Any]) -> str:
 
 def _cell(kind: str, m: dict[str, Any]) -> str:
     memory = "" if m["memory"] is None else f"; {m['memory']:.0f}"
-    digits = f" ({m['digits']})" if kind == "digits" else ""
+    digits = f" ({m['digits']})" if "digits" in kind else ""
     return f"{m['total']:.3f}; {m['total'] / m['verify']:.1f}{memory}{digits}"
 
 
@@ -211,7 +212,9 @@ def main() -> None:
         child(options.child[0], options.child[1], int(options.child[2]))
         return
     report: dict[str, Any] = {"environment": environment(), "published": published(), "series": []}
-    largest = {"poles": 20, "digits": 100, "degree of P": 1000, "degree of S": 200} if options.quick else {}
+    largest = (
+        {"poles": 20, "digits": 100, "many digits": 0, "degree of P": 1000, "degree of S": 200} if options.quick else {}
+    )
     for kind, items in families.series():
         chosen = [(name, k) for name, k in items if options.only in name and k <= largest.get(kind, k)]
         if not chosen:

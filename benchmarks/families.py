@@ -22,7 +22,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 
 SIZES = (5, 10, 20, 40, 80, 100, 200, 400)
-DIGITS = (1, 10, 100, 1000, 10000, 25000)
+DIGITS = (1, 10, 100, 1000)
+MANY_DIGITS = (1000, 10000, 25000)
 ORDERS = (2, 4, 6, 8, 10, 12)
 DEGREES_OF_P = (1000, 2000, 5000, 10000, 20000)
 DEGREES_OF_S = (100, 200, 500, 1000, 2000)
@@ -207,6 +208,8 @@ def series() -> Iterator[tuple[str, list[tuple[str, int]]]]:
         yield "poles", [(family, n) for n in SIZES]
     for kind in DIGIT_KINDS:
         yield "digits", [(f"{kind}, digits", d) for d in DIGITS]
+    for kind in ("case 1", "case 2"):
+        yield "many digits", [(f"{kind}, digits", d) for d in MANY_DIGITS]
     for kind in ORDER_KINDS:
         yield "order", [(f"pole order, {kind}", k) for k in ORDERS]
     yield "degree of P", [("degree of P, Hermite", d) for d in DEGREES_OF_P]
