@@ -42,8 +42,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.product import Power, Product, product
 from kovacic.decision import SemiInvariant, Structure
 from kovacic.engine.places import Problem, analyse
-from kovacic.engine.riccati import Form, hessian, jacobian, normalised, root
-from kovacic.engine.singular import residue
+from kovacic.engine.riccati import Form, hessian, jacobian, normalised, residue, root
 from kovacic.limits import Budget
 
 Monomials = dict[tuple[int, int], Fraction]
