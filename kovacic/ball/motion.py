@@ -1,296 +1,447 @@
-"""The motion of the ball under a potential V(u), by quadratures.
+"""The motion of the ball from any start: u(t), omega_3(t), n(t), the contact point, the attitude, the reaction.
 
-Symbols as in `kovacic.ball.ball`; x = cos u.  With omega_3(x), n(x) in closed form, the energy integral is
-    (dx/dt)^2 = W(x) = [2 (H - V)(1 - x^2) - T(x)] / K11,   T = `NumericBall.transverse_energy`,
-which is regular at the poles x = +-1, where it is <= 0.  Between the turning points x = mid + amp cos(phi), and
-    dphi/dt = Q(phi) = sqrt(W / ((x_max - x)(x - x_min))) > 0,
-so t and v are quadratures over phi (`kovacic.ball.series`), valid through any number of turning points: 10^4
-oscillations cost what one does.  v' = (x n - omega_3)/((1 + rho)(1 - x^2)) is nearly singular when the path passes near a
-pole of the body; that part is integrated exactly.
+Symbols as in `kovacic.ball.ball`; x = cos u.  With omega_3(x) and n(x) in closed form the motion is a quadrature,
+t = int dx/sqrt(W(x)); the integral is singular at turning points, near the poles of the ball and where the motion is
+steady.  In the ball's own axes the same motion has no singularity at all: with s the unit vector from the centre to the
+contact point, omega the angular velocity, r = R s + a e_3 (from the centre of mass to the contact point),
+    s' = s x omega/(1 + rho),   I omega' = J omega x omega - m r x b + V_x/(1 + rho) s x e_3,
+    I = J + m (r^2 - r r^T),   b = omega x r' + omega x (omega x r),   x = s_3,   n = omega . s,
+which are Euler's equations about the contact point [E. J. Routh, Advanced Rigid Dynamics, ch. V].  They are integrated
+over one oscillation of x (`kovacic.ball.collocation`), to about 1e-15.
 
-The place on the fixed surface isn't a quadrature in general: the body's attitude obeys a linear equation on SO(3) with
-quasi-periodic coefficients.  `kovacic.ball.attitude` integrates it over one oscillation, and powers of that step
-carry it on.
+After the period T the ball is where it was, but for a rotation: s and omega are turned about the axis of the ball by an
+angle Delta, and with B' = B [omega]x, B(0) = 1,
+    s(t + T) = Rz(Delta) s(t),   B(t + k T) = G^k B(t) Rz(-k Delta),   G = B(T) Rz(Delta),
+so that 10^4 oscillations cost what one does.  omega_3 and n are given by their closed form, at x(t), and not by the
+integration: `Motion.defects` compares the two.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
-from itertools import pairwise
+from dataclasses import asdict, astuple, dataclass
 from typing import Any
 
 import numpy as np
-from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
-from scipy.optimize import brentq
 
-from kovacic.ball import series
-from kovacic.ball.ball import BallOnSphere
-from kovacic.ball.closed import LARGEST, NumericBall
-from kovacic.ball.direct import State
-from kovacic.ball.potential import Potential, compiled
-from kovacic.ball.quantity import as_float, as_tolerance
-from kovacic.ball.series import Primitive
-from kovacic.errors import InputError
+from kovacic.ball.ball import BallOnSphere, Scalar, exact
+from kovacic.ball.collocation import Array, Solution
+from kovacic.ball.potential import Force, Potential
+from kovacic.errors import InputError, LimitExceeded
 
-Array = NDArray[np.float64]
-
-#: For the series whose error is one of the period or of the gain of v, which the number of oscillations multiplies.
-_FINEST = 1e-14
-#: Of one piece of W, as a function of u, on the way to a turning point.
-_NODES = 32
+#: The range of numbers in a motion: products of several of them are still floats.
+LEAST, LARGEST = 1e-50, 1e50
+#: The steps for one oscillation, about three radians of rotation each, and the oscillations that a motion is followed for.
+MAX_STEPS, LONGEST = 5000, 1_000_000
+#: Below the first a motion counts as steady; below the second, in the course of a motion, as asymptotic to a steady one.
+_STEADY, _ASYMPTOTIC = 1e-12, 1e-7
 
 
 @dataclass(frozen=True, slots=True)
-class Band:
-    """The band between the turning points, with the distances from the poles kept apart to full relative accuracy.
+class State:
+    """Position and velocity at time 0: angles in radians, rates in radians per unit of time, n the spin; floats or exact.
 
-    x_max = 1 - top, x_min = -1 + bottom, amp = (x_max - x_min)/2.
+    v is the longitude of the contact point on the body, theta the angle between the meridians, u1 and v1 colatitude
+    and longitude on the sphere (Cartesian coordinates on the plane).  At a pole, u = 0 or pi, the meridian v is the one
+    in which the contact point leaves it with the speed u'.
     """
 
-    top: float
-    bottom: float
-    amp: float
+    u: Any
+    du: Any
+    dv: Any
+    n: Any
+    v: Any = 0
+    theta: Any = 0
+    u1: Any = 1
+    v1: Any = 0
 
-    def x(self, phi: Array) -> Array:
-        """cos u, in [x_min, x_max]."""
-        result: Array = (self.bottom - self.top) / 2 + self.amp * np.cos(phi)
+
+@dataclass(frozen=True, slots=True)
+class Numbers:
+    """The parameters as floats, kappa = 1/R1, and what Euler's equations need of them."""
+
+    m: float
+    R: float
+    a: float
+    A1: float
+    A3: float
+    kappa: float
+
+    @classmethod
+    def of(cls, sphere: BallOnSphere) -> Numbers:
+        """Raises `InputError` where a parameter is a symbol, or out of range."""
+        ball, values = sphere.ball, []
+        for value in (ball.m, ball.R, ball.a, ball.A1, ball.A3, 1 / sphere.R1):
+            if not value.is_number:
+                raise InputError(f"numbers are needed for a motion, and {value} isn't one")
+            values.append(float(value))
+            if value and not LEAST <= abs(values[-1]) <= LARGEST:
+                raise InputError(
+                    f"{values[-1]:.3g} isn't between {LEAST:g} and {LARGEST:g}", hint="choose units that bring it there"
+                )
+        return cls(*values)
+
+    @property
+    def rho(self) -> float:
+        return self.R * self.kappa
+
+    def arm(self, s: Array) -> Array:
+        """r = R s + a e_3."""
+        result: Array = self.R * s + self.a * np.array([0.0, 0.0, 1.0])
         return result
 
-    def sine(self, phi: Array) -> Array:
-        """sin u >= 0, without cancellation near the poles."""
-        above = self.top + 2 * self.amp * np.sin(phi / 2) ** 2
-        below = self.bottom + 2 * self.amp * np.cos(phi / 2) ** 2
-        return np.sqrt(above * below)
+    def acceleration(self, s: Array, omega: Array) -> Array:
+        """b: the acceleration of the centre of mass is -(omega' x r) - b."""
+        spin = _cross_matrix(omega)
+        drift = self.R / (1 + self.rho) * _times(s, spin)
+        return _times(_times(self.arm(s), spin) - drift, spin)
 
-    def colatitude(self, phi: Array) -> Array:
-        """u in [0, pi]."""
-        u: Array = np.arctan2(self.sine(phi), self.x(phi))
-        return u
+    def rates(self, slope: Callable[[Array], Array], states: Array) -> Array:
+        """The derivatives of states (n, 6, 3): omega, s, the rows of B, and the contact point's way on a plane."""
+        omega, s = states[:, 0], states[:, 1]
+        spin = _cross_matrix(omega)
+        result = np.empty_like(states)
+        result[:, 1:5] = states[:, 1:5] @ spin
+        result[:, 5] = self.R * np.einsum("nij,nj->ni", states[:, 2:5], result[:, 1])
+        result[:, 1] /= 1 + self.rho
+        r, J = self.arm(s), np.array([self.A1, self.A1, self.A3])
+        torque = _times(J * omega, spin) - self.m * np.cross(r, self.acceleration(s, omega))
+        sine = np.hypot(s[:, 0], s[:, 1])
+        force = -slope(np.arctan2(sine, s[:, 2])) / (np.maximum(sine, 1e-300) * (1 + self.rho))  # V_x/(1 + rho)
+        torque[:, 0] += force * s[:, 1]
+        torque[:, 1] -= force * s[:, 0]
+        square = (r * r)[:, [1, 0, 0]] + (r * r)[:, [2, 2, 1]]
+        inertia = -self.m * r[:, :, None] * r[:, None, :]
+        inertia[:, range(3), range(3)] = J + self.m * square
+        result[:, 0] = np.linalg.solve(inertia, torque[:, :, None])[:, :, 0]
+        return result
+
+    def transport(self, x: Array, x0: float, omega_3: float, n: float) -> tuple[Array, Array]:
+        """(omega_3, n) at x from their values at x0 = cos u0: the closed form of `kovacic.ball.ball`, on either sign of l."""
+
+        def D(x: Any) -> Any:
+            square = self.m * (self.R * x + self.a) ** 2
+            return self.A1 * (self.A3 + self.m * self.R**2 * (1 - x * x)) + self.A3 * square
+
+        def half(x: Any) -> Any:
+            return self.m * self.R * ((self.A3 - self.A1) * self.R * x + self.A3 * self.a)
+
+        weight, root0, root = self.m * self.R**2 * self.A1, np.sqrt(D(x0)), np.sqrt(D(x))
+        eta0, zeta0 = omega_3 * root0, weight * n + half(x0) * omega_3
+        scale = np.sqrt(complex(self.m * self.R**2 * (self.A3 - self.A1))) or 1e-30 * root0  # the limit of l -> 0
+        angle = 2 * self.rho * np.arctanh(scale * (x - x0) / (root + root0))
+        even, odd = np.cosh(angle).real, np.sinh(angle)
+        eta = eta0 * even - zeta0 * (odd / scale).real
+        zeta = zeta0 * even - eta0 * (odd * scale).real
+        return eta / root, (zeta - half(x) * eta / root) / weight
 
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """A motion: `phase(t)` gives phi, everything else is a function of phi; see `solve_motion`.
+    """A motion; its methods take times, an array of any shape or a number, negative ones too, and 0 is the start.
 
-    `period` is the time of one oscillation of u (one passage from turning point to turning point and back).
+    `period` is the time of one oscillation of x = cos u; None for a steady motion, where u stays constant.
+    `turning_points` are the least and the largest u: 0 or pi, up to rounding, where the path goes through a pole.
+    Vectors are the last index of what is returned.  Errors are about 1e-15 times the number of oscillations (more near an
+    asymptotic motion, whose neighbours part exponentially); beyond 10^6 of these, `LimitExceeded` is raised.
     """
 
-    ball: NumericBall
-    potential: Callable[[Any], Any]
+    ball: Numbers
+    force: Force
     start: State
-    energy: float
-    band: Band
-    omega_3_0: float
-    speed: Array
-    time: Primitive
-    longitude: Primitive
-    phi_0: float
-    tolerance: float
+    period: float | None
+    turning_points: tuple[float, float]
+    _solution: Solution
+    _cycle: float
+    _gain: float
+    _space: Array
 
-    @property
-    def period(self) -> float:
-        return self.time.over_period
+    def u(self, times: Any) -> Array:
+        """The angle between the ball's axis and the normal, in [0, pi]."""
+        s = self.contact_on_ball(times)
+        result: Array = np.arctan2(np.hypot(s[..., 0], s[..., 1]), s[..., 2])
+        return result
 
-    @property
-    def turning_points(self) -> tuple[float, float]:
-        """The least and the largest u, in radians; 0 or pi where the path goes through a pole."""
-        ends = self.band.colatitude(np.array([0.0, np.pi]))
-        return float(ends[0]), float(ends[1])
+    def omega_3(self, times: Any) -> Array:
+        """The spin about the axis of symmetry, in closed form."""
+        return self._closed(times)[0]
 
-    def phase(self, times: Array) -> Array:
-        """phi at the given times, negative ones too; time 0 is the initial state."""
+    def n(self, times: Any) -> Array:
+        """The spin about the common normal, in closed form."""
+        return self._closed(times)[1]
+
+    def contact(self, times: Any) -> Array:
+        """The contact point in space: on the sphere about the origin, or on the plane."""
+        if self.ball.kappa:
+            return -np.einsum("...ij,...j->...i", self.attitude(times), self.contact_on_ball(times)) / self.ball.kappa
+        count, states = self._at(times)
+        axis, angle = _axis_and_angle(self._return())
+        turned = _rotation(axis, angle * count) @ states[..., 5, :, None]
+        # The ways of `count` oscillations, each turned by one angle more, add up to a chord.
+        half = np.sin(angle / 2)
+        chord = np.where(np.abs(half) > 1e-12, np.sin(angle * count / 2) / (half or 1.0), count)
+        whole = _rotation(axis, angle * (count - 1) / 2) @ self._solution(np.array([self._cycle]))[0, 5, :, None]
+        way: Array = (turned + chord[..., None, None] * whole)[..., 0] @ self._space.T
+        return way + np.array([self.start.u1, self.start.v1, 0.0])
+
+    def contact_on_ball(self, times: Any) -> Array:
+        """The unit vector from the ball's centre to the contact point, in the ball's axes: (sin u cos v, sin u sin v, cos u)."""
+        count, states = self._at(times)
+        return np.einsum("...ij,...j->...i", _about_axis(count * self._gain), states[..., 1, :])
+
+    def attitude(self, times: Any) -> Array:
+        """The ball's axes in space, as columns of (..., 3, 3)."""
+        count, states = self._at(times)
+        axis, angle = _axis_and_angle(self._return())
+        result: Array = self._space @ _rotation(axis, angle * count) @ states[..., 2:5, :] @ _about_axis(-count * self._gain)
+        return result
+
+    def energy(self, times: Any) -> Array:
+        """Kinetic and potential energy, from the integrated angular velocity: constant up to its errors."""
+        _, states = self._at(times)
+        omega, s = states[..., 0, :], states[..., 1, :]
+        moments = np.array([self.ball.A1, self.ball.A1, self.ball.A3])
+        velocity = np.cross(omega, self.ball.arm(s))
+        twice = self.ball.m * (velocity**2).sum(-1) + (moments * omega**2).sum(-1)
+        return np.asarray(twice / 2 + self.force.value(self.u(times)), dtype=float)
+
+    def reaction(self, times: Any) -> Array | None:
+        """The normal reaction of the sphere on the ball; negative: it would have to pull.  None under another potential.
+
+        For a potential V(u) alone doesn't say which force it belongs to.
+        """
+        if self.force.g is None:
+            return None
+        ball, (_, states) = self.ball, self._at(times)
+        flat = states.reshape(-1, 6, 3)
+        omega, s = flat[:, 0], flat[:, 1]
+        inertial = np.cross(ball.rates(self.force.slope, flat)[:, 0], ball.arm(s)) + ball.acceleration(s, omega)
+        lever = ball.a * ball.kappa / (1 + ball.rho)  # of the centre of mass, by the distance of the two centres
+        weight = self.force.g * (1 + lever * s[:, 2]) / np.sqrt(1 + lever**2 + 2 * lever * s[:, 2])
+        result: Array = ball.m * ((s * inertial).sum(1) + weight)
+        return result.reshape(states.shape[:-2])
+
+    def defects(self, times: Any) -> dict[str, Array]:
+        """The closed forms of omega_3 and n at x(t) less the integrated angular velocity's components."""
+        _, states = self._at(times)
+        omega, s = states[..., 0, :], states[..., 1, :]
+        omega_3, n = self._closed(times)
+        return {"omega_3": omega_3 - omega[..., 2], "n": n - (omega * s).sum(-1)}
+
+    def _closed(self, times: Any) -> tuple[Array, Array]:
+        _, states = self._at(times)
+        u, spin = self.start.u, _body_frame(self.start) @ _contact_rates(self.ball, self.start)
+        return self.ball.transport(states[..., 1, 2], float(np.cos(u)), float(spin[2]), self.start.n)
+
+    def _return(self) -> Array:
+        """G, the nearest rotation to it."""
+        left, _, right = np.linalg.svd(self._solution(np.array([self._cycle]))[0, 2:5] @ _about_axis(np.array(self._gain)))
+        result: Array = left @ right
+        return result
+
+    def _at(self, times: Any) -> tuple[Array, Array]:
+        """The number of whole oscillations, and the states in the first one."""
         instants = np.asarray(times, dtype=float)
         if not np.isfinite(instants).all():
             raise InputError("times must be finite")
-        begin = float(self.time(np.array(self.phi_0)))
-        return series.invert(self.time, instants + begin, self.tolerance)
-
-    def rotation(self, phi: Array) -> tuple[Array, Array]:
-        """(omega_3, n) at phi, from the closed form."""
-        omega_3, n = self.ball.transport(self.band.x(phi), np.cos(self.start.u), self.omega_3_0, self.start.n)
-        return omega_3, n
-
-    def v(self, phi: Array) -> Array:
-        """The longitude of the contact point on the body, in radians, continuous except through a pole itself."""
-        result: Array = self.start.v + self.longitude(phi) - self.longitude(np.array(self.phi_0))
-        return result
-
-    def phase_speed(self, phi: Array) -> Array:
-        """dphi/dt."""
-        result: Any = chebyshev.chebval(np.cos(phi), self.speed)
-        return np.asarray(result, dtype=float)
-
-    def rates(self, phi: Array) -> tuple[Array, Array]:
-        """(u', v'), not defined at a pole."""
-        sine, x = self.band.sine(phi), self.band.x(phi)
-        omega_3, n = self.rotation(phi)
-        du = self.band.amp * np.sin(phi) * self.phase_speed(phi) / sine
-        return du, (x * n - omega_3) / ((1 + self.ball.rho) * sine**2)
-
-    def energies(self, phi: Array) -> Array:
-        """The energy from u, u', v' and n at phi, not at a pole: `energy` up to the errors of the series."""
-        sine2, x = self.band.sine(phi) ** 2, self.band.x(phi)
-        omega_3, n = self.rotation(phi)
-        du, _ = self.rates(phi)
-        twice = self.ball.K11(x) * du**2 + self.ball.transverse_energy(x, sine2, omega_3, n) / sine2
-        result: Array = twice / 2 + self.potential(self.band.colatitude(phi))
-        return result
+        count = np.floor(instants / self._cycle)
+        if np.abs(count).max(initial=0) > LONGEST:
+            raise LimitExceeded(
+                f"a motion is followed for {LONGEST} oscillations, to t = {LONGEST * self._cycle:.6g}", limit="time"
+            )
+        rest = np.clip(instants - count * self._cycle, 0, self._cycle)
+        return count, self._solution(rest.ravel()).reshape(*rest.shape, 6, 3)
 
 
-def solve_motion(sphere: BallOnSphere, potential: Potential, state: State, *, tolerance: float = 1e-13) -> Motion:
-    """The motion with V(u) = `potential` (text or SymPy: a smooth function of cos u) from `state` at t = 0.
+def solve_motion(
+    sphere: BallOnSphere, start: State, *, gravity: Scalar | None = None, potential: Potential | None = None
+) -> Motion:
+    """The motion from `start` at t = 0 under a force of strength m g (default: g = 1), or with a potential energy V(u).
 
-    `tolerance` bounds the relative error of t(phi) and of the attitude (1e-13 is about the rounding of floats); what the
-    number of oscillations multiplies is always as exact as floats allow.
-    Raises `InputError` for symbolic parameters, for a start at a pole of the body (u = 0 or pi: v isn't defined), for
-    a steady motion, where u stays constant, and for an asymptotic one, which never turns and so has no phase;
-    `LimitExceeded` for a motion that takes almost forever to turn (less than about 1e-6 of its energy away from an
-    asymptotic one).  `kovacic.ball.direct` integrates all of these but the start at a pole.
+    The force acts at the centre of mass and presses the ball to the fixed surface: towards the centre of the sphere, away
+    from it inside, downwards on a plane.  V is text or SymPy, a smooth function of cos u.  Rolling is enforced, also where
+    the reaction would have to pull: see `Motion.reaction`.
+    Every start has a motion, at the poles and steady ones included, but for asymptotic ones, which come as near as 1e-7
+    to an unstable steady motion: their further course depends on digits that floats don't have, and `LimitExceeded` says so.
+    Raises `InputError` for symbolic parameters, numbers out of range and potentials that aren't smooth.
 
     >>> from kovacic.ball.ball import Ball
     >>> sphere = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
-    >>> motion = solve_motion(sphere, "cos(u)", State(1.0, 0, 0, 1, 0, 0.5, 0.3, 2.0))
-    >>> 0 < motion.turning_points[0] < 1 < motion.turning_points[1]
+    >>> motion = solve_motion(sphere, State(u=1, du="1/2", dv=0, n=2))
+    >>> bool(motion.turning_points[0] < 1 < motion.turning_points[1])
     True
     """
-    tolerance = as_tolerance(tolerance, "the tolerance")
-    ball = NumericBall.of(sphere, np)
-    start = State(*(as_float(value, name) for name, value in asdict(state).items()))
-    for name, value in asdict(start).items():
-        if not abs(value) <= LARGEST:
-            raise InputError(f"{name} = {value} isn't a number that a motion can start with")
-    u0, du, dv, n0 = start.u, start.du, start.dv, start.n
-    if not 0 < u0 < np.pi:
-        raise InputError(f"the motion must start between the poles, 0 < u < pi, not at u = {u0}")
-    V = compiled(potential)
-    x0, s0 = np.cos(u0), np.sin(u0)
-    omega0 = x0 * n0 - (1 + ball.rho) * s0**2 * dv
-    transverse = ball.transverse_energy(x0, s0**2, omega0, n0)
-    energy = float((ball.K11(x0) * du**2 + transverse / s0**2) / 2 + V(u0))
+    ball = Numbers.of(sphere)
+    state = State(*(as_float(value, name) for name, value in asdict(start).items()))
+    if not 0 <= state.u <= np.pi:
+        raise InputError(f"u is an angle between 0 and pi, not {state.u}")
+    force = Force.gravity(sphere, 1 if gravity is None else gravity) if potential is None else Force.of(potential)
+    if gravity is not None and potential is not None:
+        raise InputError("either gravity or a potential")
+    frame = _body_frame(state)
+    y = np.vstack([frame @ _contact_rates(ball, state), frame[:, 2], np.eye(3), np.zeros(3)])
+    inertia = ball.A1 + ball.m * ball.R**2
+    slopes = np.abs(force.slope(np.linspace(0, np.pi, 65)))
+    rate = float(np.linalg.norm(y[0]) + np.sqrt(slopes.mean() / inertia)) or 1.0
+    scale = np.ones((6, 1))
+    scale[0], scale[5] = rate, ball.R
 
-    def numerator(x: Any, sine2: Any) -> Any:
-        omega_3, n = ball.transport(x, x0, omega0, n0)
-        u = np.arctan2(np.sqrt(sine2), x)
-        return 2 * (energy - V(u)) * sine2 - ball.transverse_energy(x, sine2, omega_3, n)
+    def rates(states: Array) -> Array:
+        return ball.rates(force.slope, states)
 
-    cancelling = 2 * (abs(energy) + abs(float(V(u0)))) * s0**2 + transverse
-    band = _turning_points(lambda x, sine2: numerator(x, sine2) / ball.K11(x), u0, float(cancelling / ball.K11(x0)))
+    solution = Solution(rates, y, scale, 1 / rate, [])
+    if _unsteadiness(y[None], rates(y[None]), rate)[0] < _STEADY:
+        cycle, period, turns = 10 / rate, None, np.zeros(1)
+        while not solution.steps or solution.steps[-1].start < cycle:
+            solution.extend()
+    else:
+        cycle, turns = _oscillation(solution, rate)
+        period = cycle
+    s0, s1 = y[:2, :2], solution(np.array([cycle]))[0, :2, :2]
+    factor = np.array([1 / rate, 1.0])
+    gain = float(np.angle(np.sum(factor**2 * (s1 @ [1, 1j]) * (s0 @ [1, -1j]))))
+    tips = solution(turns)[:, 1]
+    ends = np.sort(np.arctan2(np.hypot(tips[:, 0], tips[:, 1]), tips[:, 2]))
+    space = _space_frame(state, flat=ball.kappa == 0) @ frame.T
+    return Motion(ball, force, state, period, (float(ends[0]), float(ends[-1])), solution, cycle, gain, space)
 
-    def speed(phi: Array) -> Array:
-        x = band.x(phi)
-        W = numerator(x, band.sine(phi) ** 2) / ball.K11(x)
-        square: Array = W / (band.amp * np.sin(phi)) ** 2
-        if square.min() <= 0:
-            raise InputError(
-                "the motion is asymptotic, or nearly: W has a double zero at a turning point", hint=series.ASYMPTOTIC
+
+def _oscillation(solution: Solution, rate: float) -> tuple[float, Array]:
+    """The period and two successive turning points, where x' = 0; the solution is extended to reach beyond the period."""
+    zeros: list[float] = []
+    slopes: list[float] = []
+    largest, mark, side = 0.0, 0.0, 0.0
+    least, most = np.inf, 0.0
+    needed = 3
+    while len(zeros) < needed:
+        if len(solution.steps) == MAX_STEPS:
+            raise LimitExceeded(
+                f"the motion doesn't turn within {MAX_STEPS} steps, t = {solution.steps[-1].start:.6g}: it is almost"
+                " asymptotic, or the potential isn't smooth",
+                limit="steps",
             )
-        root: Array = np.sqrt(square)
-        return root
-
-    # The quotient is 0/0 at the turning points, so it is sampled once, coarsely, and continued as a Chebyshev series.
-    Q = series.cosine_series(speed, _FINEST)
-
-    def longitude_numerator(phi: Array) -> Array:
-        x = band.x(phi)
-        omega_3, n = ball.transport(x, x0, omega0, n0)
-        quotient: Array = (x * n - omega_3) / ((1 + ball.rho) * chebyshev.chebval(np.cos(phi), Q))
-        return quotient
-
-    time = Primitive.of(series.cosine_series(lambda phi: 1 / chebyshev.chebval(np.cos(phi), Q), tolerance))
-    longitude = _longitude(band, longitude_numerator)
-    height = np.clip((x0 - (band.bottom - band.top) / 2) / band.amp, -1.0, 1.0)
-    phi_0 = float(np.arccos(height)) if du >= 0 else -float(np.arccos(height))
-    return Motion(ball, V, start, energy, band, float(omega0), Q, time, longitude, phi_0, tolerance)
-
-
-def _turning_points(W: Callable[[Any, Any], Any], u0: float, scale: float) -> Band:
-    """The zeros of W(x, 1 - x^2) on both sides of u0; `scale` is the size of what cancels in W at u0."""
-
-    def from_pole(sign: int) -> Callable[[float], float]:
-        """W as a function of the angle from the pole x = `sign`, exact near it."""
-        return lambda w: float(W(sign * np.cos(w), np.sin(w) ** 2))
-
-    along = from_pole(1)
-    at_rest = along(u0) <= 1e-13 * scale
-    step = 1e-6 * min(u0, np.pi - u0)
-    slope = (along(u0 + step) - along(u0 - step)) / (2 * step)
-    if at_rest and abs(slope) <= 1e-9 * scale:
-        raise InputError(f"the motion is steady: u = {u0} stays constant")
-
-    def distance(sign: int, begin: float) -> float:
-        """The distance 1 - cos w of the turning point from the pole x = `sign`, from which the start is at an angle `begin`."""
-        F = from_pole(sign)
-        if at_rest and sign * slope > 0:
-            return float(2 * np.sin(begin / 2) ** 2)
-
-        def deflated(w: float) -> float:
-            return abs(slope) if w == begin else F(w) / (begin - w)
-
-        w = _largest_zero(deflated if at_rest else F, begin, 1e-30 * scale)
-        return float(2 * np.sin(w / 2) ** 2)
-
-    top, bottom = distance(1, u0), distance(-1, np.pi - u0)
-    return Band(top, bottom, 1 - (top + bottom) / 2)
-
-
-def _largest_zero(F: Callable[[float], float], begin: float, negligible: float) -> float:
-    """The largest zero in [0, begin] of F, which is positive at `begin`; 0 where there is none before the pole w = 0.
-
-    F is interpolated piece by piece, and looked at between the real zeros of the interpolants: a zero is where F turns
-    negative.  At the pole itself F is minus a square, and counts as negative beyond `negligible`.
-    """
-    nodes = np.cos((np.arange(_NODES) + 0.5) * np.pi / _NODES)
-    above = end = length = begin
-    while end > 0:
-        start = max(0.0, end - length)
-        middle, half = (start + end) / 2, (end - start) / 2
-        coefficients = chebyshev.chebfit(nodes, [F(middle + half * z) for z in nodes], _NODES - 1)
-        size = np.abs(coefficients)
-        if size[-4:].max() > 1e-9 * size.max():
-            length = (end - start) / 2
-            if length < 1e-6:
-                raise InputError(
-                    f"the potential isn't smooth: its part near an angle {end:.4g} from a pole isn't resolved"
-                )
-            continue
-        roots = chebyshev.chebroots(chebyshev.chebtrim(coefficients, 1e-15 * size.max()))
-        near = roots.real[(np.abs(roots.imag) < 1e-7) & (np.abs(roots.real) < 1)]
-        stops = [end, *(middle + half * np.sort(near)[::-1]), start]
-        for gate in [*((p + q) / 2 for p, q in pairwise(stops)), start]:
-            value = F(gate)
-            if value < (0 if gate > 0 else -negligible):
-                return float(brentq(F, gate, above, xtol=1e-300, rtol=1e-15, maxiter=500))
-            if value > 0:
-                above = gate
-        end, length = start, 2 * (end - start)
-    return 0.0
-
-
-def _longitude(band: Band, numerator: Callable[[Array], Array]) -> Primitive:
-    """The primitive of numerator/(1 - x^2) over phi, as half the sum of numerator/(1 - x) and numerator/(1 + x)."""
-    G = series.cosine_series(numerator, _FINEST)
-    regular = np.zeros(1)
-    near: list[tuple[float, float, float]] = []
-    for sign, gap in ((1, band.top), (-1, band.bottom)):
-        pole = sign * (1 + gap / band.amp)
-        if gap > 0.05 * band.amp:
-            part = series.cosine_series(
-                lambda phi, pole=pole, sign=sign: (  # type: ignore[misc]
-                    chebyshev.chebval(np.cos(phi), G) / (2 * band.amp * sign * (pole - np.cos(phi)))
-                ),
-                _FINEST,
+        step = solution.extend()
+        unsteady = _unsteadiness(step.values, step.slopes, rate)
+        least, most = min(least, float(unsteady.min())), max(most, float(unsteady.max()))
+        if least < _ASYMPTOTIC * most:
+            raise LimitExceeded(
+                f"the motion is asymptotic: by t = {step.start + step.length:.6g} it differs from a steady one by less than"
+                f" {_ASYMPTOTIC:g}, where floats don't tell whether and when it turns\n"
+                "  hint: change the initial velocity by 1e-5 of itself",
+                limit="digits",
             )
-        else:
-            H, value = series.divide(G, pole)
-            part = -sign * H / (2 * band.amp)
-            width = np.sqrt(gap * (gap + 2 * band.amp))
-            offset = 0.0 if sign > 0 else np.pi
-            if gap == 0:
-                near.append((offset, 0.5, np.inf))
-            else:
-                near.append((offset, value / (2 * width), float(np.sqrt((gap + 2 * band.amp) / gap))))
-        size = max(len(regular), len(part))
-        regular = np.pad(regular, (0, size - len(regular))) + np.pad(part, (0, size - len(part)))
-    return Primitive.of(regular, tuple(near))
+        speeds = step.slopes[:, 1, 2]
+        for time, speed in zip(step.times, speeds, strict=True):
+            largest = max(largest, abs(speed))
+            if abs(speed) <= 1e-3 * largest:
+                continue
+            if speed * side < 0:
+                zeros.append(_zero(solution, mark, time))
+                slopes.append(abs(_second(solution, zeros[-1])))
+            mark, side = time, speed
+        if len(zeros) >= 2 and slopes[1] > slopes[0]:
+            needed = 4  # the period between the turning points where x'' is larger is known better
+    return zeros[needed - 1] - zeros[needed - 3], np.array(zeros[:2])
+
+
+def _speed(solution: Solution, times: Array) -> Array:
+    """x' but for the factor 1 + rho."""
+    y = solution(times)
+    result: Array = y[:, 1, 0] * y[:, 0, 1] - y[:, 1, 1] * y[:, 0, 0]
+    return result
+
+
+def _second(solution: Solution, time: float) -> float:
+    """x'' but for the same factor."""
+    (y,) = solution(np.array([time]))
+    (f,) = solution.rates(y[None])
+    return float(f[1, 0] * y[0, 1] + y[1, 0] * f[0, 1] - f[1, 1] * y[0, 0] - y[1, 1] * f[0, 0])
+
+
+def _zero(solution: Solution, low: float, high: float) -> float:
+    """Where x' changes its sign, by dividing into 32 parts again and again."""
+    for _ in range(11):
+        grid = np.linspace(low, high, 33)
+        speeds = _speed(solution, grid)
+        k = int(np.argmax(speeds * speeds[-1] > 0))
+        low, high = float(grid[max(k - 1, 0)]), float(grid[k])
+    return (low + high) / 2
+
+
+def _unsteadiness(states: Array, slopes: Array, rate: float) -> Array:
+    """How far (omega, s) is from turning uniformly about the axis, as it does in steady motions; at most about 1."""
+    scale = np.array([[1 / rate], [1.0]])
+    change = slopes[:, :2] * (scale / rate)
+    turned = states[:, :2, [1, 0, 2]] * [-1.0, 1.0, 0.0] * scale
+    square = (turned * turned).sum((1, 2))
+    share = (change * turned).sum((1, 2)) / np.where(square > 0, square, 1.0)
+    result: Array = np.sqrt(((change - share[:, None, None] * turned) ** 2).sum((1, 2)))
+    return result
+
+
+def as_float(value: Any, name: str) -> float:
+    """A float as it is; text and SymPy's numbers are read exactly."""
+    if isinstance(value, float | np.floating):
+        number = float(value)
+    else:
+        expression = exact(value, name)
+        if not expression.is_number:
+            raise InputError(f"{name} = {value} isn't a number")
+        number = float(expression)
+    if not abs(number) <= LARGEST:
+        raise InputError(f"{name} = {value} isn't a number that a motion can start with")
+    return number
+
+
+def _contact_rates(ball: Numbers, start: State) -> Array:
+    """omega's components along e_u, e_v and the normal."""
+    return np.array([(1 + ball.rho) * np.sin(start.u) * start.dv, -(1 + ball.rho) * start.du, start.n])
+
+
+def _body_frame(start: State) -> Array:
+    """(e_u, e_v, the outward normal) at (u, v) as columns, in the ball's axes."""
+    return _spherical(start.u, start.v)
+
+
+def _spherical(u: float, v: float) -> Array:
+    cu, su, cv, sv = np.cos(u), np.sin(u), np.cos(v), np.sin(v)
+    return np.array([[cu * cv, -sv, su * cv], [cu * sv, cv, su * sv], [-su, 0.0, cu]])
+
+
+def _space_frame(start: State, *, flat: bool) -> Array:
+    """The same in space: e_u = -sin(theta) e_u1 + cos(theta) e_v1, and the normal is opposite to the sphere's."""
+    south, east, out = np.eye(3) if flat else _spherical(start.u1, start.v1).T
+    s, c = np.sin(start.theta), np.cos(start.theta)
+    return np.column_stack([-s * south + c * east, c * south + s * east, -out])
+
+
+def _times(vectors: Array, matrices: Array) -> Array:
+    result: Array = (vectors[:, None, :] @ matrices)[:, 0]
+    return result
+
+
+def _cross_matrix(vectors: Array) -> Array:
+    """[w]x, for which [w]x v = w x v and v [w]x = v x w."""
+    result = np.zeros((*vectors.shape, 3))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        result[..., k, j], result[..., j, k] = vectors[..., i], -vectors[..., i]
+    return result
+
+
+def _rotation(axis: Array, angles: Array) -> Array:
+    """Rotations about an axis, one for each angle."""
+    along = np.outer(axis, axis)
+    c, s = np.cos(angles)[..., None, None], np.sin(angles)[..., None, None]
+    result: Array = along + c * (np.eye(3) - along) + s * _cross_matrix(axis)
+    return result
+
+
+def _about_axis(angles: Array) -> Array:
+    return _rotation(np.array([0.0, 0.0, 1.0]), angles)
+
+
+def _axis_and_angle(rotation: Array) -> tuple[Array, float]:
+    """A rotation's axis, any for the identity, and its angle in [-pi, pi]."""
+    _, _, (across, _, axis) = np.linalg.svd(rotation - np.eye(3))
+    turned = rotation @ across
+    return axis, float(np.arctan2(axis @ np.cross(across, turned), across @ turned))

@@ -1,4 +1,4 @@
-"""Pictures of a motion: the contact point's path on the fixed surface, u(t), omega_3(t), and the check of both.
+"""Pictures of a motion: the contact point's path on the fixed surface, u(t), omega_3(t), the reaction, and the errors.
 
 Drawn with Matplotlib's Agg canvas; nothing is ever shown on a screen.
 """
@@ -7,91 +7,52 @@ from __future__ import annotations
 
 import io
 import os
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from kovacic.ball.attitude import Place, locate
-from kovacic.ball.ball import BallOnSphere
-from kovacic.ball.direct import DirectSolution, integrate
+from kovacic.ball.collocation import Array
 from kovacic.ball.motion import Motion
-from kovacic.ball.potential import Potential
 
-Array = NDArray[np.float64]
 _BLUE, _ORANGE, _GREY, _GREEN = "#1f5f99", "#d9731a", "#8a8a8a", "#2f7d4f"
 
 
-@dataclass(frozen=True, slots=True)
-class Comparison:
-    """A motion sampled at `times` from the quadratures, and by direct integration of the full equations."""
-
-    motion: Motion
-    times: Array
-    u: Array
-    omega_3: Array
-    place: Place
-    direct: DirectSolution
-
-    @property
-    def errors(self) -> dict[str, Array]:
-        """The differences |quadratures - direct| of u, omega_3 and of the contact point relative to the radius."""
-        s = self.direct.states
-        kappa = self.motion.ball.kappa
-        if kappa == 0:
-            contact = np.stack([s[3], s[4], np.zeros_like(s[3])], axis=1)
-        else:
-            contact = np.stack([np.sin(s[3]) * np.cos(s[4]), np.sin(s[3]) * np.sin(s[4]), np.cos(s[3])], axis=1) / kappa
-        scale = abs(kappa) if kappa else 1 / self.motion.ball.R
-        return {
-            "u": np.abs(self.u - s[0]),
-            "omega_3": np.abs(self.omega_3 - self.direct.omega_3),
-            "contact point": np.linalg.norm(self.place.contact - contact, axis=1) * scale,
-        }
-
-
-def compare(
-    sphere: BallOnSphere, potential: Potential, motion: Motion, end: float, *, samples: int = 1200, rtol: float = 1e-12
-) -> Comparison:
-    """Sample the motion on [0, end] and integrate Woronetz's equations directly (DOP853) to the same times."""
-    times = np.linspace(0.0, end, samples)
-    phi = motion.phase(times)
-    direct = integrate(sphere.body, potential, motion.start, times, rtol=rtol, atol=rtol / 10)
-    return Comparison(motion, times, motion.band.colatitude(phi), motion.rotation(phi)[0], locate(motion, phi), direct)
-
-
-def draw(comparison: Comparison, path: Path | str, *, title: str = "") -> None:
-    """Write the picture; the format follows from the suffix (png, pdf, svg).
+def draw(motion: Motion, times: Array, path: Path | str, *, title: str = "") -> None:
+    """Write the picture of the motion at `times`; the format follows from the suffix (png, pdf, svg).
 
     The file is there whole or, after an error or an interruption, not at all (an older one stays as it was).
     """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(12.5, 7.4), dpi=110)
+    reaction = motion.reaction(times)
+    figure = Figure(figsize=(12.5, 7.4 if reaction is None else 9.0), dpi=110)
     figure.set_layout_engine("constrained", wspace=0.08)
-    grid = figure.add_gridspec(3, 2, width_ratios=(1.15, 1))
-    if comparison.motion.ball.kappa == 0:
-        _draw_plane(figure.add_subplot(grid[:, 0]), comparison)
+    rows = 3 if reaction is None else 4
+    grid = figure.add_gridspec(rows, 2, width_ratios=(1.15, 1))
+    if motion.ball.kappa == 0:
+        _draw_plane(figure.add_subplot(grid[:, 0]), motion.contact(times))
     else:
-        _draw_sphere(figure.add_subplot(grid[:, 0], projection="3d"), comparison)
-    t = comparison.times
-    above, middle, below = (figure.add_subplot(grid[k, 1]) for k in range(3))
-    above.plot(t, comparison.u, color=_BLUE)
-    for level in comparison.motion.turning_points:
-        above.axhline(level, color=_GREY, lw=0.8, ls="--")
-    above.set(ylabel="u (rad)", title="colatitude of the contact point on the ball, and its turning points")
-    middle.plot(t, comparison.omega_3, color=_ORANGE)
-    middle.set(ylabel=r"$\omega_3$ (rad per unit time)", title=r"spin about the axis of symmetry, $\omega_3$")
-    styles = zip(comparison.errors.items(), (_BLUE, _ORANGE, _GREEN), strict=True)
-    for (name, error), colour in styles:
+        _draw_sphere(figure.add_subplot(grid[:, 0], projection="3d"), motion.contact(times), abs(1 / motion.ball.kappa))
+    panels = [figure.add_subplot(grid[k, 1]) for k in range(rows)]
+    panels[0].plot(times, motion.u(times), color=_BLUE)
+    for level in motion.turning_points:
+        panels[0].axhline(level, color=_GREY, lw=0.8, ls="--")
+    panels[0].set(ylabel="u (rad)", title="colatitude of the contact point on the ball, and its turning points")
+    panels[1].plot(times, motion.omega_3(times), color=_ORANGE)
+    panels[1].set(ylabel=r"$\omega_3$ (rad per unit time)", title=r"spin about the axis of symmetry, $\omega_3$")
+    if reaction is not None:
+        panels[2].plot(times, reaction, color=_GREEN)
+        panels[2].axhline(0, color=_GREY, lw=0.8, ls="--")
+        panels[2].set(ylabel="force", title="normal reaction; below zero the ball would leave the surface")
+    errors = {"energy": motion.energy(times) - motion.energy(0.0), **motion.defects(times)}
+    for (name, error), colour in zip(errors.items(), (_GREEN, _ORANGE, _BLUE), strict=True):
         label = r"$\omega_3$" if name == "omega_3" else name
-        below.semilogy(t, np.maximum(error, 1e-17), color=colour, lw=1, label=label)
-    below.set(xlabel="time t", ylabel="absolute difference", title="closed form against direct integration (DOP853)")
-    below.set_ylim(1e-17, max(1e-9, 30 * max(float(error.max()) for error in comparison.errors.values())))
-    below.legend(loc="lower right", ncols=3, fontsize=9)
-    for axes in (above, middle, below):
+        panels[-1].semilogy(times, np.maximum(np.abs(error), 1e-17), color=colour, lw=1, label=label)
+    panels[-1].set(xlabel="time t", ylabel="difference", title="closed form against integration; energy against its start")
+    panels[-1].set_ylim(1e-17, max(1e-9, 30 * max(float(np.abs(error).max()) for error in errors.values())))
+    panels[-1].legend(loc="upper right", ncols=3, fontsize=9)
+    for axes in panels:
         axes.grid(True, color="#dddddd", lw=0.6)
         axes.margins(x=0.01)
         axes.title.set_fontsize(10)
@@ -119,9 +80,7 @@ def _write_whole(path: Path, content: bytes) -> None:
         raise
 
 
-def _draw_sphere(axes: Any, comparison: Comparison) -> None:
-    radius = abs(1 / comparison.motion.ball.kappa)
-    points = comparison.place.contact
+def _draw_sphere(axes: Any, points: Array, radius: float) -> None:
     middle = points.mean(axis=0)
     azimuth = float(np.degrees(np.arctan2(middle[1], middle[0]))) if np.hypot(*middle[:2]) > 1e-9 * radius else -60.0
     elevation = float(np.clip(np.degrees(np.arctan2(middle[2], np.hypot(*middle[:2]))), -12, 40))
@@ -177,8 +136,8 @@ def _direction(elevation: float, azimuth: float) -> Array:
     return np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
 
 
-def _draw_plane(axes: Any, comparison: Comparison) -> None:
-    X, Y, _ = comparison.place.contact.T
+def _draw_plane(axes: Any, points: Array) -> None:
+    X, Y, _ = points.T
     axes.plot(X, Y, color=_BLUE, lw=1.3)
     axes.scatter(X[:1], Y[:1], color=_GREEN, s=36, label="start", zorder=3)
     axes.scatter(X[-1:], Y[-1:], color=_ORANGE, s=36, label="end", zorder=3)

@@ -1,4 +1,4 @@
-"""Potentials V(u) of forces on the rolling body: functions of cos u alone, since the motion's reduction to u needs that.
+"""Forces on the rolling body: those with a potential V(u), a function of cos u alone, since u is reduced to a quadrature by that.
 
 V depends on the place of the contact point on the body only, as for a force towards the centre of the sphere, or for gravity
 on a plane.  A uniform field over a sphere is none: it depends on the place on the sphere.
@@ -7,6 +7,7 @@ on a plane.  A uniform field over a sphere is none: it depends on the place on t
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -15,11 +16,11 @@ from sympy.functions.elementary.hyperbolic import HyperbolicFunction, InverseHyp
 from sympy.functions.elementary.trigonometric import InverseTrigonometricFunction, TrigonometricFunction
 
 from kovacic.ball.ball import BallOnSphere, Scalar, exact
-from kovacic.ball.meridian import U, as_expression
 from kovacic.ball.reading import read_expression
 from kovacic.errors import InputError
 
 Potential: TypeAlias = "sp.Expr | str | float"
+U = sp.Symbol("u")
 _SAMPLES = 32
 _ELEMENTARY = (
     sp.Symbol,
@@ -38,6 +39,37 @@ _ELEMENTARY = (
 )
 
 
+@dataclass(frozen=True, slots=True)
+class Force:
+    """V(u), and V and V' compiled for NumPy's arrays; g is the strength of `gravity`, None for another potential."""
+
+    V: sp.Expr
+    value: Callable[[Any], Any]
+    slope: Callable[[Any], Any]
+    g: float | None = None
+
+    @classmethod
+    def of(cls, potential: Potential) -> Force:
+        """The force with the potential V(u), text or SymPy.  Raises `InputError` as `potential_of` and `compiled` do."""
+        V = potential_of(potential)
+        return cls(V, compiled(V), _compiled(sp.diff(V, U)))
+
+    @classmethod
+    def gravity(cls, sphere: BallOnSphere, g: Scalar) -> Force:
+        """A force m g at the centre of mass that presses the ball to the fixed surface (a negative g: pulls it off).
+
+        It points to the centre of the sphere, away from it inside, and downwards on a plane.  The centre of mass is at the
+        distance d/|k| from the sphere's, d^2 = 1 + a^2 k^2 + 2 a k cos u, 1/k = R1 + R; V is m g (d - 1)/k.
+        """
+        m, R, a, _, _ = sphere.ball.parameters
+        strength = exact(g, "g")
+        k = sp.Integer(0) if sphere.R1.is_infinite else 1 / (sphere.R1 + R)
+        V = m * strength * a * (a * k + 2 * sp.cos(U)) / (1 + sp.sqrt(1 + a**2 * k**2 + 2 * a * k * sp.cos(U)))
+        if not V.free_symbols <= {U}:
+            raise InputError(f"numbers are needed for a motion, and {V} contains symbols")
+        return cls(V, _compiled(V), _compiled(sp.diff(V, U)), float(strength))
+
+
 def potential_of(value: Potential) -> sp.Expr:
     """V as a SymPy expression in u; text is read by `kovacic.ball.reading`.
 
@@ -47,10 +79,13 @@ def potential_of(value: Potential) -> sp.Expr:
     >>> potential_of("3/2*cos(u)")
     3*cos(u)/2
     """
-    if isinstance(value, str):
-        V = read_expression(value, what="the potential", names={U.name: U})
-    else:
-        V = as_expression(value, "the potential")
+    try:
+        text = isinstance(value, str)
+        V = read_expression(value, what="the potential", names={U.name: U}) if text else sp.sympify(value, strict=True)
+    except sp.SympifyError:
+        V = None
+    if not isinstance(V, sp.Expr):
+        raise InputError(f"the potential is text, a number or a SymPy expression, it can't be {value!r}")
     if V.free_symbols - {U} or V.has(sp.I):
         raise InputError(f"the potential is a real function that depends on u alone, it can't be {value}")
     for part in sp.preorder_traversal(V):
@@ -59,36 +94,21 @@ def potential_of(value: Potential) -> sp.Expr:
     return V
 
 
-def central_gravity(sphere: BallOnSphere, g: Scalar) -> sp.Expr:
-    """The potential V(u) of a force m g of constant strength towards the centre of the sphere (on the plane: downwards).
-
-    The distance of the centre of mass from the sphere's centre is sqrt(R1^2 + 2 R1 eps + |rho|^2), eps = R + a cos u; V
-    is m g times its excess over |R1|.
-    """
-    m, R, a, _, _ = sphere.ball.parameters
-    g = exact(g, "g")
-    eps = R + a * sp.cos(U)
-    if sphere.R1.is_infinite:
-        return m * g * eps
-    square = sphere.R1**2 + 2 * sphere.R1 * eps + R**2 + a**2 + 2 * R * a * sp.cos(U)
-    return m * g * (sp.sqrt(square) - sp.Abs(sphere.R1))
+def _compiled(expression: sp.Expr) -> Callable[[Any], Any]:
+    function = sp.lambdify(U, expression, modules="numpy", cse=True)
+    return lambda u: np.broadcast_to(np.asarray(function(u), dtype=float), np.shape(u))
 
 
-def compiled(potential: Potential) -> Callable[[Any], Any]:
+def compiled(potential: sp.Expr) -> Callable[[Any], Any]:
     """V for NumPy's arrays.
 
     Raises `InputError` where V isn't finite and real on 0 <= u <= pi, or isn't even about both poles, u = 0 and u = pi, as
     every function of cos u is: the force would jump there.
     """
-    exact = sp.lambdify(U, potential_of(potential), modules="numpy", cse=True)
-
-    def V(u: Any) -> Any:
-        return np.asarray(exact(u), dtype=float)
-
+    V = _compiled(potential)
     u = np.linspace(0.0, np.pi, _SAMPLES + 1)
     with np.errstate(all="ignore"):
-        values = [np.broadcast_to(V(at), u.shape) for at in (u, -u, 2 * np.pi - u)]
-    here, mirrored, beyond = values
+        here, mirrored, beyond = (V(at) for at in (u, -u, 2 * np.pi - u))
     bad = ~np.isfinite(here)
     if bad.any():
         raise InputError(f"the potential isn't finite at u = {u[bad.argmax()]:.3g}; it must be on 0 <= u <= pi")

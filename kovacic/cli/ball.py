@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from kovacic.cli import ball_motion
+
 if TYPE_CHECKING:
     from kovacic.ball.ball import BallOnSphere
 
 
 _PICTURES = (".png", ".pdf", ".svg")
-#: Oscillations that the command integrates directly, for comparison.
-_LONGEST = 1000
 
 
 @click.command()
@@ -26,9 +26,9 @@ _LONGEST = 1000
 @click.option("--sphere", metavar="R1", help='The sphere\'s radius (negative: rolling inside), or "plane".')
 @click.option("--json", "as_json", is_flag=True, help="One JSON object.")
 @click.option("--latex", is_flag=True, help="The equations in LaTeX.")
-@click.option("--simulate", is_flag=True, help="The motion, by quadratures and by direct integration.")
+@click.option("--simulate", is_flag=True, help="The motion: turning points, period, path, reaction.")
 @click.option(
-    "--gravity", metavar="g", help="Strength of the pull to the sphere's centre, or to the plane (default: 1)."
+    "--gravity", metavar="g", help="Strength of the force that presses the ball to the surface (default: 1)."
 )
 @click.option(
     "--potential", metavar="V", help='Another potential in place of gravity, such as "3/2*cos(u) + sin(u)^2".'
@@ -90,8 +90,10 @@ def command(
         standard = exact(mass, "m") * exact(radius, "R") ** 2 * exact("2/5", "2/5")
         ball = Ball(m=mass, R=radius, a=offset, A1=standard if a1 is None else a1, A3=standard if a3 is None else a3)
         rolling = ball.on_plane() if sphere == "plane" else ball.on_sphere(sphere)
-        motion = _simulate(rolling, gravity, potential, start, end, plot) if moving else {}
-        data = {**_by_parameters(rolling, latex), **motion}
+        data = _by_parameters(rolling, latex)
+        if moving:
+            options = {"gravity": gravity, "potential": potential, "start": start, "end": end, "plot": plot}
+            data["motion"] = ball_motion.simulate(rolling, **options)
     click.echo(json.dumps(data, ensure_ascii=False) if as_json else _text(data))
 
 
@@ -157,60 +159,6 @@ def _by_parameters(sphere: BallOnSphere, latex: bool) -> dict[str, Any]:
     return data
 
 
-def _simulate(
-    sphere: BallOnSphere,
-    gravity: str | None,
-    potential: str | None,
-    start: tuple[str, str, str, str],
-    end: str,
-    plot: str | None,
-) -> dict[str, Any]:
-    from kovacic.errors import InputError
-
-    try:
-        import numpy as np
-
-        from kovacic.ball.direct import State
-        from kovacic.ball.motion import solve_motion
-        from kovacic.ball.plot import compare, draw
-        from kovacic.ball.potential import central_gravity, potential_of
-        from kovacic.ball.quantity import as_float
-    except ModuleNotFoundError as error:
-        raise click.ClickException(f"a motion needs NumPy and SciPy: pip install kovacic[numeric] ({error})") from error
-
-    u, du, dv, n = (as_float(value, name) for value, name in zip(start, ("u", "u'", "v'", "n"), strict=True))
-    time = as_float(end, "the time")
-    V = central_gravity(sphere, gravity or "1") if potential is None else potential_of(potential)
-    motion = solve_motion(sphere, V, State(u, 0.0, 0.0, 1.0, 0.0, du, dv, n))
-    if not 0 < time <= _LONGEST * motion.period:
-        raise InputError(
-            f"the time must be positive and at most {_LONGEST} oscillations, {_LONGEST * motion.period:.6g}, not {time:g}",
-            hint="the quadratures reach any time, but the direct integration that they're compared with doesn't",
-        )
-    comparison = compare(sphere, V, motion, time, samples=1200 + int(60 * time / motion.period))
-    if plot:
-        place = "on the plane" if sphere.R1.is_infinite else f"on the sphere, R/R1 = {sphere.ratio}"
-        try:
-            draw(comparison, plot, title=f"Ball {place}")
-        except ModuleNotFoundError as error:
-            raise click.ClickException(f"a picture needs Matplotlib: pip install kovacic[plot] ({error})") from error
-        except OSError as error:
-            raise click.ClickException(f"{plot} can't be written: {error.strerror}") from error
-    energy = comparison.direct.energy
-    return {
-        "motion": {
-            "potential": str(V),
-            "turning_points": list(motion.turning_points),
-            "period": motion.period,
-            "time": time,
-            "difference": {name: float(error.max()) for name, error in comparison.errors.items()},
-            "energy_drift": float(np.abs(motion.energies(motion.phase(comparison.times)) - motion.energy).max()),
-            "energy_drift_of_the_direct_integration": float(np.abs(energy - energy[0]).max()),
-            "plot": plot,
-        }
-    }
-
-
 def _text(data: dict[str, Any]) -> str:
     labels = {
         "ratio": "R/R1",
@@ -227,16 +175,6 @@ def _text(data: dict[str, Any]) -> str:
     lines = [f"{label + ':' if label else '':<20}{data[key]}" for key, label in labels.items() if key in data]
     for number, formula in data.get("latex", {}).items():
         lines.append(f"{f'({number}) LaTeX:':<20}{formula}")
-    motion = data.get("motion")
-    if motion:
-        low, high = motion["turning_points"]
-        lines.append(f"{'potential:':<20}V = {motion['potential']}")
-        lines.append(f"{'turning points:':<20}u = {low:.12g} and {high:.12g}")
-        lines.append(f"{'period:':<20}{motion['period']:.15g}")
-        for name, value in motion["difference"].items():
-            lines.append(
-                f"{'difference ' + name + ':':<26}{value:.2e} (closed form against DOP853, t <= {motion['time']:g})"
-            )
-        if motion["plot"]:
-            lines.append(f"{'picture:':<20}{motion['plot']}")
+    if "motion" in data:
+        lines += ball_motion.lines(data["motion"])
     return "\n".join(lines)

@@ -1,0 +1,93 @@
+"""`kovacic ball --simulate`: the motion's figures, and its picture."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from kovacic.ball.ball import BallOnSphere
+
+#: Points in time at which a motion is looked at: so many, and so many more for each oscillation, up to a limit.
+_SAMPLES, _PER_OSCILLATION, _MOST = 1200, 60, 60_000
+
+
+def simulate(
+    sphere: BallOnSphere,
+    *,
+    gravity: str | None,
+    potential: str | None,
+    start: Sequence[str],
+    end: str,
+    plot: str | None,
+) -> dict[str, Any]:
+    """What `--json` shows of the motion from `start` = (u, u', v', n) up to the time `end`; writes the picture.
+
+    Raises `InputError` for what isn't a start, a time or a potential, `LimitExceeded` for more than 10^6 oscillations and for
+    asymptotic motions, `click.ClickException` where NumPy or Matplotlib is missing and where the picture can't be written.
+    """
+    from kovacic.errors import InputError
+
+    try:
+        import numpy as np
+
+        from kovacic.ball.motion import State, as_float, solve_motion
+        from kovacic.ball.plot import draw
+    except ModuleNotFoundError as error:
+        raise click.ClickException(f"a motion needs NumPy: pip install kovacic[numeric] ({error})") from error
+
+    time = as_float(end, "the time")
+    if time <= 0:
+        raise InputError(f"the time must be positive, not {time:g}")
+    motion = solve_motion(sphere, State(*start), gravity=gravity, potential=potential)
+    motion.u(time)  # refuses too long a time before the many
+    oscillations = time / motion.period if motion.period else 0
+    times = np.linspace(0.0, time, min(_MOST, _SAMPLES + int(_PER_OSCILLATION * oscillations)))
+    reaction = motion.reaction(times)
+    pulls = None if reaction is None else np.flatnonzero(reaction < 0)
+    if plot:
+        place = "on the plane" if sphere.R1.is_infinite else f"on the sphere, R/R1 = {sphere.ratio}"
+        try:
+            draw(motion, times, plot, title=f"Ball {place}")
+        except ModuleNotFoundError as error:
+            raise click.ClickException(f"a picture needs Matplotlib: pip install kovacic[plot] ({error})") from error
+        except OSError as error:
+            raise click.ClickException(f"{plot} can't be written: {error.strerror}") from error
+    return {
+        "potential": str(motion.force.V),
+        "turning_points": list(motion.turning_points),
+        "period": motion.period,
+        "time": time,
+        "contact": motion.contact(time).tolist(),
+        "least_reaction": None if reaction is None else float(reaction.min()),
+        "pulled_from": float(times[pulls[0]]) if pulls is not None and pulls.size else None,
+        "difference": {name: float(np.abs(error).max()) for name, error in motion.defects(times).items()},
+        "energy_drift": float(np.ptp(motion.energy(times))),
+        "plot": plot,
+    }
+
+
+def lines(motion: dict[str, Any]) -> list[str]:
+    """The same as text."""
+    low, high = motion["turning_points"]
+    until = f"t <= {motion['time']:g}"
+    result = [f"{'potential:':<20}V = {motion['potential']}"]
+    if motion["period"] is None:
+        result.append(f"{'steady motion:':<20}u = {low:.12g} stays constant")
+    else:
+        result.append(f"{'turning points:':<20}u = {low:.12g} and {high:.12g}")
+        result.append(f"{'period:':<20}{motion['period']:.15g}")
+    result.append(f"{'contact point:':<20}({', '.join(f'{value:.12g}' for value in motion['contact'])}) at the end")
+    if motion["least_reaction"] is not None:
+        result.append(f"{'normal reaction:':<20}at least {motion['least_reaction']:.6g} ({until})")
+    if motion["pulled_from"] is not None:
+        result.append(f"{'':<20}from t = {motion['pulled_from']:.6g} on it has to pull at times: a ball that isn't held")
+        result.append(f"{'':<20}leaves the surface there; here it is held")
+    for name, value in motion["difference"].items():
+        result.append(f"{'difference ' + name + ':':<20}{value:.2e} (closed form against the integrated motion, {until})")
+    result.append(f"{'energy drift:':<20}{motion['energy_drift']:.2e}")
+    if motion["plot"]:
+        result.append(f"{'picture:':<20}{motion['plot']}")
+    return result
