@@ -1,18 +1,15 @@
-"""Bodies with irrational numbers for parameters: the same equations, exact zero tests, the engine's decision, the motion."""
+"""Bodies with irrational numbers for parameters: the same equations, exact zero tests, the engine's decision."""
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 import sympy as sp
 
 import kovacic
 from kovacic.ball import Ball, Body, Profile, U, X
 from kovacic.ball.decision import degree_of_omega, group_of
-from kovacic.ball.direct import State, integrate
 from kovacic.ball.field import Ring
 from kovacic.ball.irrational import generators, settled, sign
-from kovacic.ball.motion import solve_motion
 from kovacic.ball.theorems import symbolic_ball
 from kovacic.errors import InputError, LimitExceeded
 
@@ -89,15 +86,6 @@ def test_inequalities_are_decided_exactly():
         Ball(**{**body, "A1": "sqrt(3-2*sqrt(2))-sqrt(2)+1"}, A3=1)
     with pytest.raises(InputError, match="doesn't fit"):
         Ball(m=1, R="sqrt(3+2*sqrt(2))", a=0, A1="1/4", A3="1/3").on_sphere("-1-sqrt(2)")
-
-
-@pytest.mark.parametrize("name", ["mass", "inside", "three roots"])
-def test_the_motion(name):
-    sphere, start = rolling(BODIES[name]), State(sp.sqrt(2) / 2, 0, 0.3, 1.2, 0.2, "sqrt(3)/4", "1/3", 2)
-    motion = solve_motion(sphere, "sqrt(2)*cos(u)", start)
-    times = np.linspace(0, 2, 9)
-    direct = integrate(sphere.body, "sqrt(2)*cos(u)", start, times, rtol=1e-11, atol=1e-13)
-    assert np.abs(motion.band.colatitude(motion.phase(times)) - direct.states[0]).max() < 1e-8
 
 
 def test_another_body():

@@ -1,7 +1,7 @@
 """Rolling bodies of revolution: Woronetz's equations, the ball on the sphere, Theorems 1 and 2, and the motion.
 
 `Ball(...).on_sphere(R1)` is the entry for the ball; `Body` takes any meridian.  The numerical modules (`motion`,
-`attitude`, `direct`, `plot`) are imported by name where they're wanted, for they need NumPy and SciPy.
+`plot`) are imported by name where they're wanted, for they need NumPy and SciPy.
 """
 
 from kovacic.ball.ball import Ball, BallOnSphere, Equation

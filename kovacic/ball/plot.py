@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from kovacic.ball.collocation import Array
+from kovacic.ball.dynamics import Array
 from kovacic.ball.motion import Motion
 
 _BLUE, _ORANGE, _GREY, _GREEN = "#1f5f99", "#d9731a", "#8a8a8a", "#2f7d4f"
@@ -49,7 +49,9 @@ def draw(motion: Motion, times: Array, path: Path | str, *, title: str = "") -> 
     for (name, error), colour in zip(errors.items(), (_GREEN, _ORANGE, _BLUE), strict=True):
         label = r"$\omega_3$" if name == "omega_3" else name
         panels[-1].semilogy(times, np.maximum(np.abs(error), 1e-17), color=colour, lw=1, label=label)
-    panels[-1].set(xlabel="time t", ylabel="difference", title="closed form against integration; energy against its start")
+    panels[-1].set(
+        xlabel="time t", ylabel="difference", title="closed form against integration; energy against its start"
+    )
     panels[-1].set_ylim(1e-17, max(1e-9, 30 * max(float(np.abs(error).max()) for error in errors.values())))
     panels[-1].legend(loc="upper right", ncols=3, fontsize=9)
     for axes in panels:

@@ -1,4 +1,4 @@
-"""Forces on the rolling body: those with a potential V(u), a function of cos u alone, since u is reduced to a quadrature by that.
+"""Forces on the rolling ball: those with a potential V(u), a function of cos u alone, which leaves a quadrature for u.
 
 V depends on the place of the contact point on the body only, as for a force towards the centre of the sphere, or for gravity
 on a plane.  A uniform field over a sphere is none: it depends on the place on the sphere.
@@ -12,8 +12,6 @@ from typing import Any, TypeAlias
 
 import numpy as np
 import sympy as sp
-from sympy.functions.elementary.hyperbolic import HyperbolicFunction, InverseHyperbolicFunction
-from sympy.functions.elementary.trigonometric import InverseTrigonometricFunction, TrigonometricFunction
 
 from kovacic.ball.ball import BallOnSphere, Scalar, exact
 from kovacic.ball.reading import read_expression
@@ -21,22 +19,9 @@ from kovacic.errors import InputError
 
 Potential: TypeAlias = "sp.Expr | str | float"
 U = sp.Symbol("u")
-_SAMPLES = 32
-_ELEMENTARY = (
-    sp.Symbol,
-    sp.Number,
-    sp.NumberSymbol,
-    sp.CRootOf,
-    sp.Add,
-    sp.Mul,
-    sp.Pow,
-    sp.exp,
-    sp.log,
-    TrigonometricFunction,
-    InverseTrigonometricFunction,
-    HyperbolicFunction,
-    InverseHyperbolicFunction,
-)
+#: What a potential consists of; the functions are told by their modules.
+_ARITHMETIC = (sp.Symbol, sp.Number, sp.NumberSymbol, sp.CRootOf, sp.Add, sp.Mul, sp.Pow, sp.exp, sp.log)
+_FUNCTIONS = ("sympy.functions.elementary.trigonometric", "sympy.functions.elementary.hyperbolic")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,9 +35,11 @@ class Force:
 
     @classmethod
     def of(cls, potential: Potential) -> Force:
-        """The force with the potential V(u), text or SymPy.  Raises `InputError` as `potential_of` and `compiled` do."""
+        """The force with the potential V(u).  Raises `InputError` as `potential_of` does, and where V isn't smooth."""
         V = potential_of(potential)
-        return cls(V, compiled(V), _compiled(sp.diff(V, U)))
+        value = _compiled(V)
+        _check(value)
+        return cls(V, value, _compiled(sp.diff(V, U)))
 
     @classmethod
     def gravity(cls, sphere: BallOnSphere, g: Scalar) -> Force:
@@ -80,8 +67,10 @@ def potential_of(value: Potential) -> sp.Expr:
     3*cos(u)/2
     """
     try:
-        text = isinstance(value, str)
-        V = read_expression(value, what="the potential", names={U.name: U}) if text else sp.sympify(value, strict=True)
+        if isinstance(value, str):
+            V = read_expression(value, what="the potential", names={U.name: U})
+        else:
+            V = sp.sympify(value, strict=True)
     except sp.SympifyError:
         V = None
     if not isinstance(V, sp.Expr):
@@ -89,33 +78,27 @@ def potential_of(value: Potential) -> sp.Expr:
     if V.free_symbols - {U} or V.has(sp.I):
         raise InputError(f"the potential is a real function that depends on u alone, it can't be {value}")
     for part in sp.preorder_traversal(V):
-        if not isinstance(part, _ELEMENTARY) or part in (sp.oo, -sp.oo, sp.zoo, sp.nan):
+        known = isinstance(part, _ARITHMETIC) or type(part).__module__ in _FUNCTIONS
+        if not known or part in (sp.oo, -sp.oo, sp.zoo, sp.nan):
             raise InputError(f"the potential is an elementary function of u, it can't contain {part}")
     return V
 
 
 def _compiled(expression: sp.Expr) -> Callable[[Any], Any]:
-    function = sp.lambdify(U, expression, modules="numpy", cse=True)
-    return lambda u: np.broadcast_to(np.asarray(function(u), dtype=float), np.shape(u))
+    function: Callable[[Any], Any] = sp.lambdify(U, expression, modules="numpy", cse=True)
+    return function
 
 
-def compiled(potential: sp.Expr) -> Callable[[Any], Any]:
-    """V for NumPy's arrays.
-
-    Raises `InputError` where V isn't finite and real on 0 <= u <= pi, or isn't even about both poles, u = 0 and u = pi, as
-    every function of cos u is: the force would jump there.
-    """
-    V = _compiled(potential)
-    u = np.linspace(0.0, np.pi, _SAMPLES + 1)
+def _check(V: Callable[[Any], Any]) -> None:
+    """V is finite and real on 0 <= u <= pi, and even about both poles, as functions of cos u are: no jump of the force."""
+    u = np.linspace(0.0, np.pi, 33)
     with np.errstate(all="ignore"):
-        here, mirrored, beyond = (V(at) for at in (u, -u, 2 * np.pi - u))
+        here, mirrored, beyond = (np.broadcast_to(np.asarray(V(at), dtype=float), 33) for at in (u, -u, 2 * np.pi - u))
     bad = ~np.isfinite(here)
     if bad.any():
         raise InputError(f"the potential isn't finite at u = {u[bad.argmax()]:.3g}; it must be on 0 <= u <= pi")
-    size = np.abs(here).max()
-    if max(np.abs(mirrored - here).max(), np.abs(beyond - here).max()) > 1e-9 * size:
+    if max(np.abs(mirrored - here).max(), np.abs(beyond - here).max()) > 1e-9 * np.abs(here).max():
         raise InputError(
             "the potential isn't smooth at the poles: V(-u) = V(u) = V(2 pi - u) fails",
             hint="a function of cos(u) is: cos(u), sin(u)^2, exp(-cos(u))",
         )
-    return V

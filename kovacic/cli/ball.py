@@ -27,9 +27,7 @@ _PICTURES = (".png", ".pdf", ".svg")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object.")
 @click.option("--latex", is_flag=True, help="The equations in LaTeX.")
 @click.option("--simulate", is_flag=True, help="The motion: turning points, period, path, reaction.")
-@click.option(
-    "--gravity", metavar="g", help="Strength of the force that presses the ball to the surface (default: 1)."
-)
+@click.option("--gravity", metavar="g", help="Strength of the force that presses the ball to the surface (default: 1).")
 @click.option(
     "--potential", metavar="V", help='Another potential in place of gravity, such as "3/2*cos(u) + sin(u)^2".'
 )
@@ -92,8 +90,9 @@ def command(
         rolling = ball.on_plane() if sphere == "plane" else ball.on_sphere(sphere)
         data = _by_parameters(rolling, latex)
         if moving:
-            options = {"gravity": gravity, "potential": potential, "start": start, "end": end, "plot": plot}
-            data["motion"] = ball_motion.simulate(rolling, **options)
+            data["motion"] = ball_motion.simulate(
+                rolling, gravity=gravity, potential=potential, start=start, end=end, plot=plot
+            )
     click.echo(json.dumps(data, ensure_ascii=False) if as_json else _text(data))
 
 

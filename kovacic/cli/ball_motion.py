@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 #: Points in time at which a motion is looked at: so many, and so many more for each oscillation, up to a limit.
 _SAMPLES, _PER_OSCILLATION, _MOST = 1200, 60, 60_000
+#: Of `Motion.approach`: below it, errors above 1e-9 are likely.
+_SENSITIVE = 1e-3
 
 
 def simulate(
@@ -25,7 +27,7 @@ def simulate(
 ) -> dict[str, Any]:
     """What `--json` shows of the motion from `start` = (u, u', v', n) up to the time `end`; writes the picture.
 
-    Raises `InputError` for what isn't a start, a time or a potential, `LimitExceeded` for more than 10^6 oscillations and for
+    Raises `InputError` for what isn't a start, a time or a potential, `LimitExceeded` for more than 10^5 oscillations and for
     asymptotic motions, `click.ClickException` where NumPy or Matplotlib is missing and where the picture can't be written.
     """
     from kovacic.errors import InputError
@@ -60,10 +62,11 @@ def simulate(
         "turning_points": list(motion.turning_points),
         "period": motion.period,
         "time": time,
-        "contact": motion.contact(time).tolist(),
+        "contact": (motion.contact(time) + 0.0).tolist(),
         "least_reaction": None if reaction is None else float(reaction.min()),
         "pulled_from": float(times[pulls[0]]) if pulls is not None and pulls.size else None,
         "difference": {name: float(np.abs(error).max()) for name, error in motion.defects(times).items()},
+        "approach": motion.approach,
         "energy_drift": float(np.ptp(motion.energy(times))),
         "plot": plot,
     }
@@ -83,11 +86,19 @@ def lines(motion: dict[str, Any]) -> list[str]:
     if motion["least_reaction"] is not None:
         result.append(f"{'normal reaction:':<20}at least {motion['least_reaction']:.6g} ({until})")
     if motion["pulled_from"] is not None:
-        result.append(f"{'':<20}from t = {motion['pulled_from']:.6g} on it has to pull at times: a ball that isn't held")
+        result.append(
+            f"{'':<20}from t = {motion['pulled_from']:.6g} on it has to pull at times: a ball that isn't held"
+        )
         result.append(f"{'':<20}leaves the surface there; here it is held")
     for name, value in motion["difference"].items():
-        result.append(f"{'difference ' + name + ':':<20}{value:.2e} (closed form against the integrated motion, {until})")
+        result.append(
+            f"{'difference ' + name + ':':<20}{value:.2e} (closed form against the integrated motion, {until})"
+        )
     result.append(f"{'energy drift:':<20}{motion['energy_drift']:.2e}")
+    if motion["approach"] < _SENSITIVE:
+        result.append(
+            f"{'':<20}digits are lost: it comes as near as {motion['approach']:.1g} to an unstable steady motion"
+        )
     if motion["plot"]:
         result.append(f"{'picture:':<20}{motion['plot']}")
     return result
