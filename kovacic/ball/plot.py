@@ -33,7 +33,7 @@ def draw(motion: Motion, times: Array, path: Path | str, *, title: str = "") -> 
     if motion.ball.kappa == 0:
         _draw_plane(figure.add_subplot(grid[:, 0]), motion.contact(times))
     else:
-        _draw_sphere(figure.add_subplot(grid[:, 0], projection="3d"), motion.contact(times), abs(1 / motion.ball.kappa))
+        _draw_sphere(figure.add_subplot(grid[:, 0]), motion.contact(times), abs(1 / motion.ball.kappa))
     panels = [figure.add_subplot(grid[k, 1]) for k in range(rows)]
     panels[0].plot(times, motion.u(times), color=_BLUE)
     for level in motion.turning_points:
@@ -83,59 +83,35 @@ def _write_whole(path: Path, content: bytes) -> None:
 
 
 def _draw_sphere(axes: Any, points: Array, radius: float) -> None:
-    middle = points.mean(axis=0)
-    azimuth = float(np.degrees(np.arctan2(middle[1], middle[0]))) if np.hypot(*middle[:2]) > 1e-9 * radius else -60.0
-    elevation = float(np.clip(np.degrees(np.arctan2(middle[2], np.hypot(*middle[:2]))), -12, 40))
-    eye = _direction(elevation, azimuth)
-    axes.view_init(elevation, azimuth)
-    axes.computed_zorder = False
-    axes.set_proj_type("ortho")
-    angle = np.linspace(0, 2 * np.pi, 181)
-    axes.plot(*(radius * _limb(eye, angle)).T, color=_GREY, lw=0.9, zorder=1)
-    for circle in _graticule(angle):
-        front = circle @ eye >= 0
-        for visible, alpha in ((False, 0.18), (True, 0.7)):
-            part = np.where(front[:, None] == visible, radius * circle, np.nan)
-            axes.plot(*part.T, color=_GREY, lw=0.5, alpha=alpha, zorder=1)
-    front = points @ eye >= 0
-    for visible, style in ((False, {"alpha": 0.35, "lw": 1.0}), (True, {"lw": 1.8})):
-        axes.plot(*np.where(front[:, None] == visible, points, np.nan).T, color=_BLUE, zorder=3, **style)
-    axes.scatter(*points[0], color=_GREEN, s=40, label="start", depthshade=False, zorder=4)
-    axes.scatter(*points[-1], color=_ORANGE, s=40, label="end", depthshade=False, zorder=4)
-    axes.set(xlabel="X", ylabel="Y", zlabel="Z")
-    axes.set_title("path of the contact point on the sphere (faint: far side)", fontsize=10, pad=30)
-    axes.set_box_aspect((1, 1, 1), zoom=1.05)
-    axes.locator_params(nbins=5)
-    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
-        axis.set_pane_color((1, 1, 1, 0))
-    axes.grid(False)
+    """The sphere seen from the middle of the path, from far away, with meridians and parallels every 30 degrees."""
+    X, Y, Z = points.mean(axis=0)
+    azimuth = np.arctan2(Y, X) if np.hypot(X, Y) > 1e-9 * radius else -np.pi / 3
+    elevation = np.clip(np.arctan2(Z, np.hypot(X, Y)), -0.2, 0.7)
+    ca, sa, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
+    view = np.array([[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]])  # right, up, towards the eye
+
+    def curve(line: Array, colour: str, front: dict[str, float], back: dict[str, float]) -> None:
+        right, up, depth = view @ line
+        for seen, style in ((depth < 0, back), (depth >= 0, front)):
+            axes.plot(np.where(seen, right, np.nan), np.where(seen, up, np.nan), color=colour, **style)
+
+    angle = np.linspace(0, 2 * np.pi, 361)
+    axes.plot(radius * np.cos(angle), radius * np.sin(angle), color=_GREY, lw=0.9)
+    c, s, one = np.cos(angle), np.sin(angle), np.ones_like(angle)
+    for k in np.arange(6) * np.pi / 6:
+        circles = [
+            np.array([s * np.cos(k), s * np.sin(k), c]),
+            np.array([np.sin(k) * c, np.sin(k) * s, np.cos(k) * one]),
+        ]
+        for circle in circles:
+            curve(radius * circle, _GREY, {"lw": 0.5, "alpha": 0.7}, {"lw": 0.5, "alpha": 0.2})
+    curve(points.T, _BLUE, {"lw": 1.8}, {"lw": 1.0, "alpha": 0.35})
+    for point, colour, label in ((points[0], _GREEN, "start"), (points[-1], _ORANGE, "end")):
+        axes.scatter(*(view @ point)[:2], color=colour, s=40, label=label, zorder=3)
+    axes.set_title("path of the contact point on the sphere (faint: far side)", fontsize=10)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
     axes.legend(loc="upper left")
-
-
-def _limb(eye: Array, angle: Array) -> Array:
-    """The outline of the unit sphere seen from the direction `eye`."""
-    right = np.cross((0.0, 0.0, 1.0), eye)
-    right /= np.linalg.norm(right)
-    result: Array = np.outer(np.cos(angle), right) + np.outer(np.sin(angle), np.cross(eye, right))
-    return result
-
-
-def _graticule(angle: Array) -> list[Array]:
-    """Meridians every 30 degrees and parallels every 30 degrees of the unit sphere, as closed curves."""
-    zero = np.zeros_like(angle)
-    curves = [
-        np.stack([np.sin(angle) * np.cos(k), np.sin(angle) * np.sin(k), np.cos(angle)], axis=1)
-        for k in np.arange(6) * np.pi / 6
-    ]
-    return curves + [
-        np.stack([np.sin(k) * np.cos(angle), np.sin(k) * np.sin(angle), np.cos(k) + zero], axis=1)
-        for k in np.arange(1, 6) * np.pi / 6
-    ]
-
-
-def _direction(elevation: float, azimuth: float) -> Array:
-    e, a = np.radians(elevation), np.radians(azimuth)
-    return np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
 
 
 def _draw_plane(axes: Any, points: Array) -> None:

@@ -50,9 +50,9 @@ def simulate(
     reaction = motion.reaction(times)
     pulls = None if reaction is None else np.flatnonzero(reaction < 0)
     if plot:
-        place = "on the plane" if sphere.R1.is_infinite else f"on the sphere, R/R1 = {sphere.ratio}"
+        where = f"{'inside' if motion.ball.kappa < 0 else 'on'} the sphere, R/R1 = {sphere.ratio}"
         try:
-            draw(motion, times, plot, title=f"Ball {place}")
+            draw(motion, times, plot, title=f"Ball {where if motion.ball.kappa else 'on the plane'}")
         except ModuleNotFoundError as error:
             raise click.ClickException(f"a picture needs Matplotlib: pip install kovacic[plot] ({error})") from error
         except OSError as error:
