@@ -51,7 +51,7 @@ class Body:
         return np.concatenate([y[3:6], unknown[:3], np.cross(w, A.T).T.ravel(), unknown[3:6]])
 
 
-def integrate(body, start, times):
+def integrate(body, start, times, *, method="DOP853", rtol=3e-14, atol=1e-14):
     """The same quantities as `Motion` has, from `start` (u, du, dv, n, v, theta, u1, v1) at increasing times."""
     u, du, dv, n, v, theta, u1, v1 = start
     kappa, c, s = 1 / body.R1, np.cos, np.sin
@@ -76,10 +76,10 @@ def integrate(body, start, times):
         body.rates,
         (0.0, times[-1]),
         np.concatenate([G, V, A.ravel(), w]),
-        method="DOP853",
+        method=method,
         t_eval=times,
-        rtol=3e-14,
-        atol=1e-14,
+        rtol=rtol,
+        atol=atol,
     )
     assert solved.success
     y = solved.y.T

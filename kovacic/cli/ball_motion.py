@@ -28,7 +28,7 @@ def simulate(
     """What `--json` shows of the motion from `start` = (u, u', v', n) up to the time `end`; writes the picture.
 
     Raises `InputError` for what isn't a start, a time or a potential, `LimitExceeded` for more than 10^5 oscillations and for
-    asymptotic motions, `click.ClickException` where NumPy or Matplotlib is missing and where the picture can't be written.
+    asymptotic motions, `click.ClickException` where a library is missing and where the picture can't be written.
     """
     from kovacic.errors import InputError
 
@@ -38,7 +38,7 @@ def simulate(
         from kovacic.ball.motion import State, as_float, solve_motion
         from kovacic.ball.plot import draw
     except ModuleNotFoundError as error:
-        raise click.ClickException(f"a motion needs NumPy: pip install kovacic[numeric] ({error})") from error
+        raise click.ClickException(f"a motion needs NumPy and SciPy: pip install kovacic[numeric] ({error})") from error
 
     time = as_float(end, "the time")
     if time <= 0:
