@@ -141,7 +141,8 @@ class Decision:
     """The engine's outcome: the structure that the group has, or None, and everything that was excluded before it.
 
     `semi_invariant` and `riccati` belong to omega; `invariant` is the rational form that showed the structure (None where
-    omega was unique).  `undecided` is a sentence when a limit was reached, and then nothing but the exclusions is claimed.
+    an omega was found without one).  `undecided` is a sentence when a limit was reached, and then nothing but the exclusions
+    is claimed.
     """
 
     structure: Structure | None

@@ -310,16 +310,16 @@ def solve_riccati(
     gauge, factor = atoms.ratio(linear.gauge), atoms.ratio(R)
     if solution.case is None:
         return RiccatiSolutions((), None, None, None if group is None else False, solution)
-    assert group is not None
+    finite = None if group is None else group.finite
     w = sympy.Symbol("w")
     family = None
-    if group.finite and solution.case == 1:
+    if finite and solution.case == 1:
         y1, y2 = solution.solutions
         u = y1 + sympy.Symbol("C1") * y2
         family = sympy.simplify(-u.diff(x) / (factor * u))
     rational: tuple[Any, ...] = ()
     polynomial = None
-    if solution.case == 1 and (group.order is None or group.order > 2):
+    if solution.case == 1 and (group is None or group.order is None or group.order > 2):
         omegas = _rational_omegas(solution, atoms)
         rational = tuple(sympy.cancel(-(omega + gauge) / factor) for omega in omegas)
     if solution.case != 1 and solution.riccati is not None:
@@ -327,7 +327,7 @@ def solve_riccati(
         coefficients = [atoms.ratio(c) for c in solution.riccati.coefficients]
         polynomial = sympy.numer(sympy.together(sum(c * omega**k for k, c in enumerate(coefficients))))
         polynomial = sympy.collect(sympy.expand(polynomial), w)
-    return RiccatiSolutions(rational, family, polynomial, group.finite, solution)
+    return RiccatiSolutions(rational, family, polynomial, finite, solution)
 
 
 def _rational_omegas(solution: Solution, atoms: Any) -> list[Any]:

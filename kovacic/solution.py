@@ -100,7 +100,9 @@ class Solution:
 
     @cached_property
     def group(self) -> Group | None:
-        """The differential Galois group of y'' = S y, a subgroup of SL2(C); None if the equation is undecided.
+        """The differential Galois group of y'' = S y, a subgroup of SL2(C).
+
+        None if the equation is undecided, or, rarely, if a limit of the work keeps the group from being determined.
 
         Raises `VerificationFailed` if the kernel doesn't confirm it, which for an answer of `solve` is a defect.
         """

@@ -41,10 +41,12 @@ def decide(problem: Problem) -> Outcome:
         quadratic = invariants(problem, 2)
     except LimitExceeded:
         # The exponents are too far apart for a decision within the limits; there may be a simple solution all the same.
-        simple = _omega_of_low_degree(problem)
-        if simple is None:
+        simple = _omegas_of_low_degree(problem)
+        if not simple:
             raise
-        return Found(Structure.REDUCIBLE, lambda: simple)
+        y1, y2 = simple[0], simple[-1]
+        product = Form(2, y1.R + y2.R, y1.P * y2.P) if y1 != y2 else None
+        return Found(Structure.REDUCIBLE, lambda: y1, product)
     if not isinstance(quadratic, NoInvariant):
         F = quadratic[0]
         return Found(Structure.REDUCIBLE, lambda: _from_quadratic_invariant(problem, F), F)
@@ -154,12 +156,13 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
     raise AssertionError("the sequence of primes is infinite")
 
 
-def _omega_of_low_degree(problem: Problem) -> Form | None:
-    """omega = R/D + P'/P with a P of small degree, by one of its expansions at a place; None if none was found."""
+def _omegas_of_low_degree(problem: Problem) -> list[Form]:
+    """Every omega = R/D + P'/P with a P of small degree that was found, by its expansion at a place."""
     kinds = (Kind.REGULAR, Kind.UNRAMIFIED)
     place = min((place for place in problem.places if place.kind in kinds), key=lambda p: p.degree, default=None)
+    found = list[Form]()
     if place is None:
-        return None
+        return found
     for sign in (0, 1):
         lifter = Lifter(problem.field)
         for bundle in islice(problem.field.bundles(), _PRIMES_FOR_A_SIMPLE_OMEGA):
@@ -173,8 +176,9 @@ def _omega_of_low_degree(problem: Problem) -> Form | None:
                 break
             form = _lifted(problem, lifter, bundle, images)
             if form is not None:
-                return form
-    return None
+                found.append(form)
+                break
+    return found
 
 
 def _lifted(

@@ -21,6 +21,7 @@ from kovacic.decision import Decision, SemiInvariant, Structure
 from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Problem, analyse
 from kovacic.engine.riccati import Form
+from kovacic.errors import LimitExceeded
 from kovacic.galois.group import Ground, Group, Kind
 from kovacic.galois.imprimitive import imprimitive_group
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
@@ -33,7 +34,8 @@ _PRIMITIVE = {
 
 
 def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) -> Group | None:
-    """The differential Galois group of y'' = S y; None if the equation is undecided.
+    """The differential Galois group of y'' = S y; None if the equation is undecided, or a limit keeps a reducible group from
+    being determined.
 
     The decision must be certified (with its semi-invariant).  Whatever is claimed is proven: where a limit of the work
     keeps the order of an imprimitive group from being determined, the kind of the group says so.
@@ -49,25 +51,29 @@ def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) ->
     problem = analyse(S, Budget(limits))
     if decision.structure is Structure.IMPRIMITIVE:
         return imprimitive_group(problem, decision.semi_invariant)
-    return _reducible(problem, decision.semi_invariant, decision.invariant)
+    try:
+        return _reducible(problem, decision.semi_invariant, decision.invariant)
+    except LimitExceeded:
+        return None
 
 
-def _reducible(problem: Problem, f: SemiInvariant, invariant: SemiInvariant | None) -> Group:
+def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> Group:
+    """By a rational form F of degree 2; None stands for the first one that there is, if there is any."""
     residues = rational_residues(f.theta)
-    if invariant is None:  # omega is unique
-        if isinstance(residues, Ground):
-            return Group(Kind.BOREL, residues)
-        return Group(Kind.ADDITIVE, Ground.RESIDUES, _common_denominator(residues))
-    if not isinstance(residues, Ground) and _is_square(problem, invariant):
-        # y1^2 is rational: +-1 on y1; the second solution is y1 int y1^-2, rational over C(x, y1) or not.
-        n = _common_denominator(residues)
+    square, space = F is not None and _is_square(problem, F), None
+    if F is None or square:
         space = invariants(problem, 2)
-        if isinstance(space, list) and len(space) == 3:
-            return Group(Kind.CYCLIC, Ground.ALL_INVARIANT, n)
-        return Group(Kind.ADDITIVE, Ground.RESIDUES, n)
+    if F is None and isinstance(space, list):
+        F = SemiInvariant(2, RatFunc(space[0].R, problem.D), space[0].P)
+        square = _is_square(problem, F)
     if isinstance(residues, Ground):
-        return Group(Kind.MULTIPLICATIVE, residues)
-    return Group(Kind.CYCLIC, Ground.RESIDUES, _common_denominator(residues))
+        return Group(Kind.BOREL if F is None else Kind.MULTIPLICATIVE, residues, form=F)
+    n = _common_denominator(residues)
+    if square and isinstance(space, list) and len(space) == 3:
+        return Group(Kind.CYCLIC, Ground.ALL_INVARIANT, n, F)
+    if F is None or square:  # y1^n is rational, and the second solution y1 int y1^-2 isn't, over C(x, y1)
+        return Group(Kind.ADDITIVE, Ground.RESIDUES, n, F)
+    return Group(Kind.CYCLIC, Ground.RESIDUES, n, F)
 
 
 def _is_square(problem: Problem, F: SemiInvariant) -> bool:

@@ -83,7 +83,8 @@ class Group:
     `n` is the parameter of the family where it has one: the order of the cyclic group or of the component group of
     {(c, b; 0, 1/c): c^n = 1}, and a quarter of the order of a dicyclic group.  Kind.IMPRIMITIVE says that the order wasn't
     determined: then n is the least value that wasn't excluded, and the group may be infinite.  `ground` says why; for
-    Ground.INVARIANT `form` is a rational form of degree 2n that isn't a power of y1 y2, where that is needed.
+    Ground.INVARIANT `form` is a rational form of degree 2n that isn't a power of y1 y2; of a reducible group, the rational
+    form of degree 2, if there is one.
     """
 
     kind: Kind

@@ -15,6 +15,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Status, Structure
+from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
 from kovacic.verify.group import GroupClaim, group_holds
@@ -65,7 +66,7 @@ def verify(
 ) -> Verification:
     """Recompute everything that the decision claims about y'' = S y, and the group where it is claimed.
 
-    Raises `LimitExceeded` when the budget (by default that of `kovacic.Limits()`) is used up.
+    Raises `LimitExceeded` when the budget (by default that of `kovacic.Limits()`) is used up before the group is reached.
     """
     inspector = Inspector(S, budget or Budget())
     structures, structure = list(_OMEGA_DEGREE), decision.structure
@@ -84,9 +85,13 @@ def verify(
         checks.append(Check(_EXCLUDED[exclusion.structure], passed))
     if group is None or not all(check.passed for check in checks):
         return Verification(tuple(checks))
-    holds, statement = group_holds(inspector, decision, group), "the Galois group is the one that is named"
+    statement, why = "the Galois group is the one that is named", "infinite by the orders of a divisor modulo primes"
+    try:
+        holds = group_holds(inspector, decision, group)
+    except LimitExceeded as limit:
+        holds, why = None, str(limit)
     if holds is None:
-        return Verification(tuple(checks), (f"{statement}: infinite by the orders of a divisor modulo primes",))
+        return Verification(tuple(checks), (f"{statement}: {why}",))
     return Verification((*checks, Check(statement, holds)))
 
 
@@ -118,10 +123,10 @@ def _positive(inspector: Inspector, decision: Decision, structure: Structure) ->
 
 
 def _invariant_holds(inspector: Inspector, decision: Decision, structure: Structure) -> bool:
-    """A rational form of the structure's degree; without one the only omega is unique, in case 1."""
+    """A rational form of the structure's degree; in case 1 there need not be one."""
     F = decision.invariant
     if F is None:
-        return structure is Structure.REDUCIBLE and inspector.dimension_is_at_most(0, 2)
+        return structure is Structure.REDUCIBLE
     degree_is_right = F.degree == INVARIANT_DEGREE[structure]
     return degree_is_right and is_rational_form(inspector.S, F, inspector.denominator)
 

@@ -34,7 +34,8 @@ from kovacic.verify.residue import residue
 class GroupClaim:
     """What is said of the group: the name of its family, as in `kovacic.galois.Kind`, and its parameter n.
 
-    `form` is the rational form that shows that a dicyclic group on a curve of positive genus is finite.
+    `form` is a rational form of degree 2 for a reducible group, where the decision has none; and the one that shows that a
+    dicyclic group on a curve of positive genus is finite.
     """
 
     family: str
@@ -48,23 +49,25 @@ def group_holds(inspector: Inspector, decision: Decision, claim: GroupClaim) -> 
     if decision.undecided is not None:
         return False
     if structure is Structure.REDUCIBLE:
-        return _reducible(inspector, decision) == (claim.family, claim.n)
+        return _reducible(inspector, decision, decision.invariant or claim.form) == (claim.family, claim.n)
     if structure is Structure.IMPRIMITIVE:
         return _imprimitive(inspector, decision, claim)
     return claim.family == ("SL2" if structure is None else structure.value) and claim.n is None
 
 
-def _reducible(inspector: Inspector, decision: Decision) -> tuple[str, int | None] | None:
-    """The family and n; None if the decision doesn't prove enough."""
-    form, F, riccati = decision.semi_invariant, decision.invariant, decision.riccati
+def _reducible(inspector: Inspector, decision: Decision, F: SemiInvariant | None) -> tuple[str, int | None] | None:
+    """The family and n, by a rational form F of degree 2; None if the decision doesn't prove enough."""
+    form, riccati = decision.semi_invariant, decision.riccati
     if form is None or riccati is None:
         return None
     residues = rational_residues(form.theta)
     n = None if residues is None else lcm(1, *(value.denominator for _, value in residues))
-    if F is None:  # then omega is unique, as `verify` checks
+    if F is None:
+        if not inspector.dimension_is_at_most(0, 2):
+            return None
         return ("borel", None) if n is None else ("additive", n)
     A = form_numerators(inspector.S, F, inspector.denominator)
-    if A is None:
+    if A is None or F.degree != 2 or not is_rational_form(inspector.S, F, inspector.denominator):
         return None
     if A[1] * A[1] == 4 * A[0] * A[2]:  # F'^2 - 2 F F'' + 4 S F^2 = 0: F = y1^2
         return ("cyclic" if _inverse_has_an_integral(inspector, F) else "additive", n)
