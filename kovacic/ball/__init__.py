@@ -1,25 +1,10 @@
-"""Rolling bodies of revolution: Woronetz's equations, the ball on the sphere, Theorems 1 and 2, and the motion.
+"""The ball on the sphere: Woronetz's equations, Theorems 1 and 2 by the engine, and the motion.
 
-`Ball(...).on_sphere(R1)` is the entry for the ball; `Body` takes any meridian.  The numerical modules (`motion`,
-`plot`) are imported by name where they're wanted, for they need NumPy and SciPy.
+In goes a body, `Ball(...).on_sphere(R1)`; out come its equations (`equations`, derived from the definitions), the closed forms
+of omega_3 and n (`theorems`), and its motion (`motion`, `plot`, imported by name, for they need NumPy).  Read `ball` first.
 """
 
-from kovacic.ball.ball import Ball, BallOnSphere, Equation
-from kovacic.ball.closed import ClosedForm, closed_form
-from kovacic.ball.meridian import Profile, U, X
-from kovacic.ball.woronetz import Body, LinearSystem, RationalEquation, SecondOrder
+from kovacic.ball.ball import Ball, BallOnSphere, U, X
+from kovacic.ball.theorems import ClosedForm, closed_form
 
-__all__ = [
-    "Ball",
-    "BallOnSphere",
-    "Body",
-    "ClosedForm",
-    "Equation",
-    "LinearSystem",
-    "Profile",
-    "RationalEquation",
-    "SecondOrder",
-    "U",
-    "X",
-    "closed_form",
-]
+__all__ = ["Ball", "BallOnSphere", "ClosedForm", "U", "X", "closed_form"]

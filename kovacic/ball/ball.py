@@ -3,34 +3,32 @@
 Symbols: m mass; R radius; a distance of the centre of mass from the centre along the axis; A1 = A2, A3 central moments of
 inertia; R1 radius of the fixed sphere (negative: the ball rolls inside; infinite: a plane); rho = R/R1; x = cos u;
     D(x) = A1 A3 + A1 m R^2 (1 - x^2) + A3 m (R x + a)^2,  l = m R^2 (A3 - A1) its leading coefficient.
-Equation (11) has the second-order form in u, (12) in x, (13) is the normal form y'' = S y [Kuleshov & Katasonova 2018].
-
-The linear equations have an integrating variable: with `xi = int dx/sqrt(D)`, `omega_3 = eta/sqrt(D)` and
-`zeta = m R^2 A1 n + D'(x) omega_3/2` they are, for every ball, every sphere and the plane (rho = 0),
-    d eta/d xi = -rho zeta,   d zeta/d xi = -rho l eta,
-so that (the theorem of the paper, its degenerate cases included)
-    eta'' = rho^2 l eta,   tanh(sqrt(l) (xi - xi0)/2) = sqrt(l) (x - x0)/(sqrt(D) + sqrt(D0)).
-`kovacic.ball.theorems` proves this from the derived equations.
-
-D > 0 on [-1, 1] for a possible body, since it is at least A1 A3: the singular points x1, x2 of (12) are never reached.
+In x = cos u equation (11) becomes (12), and (13) is its normal form [Kuleshov & Katasonova 2018]:
+    (12)  D omega_3'' + (3/2) D' omega_3' + l (1 - rho^2) omega_3 = 0,
+    (13)  y'' = S y,  y = D^(3/4) omega_3,  S = l (1 + 2 rho^2)/(2 D) - 3 D'^2/(16 D^2).
+`kovacic.ball.equations` derives them.  D > 0 on [-1, 1] for a possible body, since it is at least A1 A3: the singular points
+x1, x2 of (12), the roots of D, are never reached.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import TypeAlias
 
 import sympy as sp
 
-from kovacic.ball.irrational import settled, sign
-from kovacic.ball.meridian import Profile, U, X
-from kovacic.ball.reading import LIMITS, read_expression
-from kovacic.ball.woronetz import Body, LinearSystem, RationalEquation, SecondOrder
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import InputError, LimitExceeded, NotRational
+from kovacic.limits import Limits
+from kovacic.reading import symbolic
+from kovacic.reading.read import read_input
 
 Scalar: TypeAlias = "int | Fraction | str | sp.Expr"
-_KAPPA = sp.Symbol("kappa")
+U, X = sp.symbols("u x")
+#: Of numbers and potentials as text: SymPy's functions are recursive, and its integers aren't bounded.
+LIMITS = Limits(text_length=500, digits=100, exponent=100, bits=500)
+read_expression = partial(symbolic.read_expression, limits=LIMITS)
 
 
 def exact(value: Scalar, name: str) -> sp.Expr:
@@ -39,8 +37,8 @@ def exact(value: Scalar, name: str) -> sp.Expr:
     Symbols lose their assumptions, for the equations identify them by name.
     Raises `InputError` for anything else, and `LimitExceeded` for numbers of more than 500 bits.
 
-    >>> exact("0.25", "m")
-    1/4
+    >>> exact("0.25", "m"), exact("sqrt(3 + 2*sqrt(2)) - sqrt(2)", "m")
+    (1/4, 1)
     """
     if isinstance(value, str):
         result = read_expression(value, what=f"the number {name}", names={})
@@ -55,10 +53,47 @@ def exact(value: Scalar, name: str) -> sp.Expr:
         )
     if result.is_number and not (result.is_real and result.is_finite):
         raise InputError(f"{name} = {result} isn't a real number")
+    if {U, X} & result.free_symbols:
+        raise InputError(f"{name} = {result}: x and u are the variables of the equations, no parameter has these names")
     result = settled(result)
     if result.is_Rational and max(int(result.p).bit_length(), int(result.q).bit_length()) > LIMITS.bits:
         raise LimitExceeded(f"{name} has more than {LIMITS.bits} bits, the limit", limit="bits")
     return result
+
+
+def settled(value: sp.Expr) -> sp.Expr:
+    """The same number, as a rational number if it is one: decided in the engine's field of algebraic numbers.
+
+    What isn't an algebraic number stays as it is.
+    """
+    if not value.is_number or value.is_Rational:
+        return value
+    try:
+        constant = read_input(value).S.num
+    except NotRational:
+        return value
+    rational = constant.field.rational_value(constant)
+    return sp.sqrtdenest(value) if rational is None else sp.Rational(rational.numerator, rational.denominator)
+
+
+def sign(value: sp.Expr) -> int | None:
+    """1, 0 or -1 for a real number; None while it depends on symbols.
+
+    Raises `InputError` where a number that isn't algebraic can't be told from zero.
+
+    >>> sign(sp.sqrt(5 + 2 * sp.sqrt(6)) - sp.sqrt(2) - sp.sqrt(3))
+    0
+    """
+    value = settled(value) if value.is_number else value
+    if not value.is_number:
+        return None
+    if value.is_Rational:
+        return int(sp.sign(value))
+    # Not zero, if it is algebraic: more digits tell the sign in the end.
+    digits = sp.N(value, 15, maxn=10_000 if value.is_algebraic else 60)
+    if not digits.is_Float or digits._prec <= 1:
+        raise InputError(f"it can't be decided whether {value} is zero", hint="take algebraic numbers, such as sqrt(2)")
+    return 1 if digits > 0 else -1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,16 +123,16 @@ class Ball:
             object.__setattr__(self, name, exact(getattr(self, name), name))
         m, R, a, A1, A3 = self.parameters
         for name, value in (("m", m), ("R", R), ("A1", A1), ("A3", A3)):
-            if value.is_number and sign(value) <= 0:
+            if sign(value) in (0, -1):
                 raise InputError(f"there is no such body: {name} > 0 fails, as {name} = {value}")
         for text, small, large in (
             ("|a| <= R", sp.Abs(a), R),
             ("A3 <= 2 A1", A3, 2 * A1),
             ("A1 + A3/2 <= m (R^2 - a^2)", A1 + A3 / 2, m * (R**2 - a**2)),
         ):
-            if (small - large).is_number and sign(small - large) > 0:
+            if sign(small - large) == 1:
                 raise InputError(f"there is no such body: {text} fails, as {small} > {large}")
-        if (A3 - A1).is_number and sign(A3 - A1) == 0:
+        if sign(A3 - A1) == 0:
             object.__setattr__(self, "A3", A1)  # however they are written
 
     @property
@@ -112,8 +147,11 @@ class Ball:
         """
         radius = exact(R1, "R1")
         if radius == 0:
-            raise InputError("the fixed sphere needs a radius R1 other than 0", hint="on_plane() is R1 = infinity")
-        if radius.is_number and radius < 0 and (self.R + radius).is_number and sign(self.R + radius) >= 0:
+            raise InputError(
+                "the fixed sphere needs a radius R1 other than 0",
+                hint="the plane is R1 = infinity: on_plane(), --sphere plane",
+            )
+        if sign(radius) == -1 and sign(self.R + radius) in (0, 1):
             raise InputError(f"the ball doesn't fit inside the sphere: R < |R1| fails, as {self.R} >= {-radius}")
         return BallOnSphere(self, radius)
 
@@ -124,7 +162,7 @@ class Ball:
 
 @dataclass(frozen=True, slots=True)
 class BallOnSphere:
-    """The ball on the sphere of radius R1: its equations, each of them derived, and what they depend on."""
+    """The ball on the sphere of radius R1: what its equations depend on, and the coefficients of these."""
 
     ball: Ball
     R1: sp.Expr
@@ -133,12 +171,6 @@ class BallOnSphere:
     def ratio(self) -> sp.Expr:
         """rho = R/R1, 0 on the plane."""
         return sp.Integer(0) if self.R1.is_infinite else settled(sp.cancel(self.ball.R / self.R1))
-
-    @property
-    def body(self) -> Body:
-        """The ball as a body of revolution, f = R sin u, g = R cos u + a."""
-        m, R, a, A1, A3 = self.ball.parameters
-        return Body(Profile(R * sp.sin(U), R * sp.cos(U) + a), m, A1, A3, self.R1)
 
     @property
     def D(self) -> sp.Expr:
@@ -154,10 +186,9 @@ class BallOnSphere:
 
     @property
     def discriminant(self) -> sp.Expr:
-        """The discriminant of D, -4 m R^2 A1 B with B = (A3 + m R^2)(A3 - A1) - A3 m a^2; 0: a double root."""
+        """The discriminant of D, -4 m R^2 A1 B with B = (A3 + m R^2)(A3 - A1) - A3 m a^2; 0: a double root, x1 = x2."""
         m, R, a, A1, A3 = self.ball.parameters
-        result = sp.factor(-4 * m * R**2 * A1 * ((A3 + m * R**2) * (A3 - A1) - A3 * m * a**2))
-        return sp.Integer(0) if result.is_number and sign(result) == 0 else result
+        return settled(sp.factor(-4 * m * R**2 * A1 * ((A3 + m * R**2) * (A3 - A1) - A3 * m * a**2)))
 
     @property
     def roots(self) -> tuple[sp.Expr, ...]:
@@ -169,106 +200,35 @@ class BallOnSphere:
         """Which ball this is, in words; undecided symbolic parameters count as generic."""
         if self.leading == 0:
             return "A1 = A3 and a = 0 (homogeneous): D is constant" if self.ball.a == 0 else "A1 = A3: D is linear in x"
-        if self.discriminant == 0:
-            return "D has a double root"
-        if not self.discriminant.is_number:
+        side = sign(self.discriminant)
+        if side == 0:
+            return "D has a double root, x1 = x2"
+        if side is None:
             return "generic: D has two simple roots"
-        place = "real, outside of [-1, 1]" if sign(self.discriminant) > 0 else "a complex conjugate pair"
+        place = "real, outside of [-1, 1]" if side > 0 else "a complex conjugate pair"
         return f"D has two simple roots, {place}" + (", with a = 0" if self.ball.a == 0 else "")
 
-    def linear_system(self) -> LinearSystem:
-        """dn/du = a1 n + a2 omega_3, d omega_3/du = b1 n + b2 omega_3."""
-        return self.body.linear_system()
+    @property
+    def linear_system(self) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+        """a1, a2, b1, b2 divided by sin u, in x: dn/du = a1 n + a2 omega_3, d omega_3/du = b1 n + b2 omega_3."""
+        m, R, a, A1, A3 = self.ball.parameters
+        rho, half, B = self.ratio, sp.diff(self.D, X) / 2, (A3 + m * R**2) * (A3 - A1) - A3 * m * a**2
+        parts = (-rho * half, (1 + rho) * B, rho * m * R**2 * A1, (1 + rho) * half)
+        first, second, third, fourth = (sp.factor(part / self.D) for part in parts)
+        return first, second, third, fourth
 
-    def second_order(self) -> SecondOrder:
-        """Equation (11); on the plane, where omega_3 sqrt(D) is constant, the limit that (11) has for R1 -> infinity.
+    @property
+    def second_order(self) -> tuple[sp.Expr, sp.Expr]:
+        """d1, d2 of (12), omega_3'' + d1 omega_3' + d2 omega_3 = 0 with ' = d/dx.
 
-        (Every omega_3 satisfies the limit, but not every solution of the limit is an omega_3: see `linear_system`.)
+        On the plane, where omega_3 sqrt(D) is constant, the limit of (12) for R1 -> infinity: every omega_3 satisfies it, but
+        not every solution of it is an omega_3.
         """
-        return self._at_curvature().linear_system().second_order()
-
-    def _at_curvature(self) -> Body:
-        body = self.body
-        return Body(body.profile, body.m, body.A1, body.A3, 1 / _KAPPA) if self.R1.is_infinite else body
-
-    def rational_form(self) -> RationalEquation:
-        """Equation (12), omega_3'' + d1 omega_3' + d2 omega_3 = 0 with ' = d/dx."""
-        equation = self.second_order().rational_form()
-        if not self.R1.is_infinite:
-            return equation
-        element = equation.first.ring.element
-        flat = (part.factored().subs(_KAPPA, 0) for part in (equation.first, equation.second))
-        return RationalEquation(equation.unknown, *(element(part) for part in flat))
+        d1 = sp.factor(3 * sp.diff(self.D, X) / (2 * self.D))
+        return d1, sp.factor(self.leading * (1 - self.ratio**2) / self.D)
 
     @property
     def S(self) -> sp.Expr:
         """The right-hand side of (13), y'' = S(x) y."""
-        return self.rational_form().normal_form().factored()
-
-    def equation(self, number: int) -> Equation:
-        """The paper's equation (7), (11), (12) or (13), derived for this ball; `.latex()` prints it.
-
-        (7) stands for the two linear equations for n(u) and omega_3(u).
-
-        >>> print(Ball(m=1, R=1, a=0, A1="1/4", A3="1/3").on_sphere(2).equation(12).text())
-        omega_3''(x) + 3*x/(x**2 + 4)*omega_3'(x) + 3/(4*(x**2 + 4))*omega_3(x) = 0
-        """
-        if number == 7:
-            system = self.linear_system()
-            return Equation(7, U, (system.a1, system.a2, system.b1, system.b2))
-        if number == 11:
-            flat = self.second_order()
-            d1, d2 = (part.subs(_KAPPA, 0) for part in (flat.d1, flat.d2))
-            return Equation(11, U, (d1, d2))
-        if number == 12:
-            equation = self.rational_form()
-            return Equation(12, X, (equation.d1, equation.d2))
-        if number == 13:
-            return Equation(13, X, (self.S,))
-        raise InputError(f"there is no equation ({number}) here", hint="the equations are 7, 11, 12 and 13")
-
-
-@dataclass(frozen=True, slots=True)
-class Equation:
-    """One of the paper's equations with its coefficients: (a1, a2, b1, b2), (d1, d2), (d1, d2) or (S,)."""
-
-    number: int
-    variable: sp.Symbol
-    coefficients: tuple[sp.Expr, ...]
-
-    def latex(self) -> str:
-        """The equation in LaTeX, without delimiters."""
-        z = r"\omega_{3}"
-        t = [r"\left(" + sp.latex(c) + r"\right)" for c in self.coefficients]
-        if self.number == 7:
-            lines = (f"n' &= {t[0]} n + {t[1]} {z}", rf"{z}' &= {t[2]} n + {t[3]} {z}")
-            return r"\begin{aligned}" + r" \\ ".join(lines) + r"\end{aligned}"
-        if self.number == 13:
-            return f"y'' = {t[0]} y"
-        return f"{z}'' + {t[0]} {z}' + {t[1]} {z} = 0"
-
-    def text(self) -> str:
-        """The equation in plain text."""
-        c, v = [_bracketed(part) for part in self.coefficients], self.variable
-        if self.number == 7:
-            return f"n'({v}) = {c[0]}*n + {c[1]}*omega_3\nomega_3'({v}) = {c[2]}*n + {c[3]}*omega_3"
-        if self.number == 13:
-            return f"y''({v}) = {c[0]}*y({v})"
-        return f"omega_3''({v}) + {c[0]}*omega_3'({v}) + {c[1]}*omega_3({v}) = 0"
-
-
-def _bracketed(expression: sp.Expr) -> str:
-    text = str(expression)
-    return f"({text})" if expression.is_Add or text.startswith("-") else text
-
-
-def ball_with_roots() -> BallOnSphere:
-    """The general ball in terms of the roots x1, x2 of D instead of m and a, to print (12) and (13) as the paper does.
-
-    D = l (x - x1)(x - x2) fixes a and m rationally: a = -R (A3 - A1)(x1 + x2)/(2 A3), and the product of the roots is
-    linear in 1/m.
-    """
-    R, R1, A1, A3, x1, x2 = sp.symbols("R R1 A1 A3 x1 x2")
-    a = -R * (A3 - A1) * (x1 + x2) / (2 * A3)
-    m = A1 * A3 / (R**2 * (A3 - A1) * x1 * x2 - A1 * R**2 - A3 * a**2)
-    return Ball(m=m, R=R, a=a, A1=A1, A3=A3).on_sphere(R1)
+        D, slope = self.D, sp.diff(self.D, X)
+        return sp.factor((8 * self.leading * (1 + 2 * self.ratio**2) * D - 3 * slope**2) / (16 * D**2))

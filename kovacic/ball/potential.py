@@ -13,8 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import sympy as sp
 
-from kovacic.ball.ball import BallOnSphere, Scalar, exact
-from kovacic.ball.reading import read_expression
+from kovacic.ball.ball import BallOnSphere, Scalar, exact, read_expression
 from kovacic.errors import InputError
 
 Potential: TypeAlias = "sp.Expr | str | float"
@@ -58,7 +57,7 @@ class Force:
 
 
 def potential_of(value: Potential) -> sp.Expr:
-    """V as a SymPy expression in u; text is read by `kovacic.ball.reading`.
+    """V as a SymPy expression in u; text is read by `kovacic.reading.symbolic`.
 
     A potential is only ever evaluated, so it may contain floats, which are taken as they are; decimals in text are exact.
     Raises `InputError` for anything but an elementary function of u.

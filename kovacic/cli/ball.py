@@ -1,4 +1,4 @@
-"""`kovacic ball`: the equation of a rolling ball, its case and group, its solutions, its motion."""
+"""`kovacic ball`: the equation of a rolling ball, what the theorems say about it, its solutions, its motion."""
 
 from __future__ import annotations
 
@@ -10,14 +10,15 @@ import click
 from kovacic.cli import ball_motion
 
 if TYPE_CHECKING:
-    from kovacic.ball.ball import BallOnSphere
-
+    from kovacic.ball import ClosedForm
 
 _PICTURES = (".png", ".pdf", ".svg")
 
 
 @click.command()
-@click.option("--ratio", metavar="R/R1", help="The ratio of the radii alone: the equation in x1, x2, the roots of D.")
+@click.option(
+    "--ratio", metavar="R/R1", help="The ratio of the radii alone, a number or a name: all in x1, x2, the roots of D."
+)
 @click.option("--mass", metavar="M", help="The ball's mass.")
 @click.option("--radius", metavar="R", help="The ball's radius.")
 @click.option("--offset", metavar="a", default="0", show_default=True, help="Centre of mass to centre, along the axis.")
@@ -26,6 +27,7 @@ _PICTURES = (".png", ".pdf", ".svg")
 @click.option("--sphere", metavar="R1", help='The sphere\'s radius (negative: rolling inside), or "plane".')
 @click.option("--json", "as_json", is_flag=True, help="One JSON object.")
 @click.option("--latex", is_flag=True, help="The equations in LaTeX.")
+@click.option("--explain", is_flag=True, help="The derivation of the equations from the definitions, checked.")
 @click.option("--simulate", is_flag=True, help="The motion: turning points, period, path, reaction.")
 @click.option("--gravity", metavar="g", help="Strength of the force that presses the ball to the surface (default: 1).")
 @click.option(
@@ -43,23 +45,7 @@ _PICTURES = (".png", ".pdf", ".svg")
 @click.option(
     "--plot", metavar="FILE", type=click.Path(dir_okay=False, writable=True), help="A picture (png, pdf, svg)."
 )
-def command(
-    ratio: str | None,
-    mass: str | None,
-    radius: str | None,
-    offset: str,
-    a1: str | None,
-    a3: str | None,
-    sphere: str | None,
-    as_json: bool,
-    latex: bool,
-    simulate: bool,
-    gravity: str | None,
-    potential: str | None,
-    start: tuple[str, str, str, str],
-    end: str,
-    plot: str | None,
-) -> None:
+def command(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
     """A ball with an axially symmetric mass distribution that rolls on a sphere.
 
     Numbers are exact: 3/2, 0.25, sqrt(2), and only the motion is computed in floating point.  Any consistent units; moments
@@ -68,112 +54,124 @@ def command(
 
     \b
     kovacic ball --ratio 3/2
-    kovacic ball --mass 1 --radius 2 --offset 1/5 --A1 1 --A3 4/3 --sphere 3
+    kovacic ball --mass 1 --radius 2 --offset 1/5 --A1 1 --A3 4/3 --sphere 3 --explain
     kovacic ball --mass 1 --radius 1 --offset 1/5 --A1 1/4 --A3 1/3 --sphere 3 --simulate --plot path.png
     """
-    moving = simulate or plot is not None
-    if ratio is not None:
-        if any(value is not None for value in (mass, radius, sphere, a1, a3)) or moving:
-            raise click.UsageError("--ratio stands alone: a mass, moments or a motion need --mass, --radius, --sphere")
-        data = _by_ratio(ratio, latex)
-    else:
-        if mass is None or radius is None or sphere is None:
-            raise click.UsageError("either --ratio, or --mass, --radius and --sphere")
-        if gravity is not None and potential is not None:
-            raise click.UsageError("either --gravity or --potential")
-        if plot is not None and not plot.lower().endswith(_PICTURES):
-            raise click.BadParameter(f"{plot} doesn't end in one of {', '.join(_PICTURES)}", param_hint="--plot")
-        from kovacic.ball.ball import Ball, exact
+    data = _by_ratio(latex, **given) if given["ratio"] is not None else _by_parameters(latex, **given)
+    if explain:
+        from kovacic.ball.equations import derivation, holds
 
-        standard = exact(mass, "m") * exact(radius, "R") ** 2 * exact("2/5", "2/5")
-        ball = Ball(m=mass, R=radius, a=offset, A1=standard if a1 is None else a1, A3=standard if a3 is None else a3)
-        rolling = ball.on_plane() if sphere == "plane" else ball.on_sphere(sphere)
-        data = _by_parameters(rolling, latex)
-        if moving:
-            data["motion"] = ball_motion.simulate(
-                rolling, gravity=gravity, potential=potential, start=start, end=end, plot=plot
-            )
+        data = {"derivation": derivation(latex=latex), "derived": all(holds().values()), **data}
     click.echo(json.dumps(data, ensure_ascii=False) if as_json else _text(data))
 
 
-def _answer(S: Any) -> dict[str, Any]:
-    """What the engine says about y'' = S y."""
+def _answer(S: Any, solved: Any, form: ClosedForm, system: Any, roots: Any = ()) -> dict[str, Any]:
+    """What the engine says about y'' = `solved` y, and the closed form, which is checked in y'' = S y."""
     import kovacic
 
-    solution = kovacic.solve(S)
+    solution = kovacic.solve(solved, var="x")
     return {
+        "S": str(S),
         "status": solution.status.value,
         "case": solution.case,
-        "group": solution.group.name if solution.group is not None else None,
-        "verified": solution.verified,
+        "omega": [str(omega) for omega in form.omega],
+        **({} if form.E is None else {"E": str(form.E)}),
+        "y": str(form.y),
+        "omega_3": str(form.omega_3),
+        "n": str(form.n),
+        "group": None if solution.group is None else solution.group.name,
+        "verified": solution.verified and form.solves(system, S, roots),
     }
 
 
-def _by_ratio(text: str, latex: bool) -> dict[str, Any]:
-    from kovacic.ball.ball import exact
-    from kovacic.ball.closed import closed_form_in_roots
-    from kovacic.ball.theorems import printed_equations
-    from kovacic.errors import InputError
+def _by_ratio(latex: bool, ratio: str, **given: Any) -> dict[str, Any]:
+    from kovacic.ball import theorems
+    from kovacic.ball.equations import equation, in_roots, normal_form
 
-    rho = exact(text, "R/R1")
-    if rho == 0:
-        raise InputError("R/R1 = 0 has no R1", hint="a plane is --sphere plane, with --mass and --radius")
-    if rho <= -1:
-        raise InputError(f"the ball doesn't fit inside the sphere: R < |R1| fails, as R/R1 = {rho}")
-    twelve, thirteen = printed_equations(rho)
-    (S,) = thirteen.coefficients
-    solution = closed_form_in_roots(rho)
-    data = {
-        "ratio": str(rho),
-        "equation": twelve.text(),
-        "S": str(S),
-        # The case and the group don't change when x1 and x2 are carried to 1 and -1.
-        **_answer(S.subs({"x1": 1, "x2": -1})),
-        "omega_3": str(solution.omega_3),
-        "n": str(solution.n),
-        "note": "x = cos u; x1, x2 are the roots of D(x) = A1 A3 + A1 m R^2 (1 - x^2) + A3 m (R x + a)^2, two different ones",
-    }
-    if latex:
-        data["latex"] = {str(equation.number): equation.latex() for equation in (twelve, thirteen)}
-    return data
-
-
-def _by_parameters(sphere: BallOnSphere, latex: bool) -> dict[str, Any]:
-    from kovacic.ball.closed import closed_form
-
-    solution = closed_form(sphere)
+    if any(given[name] is not None for name in ("mass", "radius", "sphere", "a1", "a3", "plot")) or given["simulate"]:
+        raise click.UsageError("--ratio stands alone: a mass, moments or a motion need --mass, --radius, --sphere")
+    rho = theorems.read_ratio(ratio)
+    *coefficients, S = in_roots(rho)
+    twelve = equation(*coefficients)
     data: dict[str, Any] = {
+        "ratio": str(rho),
+        "N": str(2 * rho),
+        "theorem": theorems.theorem_for(2 * rho)[0],
+        "equation": twelve[0],
+    }
+    if rho.free_symbols:
+        from kovacic.parametric.api import conditions
+
+        data["conditions"] = [line.strip() for line in str(conditions(S, var="x")).splitlines()[1:]]
+    # The case and the group don't change when x1 and x2 are carried to 1 and -1.
+    solved = S.subs({"x1": 1, "x2": -1})
+    data |= _answer(S, solved, theorems.closed_form_in_roots(rho), theorems.system_in_roots(rho))
+    D = "A1 A3 + A1 m R^2 (1 - x^2) + A3 m (R x + a)^2"
+    data["note"] = f"x = cos u; x1, x2 are the roots of D(x) = {D}, two different ones"
+    return {**data, "latex": {"12": twelve[1], "13": normal_form(S)[1]}} if latex else data
+
+
+def _by_parameters(latex: bool, **given: Any) -> dict[str, Any]:
+    from kovacic.ball import Ball, closed_form
+    from kovacic.ball.ball import exact
+    from kovacic.ball.equations import of_ball
+    from kovacic.ball.theorems import theorem
+
+    mass, radius, place, plot = (given[name] for name in ("mass", "radius", "sphere", "plot"))
+    if None in (mass, radius, place):
+        raise click.UsageError("either --ratio, or --mass, --radius and --sphere")
+    if None not in (given["gravity"], given["potential"]):
+        raise click.UsageError("either --gravity or --potential")
+    if plot is not None and not plot.lower().endswith(_PICTURES):
+        raise click.BadParameter(f"{plot} doesn't end in one of {', '.join(_PICTURES)}", param_hint="--plot")
+    if exact(given["offset"], "a") != 0 and None in (given["a1"], given["a3"]):
+        raise click.UsageError("a ball with --offset isn't homogeneous: give its moments too, --A1 and --A3")
+    standard = exact(mass, "m") * exact(radius, "R") ** 2 * exact("2/5", "2/5")
+    A1, A3 = (standard if given[name] is None else given[name] for name in ("a1", "a3"))
+    ball = Ball(m=mass, R=radius, a=given["offset"], A1=A1, A3=A3)
+    sphere = ball.on_plane() if place == "plane" else ball.on_sphere(place)
+    equations = of_ball(sphere)
+    data = {
         "ratio": str(sphere.ratio),
+        "N": str(2 * sphere.ratio),
         "ball": sphere.kind,
         "D": str(sphere.D),
-        "equation": sphere.equation(12).text(),
-        "S": str(sphere.S),
-        **_answer(sphere.S),
-        "omega_3": str(solution.omega_3),
-        "n": str(solution.n),
+        "roots": ", ".join(map(str, sphere.roots)),
+        "theorem": theorem(sphere)[0],
+        "equation": equations["12"][0],
+        **_answer(sphere.S, sphere.S, closed_form(sphere), sphere.linear_system, sphere.roots),
         "note": "x = cos u; units are those of the input",
     }
     if latex:
-        data["latex"] = {str(number): sphere.equation(number).latex() for number in (7, 11, 12, 13)}
+        data["latex"] = {name: equation[1] for name, equation in equations.items()}
+    if given["simulate"] or plot is not None:
+        options = {name: given[name] for name in ("gravity", "potential", "start", "end", "plot")}
+        data["motion"] = ball_motion.simulate(sphere, **options)
     return data
 
 
+#: What a line of text begins with.
+_LABELS = (
+    ("ratio", "R/R1"), ("N", "N = 2R/R1"), ("ball", "ball"), ("D", "D(x)"), ("roots", "x1, x2"), ("theorem", "theorem"),
+    ("conditions", "by the engine"), ("equation", "equation (12)"), ("S", "(13) y'' = S y, S"), ("case", "case"),
+    ("omega", "omega(x) = y'/y"), ("E", "E(x)"), ("y", "y"), ("omega_3", "omega_3"), ("n", "n"), ("group", "group"),
+    ("verified", "verified"), ("note", ""),
+)  # fmt: skip
+
+
 def _text(data: dict[str, Any]) -> str:
-    labels = {
-        "ratio": "R/R1",
-        "ball": "ball",
-        "D": "D(x)",
-        "equation": "equation (12)",
-        "S": "(13) y'' = S y, S",
-        "case": "case",
-        "group": "group",
-        "omega_3": "omega_3",
-        "n": "n",
-        "note": "",
-    }
-    lines = [f"{label + ':' if label else '':<20}{data[key]}" for key, label in labels.items() if key in data]
-    for number, formula in data.get("latex", {}).items():
-        lines.append(f"{f'({number}) LaTeX:':<20}{formula}")
-    if "motion" in data:
-        lines += ball_motion.lines(data["motion"])
-    return "\n".join(lines)
+    lines = [data["derivation"], f"Derived from the definitions: {data['derived']}", ""] if "derivation" in data else []
+    for key, label in _LABELS:
+        value = data.get(key, "")
+        for k, line in enumerate(value if isinstance(value, list) else [str(value)]):
+            if key == "N" and "Theorem 2:" in data["theorem"]:
+                line += ", not an integer"
+            if key in ("case", "group") and "conditions" in data:
+                line += " for generic values"
+            for name in ("E", "D") if key in ("omega", "y", "omega_3", "n") else ():
+                whole = f"({data.get(name)})"
+                line = line.replace(f"{whole}**", f"{name}**").replace(whole, f"({name})")
+            if line:
+                lines.append(f"{f'{label}:' if label and not k else '':<20}{line}")
+    lines += [f"{f'({name}) LaTeX:':<20}{formula}" for name, formula in data.get("latex", {}).items()]
+    return "\n".join([*lines, *(ball_motion.lines(data["motion"]) if "motion" in data else ())])

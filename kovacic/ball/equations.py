@@ -1,0 +1,261 @@
+"""Woronetz's equations for the ball on the sphere, as the paper prints them, and their derivation from the definitions.
+
+The contact point is r(u, v) on the ball, in axes through its centre of mass, and r1(u1, v1) on the sphere; theta is the angle
+between the meridians there.  The frame (e_u, e_v, e_n), e_n being the ball's outward normal, is known in the ball by (u, v)
+and in space by (u1, v1, theta).  The two velocities of the contact point in this frame agree (rolling without slipping):
+that gives u1', v1', the c_ij.  The angular velocity is that of the frame in space less that in the ball: (tau v', sigma u', n).
+The equations of motion are d'Alembert's principle for the velocities u', v', n that rolling leaves free.
+
+`PRINTED` is what the paper prints; `residuals` is the difference of each from what SymPy derives here, and `holds`
+decides that they vanish, in the engine's field of rational functions.  The accelerations are unique, since the matrix of
+K22, K23, K33 is positive definite.
+P. Woronetz, Math. Ann. 70 (1911) 410-453; A. S. Kuleshov & D. V. Katasonova (2018).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import sympy as sp
+from sympy import cos, sin
+
+from kovacic.ball.ball import BallOnSphere, U, X
+from kovacic.limits import Limits
+from kovacic.reading.read import read_input
+
+u, x = U, X
+m, R, a, A1, A3, R1, x1, x2, D = sp.symbols("m R a A1 A3 R1 x1 x2 D")
+v, theta, u1, v1, n, w3 = sp.symbols("v theta u1 v1 n omega_3")
+du, dv, dtheta, du1, dv1, ddu, ddv, dn = sp.symbols("u' v' theta' u1' v1' u'' v'' n'")
+#: The partial derivatives of the kinetic energy Theta, and dV/du.
+T_u, T_du, T_dv, T_n, V_u = sp.symbols("Theta_u Theta_u' Theta_v' Theta_n V_u")
+
+#: How names are written in LaTeX, and what stands on the left of (7).
+_TEX = {
+    **{symbol: rf"\dot{{{tex}}}" for symbol, tex in ((du, "u"), (dv, "v"), (dtheta, r"\theta"))},
+    du1: r"\dot{u}_{1}",
+    dv1: r"\dot{v}_{1}",
+    T_u: r"\frac{\partial\Theta}{\partial u}",
+    T_du: r"\frac{\partial\Theta}{\partial\dot{u}}",
+    T_dv: r"\frac{\partial\Theta}{\partial\dot{v}}",
+    T_n: r"\frac{\partial\Theta}{\partial n}",
+    V_u: r"\frac{dV}{du}",
+}
+
+_LEFT = {
+    f"dTheta_{name}/dt": r"\frac{d}{dt}" + _TEX[symbol] for name, symbol in (("u'", T_du), ("v'", T_dv), ("n", T_n))
+}
+
+_k, _eps, _tilt = 1 + R / R1, R + a * cos(u), (A3 - A1) * R * cos(u) + A3 * a
+#: What the paper prints, by name; D is a name in a1, ..., d2.
+PRINTED: dict[str, sp.Expr] = {
+    "c11": -R / R1 * sin(theta),
+    "c12": R / R1 * sin(u) * cos(theta),
+    "c21": R / R1 * cos(theta) / sin(u1),
+    "c22": R / R1 * sin(u) * sin(theta) / sin(u1),
+    "n": -dtheta - cos(u) * dv - cos(u1) * dv1,
+    "sigma": -_k,
+    "tau": _k * sin(u),
+    "K11": _k**2 * (A1 + m * (R**2 + a**2 + 2 * R * a * cos(u))),
+    "K22": _k**2 * sin(u) ** 2 * (m * _eps**2 + A1 * cos(u) ** 2 + A3 * sin(u) ** 2),
+    "K23": _k * sin(u) ** 2 * (m * a * _eps - (A3 - A1) * cos(u)),
+    "K33": (A1 + m * a**2) * sin(u) ** 2 + A3 * cos(u) ** 2,
+    "dTheta_u'/dt": T_u
+    + (1 - R**2 / R1**2) * sin(u) * dv * T_n
+    + R / ((R + R1) * sin(u)) * n * T_dv
+    + m * R * a * sin(u) * n**2
+    + m * R * _k * _eps * sin(u) * n * dv
+    - V_u,
+    "dTheta_v'/dt": -(1 - R**2 / R1**2) * sin(u) * du * T_n
+    - R / (R + R1) * sin(u) * n * T_du
+    - m * R * _k * _eps * sin(u) * du * n,
+    "dTheta_n/dt": R / (R + R1) * sin(u) * dv * T_du
+    - R / ((R + R1) * sin(u)) * du * T_dv
+    - m * R * a * sin(u) * du * n,
+    "D": A1 * A3 + A1 * m * R**2 * sin(u) ** 2 + A3 * m * (R * cos(u) + a) ** 2,
+    "a1": -m * R**2 * _tilt * sin(u) / (R1 * D),
+    "a2": (R1 + R) * ((A3 + m * R**2) * (A3 - A1) - A3 * m * a**2) * sin(u) / (R1 * D),
+    "b1": m * R**3 * A1 * sin(u) / (R1 * D),
+    "b2": m * R * (R1 + R) * _tilt * sin(u) / (R1 * D),
+    "d1": -(
+        2 * m * R**2 * (A3 - A1) * sin(u) ** 2 * cos(u)
+        + (3 - cos(u) ** 2) * m * R * a * A3
+        + A3 * (A1 + m * R**2 + m * a**2) * cos(u)
+    )
+    / (D * sin(u)),
+    "d2": m * R**2 * (R1**2 - R**2) * (A3 - A1) * sin(u) ** 2 / (R1**2 * D),
+}
+
+
+def in_roots(rho: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """d1, d2 of (12) and S of (13) in the roots x1, x2 of D, for R/R1 = rho, as the paper prints them."""
+    d1 = sp.Rational(3, 2) * (2 * x - x1 - x2) / ((x - x1) * (x - x2))
+    d2 = (1 - rho**2) / ((x - x1) * (x - x2))
+    pole = sp.Rational(1, 8) * (1 + 8 * rho**2) / (x1 - x2)
+    return d1, d2, pole / (x - x1) - pole / (x - x2) - sp.Rational(3, 16) * ((x - x1) ** -2 + (x - x2) ** -2)
+
+
+def equation(d1: sp.Expr, d2: sp.Expr, variable: sp.Symbol = x) -> tuple[str, str]:
+    """omega_3'' + d1 omega_3' + d2 omega_3 = 0 as text and in LaTeX."""
+    text, tex = f"omega_3''({variable})", r"\omega_{3}''"
+    for coefficient, prime in ((d1, "'"), (d2, "")):
+        if coefficient != 0:
+            text += f" + ({coefficient})*omega_3{prime}({variable})"
+            tex += rf" + \left({sp.latex(coefficient)}\right) \omega_{{3}}{prime}"
+    return f"{text} = 0", f"{tex} = 0"
+
+
+def normal_form(S: sp.Expr) -> tuple[str, str]:
+    """y'' = S y as text and in LaTeX."""
+    return f"y''({x}) = ({S})*y({x})", rf"y'' = \left({sp.latex(S)}\right) y"
+
+
+def of_ball(sphere: BallOnSphere) -> dict[str, tuple[str, str]]:
+    """a1, a2, b1, b2, and the equations 11, 12 and 13 with the values of one ball, as text and in LaTeX."""
+    d1, d2 = sphere.second_order
+    parts = zip(("a1", "a2", "b1", "b2"), (part.subs(x, cos(u)) * sin(u) for part in sphere.linear_system), strict=True)
+    found = {name: (f"{name} = {part}", f"{sp.latex(sp.Symbol(name))} = {sp.latex(part)}") for name, part in parts}
+    in_u = (-sin(u) * d1.subs(x, cos(u)) - cos(u) / sin(u), sin(u) ** 2 * d2.subs(x, cos(u)))
+    return {**found, "11": equation(*in_u, u), "12": equation(d1, d2), "13": normal_form(sphere.S)}
+
+
+#: The steps of the derivation: what is said, a relation in plain text and in LaTeX, and the names that it introduces.
+_STEPS = (
+    ("Rolling without slipping", "u1' = c11 u' + c12 v', v1' = c21 u' + c22 v'",
+     r"\dot{u}_{1} = c_{11}\dot{u} + c_{12}\dot{v}, \quad \dot{v}_{1} = c_{21}\dot{u} + c_{22}\dot{v}",
+     ("c11", "c12", "c21", "c22")),
+    ("Angular velocity along the meridian, the circle and the normal of the ball", "(tau v', sigma u', n)",
+     r"\boldsymbol{\omega} = (\tau\dot{v}, \sigma\dot{u}, n)", ("tau", "sigma", "n")),
+    ("Kinetic energy", "2 Theta = K11 u'^2 + K22 v'^2 + 2 K23 v' n + K33 n^2",
+     r"2\Theta = K_{11}\dot{u}^{2} + K_{22}\dot{v}^{2} + 2K_{23}\dot{v}n + K_{33}n^{2}", ("K11", "K22", "K23", "K33")),
+    ("(7) The equations of motion", "Theta_z is dTheta/dz, V_u is dV/du; Theta + V is constant",
+     r"\Theta + V(u) = \mathrm{const} \tag{7}",
+     ("dTheta_u'/dt", "dTheta_v'/dt", "dTheta_n/dt")),
+    ("The last two, divided by u', with omega_3 = cos(u) n - tau sin(u) v'",
+     "dn/du = a1 n + a2 omega_3, d omega_3/du = b1 n + b2 omega_3",
+     r"\frac{dn}{du} = a_{1}n + a_{2}\omega_{3}, \quad \frac{d\omega_{3}}{du} = b_{1}n + b_{2}\omega_{3}",
+     ("a1", "a2", "b1", "b2", "D")),
+    ("(11) Without n", "d^2 omega_3/du^2 + d1 d omega_3/du + d2 omega_3 = 0",
+     r"\frac{d^{2}\omega_{3}}{du^{2}} + d_{1}\frac{d\omega_{3}}{du} + d_{2}\omega_{3} = 0 \tag{11}", ("d1", "d2")),
+)  # fmt: skip
+
+
+def derivation(*, latex: bool = False) -> str:
+    """The equations up to (11) for all values of the parameters, line by line; (12) and (13) are those of `in_roots`."""
+    surfaces = (
+        "x = R sin(u) cos(v), y = R sin(u) sin(v), z = R cos(u) + a about the centre of mass; (u1, v1) on the sphere"
+    )
+    lines = [] if latex else [f"The ball's surface: {surfaces}; theta between the meridians."]
+    for title, relation, tex, names in _STEPS:
+        lines.append(tex if latex else f"{title}: {relation}")
+        for name in names:
+            left = _LEFT.get(name) or sp.latex(sp.Symbol(name))
+            lines.append(
+                f"{left} = {sp.latex(PRINTED[name], symbol_names=_TEX)}" if latex else f"  {name} = {PRINTED[name]}"
+            )
+    return "\n".join(lines)
+
+
+def tidy(expression: Any) -> Any:
+    """Expanded, with even powers of sines written in cosines: the one form that each expression has."""
+
+    def reduced(power: Any) -> Any:
+        sine, k = power.args
+        return (1 - cos(sine.args[0]) ** 2) ** (k // 2) * sine ** (k % 2)
+
+    def is_even(z: Any) -> bool:
+        return bool(z.is_Pow and isinstance(z.base, sin) and z.exp.is_Integer and z.exp > 1)
+
+    return sp.expand(sp.expand(expression).replace(is_even, reduced))
+
+
+def rate(expression: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
+    """d/dt, the symbols in `clock` having these rates."""
+    return sum((expression.diff(symbol) * speed for symbol, speed in clock.items()), expression * 0)
+
+
+def _axes(p: sp.Symbol, q: sp.Symbol) -> tuple[Any, Any, Any]:
+    """The unit vectors along the meridian, along the circle and outwards on a sphere of colatitude p, longitude q."""
+    south = sp.Matrix([cos(p) * cos(q), cos(p) * sin(q), -sin(p)])
+    return south, sp.Matrix([-sin(q), cos(q), 0]), sp.Matrix([sin(p) * cos(q), sin(p) * sin(q), cos(p)])
+
+
+def _turning(frame: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
+    """The angular velocity of a frame, in itself."""
+    W = frame.T * rate(frame, clock)
+    return sp.Matrix([W[2, 1], W[0, 2], W[1, 0]])
+
+
+def residuals() -> dict[str, list[Any]]:
+    """For each formula of `PRINTED`, and for (12) and (13): what vanishes if it is right."""
+    p = {name: value.subs(D, PRINTED["D"]) for name, value in PRINTED.items()}
+    in_ball = sp.Matrix.hstack(*_axes(u, v))
+    south, east, out = _axes(u1, v1)
+    in_space = sp.Matrix.hstack(-sin(theta) * south + cos(theta) * east, cos(theta) * south + sin(theta) * east, -out)
+    r = R * in_ball[:, 2] + sp.Matrix([0, 0, a])
+    on_ball, on_sphere = {u: du, v: dv}, {u1: du1, v1: dv1, theta: dtheta}
+    rolling = {du1: p["c11"] * du + p["c12"] * dv, dv1: p["c21"] * du + p["c22"] * dv}
+    slip = in_ball.T * rate(r, on_ball) - in_space.T * rate(R1 * out, on_sphere)
+    turn = _turning(in_ball, on_ball).applyfunc(tidy)
+    spin = _turning(in_space, on_sphere) - turn
+    found = {
+        "c_ij": list(slip.subs(rolling)),
+        "n": [spin[2] - p["n"]],
+        "sigma, tau": [spin[0].subs(rolling) - p["tau"] * dv, spin[1].subs(rolling) - p["sigma"] * du],
+    }
+    # In the frame: rho leads from the centre of mass to the contact point, whose velocity is zero.
+    omega = sp.Matrix([p["tau"] * dv, p["sigma"] * du, n])
+    rho, axis = ((in_ball.T * vector).applyfunc(tidy) for vector in (r, sp.Matrix([0, 0, 1])))
+    velocity, momentum = rho.cross(omega), A1 * omega + (A3 - A1) * omega.dot(axis) * axis
+    energy = p["K11"] * du**2 + p["K22"] * dv**2 + 2 * p["K23"] * dv * n + p["K33"] * n**2
+    found["K_ij"] = [m * velocity.dot(velocity) + omega.dot(momentum) - energy]
+    clock = {u: du, du: ddu, dv: ddv, n: dn}
+    force, moment = (rate(vector, clock) + (omega + turn).cross(vector) for vector in (m * velocity, momentum))
+    inertia = {z: tidy(force.dot(velocity.diff(z)) + moment.dot(omega.diff(z))) for z in (du, dv, n)}
+    theta_ = {
+        T_u: energy.diff(u) / 2,
+        T_du: energy.diff(du) / 2,
+        T_dv: energy.diff(dv) / 2,
+        T_n: energy.diff(n) / 2,
+        V_u: 0,
+    }
+    sides = ((du, "dTheta_u'/dt"), (dv, "dTheta_v'/dt"), (n, "dTheta_n/dt"))
+    found["(7)"] = [inertia[z] - rate(energy.diff(z) / 2, clock) + p[name].subs(theta_) for z, name in sides]
+    # omega_3 = tau sin(psi) v' + cos(psi) n with psi = -u, in place of v'.
+    slope = (cos(u) * n - w3) / (p["tau"] * sin(u))
+    along = {u: 1, n: p["a1"] * n + p["a2"] * w3, w3: p["b1"] * n + p["b2"] * w3}
+    found["a1, a2, b1, b2"] = [
+        inertia[z].subs({ddv: rate(slope, along) * du, dn: along[n] * du}).subs(dv, slope) for z in (dv, n)
+    ]
+    growth = sp.diff(p["b1"], u) / p["b1"]
+    d1 = -(growth + p["a1"] + p["b2"])
+    d2 = growth * p["b2"] - sp.diff(p["b2"], u) + p["a1"] * p["b2"] - p["a2"] * p["b1"]
+    found["(11)"] = [p["d1"] - d1, p["d2"] - d2]
+    # The roots in place of m and a: their sum gives a, and their product is linear in 1/m.
+    offset = -R * (A3 - A1) * (x1 + x2) / (2 * A3)
+    mass = A1 * A3 / (R**2 * (A3 - A1) * x1 * x2 - A1 * R**2 - A3 * offset**2)
+    one, two, S = in_roots(R / R1)
+    at = {x: cos(u)}
+    found["(12)"] = [
+        part.subs({m: mass, a: offset})
+        for part in (one.subs(at) * sin(u) ** 2 + cos(u) + p["d1"] * sin(u), two.subs(at) * sin(u) ** 2 - p["d2"])
+    ]
+    found["(13)"] = [S - (sp.diff(one, x) / 2 + one**2 / 4 - two)]
+    return found
+
+
+def vanishes(expression: Any) -> bool:
+    """Is an expression, rational in names and in sines and cosines of names, zero?  Decided in the engine's fields."""
+    halves = {z: sp.Symbol(f"t_{z}") for z in (u, v, theta, u1, v1)}
+    rational = {
+        f(z): value
+        for z, t in halves.items()
+        for f, value in ((sin, 2 * t / (1 + t**2)), (cos, (1 - t**2) / (1 + t**2)))
+    }
+    return not read_input(sp.sympify(expression).xreplace(rational), var="t_u", limits=Limits(parameters=30)).S.num
+
+
+def holds() -> dict[str, bool]:
+    """For each group of formulas: does the derivation confirm it, for all values of the parameters?"""
+    return {name: all(map(vanishes, parts)) for name, parts in residuals().items()}

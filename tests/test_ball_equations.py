@@ -1,0 +1,198 @@
+"""The equations of the ball: derived from the definitions, exactly; at the values of a ball; and bodies that can't exist."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+import sympy as sp
+
+from kovacic.ball import Ball, U, X, equations
+from kovacic.ball.ball import exact
+from kovacic.ball.equations import (
+    A1,
+    A3,
+    PRINTED,
+    R1,
+    D,
+    R,
+    a,
+    derivation,
+    holds,
+    in_roots,
+    m,
+    of_ball,
+    vanishes,
+    x1,
+    x2,
+)
+from kovacic.errors import InputError, LimitExceeded
+
+GENERAL = Ball(m=m, R=R, a=a, A1=A1, A3=A3)
+SYSTEM = ("a1", "a2", "b1", "b2")
+
+
+def with_roots() -> Ball:
+    """The general ball in terms of the roots x1, x2 of D, instead of m and a."""
+    offset = -R * (A3 - A1) * (x1 + x2) / (2 * A3)
+    mass = A1 * A3 / (R**2 * (A3 - A1) * x1 * x2 - A1 * R**2 - A3 * offset**2)
+    return Ball(m=mass, R=R, a=offset, A1=A1, A3=A3)
+
+
+def test_every_printed_formula_is_derived_for_all_parameters():
+    """c_ij, n, sigma, tau, K_ij, (7), a1, a2, b1, b2, (11), (12), (13)."""
+    found = holds()
+    assert set(found) >= {"c_ij", "n", "sigma, tau", "K_ij", "(7)", "a1, a2, b1, b2", "(11)", "(12)", "(13)"}
+    assert all(found.values()), found
+
+
+@pytest.mark.parametrize(
+    ("name", "group"),
+    [
+        ("c21", "c_ij"),
+        ("n", "n"),
+        ("tau", "sigma, tau"),
+        ("K23", "K_ij"),
+        ("dTheta_u'/dt", "(7)"),
+        ("dTheta_v'/dt", "(7)"),
+        ("dTheta_n/dt", "(7)"),
+        ("a1", "a1, a2, b1, b2"),
+        ("b1", "a1, a2, b1, b2"),
+        ("d2", "(11)"),
+        ("d1", "(12)"),
+    ],
+)
+def test_a_wrong_sign_in_a_printed_formula_is_seen(name, group, monkeypatch):
+    monkeypatch.setitem(equations.PRINTED, name, -PRINTED[name])
+    assert not all(map(vanishes, equations.residuals()[group]))
+
+
+def test_a_wrong_coefficient_is_seen(monkeypatch):
+    monkeypatch.setitem(equations.PRINTED, "D", PRINTED["D"] + A1 * A3)
+    assert not all(map(vanishes, equations.residuals()["a1, a2, b1, b2"]))
+
+
+def test_the_equations_of_a_ball_are_the_printed_ones():
+    """`BallOnSphere` has its own short formulas; here for all parameters."""
+    sphere = GENERAL.on_sphere(R1)
+    printed = {name: value.subs(D, PRINTED["D"]) for name, value in PRINTED.items()}
+    for name, part in zip(SYSTEM, sphere.linear_system, strict=True):
+        assert vanishes(part.subs(X, sp.cos(U)) * sp.sin(U) - printed[name]), name
+    d1, d2 = (part.subs(X, sp.cos(U)) for part in sphere.second_order)
+    assert vanishes(-sp.sin(U) * d1 - sp.cos(U) / sp.sin(U) - printed["d1"])
+    assert vanishes(sp.sin(U) ** 2 * d2 - printed["d2"])
+    first, second = sphere.second_order
+    assert sp.cancel(sp.diff(first, X) / 2 + first**2 / 4 - second - sphere.S) == 0
+
+
+def test_equations_12_and_13_in_the_roots():
+    sphere = with_roots().on_sphere(R1)
+    d1, d2, S = in_roots(R / R1)
+    for found, expected in ((sphere.second_order[0], d1), (sphere.second_order[1], d2), (sphere.S, S)):
+        assert sp.cancel(found - expected) == 0
+
+
+def test_constant_coefficients_and_the_semi_invariant():
+    """The identities behind the closed forms, for all parameters; and l D = m R^2 A1 B + D'^2/4."""
+    sphere = GENERAL.on_sphere(R1)
+    (a1, a2, b1, b2), D_, lead, rho = sphere.linear_system, sphere.D, sphere.leading, sphere.ratio
+    half, weight = sp.diff(D_, X) / 2, m * R**2 * A1
+    B = (A3 + m * R**2) * (A3 - A1) - A3 * m * a**2
+    assert sp.expand(lead * D_ - weight * B - half**2) == 0
+    n, w = sp.symbols("n omega_3")
+    dn, dw = -(a1 * n + a2 * w), -(b1 * n + b2 * w)
+    zeta = weight * n + half * w
+    assert sp.cancel(D_ * dw + half * w + rho * zeta) == 0  # d eta/d xi = -rho zeta, eta = omega_3 sqrt(D)
+    assert sp.cancel(weight * dn + lead * w + half * dw + rho * lead * w) == 0  # d zeta/d xi = -rho l eta
+    phi = sp.diff(D_, X) / (2 * D_)
+    assert sp.cancel(D_ * (4 * sphere.S - 2 * sp.diff(phi, X) - phi**2) - 4 * rho**2 * lead) == 0
+
+
+def test_plane_is_the_limit_of_large_spheres():
+    ball = Ball(m=2, R=1, a="1/5", A1="1/3", A3="1/4")
+    plane, general = ball.on_plane(), ball.on_sphere(R1)
+    pairs = zip((*plane.linear_system, plane.S), (*general.linear_system, general.S), strict=True)
+    for flat, curved in pairs:
+        assert sp.cancel(sp.limit(curved, R1, sp.oo) - flat) == 0
+    assert plane.linear_system[2] == 0
+
+
+def test_rolling_inside_is_a_negative_radius():
+    ball = Ball(m=2, R=1, a="1/5", A1="1/3", A3="1/4")
+    inside, general = ball.on_sphere(-3), ball.on_sphere(R1)
+    for found, symbolic in zip(inside.linear_system, general.linear_system, strict=True):
+        assert sp.cancel(symbolic.subs(R1, -3) - found) == 0
+
+
+def test_equations_print():
+    found = of_ball(Ball(m=1, R=1, a=0, A1="1/4", A3="1/3").on_sphere(2))
+    assert found["12"][0] == "omega_3''(x) + (3*x/(x**2 + 4))*omega_3'(x) + (3/(4*(x**2 + 4)))*omega_3(x) = 0"
+    assert found["13"][1].startswith("y'' = ")
+    assert found["11"][1].endswith("= 0")
+    text, latex = derivation(), derivation(latex=True)
+    for name in PRINTED:
+        assert f"  {name} = " in text
+    assert r"\dot{u}_{1} = c_{11}\dot{u} + c_{12}\dot{v}" in latex
+    assert latex.count("{") == latex.count("}")
+
+
+@pytest.mark.parametrize(
+    ("changes", "inequality"),
+    [
+        ({"m": -1}, "m > 0"),
+        ({"m": 0}, "m > 0"),
+        ({"R": 0}, "R > 0"),
+        ({"A1": -1}, "A1 > 0"),
+        ({"A3": 0}, "A3 > 0"),
+        ({"a": 2}, r"\|a\| <= R"),
+        ({"a": -2}, r"\|a\| <= R"),
+        ({"A3": "51/100"}, "A3 <= 2 A1"),
+        ({"a": "9/10"}, r"A1 \+ A3/2 <= m"),
+        ({"A1": "9/10", "A3": "1/3"}, r"A1 \+ A3/2 <= m"),
+    ],
+)
+def test_impossible_bodies_are_refused_with_the_inequality(changes, inequality):
+    possible = {"m": 1, "R": 1, "a": "1/5", "A1": "1/4", "A3": "1/3"}
+    Ball(**possible)
+    with pytest.raises(InputError, match=inequality):
+        Ball(**{**possible, **changes})
+
+
+def test_two_mass_points_are_the_limit_that_is_still_possible():
+    """Rings on the surface reach equality in A1 + A3/2 <= m (R^2 - a^2)."""
+    Ball(m=1, R=1, a=0, A1="1/2", A3=1)
+    with pytest.raises(InputError, match="A1"):
+        Ball(m=1, R=1, a=0, A1="501/1000", A3=1)
+
+
+def test_spheres_that_are_refused():
+    ball = Ball(m=1, R=1, a=0, A1="1/4", A3="1/4")
+    with pytest.raises(InputError, match="other than 0"):
+        ball.on_sphere(0)
+    for radius in (-1, "-1/2"):
+        with pytest.raises(InputError, match="doesn't fit"):
+            ball.on_sphere(radius)
+
+
+def test_exact_numbers_only():
+    assert exact(Fraction(1, 3), "m") == sp.Rational(1, 3)
+    assert exact("0.1", "m") == sp.Rational(1, 10)
+    for value in (0.5, sp.Float(0.5), True, None):
+        with pytest.raises(InputError, match="exact number"):
+            exact(value, "m")
+    assert exact("2*sqrt(2)", "m") == sp.sqrt(8)
+    for text in ("__import__('os')", "one", "", "1/0", "9^^9", "1 2", "cos(u)"):
+        with pytest.raises(InputError):
+            exact(text, "m")
+    for value in (sp.I, sp.oo, sp.nan, "sqrt(-1)"):
+        with pytest.raises(InputError, match="isn't a real number"):
+            exact(value, "m")
+    for name in ("x", "u"):
+        with pytest.raises(InputError, match="variables of the equations"):
+            exact(sp.Symbol(name), "m")
+
+
+def test_numbers_that_are_too_large_are_refused_before_they_are_computed():
+    for value in ("1e999999999", "9^9^9", "((9^100)^100)^100", 10**400, Fraction(1, 10**400)):
+        with pytest.raises(LimitExceeded):
+            exact(value, "m")

@@ -1,0 +1,97 @@
+"""Bodies with irrational numbers for parameters: exact zero tests, and the engine's decision."""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+
+import kovacic
+from kovacic.ball import Ball, closed_form
+from kovacic.ball.ball import settled, sign
+from kovacic.ball.theorems import theorem
+from kovacic.errors import InputError, LimitExceeded
+
+CUBIC = sp.CRootOf(sp.Symbol("z") ** 3 - sp.Symbol("z") - 1, 0)
+# m, R, a, A1, A3, R1 (None: a plane), the group
+BODIES = {
+    "mass": ("sqrt(2)", 1, "1/5", "1/4", "1/3", 3, "dicyclic of order 12"),
+    "ratio": (1, 1, "1/5", "1/4", "1/3", "sqrt(2)", "N(T)"),
+    "inside": (1, 1, "1/5", "1/4", "1/3", "-2*sqrt(2)", "N(T)"),
+    "plane": ("sqrt(2)", 1, "1/5", "1/4", "1/3", None, "G_a extended by mu_4"),
+    "three roots": ("sqrt(2)", "sqrt(3)", "1/5", "sqrt(5)/4", "sqrt(5)/3", 3, "N(T)"),
+    "cubic": (CUBIC, 1, "1/5", "1/4", "1/3", 3, "dicyclic of order 12"),
+    "trigonometric": (2 * sp.cos(sp.pi / 7), 1, "1/5", "1/4", "1/3", 3, "dicyclic of order 12"),
+}
+# The same number in two ways: what makes a ball degenerate has to be seen through the way it is written.
+DEGENERATE = {
+    "A1 = A3": ((4, 1, "1/5", "sqrt(3-2*sqrt(2))", "sqrt(2)-1", 3, "mu_4"), "linear"),
+    "homogeneous": (
+        (4, 1, "sqrt(3-2*sqrt(2))-sqrt(2)+1", "sqrt(3-2*sqrt(2))", "sqrt(2)-1", 3, "trivial"),
+        "homogeneous",
+    ),
+    "double root": ((1, 1, "1/sqrt(12)", "1/3-1/48", "1/3", "sqrt(2)", "G_m"), "double"),
+    "rational ratio": (
+        (1, "sqrt(5+2*sqrt(6))", 0, "1/4", "1/3", "3*sqrt(2)+3*sqrt(3)", "dicyclic of order 12"),
+        "complex",
+    ),
+}
+
+
+def rolling(values):
+    *body, R1, group = values
+    ball = Ball(**dict(zip(("m", "R", "a", "A1", "A3"), body, strict=True)))
+    return ball.on_plane() if R1 is None else ball.on_sphere(R1), group
+
+
+@pytest.mark.parametrize("values", [*BODIES.values(), *(v for v, _ in DEGENERATE.values())], ids=[*BODIES, *DEGENERATE])
+def test_the_engine_agrees_with_the_theorem_and_the_closed_form_holds(values):
+    sphere, group = rolling(values)
+    answer = kovacic.solve(sphere.S)
+    assert answer.verified
+    assert (answer.case, answer.group.name) == (theorem(sphere)[1], group)
+    assert closed_form(sphere).solves(sphere.linear_system, sphere.S, sphere.roots)
+
+
+@pytest.mark.parametrize("name", DEGENERATE)
+def test_degenerate_balls_are_recognised(name):
+    values, kind = DEGENERATE[name]
+    assert kind in rolling(values)[0].kind
+
+
+def test_inequalities_are_decided_exactly():
+    """A3 = 2 A1 is possible, 10^-70 more isn't."""
+    body = {"m": 9, "R": 1, "a": 0, "A1": "sqrt(3-2*sqrt(2))/2"}
+    assert Ball(**body, A3="sqrt(2)-1").A3 == sp.sqrt(2) - 1
+    with pytest.raises(InputError, match="A3 <= 2 A1 fails"):
+        Ball(**body, A3="sqrt(2)-1+1e-70")
+    with pytest.raises(InputError, match="A1 > 0 fails"):
+        Ball(**{**body, "A1": "sqrt(3-2*sqrt(2))-sqrt(2)+1"}, A3=1)
+    with pytest.raises(InputError, match="doesn't fit"):
+        Ball(m=1, R="sqrt(3+2*sqrt(2))", a=0, A1="1/4", A3="1/3").on_sphere("-1-sqrt(2)")
+
+
+def test_a_number_that_is_not_algebraic_has_equations_but_no_decision():
+    sphere, _ = rolling(("pi", 1, "1/5", "1/4", "1/3", 3, None))
+    assert sphere.S.has(sp.pi)
+    assert theorem(sphere)[1] == 2
+    assert closed_form(sphere).solves(sphere.linear_system, sphere.S)
+    with pytest.raises(InputError, match="algebraic"):
+        kovacic.solve(sphere.S)
+
+
+def test_signs_and_simplest_forms():
+    root = sp.sqrt
+    assert settled(root(3 + 2 * root(2)) / (1 + root(2))) == 1
+    assert settled(root(5 + 2 * root(6))) == root(2) + root(3)
+    assert settled(sp.Symbol("m") * root(2)) == sp.Symbol("m") * root(2)
+    assert sign(root(2) - root(2 + sp.Rational(1, 10**80))) == -1
+    assert sign(sp.cos(sp.pi / 8) - root(2 + root(2)) / 2) == 0
+    assert sign(sp.pi - 3) == 1
+    assert sign(sp.Symbol("m")) is None
+    with pytest.raises(InputError, match="can't be decided"):
+        sign(sp.pi**2 - sp.pi * sp.log(sp.exp(sp.pi) + sp.Rational(1, 10**90)))
+
+
+def test_numbers_of_a_high_degree_are_refused():
+    with pytest.raises(LimitExceeded, match="degree"):
+        rolling(("sqrt(2)+sqrt(3)+sqrt(5)+sqrt(7)+sqrt(11)", 1, "1/5", "1/4", "1/3", 3, None))
