@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import pty
+import re
 import resource
 import signal
 import subprocess
@@ -226,11 +227,11 @@ def test_a_batch_whose_reader_goes_away_ends(command: str, redirected: str) -> N
     assert "Traceback" not in done.stderr
 
 
-def on_terminal(env: dict[str, str]) -> str:
+def on_terminal(env: dict[str, str], *arguments: str) -> str:
     """What the command writes when standard output is a terminal."""
     leader, follower = pty.openpty()
     options = {"stdout": follower, "stderr": follower, "stdin": subprocess.DEVNULL, "env": env}
-    with started([*COMMAND, "solve", "x^2+3"], **options) as process:
+    with started([*COMMAND, *(arguments or ("solve", "x^2+3"))], **options) as process:
         os.close(follower)
         output = b""
         while True:
@@ -252,6 +253,20 @@ def test_colours_on_a_terminal_only_and_not_with_no_color() -> None:
     assert "\x1b[" not in on_terminal({**env, "TERM": "xterm", "NO_COLOR": "1"})
     assert "\x1b[" not in on_terminal({**env, "TERM": "dumb"})
     assert "\x1b[" not in run("solve", "x^2+3").stdout
+
+
+def test_lines_keep_to_the_width_of_a_terminal() -> None:
+    env = {**os.environ, "COLUMNS": "40", "TERM": "xterm"}
+    whole = run("solve", "x", env=env).stdout
+    lines = on_terminal({**env, "NO_COLOR": "1"}, "solve", "x").replace("\r\n", "\n").splitlines()
+    assert max(map(len, whole.splitlines())) > 80
+    assert max(map(len, lines)) <= 40
+    assert " ".join(" ".join(lines).split()) == " ".join(whole.split())
+    coloured = on_terminal({key: value for key, value in env.items() if key != "NO_COLOR"}, "solve", "x")
+    assert re.sub(r"\x1b\[\d*m", "", coloured).replace("\r\n", "\n").splitlines() == lines
+    long = "x^1000 + 12345678901234567890123456789012345678901234567890*x"
+    assert long.replace(" ", "") in on_terminal(env, "solve", long, "--var", "x").replace("\r\n", "").replace(" ", "")
+    assert len(on_terminal(env, "solve", "--json", "x").splitlines()) == 1
 
 
 def test_the_whole_process_starts_quickly(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from kovacic.cli.options import EQUATIONS, answer_each, limit_option, var_option
+from kovacic.cli.options import EQUATIONS, answer_each, fitted, limit_option, var_option
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
@@ -38,6 +38,7 @@ def command(
     def show(answer: Solution) -> str:
         if cite:
             return answer.citation(style="bibtex")
-        return answer.explain(format=form or "text", solutions=not no_solutions).rstrip("\n")
+        text = answer.explain(format=form or "text", solutions=not no_solutions).rstrip("\n")
+        return text if form else fitted(text)
 
     return answer_each(equations, show, var=var, limits=limits, gap="\n")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import fields, replace
@@ -32,6 +33,8 @@ limit_option = click.option(
     help="Change a limit: seconds, degree, bits, digits, exponent, text_length, unknown_degree.",
 )
 
+_COLUMNS = re.compile(r"\S {2,}\S")
+_CODE = re.compile(r"\x1b\[\d*m")
 _CODES = {"title": "1", "good": "32", "bad": "31", "unsure": "33", "faint": "2"}
 
 
@@ -111,6 +114,27 @@ def refuse_options(arguments: Sequence[str]) -> None:
     for argument in arguments:
         if argument.startswith("--") and argument[2:3].isalpha():
             raise click.UsageError(f"no such option: {argument} (write (--x) if it is an expression)")
+
+
+def fitted(text: str) -> str:
+    """The text for a terminal: lines that are longer are broken at spaces, but for rows of tables; elsewhere as it is."""
+    if not sys.stdout.isatty():
+        return text
+    from shutil import get_terminal_size
+
+    width, lines = get_terminal_size().columns, []
+    for line in text.splitlines():
+        indent = " " * (len(line) - len(line.lstrip()) + 2)
+        while len(_CODE.sub("", line)) > width and not _COLUMNS.search(line):
+            end = len(line)
+            while end > 0 and len(_CODE.sub("", line[:end])) > width:
+                end = line.rfind(" ", len(indent), end)
+            if end <= 0:  # a formula without spaces
+                break
+            lines.append(line[:end])
+            line = indent + line[end:].lstrip()
+        lines.append(line)
+    return "\n".join(lines)
 
 
 def styled(text: str, role: str) -> str:

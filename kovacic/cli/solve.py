@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from kovacic.cli.options import EQUATIONS, answer_each, assume_option, limit_option, styled, var_option
+from kovacic.cli.options import EQUATIONS, answer_each, assume_option, fitted, limit_option, styled, var_option
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
@@ -45,7 +45,7 @@ def command(
             return answer.to_json(full=full)
         if latex:
             return answer._repr_latex_()
-        return answer.explain().rstrip("\n") if explain else render(answer, style=styled)
+        return fitted(answer.explain().rstrip("\n") if explain else render(answer, style=styled))
 
     gap = "" if as_json or latex else "\n"
     return answer_each(equations, show, var=var, limits=limits, assume=assume, gap=gap)
