@@ -24,8 +24,8 @@ from kovacic.batch.worker import encode_item
 _START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.batch.worker import main; main()"
 _SHOWN_ERROR_BYTES = 20_000
 
-# A process has work for so many seconds in its pipe, if its equations are quick; so many items at most, and at least.
-_SECONDS_AHEAD, _MOST_AHEAD, _LEAST_AHEAD = 0.05, 32, 8
+#: A process has so many items, that it works on included, so that it needn't wait for the parent.
+ITEMS_AHEAD = 32
 
 # Its answers are fetched once in so many seconds at most: to wake up for each one costs more than to read it.
 _SECONDS_BETWEEN_READS = 0.005
@@ -43,7 +43,6 @@ class Child:
         self.assigned: deque[Item] = deque()
         self.ready = False
         self.busy_since = time.monotonic()
-        self._pace = _SECONDS_AHEAD / _LEAST_AHEAD
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed by kill()
         self._process = subprocess.Popen(
             [sys.executable, "-P", "-c", _START, json.dumps(sys.path)],
@@ -66,16 +65,10 @@ class Child:
         self.assigned.append(item)
         self._send(encode_item(item))
 
-    def finished_one(self, seconds: float) -> Item:
-        """The item that the process has just answered, in so many seconds."""
+    def finished_one(self) -> Item:
+        """The item that the process has just answered."""
         self.busy_since = time.monotonic()
-        self._pace += (seconds - self._pace) / (2 if seconds < self._pace else 16)  # near that of the quick ones
         return self.assigned.popleft()
-
-    @property
-    def room(self) -> int:
-        """How many items it should have, that it works on included: more of them if they are quick."""
-        return max(_LEAST_AHEAD, min(_MOST_AHEAD, int(_SECONDS_AHEAD / max(self._pace, 1e-6))))
 
     def kill(self) -> None:
         """End the process at once and wait for it; its reader thread ends as well."""

@@ -1,8 +1,8 @@
 """A pool of worker processes that can be killed: every item gets exactly one record.
 
 One loop in the caller's thread waits for events (a record, the end of a process, an item from a stream) and for the next
-deadline.  A busy process has some small items waiting in its pipe, so that it needn't wait for the parent; such an item is
-given to another process when that one has nothing to do.  A record counts only if it comes from the item's owner.
+deadline.  A busy process has some small items waiting in its pipe; the last of them is given to another process when that
+one has nothing to do.  A record counts only if it comes from the item's owner.
 
 A process that is over its time is killed, and its item gets a record.  So does the item of a process that has ended with an
 exception; one whose process was killed by somebody else gets another one, up to three times.  What was waiting behind the
@@ -22,7 +22,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from queue import Empty, Queue, SimpleQueue
 
-from kovacic.batch.child import Child, Event
+from kovacic.batch.child import ITEMS_AHEAD, Child, Event
 from kovacic.batch.records import Item, Job, Record, lost, refused, stopped
 from kovacic.batch.worker import READY, decode_record
 from kovacic.errors import InputError, KovacicError
@@ -125,9 +125,9 @@ class Pool(AbstractContextManager["Pool"]):
             yield from self._handle(self._wait())
 
     def _hand_out(self, feed: Iterator[Item | None], order: deque[int], window: int | None) -> Iterator[Record]:
-        for depth in range(1, max(child.room for child in self._children) + 1):
+        for depth in range(1, ITEMS_AHEAD + 1):
             for child in self._children:
-                if not child.ready or len(child.assigned) != depth - 1 or depth > child.room:
+                if not child.ready or len(child.assigned) != depth - 1:
                     continue
                 waiting = sum(len(item.text) for item in child.assigned)
                 if depth > 1 and waiting > _WAITING_CHARACTERS:
@@ -163,14 +163,14 @@ class Pool(AbstractContextManager["Pool"]):
         return _Entry(item)
 
     def _share_waiting(self) -> None:
-        """Give what waits behind a slow item to a process that has nothing to do."""
+        """Give what waits behind a slow item, the last one first, to a process that has nothing to do."""
         now = time.monotonic()
         for idle in self._idle():
             for child in self._children:
                 waiting = self._waiting(child)
                 if waiting and child.busy_since + _PATIENCE_SECONDS <= now:
-                    self._entries[waiting[0].number].owner = idle
-                    idle.give(waiting[0])
+                    self._entries[waiting[-1].number].owner = idle
+                    idle.give(waiting[-1])
                     break
 
     def _idle(self) -> list[Child]:
@@ -218,7 +218,7 @@ class Pool(AbstractContextManager["Pool"]):
                 self._failed_starts = 0
             else:
                 record = decode_record(line)
-                item = child.finished_one(record.seconds)
+                item = child.finished_one()
                 assert record.number == item.number, (record, item)
                 if self._owned(item, child):
                     del self._entries[item.number]
