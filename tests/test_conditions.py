@@ -21,9 +21,8 @@ from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
 from kovacic.galois.group import Kind
 from kovacic.limits import Budget, Limits
-from kovacic.parametric.answer import Conditions
-from kovacic.parametric.pivots import without_constant_pivots
-from kovacic.parametric.regions import Verdict
+from kovacic.parametric.answer import Conditions, Verdict
+from kovacic.parametric.ranks import without_constant_pivots
 from kovacic.parametric.riemann import kimura
 from tests.parametric_cases import FAMILIES, Family
 from tests.strategies import parametric_equations

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from itertools import islice
 from random import Random
 from typing import Any
 
@@ -11,34 +12,75 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.decision import Status
+from kovacic.decision import Decision, Status, Structure
 from kovacic.engine.decide import decide
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, Limits
 from kovacic.parametric import sampling
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.parametric.formulas import as_latex, shown
-from kovacic.parametric.regions import Verdict
-from kovacic.parametric.restriction import UndefinedError, at_point
-from kovacic.parametric.slices import NO_CONSTANT
+from kovacic.parametric.functions import as_latex, shown
+from kovacic.parametric.plot import plot
+from kovacic.parametric.restriction import NO_CONSTANT, UndefinedError, at_point
 from kovacic.parametric.statements import Point, Statement
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
 
 
 @dataclass(frozen=True)
+class Verdict:
+    """The case (None: no Liouvillian solution), the structure, and whether that is known at all.
+
+    `family` says more about the group than the structure does.
+    """
+
+    structure: Structure | None
+    known: bool = True
+    family: str | None = field(default=None, compare=False)
+
+    @classmethod
+    def of(cls, decision: Decision) -> Verdict:
+        """What the engine's decision says."""
+        return cls(decision.structure, decision.status is not Status.UNDECIDED)
+
+    @property
+    def case(self) -> int | None:
+        return None if self.structure is None else self.structure.case
+
+    @property
+    def group(self) -> str:
+        """The family of the Galois group."""
+        return (self.family or _GROUPS[self.structure]) if self.known else "not determined"
+
+    def __str__(self) -> str:
+        if not self.known:
+            return "not determined"
+        return "no Liouvillian solution" if self.case is None else f"case {self.case}"
+
+
+_GROUPS = {
+    Structure.REDUCIBLE: "reducible: a subgroup of the triangular group",
+    Structure.IMPRIMITIVE: "imprimitive: dicyclic, or the infinite dihedral group",
+    Structure.TETRAHEDRAL: "binary tetrahedral, order 24",
+    Structure.OCTAHEDRAL: "binary octahedral, order 48",
+    Structure.ICOSAHEDRAL: "binary icosahedral, order 120",
+    None: "SL2(C)",
+}
+
+
+@dataclass(frozen=True)
 class Condition:
     """One region: where `statement` holds and no earlier region's.
 
-    `case` is Kovacic's case (None: no Liouvillian solution), `group` the family of the Galois group, `complete` True or what
-    isn't proven, `defined` False where S isn't defined, `omega` what becomes possible.
+    `case` is Kovacic's case (None: no Liouvillian solution), `group` the family of the Galois group, `complete` True where it
+    is proven that the statement describes all such values and nothing else, else what isn't proven.  `defined` is False where
+    S isn't defined.  `omega` shows what becomes possible.
     """
 
     statement: Statement
     verdict: Verdict
-    complete: bool | str
-    defined: bool
-    omega: str | None
+    complete: bool | str = True
+    defined: bool = True
+    omega: str | None = None
 
     @property
     def case(self) -> int | None:
@@ -48,11 +90,14 @@ class Condition:
     def group(self) -> str:
         return self.verdict.group if self.defined else "S isn't defined"
 
+    def to_dict(self) -> dict[str, Any]:
+        """The region's part of the JSON object."""
+        names = ("case", "group", "complete", "defined", "omega")
+        return {"condition": self.statement.text()} | {name: getattr(self, name) for name in names}
+
     def __str__(self) -> str:
-        if not self.defined:
-            return f"{self.statement.text()}: S isn't defined"
-        known = "" if self.complete is True else f" [{self.complete}]"
-        return f"{self.statement.text()}: {_case_text(self.verdict)}{known}"
+        known = "" if self.complete is True or not self.defined else f" [{self.complete}]"
+        return f"{self.statement.text()}: {self.verdict if self.defined else self.group}{known}"
 
 
 @dataclass(frozen=True)
@@ -118,9 +163,7 @@ class Conditions:
         Where the regions claim nothing (see `complete`) the equation is decided there.  Raises `InputError` where S isn't
         defined, or a parameter has no value.
         """
-        return self._case(self.point(values))
-
-    def _case(self, point: Point) -> int | None:
+        point = self.point(values)
         verdict = self.predicted(point)
         if verdict is None:
             raise InputError(f"S isn't defined at {point}")
@@ -152,9 +195,7 @@ class Conditions:
             return None
         for region in self.regions:
             if region.statement.holds(point):
-                if not region.defined:
-                    return None
-                return region.verdict
+                return region.verdict if region.defined else None
         if self.complete is True:
             return self.generic
         return Verdict(self.generic.structure, known=False)
@@ -177,37 +218,27 @@ class Conditions:
 
     def check(self, samples: int = 200, *, seed: int = 1) -> CheckReport:
         """Solve the equation without parameters at exact points inside and outside of the regions, and compare."""
-        random = Random(seed)
-        usable = [region.statement for region in self.regions]
-        counts = [0, 0, 0]
+        statements = [region.statement for region in self.regions]
+        inside = outside = unclaimed = 0
         disagreements: list[Disagreement] = []
-        attempts = 0
-        while sum(counts) < samples and attempts < 20 * samples:
-            attempts += 1
-            if usable and attempts % 2:
-                statement = usable[attempts // 2 % len(usable)]
-                point = sampling.inside(statement, self.constant, self.parameters, self.assumptions, random)
-            else:
-                point = sampling.outside(self.constant, self.parameters, self.assumptions, random)
-            if point is None or not all(
-                self.assumptions.of(n).admits(v) for n, v in zip(point.names, point.values, strict=True)
-            ):
+        points = sampling.points(statements, self.constant, self.parameters, self.assumptions, Random(seed))
+        for point in islice(points, 20 * samples):
+            if inside + outside + unclaimed >= samples:
+                break
+            predicted = None if point is None else self.predicted(point)
+            if point is None or predicted is None:
                 continue
-            try:
-                predicted = self.predicted(point)
-                S = at_point(self.S, point)
-            except (ZeroDivisionError, UndefinedError):
-                continue
-            if predicted is None:
-                continue
-            special = any(statement.holds(point) for statement in usable)
-            counts[2 if not predicted.known else 0 if special else 1] += 1
             if not predicted.known:
+                unclaimed += 1
                 continue
-            decision = decide(S, Budget(self.limits), certify=False)
+            if any(statement.holds(point) for statement in statements):
+                inside += 1
+            else:
+                outside += 1
+            decision = decide(at_point(self.S, point), Budget(self.limits), certify=False)
             if decision.status is not Status.UNDECIDED and decision.case != predicted.case:
                 disagreements.append(Disagreement(str(point), predicted.case, decision.case))
-        return CheckReport(counts[0], counts[1], counts[2], tuple(disagreements))
+        return CheckReport(inside, outside, unclaimed, tuple(disagreements))
 
     def to_json(self) -> str:
         """One line of JSON: parameters, generic, regions."""
@@ -223,17 +254,7 @@ class Conditions:
             "parameters": list(self.parameters),
             "assumptions": self.assumptions.to_dict(),
             "generic": {"case": self.generic.case, "group": self.generic.group},
-            "regions": [
-                {
-                    "condition": region.statement.text(),
-                    "case": region.case,
-                    "group": region.group,
-                    "complete": region.complete,
-                    "defined": region.defined,
-                    "omega": region.omega,
-                }
-                for region in self.regions
-            ],
+            "regions": [region.to_dict() for region in self.regions],
             "complete": self.complete,
             "theory": self.theory,
             "notices": list(self.notices),
@@ -241,8 +262,8 @@ class Conditions:
 
     def latex(self) -> str:
         """The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values."""
-        rows = [rf"\text{{{_case_text(r.verdict)}}} & {r.statement.latex()}" for r in self.regions if r.defined]
-        rows.append(rf"\text{{{_case_text(self.generic)}}} & \text{{{self._where_generic}}}")
+        rows = [rf"\text{{{r.verdict}}} & {r.statement.latex()}" for r in self.regions if r.defined]
+        rows.append(rf"\text{{{self.generic}}} & \text{{{self._where_generic}}}")
         left = f"y'' = \\left({as_latex(self.S, self.variable)}\\right) y"
         return left + r"\colon\quad \begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
 
@@ -257,16 +278,21 @@ class Conditions:
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """A map of two parameters: see `kovacic.parametric.plot.plot`."""
-        from kovacic.parametric.plot import plot
-
-        return plot(self, axes, **options)
+        title = f"y'' = ({shown(self.S, self.variable)}) y"
+        return plot(
+            lambda values: str(self.predicted(self.point(values)) or "S not defined"),
+            self.parameters,
+            title,
+            axes,
+            **options,
+        )
 
     def __str__(self) -> str:
         known = f" ({self.assumptions})" if self.assumptions else ""
         lines = [f"y'' = ({shown(self.S, self.variable)}) y, parameters {', '.join(self.parameters)}{known}"]
         lines += [f"  note: {notice}" for notice in self.notices]
         lines += [f"  {region}" for region in self.regions]
-        lines.append(f"  {self._where_generic}: {_case_text(self.generic)}")
+        lines.append(f"  {self._where_generic}: {self.generic}")
         complete = "proven to be complete" if self.complete is True else f"complete {self.complete}"
         lines.append(f"  ({complete}; {self.theory})")
         return "\n".join(lines)
@@ -303,12 +329,3 @@ def _constants(values: list[Any], limits: Limits) -> tuple[list[Poly], Field]:
     if not polynomial.is_polynomial or polynomial.field.ground != QQ:
         raise InputError("the values of parameters are numbers")
     return [polynomial.num[i] for i in range(len(values))], polynomial.field
-
-
-def _case_text(verdict: Verdict) -> str:
-    if not verdict.known:
-        return "not determined"
-    return "no Liouvillian solution" if verdict.case is None else f"case {verdict.case}"
-
-
-__all__ = ["CheckReport", "Condition", "Conditions", "Disagreement"]

@@ -10,12 +10,10 @@ from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
-from kovacic.parametric.answer import Condition, Conditions
+from kovacic.parametric.answer import Condition, Conditions, Verdict
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
-from kovacic.parametric.partition import partition, verdict_of
-from kovacic.parametric.regions import Partition, Region, Settings, Verdict
-from kovacic.parametric.slices import reduced, with_free_constant
-from kovacic.parametric.statements import Both, Statement
+from kovacic.parametric.partition import Settings, partition
+from kovacic.parametric.restriction import reduced, with_free_constant
 from kovacic.reading.names import parameters_of
 from kovacic.reading.parsed import Parsed
 from kovacic.reading.read import read_input
@@ -69,7 +67,7 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     budget = Budget(bounded)
     result = partition(lifted, Settings(max_degree, budget, parsed.variable))
     different: dict[str, Condition] = {}
-    for region in _flattened(result):
+    for region in result.regions:
         statement = reduced(region.statement, constant).avoiding((parsed.variable, *parameters_of(lifted.field)))
         region = replace(region, statement=statement)
         different.setdefault(region.statement.text(), region)
@@ -80,7 +78,7 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
         generic, complete, regions = regions[always].verdict, regions[always].complete, regions[:always]
         complete = next((region.complete for region in regions if region.complete is not True), complete)
         if not generic.known:
-            generic = verdict_of(decide(parsed.S, budget, certify=False))
+            generic = Verdict.of(decide(parsed.S, budget, certify=False))
     return Conditions(
         lifted,
         parsed.variable,
@@ -120,38 +118,3 @@ def under_assumptions(
     exceptions = " or ".join(str(region.statement) for region in answer.regions)
     exception = f" except where {exceptions}" if exceptions else ""
     return decision, f"with {known} the answer holds{exception} ({answer.theory})"
-
-
-def _flattened(result: Partition) -> list[Condition]:
-    """The regions with their inner ones, so that the first one that contains a point is right."""
-    flat: list[Condition] = []
-    for region in result.regions:
-        if region.inner is not None:
-            outer = _outer(region)
-            special = _flattened(region.inner)
-            while special and special[-1].defined and _claims(special[-1]) == _claims(outer):
-                special.pop()
-            for inner in special:
-                statement = _both(region.statement, inner.statement)
-                flat.append(Condition(statement, inner.verdict, inner.complete, inner.defined, inner.omega))
-        flat.append(_outer(region))
-    return flat
-
-
-def _claims(condition: Condition) -> tuple[Verdict, bool | str]:
-    return condition.verdict, condition.complete
-
-
-def _outer(region: Region) -> Condition:
-    verdict = region.verdict
-    if region.inner is not None and region.inner.complete is not True:
-        verdict = Verdict(verdict.structure, known=False)
-    return Condition(region.statement, verdict, region.complete, region.defined, region.omega)
-
-
-def _both(first: Statement, second: Statement) -> Statement:
-    parts = [part for one in (first, second) for part in (one.parts if isinstance(one, Both) else (one,))]
-    return Both(tuple(parts))
-
-
-__all__ = ["conditions", "conditions_of", "under_assumptions"]

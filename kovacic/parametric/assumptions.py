@@ -16,6 +16,7 @@ from typing import Any
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.errors import InputError
+from kovacic.parametric.functions import degrees, element, powers_of
 
 _DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
 
@@ -120,6 +121,10 @@ class Assumptions:
     def of(self, name: str) -> Known:
         return dict(self.known).get(name, Known())
 
+    def admits(self, values: Iterable[tuple[str, Poly]]) -> bool:
+        """May the parameters have these values?"""
+        return all(self.of(name).admits(value) for name, value in values)
+
     def to_dict(self) -> dict[str, str]:
         """Words separated by spaces, by name."""
         return {name: " ".join(known.words) for name, known in self.known}
@@ -159,26 +164,17 @@ class Assumptions:
         """The value of a polynomial that doesn't depend on the parameters without a value; None for any other."""
         if not self.values:
             return None
-        field, fixed = self.values[0][1].field, dict(self.values)
-        names = function.field.names
-        free = [i for i, name in enumerate(names) if name not in fixed]
-        if any(int(k) for i, k in enumerate(function.den.degrees()[1:]) if i in free):
+        field, fixed, names = self.values[0][1].field, dict(self.values), function.field.names
+        below = element(function.field, function.den)
+        free = [[i for i, k in enumerate(degrees(part)) if k and names[i] not in fixed] for part in (function, below)]
+        if free[1]:
             return None
-        constants = [fixed.get(name, field.poly([0])) for name in names]
-        one = function.field.context.constant(1)
-        parts: dict[tuple[int, ...], dict[Any, Any]] = {}
-        for exponents, coefficient in function.num.to_dict().items():
-            parts.setdefault(tuple(int(exponents[1 + i]) for i in free), {})[exponents] = coefficient
-        total = field.poly([0])
-        for powers, terms in parts.items():
-            ones = [field.poly([1]) if name not in fixed else fixed[name] for name in names]
-            part = FunctionPoly(function.field, function.field.context.from_dict(terms), one).value_at(ones, field)
-            if any(powers) and part:
-                return None
-            if not any(powers):
-                total = part
-        below = FunctionPoly(function.field, function.den, one).value_at(constants, field)
-        return total / below if below else None
+        if not free[0]:
+            return function.value_at([fixed.get(name, 0) for name in names], field)
+        parts = powers_of(function, free[0][0])
+        if any(power and self._value_of(part) != 0 for power, part in parts.items()):
+            return None
+        return self._value_of(parts.get(0, 0 * below) / below)
 
     def _is_nonzero(self, function: FunctionPoly) -> bool:
         """Can the function be proven to vanish nowhere?"""
@@ -303,15 +299,3 @@ def _linear(form: FunctionPoly) -> tuple[Fraction, dict[str, Fraction]] | None:
 def _powers(form: FunctionPoly, exponents: Any) -> dict[str, int]:
     """The parameters of a monomial with their positive exponents."""
     return {name: int(k) for name, k in zip(form.field.names, exponents[1:], strict=True) if k}
-
-
-__all__ = [
-    "NOTHING_ASSUMED",
-    "WORDS",
-    "Assumptions",
-    "Coset",
-    "Known",
-    "common_divisor",
-    "common_multiple",
-    "read_assumptions",
-]

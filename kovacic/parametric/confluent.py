@@ -17,12 +17,13 @@ integer, since an imprimitive group becomes reducible over C(sqrt x); n even is 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
-from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem
-from kovacic.parametric.formulas import shown
+from kovacic.parametric.functions import over_parameters, shown, shown_root
 from kovacic.parametric.statements import Statement, integer_roots
 
 
@@ -44,26 +45,21 @@ class Confluent:
 
 def omega(form: Confluent) -> str:
     """What the solutions look like in the coordinate of the form (1), called s unless it has a name."""
-    field, n = form.b.field, form.n
+    n = form.n
     simple = form.coordinate.isidentifier()
     z, where = (form.coordinate, "") if simple else ("s", f", s = {form.coordinate}")
-    difference = _root(1 + 4 * form.b)
+    difference = shown_root(1 + 4 * form.b)
     if not form.q:
         return f"omega of degree 2, rational in {z} and sqrt({z}){where}"
-    leading = field.sqrt(form.q)
-    root = f"sqrt({shown(RatFunc(form.q))})" if leading is None else f"({shown(RatFunc(leading))})"
+    root = shown_root(form.q)
+    root = root if root.startswith("sqrt(") else f"({root})"
     power = "" if n == 1 else f" {z}" if n == 2 else f" {z}^{n - 1}"
-    beta = _root(form.r * form.r / form.q)
+    beta = shown_root(form.r * form.r / form.q)
     natural = "a natural number" if n == 1 else f"a natural multiple of {n}"
     return (
         f"omega = +-{root}{power} + (1 +- ({difference}))/(2 {z}) + P'/P{where}, with signs for which "
         f"deg P = (-{n} +- ({beta}) +- ({difference}))/2 is {natural}"
     )
-
-
-def _root(square: Poly) -> str:
-    root = square.field.sqrt(square)
-    return f"sqrt({shown(RatFunc(square))})" if root is None else shown(RatFunc(root))
 
 
 def group(form: Confluent) -> str:
@@ -105,19 +101,13 @@ def recognise(problem: Problem, variable: str) -> Confluent | None:
         return None
     zero = field.poly([])
     b = terms.pop(-2, zero)
-    powers = sorted(terms)
-    if not powers:
+    if not terms:
         return None
-    top = powers[-1]
-    if len(powers) == 1:
-        n = top + 2
-        if n % 2 == 0:
-            return Confluent(n // 2, b, zero, terms[top], coordinate)
-        return Confluent(n, b, terms[top], zero, coordinate)
-    n = powers[0] + 2
-    if len(powers) == 2 and n >= 1 and top == 2 * n - 2:
-        return Confluent(n, b, terms[powers[0]], terms[top], coordinate)
-    return None
+    top = max(terms)
+    q = zero if top % 2 else terms.pop(top)
+    n = top + 2 if top % 2 else top // 2 + 1
+    r = terms.pop(n - 2, zero)
+    return None if terms else Confluent(n, b, r, q, coordinate)
 
 
 def _laurent(S: RatFunc) -> dict[int, Poly] | None:
@@ -128,19 +118,16 @@ def _laurent(S: RatFunc) -> dict[int, Poly] | None:
     return {power - shift: c for power, c in enumerate(S.num) if c}
 
 
-def solvable(form: Confluent) -> tuple[int, bool | list[Statement]]:
-    """The case, and when it occurs: True for always, and [] for never."""
-    n, delta_squared = form.n, 1 + 4 * form.b
-    field = form.b.field
+def solvable(form: Confluent) -> tuple[Structure, Literal[True] | list[Statement]]:
+    """The structure, and when it occurs: True for always, and [] for never."""
+    delta_squared, field = 1 + 4 * form.b, form.b.field
     if form.q:
         beta_squared = form.r * form.r / form.q
         z = field.poly([0, 0, 1])
-        equation = (z - beta_squared - delta_squared) ** 2 - 4 * beta_squared * delta_squared
-        assert isinstance(equation, FunctionPoly)
-        return 1, integer_roots(equation, [n], 2 * n)
-    equation = field.poly([-4 * delta_squared, 0, 1])
-    assert isinstance(equation, FunctionPoly)
-    return 2, integer_roots(equation, [n], 2 * n)
-
-
-__all__ = ["Confluent", "group", "omega", "recognise", "solvable"]
+        structure, equation = (
+            Structure.REDUCIBLE,
+            (z - beta_squared - delta_squared) ** 2 - 4 * beta_squared * delta_squared,
+        )
+    else:
+        structure, equation = Structure.IMPRIMITIVE, field.poly([-4 * delta_squared, 0, 1])
+    return structure, integer_roots(over_parameters(equation), [form.n], 2 * form.n)

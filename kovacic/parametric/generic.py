@@ -1,24 +1,46 @@
-"""Under which conditions was an answer for generic parameters derived?
+"""Where S itself changes, and under which conditions an answer for generic parameters was derived.
 
-The engine computes over Q(t).  Where the listed polynomials don't vanish, S has the same poles with the same orders, and
-a positive answer specialises: omega's polynomial is defined there and solves the Riccati equation.  Exponent differences that
-depend on the parameters count as irrational numbers; where one of them becomes rational, and the other listed conditions
-hold, more can be solvable than generically, and `kovacic.conditions` says where exactly.
+Polynomials in the parameters tell where S isn't defined, and where poles merge, vanish or change their order.  The engine
+computes over Q(t).  Where these polynomials don't vanish, S has the same poles with the same orders, and a positive answer
+specialises: omega's polynomial is defined there and solves the Riccati equation.  Exponent differences that depend on the
+parameters count as irrational numbers; where one of them becomes rational, and the other listed conditions hold, more can be
+solvable than generically, and `kovacic.conditions` says where exactly.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
-from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.extension import ExtensionPoly, norm
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
-from kovacic.engine.places import Kind, analyse
+from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.limits import Budget
-from kovacic.parametric.bounded import denominators, irreducible_factors, union
-from kovacic.parametric.formulas import shown
-from kovacic.solution import Solution
+from kovacic.parametric.functions import denominators, element, irreducible_factors, over_parameters, shown, union
+
+if TYPE_CHECKING:
+    from kovacic.solution import Solution
+
+
+def undefined(problem: Problem) -> list[FunctionPoly]:
+    """The irreducible polynomials at whose zeros the leading coefficient of S's denominator vanishes."""
+    return irreducible_factors(_down(problem.S.cleared()[1].lc))
+
+
+def confluence(problem: Problem) -> list[FunctionPoly]:
+    """Where poles merge or go to infinity."""
+    radical: Poly = problem.field.poly([1])
+    for place in problem.finite_places:
+        radical = radical * place.factor
+    return union([undefined(problem), _common_zeros(radical, radical.derivative())])
+
+
+def structure_changes(problem: Problem) -> list[FunctionPoly]:
+    """Where poles merge, go to infinity, or change their order."""
+    above, below = problem.S.cleared()
+    return union([confluence(problem), irreducible_factors(_down(above.lc)), _common_zeros(above, below)])
 
 
 @dataclass(frozen=True)
@@ -49,47 +71,39 @@ def generic_conditions(solution: Solution) -> GenericConditions:
         return GenericConditions((), ())
     problem = analyse(solution.S, Budget())
     above, below = solution.S.cleared()
-    radical: Poly = field.poly([1])
-    for place in problem.finite_places:
-        radical = radical * place.factor
-    elements = [above.lc, below.lc, _resultant(radical, radical.derivative()), _resultant(above, below)]
-    decision = solution.decision
-    if decision.riccati is not None:
-        for polynomial in (decision.riccati.P, decision.riccati.D, *decision.riccati.numerators):
-            elements += denominators(polynomial)
-    if solution.constants is not None:
-        elements.append(_resultant(solution.constants, solution.constants.derivative()))
-    nonzero = union([irreducible_factors(_down(element)) for element in elements if element])
-    squares: list[FunctionPoly] = []
-    for place in problem.places:
-        square = place.delta_squared
-        if place.kind is Kind.REGULAR and square is not None and field.rational_value(square) is None:
-            value = _down(square)
-            if value not in squares:
-                squares.append(value)
-    return GenericConditions(tuple(f for f in nonzero if isinstance(f, FunctionPoly)), tuple(squares))
+    changes = [irreducible_factors(_down(above.lc)), confluence(problem), _common_zeros(above, below)]
+    riccati, constants = solution.decision.riccati, solution.constants
+    if riccati is not None:
+        for polynomial in (riccati.P, riccati.D, *riccati.numerators):
+            changes += [irreducible_factors(_down(d)) for d in denominators(polynomial)]
+    if constants is not None:
+        changes.append(_common_zeros(constants, constants.derivative()))
+    squares = [
+        _down(place.delta_squared)
+        for place in problem.places
+        if place.kind is Kind.REGULAR
+        and place.delta_squared is not None
+        and field.rational_value(place.delta_squared) is None
+    ]
+    return GenericConditions(tuple(union(changes)), tuple(union([squares])))
 
 
-def _resultant(first: Poly, second: Poly) -> Poly:
-    """By Euclid's algorithm, up to a factor in Q; 1 where one of them is constant."""
-    field: Field = first.field
+def _common_zeros(first: Poly, second: Poly) -> list[FunctionPoly]:
+    """The irreducible factors of the resultant, or of its norm over an extension of Q(t)."""
     if first.degree < 1 or second.degree < 1:
-        return field.poly([1])
+        return []
     if isinstance(first, FunctionPoly) and isinstance(second, FunctionPoly):
-        value = first.num.resultant(second.num, 0)
-        return FunctionPoly(first.field, value, first.field.context.constant(1))
-    total = field.poly([1])
-    while second.degree > 0:
+        return irreducible_factors(element(first.field, first.num.resultant(second.num, 0)))
+    total: Poly = first.field.poly([1])
+    while second.degree > 0:  # Euclid's algorithm, up to a factor in Q
         rest = first % second
         total = total * second.lc ** max(first.degree - rest.degree, 0)
         first, second = second, rest
-    return total * second ** max(first.degree, 0)
+    return irreducible_factors(_down(total * second ** max(first.degree, 0)))
 
 
-def _down(element: Poly) -> FunctionPoly:
+def _down(constant: Poly) -> FunctionPoly:
     """An element of Q(t), or the norm of one of an extension."""
-    while isinstance(element, ExtensionPoly) and isinstance(element.field, AlgebraicField):
-        element = norm(element)
-    if not isinstance(element, FunctionPoly) or not isinstance(element.field, FunctionField):
-        raise TypeError("a field with parameters is expected")
-    return element
+    while isinstance(constant, ExtensionPoly):
+        constant = norm(constant)
+    return over_parameters(constant)

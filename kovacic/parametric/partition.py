@@ -12,32 +12,25 @@ defined, one in case 2 is in case 1 or 2, and one that has Liouvillian solutions
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.decision import Decision, Status, Structure
+from kovacic.decision import Decision, Structure
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
-from kovacic.parametric import confluent, riemann
-from kovacic.parametric.bounded import (
-    degrees_that_decide,
-    denominators,
-    form_conditions,
-    has_constant_rational_exponents,
-    irreducible_factors,
-    union,
-)
-from kovacic.parametric.degenerate import confluence, structure_changes, undefined
-from kovacic.parametric.regions import Partition, Region, Settings, Verdict
-from kovacic.parametric.restriction import Restriction, UndefinedError, leading_factors, missed, on_hypersurface
-from kovacic.parametric.search import search
-from kovacic.parametric.statements import Both, Statement, Vanishes, either
+from kovacic.limits import Budget
+from kovacic.parametric import confluent, generic, riemann
+from kovacic.parametric.answer import Condition, Verdict
+from kovacic.parametric.functions import degrees, denominators, irreducible_factors, union
+from kovacic.parametric.restriction import UndefinedError, leading_factors, missed, on_hypersurface
+from kovacic.parametric.search import degrees_that_decide, form_conditions, has_constant_rational_exponents, search
+from kovacic.parametric.statements import Statement, Vanishes, both, either
 from kovacic.solution import Solution
 from kovacic.views.text import omega_lines
 
@@ -47,64 +40,71 @@ _WRITTEN_OUT = 2
 _LONGEST_OMEGA = 300
 
 
+@dataclass(frozen=True)
+class Partition:
+    """Regions, tried in order; `generic` holds where none of them does, `complete` as for a region."""
+
+    generic: Verdict
+    complete: bool | str
+    theory: str
+    regions: tuple[Condition, ...] = ()
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How far to go: where no theorem covers all degrees up to `max_degree` (None: then no search at all)."""
+
+    max_degree: int | None
+    budget: Budget
+    variable: str = "x"
+
+
 def partition(S: RatFunc, settings: Settings) -> Partition:
     """The partition for S over Q(t), or the single verdict for S over Q or Q(alpha)."""
     constants = S.field
     decision = decide(S, settings.budget, certify=False)
-    generic = verdict_of(decision)
+    verdict = Verdict.of(decision)
     if constants.ground == QQ:
-        return Partition(S, (), (), generic, generic.known or str(decision.undecided), "the engine")
+        return Partition(verdict, verdict.known or str(decision.undecided), "the engine")
     if not isinstance(constants, FunctionField):
         # Functions on a hypersurface; see the head of this module for case 1.
-        reducible = generic.known and generic.structure is Structure.REDUCIBLE
-        return Partition(S, (), (), generic, reducible or "for generic values only", "the engine")
+        reducible = verdict.known and verdict.structure is Structure.REDUCIBLE
+        return Partition(verdict, reducible or "for generic values only", "the engine")
     try:
-        return _by_theory(S, generic, settings)
+        return _by_theory(S, verdict, settings)
     except LimitExceeded as limit:
-        complete = f"only as far as the limits allowed: {limit}"
-        return Partition(S, constants.names, (), generic, complete, "nothing but the generic answer")
+        return Partition(verdict, f"only as far as the limits allowed: {limit}", "nothing but the generic answer")
 
 
-def _by_theory(S: RatFunc, generic: Verdict, settings: Settings) -> Partition:
+def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
-    if generic.known and generic.structure is Structure.REDUCIBLE:
+    if expected.known and expected.structure is Structure.REDUCIBLE:
         # So it is in case 1 at all values where S is defined: see the head of this module.
-        regions = [region for region in _degenerate(problem, undefined(problem), settings) if not region.defined]
-        return _closed(problem, regions, generic, "a rational omega for generic values, and so for all", generic)
+        regions = [region for region in _degenerate(S, generic.undefined(problem), settings) if not region.defined]
+        return _closed(regions, expected, "a rational omega for generic values, and so for all", expected)
     if riemann.applies(problem):
-        return _riemann(problem, generic, settings)
+        return _riemann(problem, expected, settings)
     form = confluent.recognise(problem, settings.variable)
     if form is not None:
-        return _confluent(problem, form, generic, settings)
+        return _confluent(problem, form, expected, settings)
     if settings.max_degree is None:
-        names: tuple[str, ...] = problem.field.names  # type: ignore[attr-defined]
-        return Partition(S, names, (), generic, "for generic values only", "no theorem covers all values")
-    return _by_candidates(problem, generic, settings, settings.max_degree)
+        return Partition(expected, "for generic values only", "no theorem covers all values")
+    return _by_candidates(problem, expected, settings, settings.max_degree)
 
 
-def verdict_of(decision: Decision) -> Verdict:
-    """What the engine's decision says."""
-    return Verdict(decision.structure, decision.status is not Status.UNDECIDED)
-
-
-def _riemann(problem: Problem, generic: Verdict, settings: Settings) -> Partition:
+def _riemann(problem: Problem, expected: Verdict, settings: Settings) -> Partition:
     theory = "at most three regular singular points: Kimura's theorem"
-    regions = _degenerate(problem, confluence(problem), settings)
-    reducible = riemann.reducible(problem)
-    case_1 = Verdict(Structure.REDUCIBLE, family=riemann.group(problem, Structure.REDUCIBLE))
-    if reducible is True:
-        return _closed(problem, regions, case_1, theory, generic)
-    assert isinstance(reducible, list)
-    regions.append(Region(either(reducible), case_1, omega=riemann.omega(problem, settings.variable)))
-    others = riemann.irreducible_structures(problem)
-    if isinstance(others, Structure):
-        return _closed(problem, regions, Verdict(others, family=riemann.group(problem, others)), theory, generic)
-    for structure in Structure:
-        statements = [statement for other, statement in others if other is structure]
-        if statements:
-            verdict = Verdict(structure, family=riemann.group(problem, structure))
-            regions.append(Region(either(statements), verdict, omega=_SEMI_INVARIANTS[structure]))
-    return _closed(problem, regions, Verdict(None), theory, generic)
+    regions = _degenerate(problem.S, generic.confluence(problem), settings)
+    always = Verdict(None)
+    for structure, statements in riemann.structures(problem):
+        verdict = Verdict(structure, family=riemann.group(problem, structure))
+        if statements is True:
+            always = verdict
+            break
+        reducible = structure is Structure.REDUCIBLE
+        omega = riemann.omega(problem, settings.variable) if reducible else _SEMI_INVARIANTS[structure]
+        regions.append(Condition(either(statements), verdict, omega=omega))
+    return _closed(regions, always, theory, expected)
 
 
 _RATIONAL_OMEGA = "omega = theta + P'/P, theta from the exponents and the polynomial part of sqrt(S), P a polynomial"
@@ -117,176 +117,167 @@ _SEMI_INVARIANTS = {
 }
 
 
-def _confluent(problem: Problem, form: confluent.Confluent, generic: Verdict, settings: Settings) -> Partition:
+def _confluent(problem: Problem, form: confluent.Confluent, expected: Verdict, settings: Settings) -> Partition:
     kind = "Whittaker's equation" if form.q else "Bessel's equation"
     base = form.coordinate if form.coordinate.isidentifier() else f"({form.coordinate})"
-    power = form.coordinate if form.n == 1 else f"{base}^{form.n}"
-    theory = f"{kind} in {power}: Martinet & Ramis"
-    functions = [*undefined(problem), *irreducible_factors(form.degenerate)]
-    regions = _degenerate(problem, functions, settings)
-    case, statements = confluent.solvable(form)
-    verdict = Verdict(Structure.REDUCIBLE if case == 1 else Structure.IMPRIMITIVE, family=confluent.group(form))
+    theory = f"{kind} in {form.coordinate if form.n == 1 else f'{base}^{form.n}'}: Martinet & Ramis"
+    functions = [*generic.undefined(problem), *irreducible_factors(form.degenerate)]
+    regions = _degenerate(problem.S, functions, settings)
+    structure, statements = confluent.solvable(form)
+    verdict = Verdict(structure, family=confluent.group(form))
     if statements is True:
-        return _closed(problem, regions, verdict, theory, generic)
-    assert isinstance(statements, list)
+        return _closed(regions, verdict, theory, expected)
     if statements:
-        regions.append(Region(either(statements), verdict, omega=confluent.omega(form)))
-    return _closed(problem, regions, Verdict(None), theory, generic)
+        regions.append(Condition(either(statements), verdict, omega=confluent.omega(form)))
+    return _closed(regions, Verdict(None), theory, expected)
 
 
-def _closed(problem: Problem, regions: list[Region], expected: Verdict, theory: str, generic: Verdict) -> Partition:
+def _closed(regions: list[Condition], verdict: Verdict, theory: str, expected: Verdict) -> Partition:
     """A partition by a theorem, which the engine's generic answer must confirm."""
-    if generic.known and generic.case != expected.case:
-        raise AssertionError(f"{theory}: case {expected.case} contradicts the generic answer, case {generic.case}")
-    names = problem.field.names  # type: ignore[attr-defined]
-    return Partition(problem.S, names, tuple(regions), expected, _together(regions), theory)
+    if expected.known and expected.case != verdict.case:
+        raise AssertionError(f"{theory}: case {verdict.case} contradicts the generic answer, case {expected.case}")
+    return Partition(verdict, _together(regions), theory, tuple(regions))
 
 
-def _together(regions: list[Region]) -> bool | str:
+def _together(regions: list[Condition]) -> bool | str:
     """True where everything is complete, else the first sentence that says what isn't."""
     return next((r.complete for r in regions if r.complete is not True), True)
 
 
-def _by_candidates(problem: Problem, generic: Verdict, settings: Settings, max_degree: int) -> Partition:
-    names: tuple[str, ...] = problem.field.names  # type: ignore[attr-defined]
-    regions: list[Region] = []
+def _by_candidates(problem: Problem, expected: Verdict, settings: Settings, max_degree: int) -> Partition:
+    regions: list[Condition] = []
     complete: bool | str = True
     theory = "polynomial conditions"
-    reducible: list[Poly] = []
+    reducible: list[FunctionPoly] = []
     try:
-        regions = _degenerate(problem, union([undefined(problem), structure_changes(problem)]), settings)
+        regions = _degenerate(problem.S, generic.structure_changes(problem), settings)
         known = [r.statement.function for r in regions if isinstance(r.statement, Vanishes)]
         if has_constant_rational_exponents(problem):
             found = [form_conditions(problem, m) for m in degrees_that_decide(problem)]
-            candidates = union([*(c.polynomials for c in found), _discriminants(problem, generic, settings)])
+            candidates = union([*(c.polynomials for c in found), _discriminants(problem, expected, settings)])
             if not all(c.complete for c in found):
                 complete = "except for values that are special in two or more parameters at once"
             theory = "exponents that don't depend on the parameters: invariants of bounded degree"
-            if generic.structure not in (None, Structure.REDUCIBLE, Structure.IMPRIMITIVE):
+            if expected.structure not in (None, Structure.REDUCIBLE, Structure.IMPRIMITIVE):
                 complete = "not proven where the generic group is finite and primitive"
         else:
             findings = search(problem, max_degree)
             candidates, reducible = findings.candidates, findings.reducible
             theory = "candidates from the exponents"
-            if generic.structure is not None and generic.structure is not Structure.REDUCIBLE:
+            if expected.structure is not None and expected.structure is not Structure.REDUCIBLE:
                 findings.unproven.append("smaller groups than the generic one")
             if findings.unproven:
                 complete = f"up to degree {max_degree} (not proven: {'; '.join(findings.unproven)})"
         for function in candidates:
-            if function not in known:
-                settings.budget.check()
-                if function in reducible and _height(function) > _WRITTEN_OUT:
-                    verdict = Verdict(Structure.REDUCIBLE)
-                    regions.append(Region(Vanishes(function), verdict, omega=_RATIONAL_OMEGA))  # type: ignore[arg-type]
-                    continue
-                regions += _regions_where_zero(problem, function, generic, settings)
+            if function in known:
+                continue
+            settings.budget.check()
+            if function in reducible and max(degrees(function)) > _WRITTEN_OUT:
+                regions.append(Condition(Vanishes(function), Verdict(Structure.REDUCIBLE), omega=_RATIONAL_OMEGA))
+                continue
+            found_there = _pieces(problem.S, function, settings)
+            if any(not r.verdict.known or r.case != expected.case or r.complete is not True for r in found_there):
+                regions += found_there
     except LimitExceeded as limit:
         complete = f"only as far as the limits allowed: {limit}"
     if complete is True:
         complete = _together(regions)
-    return Partition(problem.S, names, tuple(regions), generic, complete, theory)
+    return Partition(expected, complete, theory, tuple(regions))
 
 
-def _height(function: Poly) -> int:
-    """The largest degree in one parameter."""
-    assert isinstance(function, FunctionPoly)
-    return max(int(k) for k in function.num.degrees())
-
-
-def _discriminants(problem: Problem, generic: Verdict, settings: Settings) -> list[Poly]:
+def _discriminants(problem: Problem, expected: Verdict, settings: Settings) -> list[FunctionPoly]:
     """Where the two solutions in a generic semi-invariant y1 y2 can coincide: where a constant, w^2, vanishes."""
-    if generic.structure is not Structure.IMPRIMITIVE:
+    if expected.structure is not Structure.IMPRIMITIVE:
         return []
-    decision = decide(problem.S, settings.budget)
-    riccati = decision.riccati
+    riccati = decide(problem.S, settings.budget).riccati
     if riccati is None or riccati.P.field != problem.field:
         return []
     # The discriminant of W^2 - A1/(P D) W + A2/(P D^2) is w^2 / (y1 y2)^2 with a constant w^2.
-    P, _, first, second = riccati.P, riccati.D, riccati.numerators[1], riccati.numerators[2]
+    P, (_, first, second) = riccati.P, riccati.numerators
     elements = [(first * first - 4 * P * second).lc, *denominators(P), *denominators(first), *denominators(second)]
-    return union([irreducible_factors(element) for element in elements])
+    return union(irreducible_factors(element) for element in elements)
 
 
-def _degenerate(problem: Problem, functions: list[Poly], settings: Settings) -> list[Region]:
+def _degenerate(S: RatFunc, functions: Iterable[FunctionPoly], settings: Settings) -> list[Condition]:
     """Regions for the values at which the generic theory doesn't apply."""
-    regions = []
-    for function in functions:
-        regions += _pieces(problem.S, function, settings)
-    return regions
+    return [region for function in functions for region in _pieces(S, function, settings)]
 
 
-def _pieces(S: RatFunc, function: Poly, settings: Settings) -> list[Region]:
+def _pieces(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Condition]:
     """The regions that make up the zeros of a polynomial, in their order."""
     settings.budget.check()
-    last = _inside(S, function, settings)
-    return [*_missed(S, function, settings), last] if last.defined else [last]
+    regions = _inside(S, function, settings)
+    return [*_missed(S, function, settings), *regions] if regions[-1].defined else regions
 
 
-def _missed(S: RatFunc, function: Poly, settings: Settings) -> list[Region]:
+def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Condition]:
     """Regions for the zeros of a polynomial at which the parameter to be eliminated can have any value.
 
     There a second polynomial g vanishes, so that they are the zeros of the first one on g = 0, and those that are missed there.
     """
-    assert isinstance(function, FunctionPoly)
-    regions: list[Region] = []
+    regions: list[Condition] = []
+    first = Vanishes(function)
     for other in missed(function):
-        first, second = Vanishes(function), Vanishes(other)
+        second = Vanishes(other)
         try:
             restriction = on_hypersurface(S, other)
         except UndefinedError:
-            regions.append(Region(Both((first, second)), Verdict(None, known=False), defined=False))
+            regions.append(Condition(both(first, second), _UNKNOWN, defined=False))
             continue
-        regions += [_also(deeper, first) for deeper in _missed(S, other, settings)]
-        rest = function.value_at(list(restriction.values), restriction.field)
+        regions += _also(_missed(S, other, settings), first)
+        rest = function.value_at(restriction.values, restriction.field)
         if not isinstance(rest, FunctionPoly):
-            regions.append(_also(_inside(S, other, settings), first))
+            regions += _also(_inside(S, other, settings), first)
             continue
         for factor in irreducible_factors(rest):
-            regions += [_also(piece, first, second) for piece in _pieces(restriction.S, factor, settings)]
+            regions += _also(_pieces(restriction.S, factor, settings), first, second)
     return regions
 
 
-def _also(region: Region, *conditions: Statement) -> Region:
-    """The part of a region where more conditions hold."""
-    own = region.statement.parts if isinstance(region.statement, Both) else (region.statement,)
-    return replace(region, statement=Both((*conditions, *own)))
+def _also(regions: list[Condition], *conditions: Statement) -> list[Condition]:
+    """The parts of regions where more conditions hold."""
+    return [replace(region, statement=both(*conditions, region.statement)) for region in regions]
 
 
-def _inside(S: RatFunc, function: Poly, settings: Settings) -> Region:
-    """The region where a polynomial vanishes, with its own partition, except for the points that `missed` is about."""
-    assert isinstance(function, FunctionPoly)
+_UNKNOWN = Verdict(None, known=False)
+
+
+def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Condition]:
+    """The regions where a polynomial vanishes, except for the points that `missed` is about; the last one is all the rest."""
     statement = Vanishes(function)
-    unknown = Verdict(None, known=False)
     try:
         restriction = on_hypersurface(S, function)
     except UndefinedError:
-        return Region(statement, unknown, defined=False)
+        return [Condition(statement, _UNKNOWN, defined=False)]
     inner = partition(restriction.S, settings)
     field = restriction.field
     if isinstance(field, AlgebraicField) and field.ground != QQ:
-        return _on_algebraic(statement, restriction, inner, settings)
-    elsewhere = {Vanishes(factor).text() for factor in leading_factors(function)}
-    inner = replace(inner, regions=tuple(r for r in inner.regions if r.statement.text() not in elsewhere))
+        return [_on_algebraic(statement, restriction.S, inner, settings)]
     omega, verdict = None, inner.generic
     if verdict.structure is not None:
         decision = decide(restriction.S, settings.budget)
-        omega = omega_text(restriction.S, decision, settings.variable)
-        if not inner.names and not decision.undecided:
+        omega = omega_text(restriction.S, decision, settings.variable) or _SEMI_INVARIANTS[verdict.structure]
+        if field.ground == QQ and not decision.undecided:
             verdict = replace(verdict, family=str(group_of(restriction.S, decision)))
-    whole = inner if inner.names else None
-    return Region(statement, verdict, inner.complete, omega=omega, inner=whole, restriction=restriction)
+    if field.ground != QQ and inner.complete is not True:
+        verdict = replace(verdict, known=False)
+    whole = Condition(statement, verdict, inner.complete, omega=omega)
+    elsewhere = {Vanishes(factor).text() for factor in leading_factors(function)}
+    special = [region for region in inner.regions if both(region.statement).parts[0].text() not in elsewhere]
+    while special and special[-1].defined and (special[-1].verdict, special[-1].complete) == (verdict, whole.complete):
+        special.pop()
+    return [*_also(special, statement), whole]
 
 
-def _on_algebraic(statement: Vanishes, restriction: Restriction, inner: Partition, settings: Settings) -> Region:
+def _on_algebraic(statement: Vanishes, S: RatFunc, inner: Partition, settings: Settings) -> Condition:
     """The region of a hypersurface that no parameter can be eliminated from: decided where all of it is in case 1."""
     if inner.complete is not True:
         unknown = replace(inner.generic, known=False)
-        return Region(statement, unknown, f"except for special values with {statement.text()}", restriction=restriction)
+        return Condition(statement, unknown, f"except for special values with {statement.text()}")
     omega = _RATIONAL_OMEGA
-    if _height(statement.function) <= _WRITTEN_OUT:
-        decision = decide(restriction.S, settings.budget)
-        omega = omega_text(restriction.S, decision, settings.variable) or omega
-    return Region(statement, inner.generic, omega=omega, restriction=restriction)
+    if max(degrees(statement.function)) <= _WRITTEN_OUT:
+        omega = omega_text(S, decide(S, settings.budget), settings.variable) or omega
+    return Condition(statement, inner.generic, omega=omega)
 
 
 def omega_text(S: RatFunc, decision: Decision, variable: str) -> str | None:
@@ -296,24 +287,3 @@ def omega_text(S: RatFunc, decision: Decision, variable: str) -> str | None:
     lines = omega_lines(Solution(S.to_str(variable), variable, S, decision))
     text = " ".join(line.strip() for line in lines if not line.startswith("y ="))
     return text if len(text) <= _LONGEST_OMEGA else _SEMI_INVARIANTS[decision.structure]
-
-
-def _regions_where_zero(problem: Problem, function: Poly, generic: Verdict, settings: Settings) -> list[Region]:
-    """The regions for a candidate; none if nothing changes there."""
-    regions = _pieces(problem.S, function, settings)
-    if all(_is_generic(region, generic) for region in regions):
-        return []
-    return [
-        region
-        if region.omega is not None or region.verdict.structure is None
-        else replace(region, omega=_SEMI_INVARIANTS[region.verdict.structure])
-        for region in regions
-    ]
-
-
-def _is_generic(region: Region, generic: Verdict) -> bool:
-    same = region.verdict.known and region.verdict.case == generic.case and region.complete is True
-    return same and (region.inner is None or not region.inner.regions)
-
-
-__all__ = ["partition", "verdict_of"]

@@ -2,41 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from kovacic.errors import InputError
-from kovacic.parametric.restriction import UndefinedError
 
-if TYPE_CHECKING:
-    from kovacic.parametric.answer import Conditions
-
-_LABELS = ("no Liouvillian solution", "case 1", "case 2", "case 3", "not determined", "S not defined")
+#: What can be known at a point.
+LABELS = ("no Liouvillian solution", "case 1", "case 2", "case 3", "not determined", "S not defined")
 #: Colours that keep apart in print and for colour-blind readers [Okabe & Ito].
 _COLOURS = ("#ffffff", "#0072b2", "#e69f00", "#cc79a7", "#dddddd", "#000000")
 
 
-def grid_of_cases(
-    answer: Conditions, names: Sequence[str], axes: Sequence[Sequence[Fraction]], fixed: Mapping[str, Any]
-) -> list[list[int]]:
-    """For every pair of values: 0 for no solution, else the case; 4 where nothing is claimed, 5 where S isn't defined."""
-    table = []
-    for second in axes[1]:
-        row = []
-        for first in axes[0]:
-            point = answer.point({**fixed, names[0]: first, names[1]: second})
-            try:
-                verdict = answer.predicted(point)
-            except (UndefinedError, ZeroDivisionError):
-                verdict = None
-            row.append(5 if verdict is None else 4 if not verdict.known else verdict.case or 0)
-        table.append(row)
-    return table
-
-
 def plot(
-    answer: Conditions,
+    label_at: Callable[[dict[str, Any]], str],
+    names: Sequence[str],
+    title: str,
     axes: Any = None,
     *,
     parameters: tuple[str, str] | None = None,
@@ -44,20 +25,24 @@ def plot(
     steps: int = 48,
     fixed: Mapping[str, Any] | None = None,
 ) -> Any:
-    """Draw the cases over a grid of exact rational points into matplotlib axes, which are returned.
+    """Draw the cases, given by their labels, over a grid of exact rational points into matplotlib axes, which are returned.
 
     `parameters` are the two that vary (by default the first two), `fixed` gives values to the others; `ranges` with `steps`
     intervals each make the grid, whose points are rational, so that lines such as n - 1/2 in Z are met exactly when the step
     divides them.  Without `axes` a figure is made with the Agg backend; save it with `axes.figure.savefig`.  Nothing is
     ever shown on a screen.  Raises `InputError` with fewer than two parameters.
     """
-    names = parameters or answer.parameters[:2]
-    if len(names) != 2 or any(name not in answer.parameters for name in names):
-        raise InputError("a map needs two parameters", hint=f"the parameters are {', '.join(answer.parameters)}")
+    chosen = parameters or tuple(names[:2])
+    if len(chosen) != 2 or any(name not in names for name in chosen):
+        raise InputError("a map needs two parameters", hint=f"the parameters are {', '.join(names)}")
     values = [
         [Fraction(low) + (Fraction(high) - Fraction(low)) * k / steps for k in range(steps + 1)] for low, high in ranges
     ]
-    table = grid_of_cases(answer, names, values, fixed or {})
+
+    def colour(first: Fraction, second: Fraction) -> int:
+        return LABELS.index(label_at({**(fixed or {}), chosen[0]: first, chosen[1]: second}))
+
+    table = [[colour(first, second) for first in values[0]] for second in values[1]]
 
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.colors import BoundaryNorm, ListedColormap
@@ -75,9 +60,9 @@ def plot(
     ]
     axes.pcolormesh(edges[0], edges[1], table, cmap=ListedColormap(_COLOURS), norm=BoundaryNorm(range(7), 6))
     present = sorted({case for row in table for case in row})
-    handles = [Patch(facecolor=_COLOURS[k], edgecolor="#666666", label=_LABELS[k]) for k in present]
+    handles = [Patch(facecolor=_COLOURS[k], edgecolor="#666666", label=LABELS[k]) for k in present]
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
-    axes.set_xlabel(names[0])
-    axes.set_ylabel(names[1])
-    axes.set_title(f"y'' = ({answer.S.to_str(answer.variable).replace('**', '^')}) y", fontsize="medium")
+    axes.set_xlabel(chosen[0])
+    axes.set_ylabel(chosen[1])
+    axes.set_title(title, fontsize="medium")
     return axes

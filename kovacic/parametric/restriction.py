@@ -1,18 +1,24 @@
-"""S on a part of parameter space: at a point, or where one polynomial vanishes."""
+"""S on a part of parameter space: at a point, where one polynomial vanishes, and on a slice that an algebraic constant makes.
+
+S over Q(t)(alpha), alpha an algebraic number, is S over Q(t, alpha) at one value of the parameter alpha.  A partition of the
+larger space that is right at all of its points is right on the slice, and if it is complete there it is complete here.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from itertools import count
 
-from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.parametric.bounded import irreducible_factors
-from kovacic.parametric.formulas import shown
-from kovacic.parametric.statements import Point
+from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters, powers_of
+from kovacic.parametric.statements import Both, Classes, Either, Point, Statement, Vanishes
+
+#: The point of no algebraic constant.
+NO_CONSTANT = Point((), ())
 
 
 class UndefinedError(Exception):
@@ -21,13 +27,11 @@ class UndefinedError(Exception):
 
 @dataclass(frozen=True)
 class Restriction:
-    """S where the parameters have the given values: constants of `field`, in the order of the names."""
+    """S where the parameters have the given values: constants of `field`, in their order."""
 
     S: RatFunc
     field: Field
-    names: tuple[str, ...]
     values: tuple[Poly, ...]
-    text: str
 
 
 def at_point(S: RatFunc, point: Point) -> RatFunc:
@@ -35,103 +39,114 @@ def at_point(S: RatFunc, point: Point) -> RatFunc:
     field = S.field
     if not isinstance(field, FunctionField):
         return S
-    chosen = [point.values[point.names.index(name)] for name in field.names]
-    return substituted(S, chosen, point.field)
+    return _restricted(S, [point.values[point.names.index(name)] for name in field.names], point.field).S
 
 
-def substituted(S: RatFunc, values: list[Poly], field: Field) -> RatFunc:
-    """S with these values of the parameters."""
-    above, below = S.cleared()
-    if not isinstance(above, FunctionPoly) or not isinstance(below, FunctionPoly):
-        raise TypeError("a function over Q(t) is expected")
+def _restricted(S: RatFunc, values: list[Poly], field: Field) -> Restriction:
+    above, below = map(over_parameters, S.cleared())
     den = below.value_at(values, field)
     if not den:
         raise UndefinedError
-    return RatFunc(above.value_at(values, field), den)
+    return Restriction(RatFunc(above.value_at(values, field), den), field, tuple(values))
 
 
-def on_hypersurface(S: RatFunc, function: Poly) -> Restriction:
+def on_hypersurface(S: RatFunc, function: FunctionPoly) -> Restriction:
     """S where an irreducible polynomial in the parameters vanishes.
 
     A parameter that occurs linearly is eliminated, which misses the zeros of its coefficient (`missed`); else one becomes
     algebraic over the others: a number, if there are none.  Raises `UndefinedError` where S isn't defined.
     """
-    field = S.field
-    if not isinstance(field, FunctionField) or not isinstance(function, FunctionPoly):
-        raise TypeError("parameters are expected")
-    i = _eliminated(function)
-    if i is None:
-        return _algebraic(S, function, field)
-    smaller = _without(field, i)
-    above, below = (_part(function, i, k, smaller) for k in (0, 1))
-    value = -above / below
-    values = [value if k == i else _variable(smaller, name) for k, name in enumerate(field.names)]
-    text = f"{field.names[i]} = {shown(RatFunc(-above, below))}" if below.degree >= 0 else ""
-    return Restriction(substituted(S, values, smaller), smaller, field.names, tuple(values), text)
+    names, powers = function.field.names, degrees(function)
+    linear = _eliminated(function)
+    i = min((k for k, n in enumerate(powers) if n), key=lambda k: powers[k]) if linear is None else linear
+    rest = tuple(name for k, name in enumerate(names) if k != i)
+    smaller: Field = FunctionField(rest) if rest else QQ
+    values = [
+        smaller.generator(n) if isinstance(smaller, FunctionField) and n in rest else smaller.poly([0]) for n in names
+    ]
+    parts = powers_of(function, i)
+    coefficients = [
+        parts[k].value_at(values, smaller) if k in parts else smaller.poly([]) for k in range(powers[i] + 1)
+    ]
+    if linear is not None:
+        values[i] = -coefficients[0] / coefficients[1]
+        return _restricted(S, values, smaller)
+    extension = AlgebraicField(smaller, smaller.poly([c / coefficients[-1] for c in coefficients]), names[i])
+    values[i] = extension.generator
+    return _restricted(S, [value.over(extension) for value in values], extension)
 
 
-def leading_factors(function: Poly) -> list[FunctionPoly]:
+def leading_factors(function: FunctionPoly) -> list[FunctionPoly]:
     """The irreducible factors of A where `on_hypersurface` solves A t + B = 0 by t = -B/A.
 
     It covers the zeros at which none of them vanishes.
     """
-    assert isinstance(function, FunctionPoly)
     i = _eliminated(function)
-    if i is None or not _depends(function, i):
-        return []
-    field = function.field
-    A = {(*e[: 1 + i], 0, *e[2 + i :]): c for e, c in function.num.to_dict().items() if e[1 + i]}
-    factors = irreducible_factors(field.make(field.context.from_dict(A), field.context.constant(1)))
-    return [factor for factor in factors if isinstance(factor, FunctionPoly)]
+    return [] if i is None else irreducible_factors(powers_of(function, i)[1])
 
 
-def missed(function: Poly) -> list[FunctionPoly]:
+def missed(function: FunctionPoly) -> list[FunctionPoly]:
     """Those leading factors that can vanish at a zero of the function."""
-    assert isinstance(function, FunctionPoly)
-    used = sum(1 for k in function.num.degrees()[1:] if int(k))
+    used = sum(1 for k in degrees(function) if k)
     return leading_factors(function) if used > 2 else []  # else A and B are coprime polynomials in one parameter
 
 
 def _eliminated(function: FunctionPoly) -> int | None:
     """The parameter that is eliminated: one that occurs linearly, with a constant coefficient if there is such a one."""
-    linear = [i for i, k in enumerate(function.num.degrees()[1:]) if int(k) == 1]
-    terms = function.num.to_dict()
-    return min(linear, key=lambda i: (_depends(function, i), sum(1 for e in terms if e[1 + i])), default=None)
+    factors = {i: powers_of(function, i)[1].num for i, k in enumerate(degrees(function)) if k == 1}
+    return min(factors, key=lambda i: (not factors[i].is_constant(), len(factors[i])), default=None)
 
 
-def _depends(function: FunctionPoly, i: int) -> bool:
-    """Does the coefficient of a parameter that occurs linearly depend on the others?"""
-    return any(e[1 + i] and sum(e) > 1 for e in function.num.to_dict())
+def with_free_constant(S: RatFunc) -> tuple[RatFunc, Point]:
+    """S with its algebraic constant as one more parameter, and the value of this parameter.
+
+    S is over Q(t), and then the point is empty, or over Q(t)(alpha) with a number alpha.
+    """
+    field = S.field
+    if not isinstance(field, AlgebraicField):
+        return S, NO_CONSTANT
+    base = field.base
+    if not isinstance(base, FunctionField):
+        raise TypeError("one algebraic constant over a field with parameters is expected")
+    name = next(name for k in count() if (name := field.name + "_" * k) not in base.names)
+    larger = FunctionField((*base.names, name))
+    lifted = RatFunc(_free(S.num, larger), _free(S.den, larger))
+    coefficients = [base.rational_value(c) for c in field.modulus]
+    numbers = AlgebraicField(QQ, QQ.poly([c for c in coefficients if c is not None]), field.name, field.approximation)
+    return lifted, Point((name,), (numbers.generator,), numbers)
 
 
-def _algebraic(S: RatFunc, function: FunctionPoly, field: FunctionField) -> Restriction:
-    degrees = [int(k) for k in function.num.degrees()[1:]]
-    i = min((k for k, degree in enumerate(degrees) if degree), key=lambda k: degrees[k])
-    smaller = _without(field, i)
-    coefficients = [_part(function, i, power, smaller) for power in range(degrees[i] + 1)]
-    extension = AlgebraicField(smaller, smaller.poly([c / coefficients[-1] for c in coefficients]), field.names[i])
-    values: list[Poly] = [extension.generator if k == i else _variable(smaller, n) for k, n in enumerate(field.names)]
-    values = [value.over(extension) for value in values]
-    text = f"{shown(function)} = 0"
-    return Restriction(substituted(S, values, extension), extension, field.names, tuple(values), text)
+def _free(polynomial: Poly, larger: FunctionField) -> Poly:
+    """The polynomial with the generator of its field replaced by the last parameter of the larger field."""
+    assert isinstance(polynomial, ExtensionPoly)
+    values = [larger.generator(name) for name in larger.names[:-1]]
+    total = larger.poly([])
+    for part in reversed(polynomial.parts):
+        total = total * larger.generator(larger.names[-1]) + over_parameters(part).value_at(values, larger)
+    return total
 
 
-def _without(field: FunctionField, i: int) -> Field:
-    rest = tuple(name for k, name in enumerate(field.names) if k != i)
-    return FunctionField(rest) if rest else QQ
+def reduced(statement: Statement, constant: Point) -> Statement:
+    """The same statement, with high powers of the constant replaced by means of its minimal polynomial."""
+    if not constant.names:
+        return statement
+    if isinstance(statement, Vanishes):
+        return Vanishes(_reduced(statement.function, constant))
+    if isinstance(statement, Classes):
+        return Classes.make(_reduced(statement.form, constant), statement.residues, statement.modulus)
+    if isinstance(statement, Either | Both):
+        return replace(statement, parts=tuple(reduced(part, constant) for part in statement.parts))
+    return statement
 
 
-def _variable(field: Field, name: str) -> Poly:
-    assert isinstance(field, FunctionField)
-    return field.generator(name)
-
-
-def _part(function: FunctionPoly, index: int, power: int, smaller: Field) -> Poly:
-    """The coefficient of a power of one parameter, over the field of the others."""
-    terms: dict[Any, Any] = {}
-    for exponents, coefficient in function.num.to_dict().items():
-        if int(exponents[1 + index]) == power:
-            terms[(0, *exponents[1 : 1 + index], *exponents[2 + index :])] = coefficient
-    if not isinstance(smaller, FunctionField):
-        return smaller.poly([int(next(iter(terms.values()), 0))])
-    return smaller.make(smaller.context.from_dict(terms), smaller.context.constant(1))
+def _reduced(function: FunctionPoly, constant: Point) -> FunctionPoly:
+    """The numerator in lowest powers of the constant, the last parameter of its field."""
+    field, numbers = function.field, constant.field
+    assert isinstance(numbers, AlgebraicField)
+    alpha, total = field.generator(field.names[-1]), field.poly([])
+    for power, coefficient in powers_of(function, len(field.names) - 1).items():
+        value = numbers.generator**power
+        total = (
+            total + sum((part[0].over(field) * alpha**k for k, part in enumerate(value.parts)), 0 * alpha) * coefficient
+        )
+    return field.make(total.num, total.den * function.den)

@@ -17,28 +17,22 @@ Reference: T. Kimura, Funkcial. Ekvac. 12 (1969) 269-281.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from itertools import product
 from random import Random
+from typing import Literal
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem
-from kovacic.parametric.formulas import shown
-from kovacic.parametric.statements import (
-    IntegerRoot,
-    Point,
-    Statement,
-    Vanishes,
-    integer_roots,
-    rational,
-    rational_roots,
-)
+from kovacic.parametric.functions import over_parameters, shown, shown_root
+from kovacic.parametric.statements import Point, Statement, integer_roots, rational
 
 _F = Fraction
 #: Schwarz's rows: the structure, the exponent differences modulo 1, and whether l + m + q must be even.
@@ -58,7 +52,6 @@ _SCHWARZ: dict[int, tuple[Structure, tuple[Fraction, Fraction, Fraction], bool]]
     14: (Structure.ICOSAHEDRAL, (_F(1, 2), _F(2, 5), _F(1, 3)), True),
     15: (Structure.ICOSAHEDRAL, (_F(3, 5), _F(2, 5), _F(1, 3)), True),
 }
-_STRUCTURES = (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL)
 
 
 def kimura(differences: tuple[Fraction | None, Fraction | None, Fraction | None]) -> Structure | None:
@@ -97,36 +90,25 @@ class Schwarz(Statement):
     cubic: FunctionPoly
     structure: Structure
 
-    def holds(self, point: Point) -> bool:
+    def _holds(self, point: Point) -> bool:
         value = point.at(self.cubic)
         differences: list[Fraction | None] = []
         for factor, multiplicity in value.field.factor(value):
             square = rational(-factor[0]) if factor.degree == 1 else None
-            difference = None if square is None or square < 0 else _square_root(square)
+            difference = None if square is None else _square_root(square)
             differences += [difference] * (multiplicity * factor.degree)
         first, second, third = differences
         return kimura((first, second, third)) is self.structure
 
-    def sample(self, random: Random) -> list[Statement]:
+    def sample(self, random: Random) -> list[FunctionPoly]:
         """Equations that give the exponent differences values from a row of the table; [] where they aren't rational in t."""
         field = self.cubic.field
         roots = [field.sqrt(-factor[0]) for factor, k in field.factor(self.cubic) if factor.degree == 1 and k == 1]
-        if len(roots) != 3:
-            return []
-        rows = [
-            tuple(r + q for r, q in zip(row, whole, strict=True))
-            for structure, row, parity in _SCHWARZ.values()
-            for whole in product((0, 1, -1), repeat=3)
-            if structure is self.structure and not (parity and sum(whole) % 2)
-        ]
-        dihedral = (_F(1, 2), _F(3, 2), _F(random.randint(1, 9), random.randint(2, 9)))
-        values = list(random.choice(rows) if rows else dihedral)
+        rows = [[_F(k, 60) for k in key] for key, structure in _table().items() if structure is self.structure]
+        values = random.choice(rows) if rows else [_F(1, 2), _F(3, 2), _F(random.randint(1, 9), random.randint(2, 9))]
         random.shuffle(values)
-        return [
-            Vanishes(root - value)  # type: ignore[arg-type]
-            for root, value in zip(roots, values, strict=True)
-            if root is not None and root.degree >= 0
-        ]
+        known = [over_parameters(root) for root in roots if root is not None]
+        return [root - value for root, value in zip(known, values, strict=True)] if len(known) == 3 else []
 
     def text(self) -> str:
         rows = [str(k) for k, row in _SCHWARZ.items() if row[0] is self.structure]
@@ -145,13 +127,8 @@ def _shown_differences(cubic: FunctionPoly) -> str:
     for factor, k in field.factor(cubic):
         if factor.degree > 1:
             return f"(the square roots of the roots of {shown(cubic, 'Z')})"
-        names += [_root_text(-factor[0])] * k
+        names += [shown_root(-factor[0])] * k
     return ", ".join(names)
-
-
-def _root_text(square: Poly) -> str:
-    root = square.field.sqrt(square)
-    return f"sqrt({shown(RatFunc(square))})" if root is None else shown(RatFunc(root))
 
 
 def applies(problem: Problem) -> bool:
@@ -170,8 +147,7 @@ def squares_of_differences(problem: Problem) -> FunctionPoly:
     one = field.poly([-1, 1])
     while cubic.degree < 3:
         cubic = cubic * one
-    assert isinstance(cubic, FunctionPoly)
-    return cubic
+    return over_parameters(cubic)
 
 
 def _difference_squared(place: Place) -> Poly:
@@ -183,25 +159,13 @@ def _difference_squared(place: Place) -> Poly:
     return (1 + 4 * place.num * cofactor.inverse_modulo(p)) % p
 
 
-def reducible(problem: Problem) -> bool | list[Statement]:
-    """When is the equation reducible?  True: always."""
-    if sum(place.degree for place in problem.places if place.kind is not Kind.ORDINARY) <= 2:
-        return True
-    cubic = squares_of_differences(problem)
-    s1, s2, s3 = -cubic[2], cubic[1], -cubic[0]
-    z = problem.field.poly([0, 0, 1])
-    equation = ((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z
-    assert isinstance(equation, FunctionPoly)
-    return integer_roots(equation, [1], 2)
-
-
 def omega(problem: Problem, variable: str) -> str:
     """What a solution of case 1 looks like: its exponents, and the degree of its polynomial part."""
     general = f"omega = sum of (1 +- Delta_c)/(2 ({variable} - c)) + P'/P"
     differences = _shown_differences(squares_of_differences(problem)).split(", ")
     if len(differences) != 3:
         return f"{general}, P a polynomial"
-    signs = "".join(f" +- {_parenthesised(d)}" for d in differences)
+    signs = "".join(f" +- ({d})" if " " in d else f" +- {d}" for d in differences)
     return f"{general} with signs for which deg P = (-1{signs})/2 is a natural number"
 
 
@@ -227,42 +191,43 @@ def group(problem: Problem, structure: Structure) -> str | None:
     if len(constants) >= 2 and rest:
         return "the infinite dihedral group" if rest[0] is None else "dicyclic"
     if len(constants) == 2 and variable is not None:
-        return f"dicyclic where {_root_text(variable)} is rational, else the infinite dihedral group"
+        return f"dicyclic where {shown_root(variable)} is rational, else the infinite dihedral group"
     return "dicyclic where the third exponent difference is rational, else the infinite dihedral group"
 
 
-def _parenthesised(text: str) -> str:
-    return f"({text})" if " " in text else text
-
-
-def irreducible_structures(problem: Problem) -> Structure | list[tuple[Structure, Statement]]:
-    """When is the group imprimitive or primitive and finite, if it isn't reducible?  A structure: always this one."""
+def structures(problem: Problem) -> Iterator[tuple[Structure, Literal[True] | list[Statement]]]:
+    """Each structure with the statements that say when the group has it and none of those before; True: always."""
+    if sum(place.degree for place in problem.places if place.kind is not Kind.ORDINARY) <= 2:
+        yield Structure.REDUCIBLE, True
+        return
     cubic = squares_of_differences(problem)
+    s1, s2, s3 = -cubic[2], cubic[1], -cubic[0]
+    z = cubic.field.poly([0, 0, 1])
+    reducible = integer_roots(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z, [1], 2)
+    if reducible:
+        yield Structure.REDUCIBLE, reducible
     constants, variable = _split(cubic)
     if sum(d is not None and d.denominator == 2 for d in constants) >= 2:
-        return Structure.IMPRIMITIVE
-    if variable is None:
-        return [(structure, Schwarz(cubic, structure)) for structure in _STRUCTURES]
-    if len(constants) < 2:
-        return []
-    found: list[tuple[Structure, Statement]] = []
-    for structure in _STRUCTURES:
+        yield Structure.IMPRIMITIVE, True
+        return
+    for structure in (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL):
+        statements: list[Statement] = [Schwarz(cubic, structure)] if variable is None else []
         for denominator in (2, 3, 4, 5):
+            if variable is None or len(constants) < 2:
+                continue
+            values = [_F(a, denominator) for a in range(2 * denominator)]
             residues = [
-                a
-                for a in range(2 * denominator)
-                if _F(a, denominator).denominator == denominator
-                and kimura((constants[0], constants[1], _F(a, denominator))) is structure
+                int(denominator * v)
+                for v in values
+                if v.denominator == denominator and kimura((constants[0], constants[1], v)) is structure
             ]
-            if residues:
-                square = denominator**2 * variable
-                equation = problem.field.poly([-square, 0, 1])
-                assert isinstance(equation, FunctionPoly)
-                statements = integer_roots(equation, residues, 2 * denominator)
-                if statements is True:
-                    raise AssertionError("an exponent difference that depends on a parameter isn't constant")
-                found += [(structure, statement) for statement in statements]  # type: ignore[union-attr]
-    return found
+            equation = over_parameters(problem.field.poly([-(denominator**2) * variable, 0, 1]))
+            found = integer_roots(equation, residues, 2 * denominator) if residues else []
+            if found is True:
+                raise AssertionError("an exponent difference that depends on a parameter isn't constant")
+            statements += found
+        if statements:
+            yield structure, statements
 
 
 def _split(cubic: FunctionPoly) -> tuple[list[Fraction | None], Poly | None]:
@@ -276,22 +241,14 @@ def _split(cubic: FunctionPoly) -> tuple[list[Fraction | None], Poly | None]:
             variable += [-factor[0]] * multiplicity if factor.degree == 1 else [factor] * (2 * multiplicity)
         elif factor.degree == 1 and coefficients[0] is not None:
             square = -coefficients[0]
-            constants += [_square_root(square) if square >= 0 else None] * multiplicity
+            constants += [_square_root(square)] * multiplicity
         else:
             constants += [None] * (factor.degree * multiplicity)
     return constants, variable[0] if len(variable) == 1 else None
 
 
 def _square_root(value: Fraction) -> Fraction | None:
-    roots = [root for root in rational_roots_of_square(value) if root >= 0]
-    return roots[0] if roots else None
-
-
-def rational_roots_of_square(value: Fraction) -> list[Fraction]:
-    """The rational r with r^2 = value."""
-    from kovacic.algebra.rationals import QQ
-
-    return rational_roots(QQ.poly([-value, 0, 1]))
-
-
-__all__ = ["IntegerRoot", "Schwarz", "applies", "group", "irreducible_structures", "kimura", "omega", "reducible"]
+    """The square root of a rational number that isn't negative, if it is rational."""
+    root = QQ.sqrt(QQ.poly([value]))
+    number = None if root is None else rational(root)
+    return None if number is None else abs(number)

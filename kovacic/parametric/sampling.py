@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import count
 from random import Random
 
 from kovacic.algebra.extension import AlgebraicField
@@ -11,8 +12,8 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.riemann import Schwarz
-from kovacic.parametric.statements import Both, Classes, Either, IntegerRoot, Point, Statement, Vanishes
+from kovacic.parametric.functions import degrees, powers_of
+from kovacic.parametric.statements import Point, Statement
 
 
 @dataclass
@@ -26,34 +27,34 @@ class _Draft:
         return Point(tuple(names), tuple(self.values[name].over(self.field) for name in names), self.field)
 
 
-def outside(start: Point, names: Sequence[str], assumptions: Assumptions, random: Random) -> Point:
-    """A point with small rational coordinates: as a rule, outside of all conditions.
+def points(
+    statements: Sequence[Statement], start: Point, names: Sequence[str], assumptions: Assumptions, random: Random
+) -> Iterator[Point | None]:
+    """Points with small coordinates: every other one where one of the statements holds; None where an attempt failed.
 
-    `start` has the coordinates that are fixed; `names` are those that are chosen.
+    `start` has the coordinates that are fixed; `names` are those that are chosen, with values that the assumptions admit.
     """
-    return _draft(start, names, assumptions, random).point([*start.names, *names])
+    for attempt in count(1):
+        if statements and attempt % 2:
+            point = _inside(statements[attempt // 2 % len(statements)], start, names, assumptions, random)
+        else:
+            point = _draft(start, names, assumptions, random).point([*start.names, *names])
+        yield point if point is not None and assumptions.admits(zip(point.names, point.values, strict=True)) else None
 
 
-def inside(
+def _inside(
     statement: Statement, start: Point, names: Sequence[str], assumptions: Assumptions, random: Random
 ) -> Point | None:
     """A point at which the statement holds; None if none was found."""
     draft = _draft(start, names, assumptions, random)
     free = list(names)
-    for part in reversed(_conjunction(statement, random)):
-        try:
-            solved = _solve(part, draft, free, random)
-        except ZeroDivisionError:
-            return None
-        if solved is None:
-            return None
-        if solved in free:
-            free.remove(solved)
-    point = draft.point([*start.names, *names])
     try:
-        return point if statement.holds(point) else None
-    except ZeroDivisionError:
+        for function in reversed(statement.sample(random)):
+            free.remove(_solve_for_zero(function, draft, free, random))
+    except (ZeroDivisionError, ValueError):
         return None
+    point = draft.point([*start.names, *names])
+    return point if statement.holds(point) else None
 
 
 def _draft(start: Point, names: Sequence[str], assumptions: Assumptions, random: Random) -> _Draft:
@@ -61,41 +62,19 @@ def _draft(start: Point, names: Sequence[str], assumptions: Assumptions, random:
     return _Draft(fixed | {name: QQ.poly([assumptions.of(name).sample(random)]) for name in names}, start.field)
 
 
-def _conjunction(statement: Statement, random: Random) -> list[Statement]:
-    """Atoms that together imply the statement: one part of every alternative."""
-    if isinstance(statement, Both):
-        return [atom for part in statement.parts for atom in _conjunction(part, random)]
-    if isinstance(statement, Either):
-        return _conjunction(random.choice(statement.parts), random)
-    if isinstance(statement, Schwarz):
-        return statement.sample(random) or [statement]
-    return [statement]
-
-
-def _solve(statement: Statement, draft: _Draft, free: Sequence[str], random: Random) -> str | None:
-    """Make the atom true by changing one of the free parameters; its name, or None."""
-    if isinstance(statement, Vanishes):
-        return _solve_for_zero(statement.function, draft, free, random)
-    if isinstance(statement, Classes):
-        value = random.choice(statement.residues) + random.randint(-4, 4) * statement.modulus
-        return _solve_for_zero(statement.form - value, draft, free, random)
-    if isinstance(statement, IntegerRoot):
-        N = random.choice(statement.residues) + random.randint(-3, 3) * statement.modulus
-        value_at_N = statement.equation(N)
-        assert isinstance(value_at_N, FunctionPoly)
-        return _solve_for_zero(value_at_N, draft, free, random)
-    return None
-
-
-def _solve_for_zero(function: FunctionPoly, draft: _Draft, free: Sequence[str], random: Random) -> str | None:
-    """Choose one free parameter so that the function vanishes."""
+def _solve_for_zero(function: FunctionPoly, draft: _Draft, free: Sequence[str], random: Random) -> str:
+    """Choose one free parameter so that the function vanishes; its name, or "" where there is none."""
     names = function.field.names
-    degrees = {name: int(function.num.degrees()[1 + i]) for i, name in enumerate(names)}
-    candidates = [name for name in free if degrees.get(name, 0) > 0]
+    powers = dict(zip(names, degrees(function), strict=True))
+    candidates = [name for name in free if powers.get(name, 0) > 0]
     random.shuffle(candidates)
-    for name in sorted(candidates, key=lambda n: degrees[n]):
-        # The function as a polynomial in this parameter, the others having their values.
-        one_variable = _in_one_parameter(function, name, draft)
+    for name in sorted(candidates, key=lambda n: powers[n]):
+        # The numerator as a polynomial in this parameter, the others having their values.
+        values = [draft.values[n].over(draft.field) for n in names]
+        parts = powers_of(function, names.index(name))
+        one_variable = draft.field.poly(
+            [parts[k].value_at(values, draft.field) if k in parts else 0 for k in range(powers[name] + 1)]
+        )
         if one_variable.degree < 1:
             continue
         factor = random.choice([f for f, _ in one_variable.field.factor(one_variable)])
@@ -106,22 +85,4 @@ def _solve_for_zero(function: FunctionPoly, draft: _Draft, free: Sequence[str], 
             draft.field = AlgebraicField(QQ, factor, "alpha")
             draft.values[name] = draft.field.generator
             return name
-    return None
-
-
-def _in_one_parameter(function: FunctionPoly, name: str, draft: _Draft) -> Poly:
-    """The numerator as a polynomial in the given parameter, the others having their values."""
-    names = function.field.names
-    index = names.index(name)
-    coefficients: dict[int, Poly] = {}
-    for exponents, coefficient in function.num.to_dict().items():
-        value = draft.field.poly([int(coefficient)])
-        for i, exponent in enumerate(exponents[1:]):
-            if i != index and exponent:
-                value = value * draft.values[names[i]].over(draft.field) ** int(exponent)
-        power = int(exponents[1 + index])
-        coefficients[power] = coefficients.get(power, draft.field.poly([])) + value
-    return draft.field.poly([coefficients.get(k, 0) for k in range(max(coefficients, default=-1) + 1)])
-
-
-__all__ = ["inside", "outside"]
+    return ""

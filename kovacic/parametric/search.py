@@ -1,6 +1,10 @@
-"""Everything else: candidates from the exponents, up to a degree.
+"""Candidates for special values from the exponents: all of them where the exponents are constant, else up to a degree.
 
-In case 1 the degree d of P satisfies 2 (1 - d) = sum of the weights + sum of +- the exponent differences.  Where the sum
+A form F = Q0 P of degree m in the solutions, with a known Q0 and deg P <= N, exists for those parameter values at which the
+linear map P -> A_(m+1) of `kovacic.engine.riccati` has a kernel; a solution exp(int theta) P, deg P = d, where
+P -> P'' + 2 theta P' + (theta' + theta^2 - S) P has one.  Where no exponent depends on the parameters, N is known.
+
+Else in case 1 the degree d of P satisfies 2 (1 - d) = sum of the weights + sum of +- the exponent differences.  Where the sum
 depends on the parameters each d gives an algebraic condition; where it doesn't, P exists under polynomial conditions.  Cases
 2 and 3 are treated in the same way through the degree of the invariants of degree 4 and 12.  The result is a list of
 polynomials that contains every special value up to the degree, and what remains unproven.
@@ -8,27 +12,64 @@ polynomials that contains every special value up to the degree, and what remains
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from fractions import Fraction
+from dataclasses import dataclass, field, replace
 from itertools import product
+from math import lcm
 
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.engine import invariants
 from kovacic.engine.degree_bound import irregular_difference_squared
 from kovacic.engine.places import Kind, Place, Problem
-from kovacic.parametric.bounded import (
-    form_conditions,
-    irreducible_factors,
-    least_valuation,
-    rank_conditions,
-    rank_drops,
-    union,
-)
+from kovacic.engine.riccati import Form, singular_part
+from kovacic.parametric.functions import irreducible_factors, union
+from kovacic.parametric.ranks import RankConditions, rank_conditions
 
 #: Places with exponents that depend on the parameters, above which combinations aren't tried.
 _VARIABLE_PLACES = 3
-_SEVERAL = "values that are special in two or more parameters at once"
 _PRIMITIVE_DENOMINATORS = {1, 2, 3, 4, 5}
+
+
+def has_constant_rational_exponents(problem: Problem) -> bool:
+    """Are all exponent differences rational numbers, without unramified irregular places?"""
+    return all(
+        place.kind in (Kind.ORDINARY, Kind.RAMIFIED) or (place.kind is Kind.REGULAR and place.delta is not None)
+        for place in problem.places
+    )
+
+
+def degrees_that_decide(problem: Problem) -> list[int]:
+    """Degrees m such that every Liouvillian equation with these exponents has a rational form of one of them.
+
+    2 and q for the reducible ones, q the common denominator of the exponents: if y1 = prod (x - c)^(e_c) P is the only
+    solution with a rational omega, y1^q is rational; 4 for the imprimitive ones; 12 for the primitive ones.
+    """
+    if any(place.kind is Kind.RAMIFIED for place in problem.places):
+        return [4]
+    deltas = [place.delta for place in problem.places if place.kind is Kind.REGULAR and place.delta is not None]
+    return sorted({2, 4, 12, lcm(*(((1 + delta) / 2).denominator for delta in deltas))})
+
+
+def least_valuation(place: Place, m: int) -> int | None:
+    """The least valuation of a rational form of degree m, whether or not there is a logarithm at special values."""
+    return invariants.least_valuation(replace(place, logarithm=False), m)
+
+
+def form_conditions(problem: Problem, m: int) -> RankConditions:
+    """Where there are more rational forms of degree m than generically."""
+    valuations = [least_valuation(place, m) for place in problem.places]
+    known = [v for v in valuations if v is not None]
+    if len(known) < len(valuations):
+        return RankConditions()
+    N = m - known[-1] - sum(v * place.degree for v, place in zip(known, problem.finite_places, strict=False))
+    R0 = singular_part(problem, known[:-1])
+    x = problem.field.poly([0, 1])
+    images = []
+    for j in range(N + 1):
+        images.append(Form(m, R0, x**j).numerators(problem)[-1])
+        problem.budget.check()
+    return rank_conditions(images, problem) if images else RankConditions()
 
 
 @dataclass
@@ -38,18 +79,16 @@ class Findings:
     `reducible` are those among the candidates at which a solution of case 1 is known to exist.
     """
 
-    candidates: list[Poly] = field(default_factory=list)
-    reducible: list[Poly] = field(default_factory=list)
+    candidates: list[FunctionPoly] = field(default_factory=list)
+    reducible: list[FunctionPoly] = field(default_factory=list)
     unproven: list[str] = field(default_factory=list)
 
-
-@dataclass(frozen=True)
-class _Difference:
-    """The square of the exponents' difference, and the sign-independent part (the weight), at one point of a place."""
-
-    place: Place
-    square: Poly
-    weight: int
+    def add(self, found: RankConditions) -> None:
+        """The candidates that a matrix gives."""
+        self.candidates += found.polynomials
+        self.reducible += found.certain
+        if not found.complete:
+            self.unproven.append("values that are special in two or more parameters at once")
 
 
 def search(problem: Problem, max_degree: int) -> Findings:
@@ -63,36 +102,31 @@ def search(problem: Problem, max_degree: int) -> Findings:
     return findings
 
 
-def _differences(problem: Problem) -> list[_Difference] | None:
-    """One entry for every singular point; None where conjugate points have different exponents."""
-    found: list[_Difference] = []
+def _differences(problem: Problem) -> list[Poly] | None:
+    """The square of the exponents' difference at every singular point; None where they differ at conjugate points."""
+    found: list[Poly] = []
     for place in problem.places:
         if place.kind is Kind.ORDINARY:
             continue
-        regular = place.kind is Kind.REGULAR
-        square = place.delta_squared if regular else irregular_difference_squared(place)
+        square = place.delta_squared if place.kind is Kind.REGULAR else irregular_difference_squared(place)
         if square is None or square.degree > 0:
             return None
-        found += [_Difference(place, square, place.weight)] * place.degree
+        found += [square] * place.degree
     return found
 
 
 def _signed_sums(squares: list[Poly], start: Poly) -> Poly:
     """The squarefree polynomial in Y over Q(t) whose roots are the sums of +- the square roots."""
-    field_ = start.field
     total = start
     for square in squares:
-        # F(Y + delta) = A + delta B
-        even, odd = field_.poly([]), field_.poly([])
-        derivative, factorial, power = total, 1, field_.poly([1])
+        # F(Y + Z) = even + odd Z with Z^2 = square, by Taylor's formula.
+        even, odd, derivative = 0 * start, 0 * start, total
         for k in range(total.degree + 1):
-            term = derivative * power * Fraction(1, factorial)
             if k % 2:
-                odd = odd + term
-                power = power * square
+                odd = odd + derivative * square ** (k // 2)
             else:
-                even = even + term
-            derivative, factorial = derivative.derivative(), factorial * (k + 1)
+                even = even + derivative * square ** (k // 2)
+            derivative = derivative.derivative() / (k + 1)
         total = even * even - square * odd * odd
         total = total // total.gcd(total.derivative())
     return total
@@ -106,8 +140,8 @@ def _reducible(problem: Problem, max_degree: int, findings: Findings) -> None:
         findings.unproven.append("case 1 where the exponents at conjugate points differ")
         return
     Y = problem.field.poly([0, 1])
-    weights = sum(d.weight for d in differences)
-    sums = _signed_sums([d.square for d in differences], Y)
+    weights = sum(p.weight * p.degree for p in problem.places if p.kind is not Kind.ORDINARY)
+    sums = _signed_sums(differences, Y)
     unbounded = any(problem.field.rational_value(c) is None for factor, _ in problem.field.factor(sums) for c in factor)
     constant: set[int] = set()
     for factor, _ in problem.field.factor(sums):
@@ -154,13 +188,7 @@ def _with_constant_degree(problem: Problem, degrees: set[int], findings: Finding
             P = x**j
             value = (P.derivative().derivative() + zeroth * P + 2 * theta * P.derivative()) * common
             images.append(value.num)
-        found = rank_conditions(images, problem)
-        if not found.complete:
-            findings.unproven.append(_SEVERAL)
-        for function in found.polynomials:
-            findings.candidates.append(function)
-            if function in found.certain or rank_drops(images, function):
-                findings.reducible.append(function)
+        findings.add(rank_conditions(images, problem, certify=True))
     return True
 
 
@@ -180,40 +208,26 @@ def _local_parts(place: Place, problem: Problem) -> list[tuple[RatFunc, Poly]] |
         return [(RatFunc(e * place.factor.derivative(), place.factor), e) for e in exponents]
     if not place.at_infinity:
         return None
-    S, n = problem.S, place.order // 2 - 2
-    quotient = S.num // S.den
+    S, n, x = problem.S, place.order // 2 - 2, base.poly([0, 1])
+    quotient = S.num * x // S.den
     lead = base.sqrt(quotient.lc)
     if lead is None:
         return None
-    polynomial = [lead]
+    root = lead * x**n  # S - root^2 = b x^(n-1) + ..., and omega = +-root + e/x + ... with e = (+-b/a - n)/2
     for k in range(1, n + 1):
-        known = sum((polynomial[i] * polynomial[k - i] for i in range(1, k)), base.poly([]))
-        polynomial.append((quotient[2 * n - k] - known) / (2 * lead))
-    root_part = base.poly(polynomial[::-1])
-    rest = (S - root_part * root_part) * RatFunc(base.poly([0, 1]))
-    # S - [sqrt S]^2 = b x^(n-1) + ..., and omega = +-[sqrt S] + e/x + ... with e = (+-b/a - n)/2.
-    ratio = (rest.num // rest.den)[n] / lead
-    parts = []
-    for sign in (1, -1):
-        growth = (sign * ratio - n) / 2
-        parts.append((RatFunc(sign * root_part), 1 - growth))
-    return parts
-
-
-def _branch_places(problem: Problem) -> list[Place]:
-    """Places that can be branch points of case 2 for some values of the parameters."""
-    return [
-        place
-        for place in problem.places
-        if place.kind is Kind.RAMIFIED
-        or (place.kind is Kind.REGULAR and (place.delta is None or place.delta.denominator == 2))
-    ]
+        root = root + (quotient - x * root * root)[2 * n - k + 1] / (2 * lead) * x ** (n - k)
+    ratio = (quotient - x * root * root)[n] / lead
+    return [(RatFunc(sign * root), 1 - (sign * ratio - n) / 2) for sign in (1, -1)]
 
 
 def _imprimitive(problem: Problem, max_degree: int, findings: Findings) -> None:
-    if sum(place.degree for place in _branch_places(problem)) < 2:
-        return
-    if not _forms(problem, 4, max_degree, findings):
+    branch_points = sum(  # places that can be branch points of case 2 for some values of the parameters
+        place.degree
+        for place in problem.places
+        if place.kind is Kind.RAMIFIED
+        or (place.kind is Kind.REGULAR and (place.delta is None or place.delta.denominator == 2))
+    )
+    if branch_points >= 2 and not _forms(problem, 4, max_degree, findings):
         findings.unproven.append("case 2")
 
 
@@ -235,29 +249,26 @@ def _forms(problem: Problem, m: int, max_degree: int, findings: Findings) -> boo
         if place.kind is Kind.REGULAR
         and (place.delta_squared is None or problem.field.rational_value(place.delta_squared) is None)
     ]
-    found = form_conditions(problem, m)
-    findings.candidates += found.polynomials
-    if not found.complete:
-        findings.unproven.append(_SEVERAL)
+    findings.add(replace(form_conditions(problem, m), certain=()))
     if not variable:
         return True
-    if any(place.delta_squared is None for place in variable) or len(variable) > (_VARIABLE_PLACES if m == 4 else 1):
+    points = [place.delta_squared for place in variable for _ in range(place.degree)]
+    known = [square for square in points if square is not None]
+    if len(known) < len(points) or len(variable) > (_VARIABLE_PLACES if m == 4 else 1):
         return False
-    fixed = [least_valuation(place, m) for place in problem.places if place not in variable]
-    if any(v is None for v in fixed):
-        return True
-    degrees = [place.degree for place in problem.places if place not in variable]
-    room = m - sum(v * k for v, k in zip(fixed, degrees, strict=True) if v is not None)
-    points = [place for place in variable for _ in range(place.degree)]
-    room -= sum(m // 2 for _ in points)
-    Y = problem.field.poly([0, 1])
+    room = m - m // 2 * len(points)
+    for place in problem.places:
+        if place not in variable:
+            v = least_valuation(place, m)
+            if v is None:
+                return True
+            room -= v * place.degree
     seen: list[Poly] = []
-    multiples = product(range(m // 2 + 1), repeat=len(points))
-    for choice in multiples:
-        squares = [k * k * _square(p) for k, p in zip(choice, points, strict=True) if k]
+    for choice in product(range(m // 2 + 1), repeat=len(points)):
+        squares = [k * k * square for k, square in zip(choice, known, strict=True) if k]
         if not squares:
             continue
-        sums = _signed_sums(squares, Y)
+        sums = _signed_sums(squares, problem.field.poly([0, 1]))
         if sums in seen:
             continue
         seen.append(sums)
@@ -268,12 +279,3 @@ def _forms(problem: Problem, m: int, max_degree: int, findings: Findings) -> boo
                 findings.candidates += irreducible_factors(value)
     findings.unproven.append(f"invariants of degree {m} with more than {max_degree} zeros")
     return True
-
-
-def _square(place: Place) -> Poly:
-    if place.delta_squared is None:
-        raise AssertionError("checked by the caller")
-    return place.delta_squared
-
-
-__all__ = ["Findings", "search"]

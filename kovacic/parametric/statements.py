@@ -7,19 +7,30 @@ has an integer root N in given classes.  Nothing here is numerical.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import count
+from itertools import chain, count
 from math import gcd
-from typing import Any
+from random import Random
+from typing import Literal
 
 from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.parametric.assumptions import Assumptions, Coset, common_multiple
-from kovacic.parametric.formulas import as_latex, factored, shown, symbol
+from kovacic.parametric.functions import (
+    as_latex,
+    degrees,
+    factored,
+    numerator,
+    over_parameters,
+    powers_of,
+    shown,
+    symbol,
+)
 
 
 @dataclass(frozen=True)
@@ -42,9 +53,15 @@ class Point:
 class Statement(ABC):
     """A statement about the parameters."""
 
-    @abstractmethod
     def holds(self, point: Point) -> bool:
-        """Is it true at the point?"""
+        """Is it true at the point?  Not where a function in it isn't defined."""
+        try:
+            return self._holds(point)
+        except ZeroDivisionError:
+            return False
+
+    @abstractmethod
+    def _holds(self, point: Point) -> bool: ...
 
     @abstractmethod
     def text(self) -> str:
@@ -57,6 +74,10 @@ class Statement(ABC):
     def decided(self, assumptions: Assumptions) -> bool | None:
         """True or False where that follows from what is known about the parameters; None otherwise."""
         return None
+
+    def sample(self, random: Random) -> list[FunctionPoly]:
+        """Functions, chosen at random, at whose common zeros the statement holds."""
+        return []
 
     def avoiding(self, names: Collection[str]) -> Statement:
         """The same statement, in which no integer is called like one of the names."""
@@ -72,8 +93,11 @@ class Vanishes(Statement):
 
     function: FunctionPoly
 
-    def holds(self, point: Point) -> bool:
+    def _holds(self, point: Point) -> bool:
         return not point.at(self.function)
+
+    def sample(self, random: Random) -> list[FunctionPoly]:
+        return [self.function]
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         return assumptions.vanishes(self.function)
@@ -96,7 +120,7 @@ class Classes(Statement):
     @classmethod
     def make(cls, form: FunctionPoly, residues: Iterable[Fraction], modulus: Fraction) -> Classes:
         """Normalised: no constant term (in a Laurent series at 0), coprime coefficients, the least modulus."""
-        shift = _constant(form)
+        shift = to_fraction(form.rational_coefficients()[0]) if form else Fraction(0)
         numerator = [int(c) for c in (form - shift).num.coeffs()]
         content = gcd(*numerator) * (1 if numerator[0] > 0 else -1)
         scale = Fraction(gcd(*(int(c) for c in (form - shift).den.coeffs())), content)
@@ -106,45 +130,45 @@ class Classes(Statement):
         reduced, smallest = _reduced(found, modulus)
         return cls(normal, tuple(sorted(reduced)), smallest)
 
-    def holds(self, point: Point) -> bool:
+    def _holds(self, point: Point) -> bool:
         value = rational(point.at(self.form))
         return value is not None and any((value - residue) % self.modulus == 0 for residue in self.residues)
 
+    def sample(self, random: Random) -> list[FunctionPoly]:
+        return [self.form - (random.choice(self.residues) + random.randint(-4, 4) * self.modulus)]
+
     def merged(self, other: Classes) -> Classes | None:
         """Both statements in one (either holds), where they are about the same form."""
-        if other.form == self.form:
-            residues = other.residues
-        elif other.form == -self.form:
-            residues = tuple(-r for r in other.residues)
-        else:
+        sign = 1 if other.form == self.form else -1 if other.form == -self.form else 0
+        if not sign:
             return None
         common = common_multiple(self.modulus, other.modulus)
-        both = [
-            residue + k * modulus
-            for values, modulus in ((self.residues, self.modulus), (residues, other.modulus))
-            for residue in values
-            for k in range(int(common / modulus))
-        ]
-        return Classes.make(self.form, both, common)
+        numbers = [r + k * self.modulus for r in self.residues for k in range(int(common / self.modulus))]
+        numbers += [sign * r + k * other.modulus for r in other.residues for k in range(int(common / other.modulus))]
+        return Classes.make(self.form, numbers, common)
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         return assumptions.meets_classes(self.form, [Coset(residue, self.modulus) for residue in self.residues])
 
-    def text(self) -> str:
-        form = shown(self.form)
+    @property
+    def _in_integers(self) -> tuple[FunctionPoly, Fraction] | None:
+        """A form and a number whose difference is said to be an integer; None where it isn't one class of integers."""
         if len(self.residues) == 1 and self.modulus == 1:
-            return f"{_shifted(form, self.residues[0])} in Z"
-        if len(self.residues) == 1 and not self.residues[0] and self.modulus.numerator == 1:
-            return f"{shown(self.form * self.modulus.denominator)} in Z"
-        if self.modulus == 2 and self.residues in ((Fraction(0),), (Fraction(1),)):
-            return f"{form} is an {'odd' if self.residues[0] else 'even'} integer"
-        return f"{form} = {', '.join(map(str, self.residues))} mod {self.modulus}"
+            return self.form, self.residues[0]
+        if not any(self.residues) and len(self.residues) == 1 and self.modulus.numerator == 1:
+            return self.form * self.modulus.denominator, Fraction(0)
+        return None
+
+    def text(self) -> str:
+        if self._in_integers:
+            return f"{_shifted(*self._in_integers, shown)} in Z"
+        if self.modulus == 2 and len(self.residues) == 1 and self.residues[0].denominator == 1:
+            return f"{shown(self.form)} is an {'odd' if self.residues[0] else 'even'} integer"
+        return f"{shown(self.form)} = {', '.join(map(str, self.residues))} mod {self.modulus}"
 
     def latex(self) -> str:
-        if len(self.residues) == 1 and self.modulus == 1:
-            return rf"{_shifted(as_latex(self.form), self.residues[0])} \in \mathbb{{Z}}"
-        if len(self.residues) == 1 and not self.residues[0] and self.modulus.numerator == 1:
-            return rf"{as_latex(self.form * self.modulus.denominator)} \in \mathbb{{Z}}"
+        if self._in_integers:
+            return rf"{_shifted(*self._in_integers, as_latex)} \in \mathbb{{Z}}"
         classes = ", ".join(map(str, self.residues))
         return rf"{as_latex(self.form)} \equiv {classes} \pmod{{{self.modulus}}}"
 
@@ -162,19 +186,17 @@ class IntegerRoot(Statement):
     letter: str = field(default="N", compare=False)
 
     def avoiding(self, names: Collection[str]) -> Statement:
-        return replace(self, letter=next(name for name in _letters() if name not in names))
-
-    def holds(self, point: Point) -> bool:
-        try:
-            value = point.at(self.equation)
-        except ZeroDivisionError:
-            return False
-        return any(
-            root.denominator == 1 and int(root) % self.modulus in self.residues for root in rational_roots(value)
+        return replace(
+            self, letter=next(name for name in chain("NMKJ", map("N{}".format, count())) if name not in names)
         )
 
-    def _numerator(self) -> FunctionPoly:
-        return FunctionPoly(self.equation.field, self.equation.num, self.equation.field.context.constant(1))
+    def _holds(self, point: Point) -> bool:
+        roots = rational_roots(point.at(self.equation))
+        return any(root.denominator == 1 and int(root) % self.modulus in self.residues for root in roots)
+
+    def sample(self, random: Random) -> list[FunctionPoly]:
+        N = random.choice(self.residues) + random.randint(-3, 3) * self.modulus
+        return [over_parameters(self.equation(N))]
 
     def _classes(self) -> str:
         if self.modulus == 1:
@@ -184,56 +206,49 @@ class IntegerRoot(Statement):
         return f"an integer {self.letter} = {', '.join(map(str, self.residues))} mod {self.modulus}"
 
     def text(self) -> str:
-        family = self.family()
-        if family is not None:
-            return f"{family[0]} = {factored(family[1], self.letter)} for {self._classes()}"
-        return f"{shown(self._numerator(), self.letter)} = 0 for {self._classes()}"
+        left = f"{shown(numerator(self.equation), self.letter)} = 0"
+        if self._solved:
+            left = f"{self._solved[0]} = {factored(self._solved[1], self.letter)}"
+        return f"{left} for {self._classes()}"
 
     def latex(self) -> str:
-        family = self.family()
-        formula = (
-            f"{symbol(family[0])} = {as_latex(family[1], self.letter)}"
-            if family is not None
-            else f"{as_latex(self._numerator(), self.letter)} = 0"
-        )
-        return rf"{formula} \text{{ for {self._classes()}}}"
+        left = f"{as_latex(numerator(self.equation), self.letter)} = 0"
+        if self._solved:
+            left = f"{symbol(self._solved[0])} = {as_latex(self._solved[1], self.letter)}"
+        return rf"{left} \text{{ for {self._classes()}}}"
 
-    def family(self) -> tuple[str, Any] | None:
+    @property
+    def _solved(self) -> tuple[str, RatFunc] | None:
         """`(name, f)` where the equation says that a parameter is the rational function f(N)."""
-        from kovacic.algebra.ratfunc import RatFunc
-
-        field, numerator = self.equation.field, self.equation.num
-        used = [i for i in range(len(field.names)) if int(numerator.degrees()[1 + i]) > 0]
-        for i in used:
-            if int(numerator.degrees()[1 + i]) != 1:
-                continue
-            parts = {0: {}, 1: {}}  # type: dict[int, dict[Any, Any]]
-            for exponents, coefficient in numerator.to_dict().items():
-                rest = (*exponents[: 1 + i], 0, *exponents[2 + i :])
-                parts[int(exponents[1 + i])][rest] = coefficient
-            one = field.context.constant(1)
-            above, below = (field.make(field.context.from_dict(parts[k]), one) for k in (0, 1))
-            return field.names[i], RatFunc(-above, below)
-        return None
+        linear = [i for i, k in enumerate(degrees(self.equation)) if k == 1]
+        if not linear:
+            return None
+        parts = powers_of(self.equation, linear[0])
+        return self.equation.field.names[linear[0]], -RatFunc(parts.get(0, 0 * parts[1]), parts[1])
 
 
 @dataclass(frozen=True)
-class Either(Statement):
-    """At least one of the statements holds."""
+class _Several(Statement):
+    """A statement made of others."""
 
     parts: tuple[Statement, ...]
 
-    def holds(self, point: Point) -> bool:
+    def avoiding(self, names: Collection[str]) -> Statement:
+        return replace(self, parts=tuple(part.avoiding(names) for part in self.parts))
+
+
+class Either(_Several):
+    """At least one of the statements holds."""
+
+    def _holds(self, point: Point) -> bool:
         return any(part.holds(point) for part in self.parts)
 
-    def decided(self, assumptions: Assumptions) -> bool | None:
-        decisions = [part.decided(assumptions) for part in self.parts]
-        if any(decisions):
-            return True
-        return False if all(d is False for d in decisions) else None
+    def sample(self, random: Random) -> list[FunctionPoly]:
+        return random.choice(self.parts).sample(random)
 
-    def avoiding(self, names: Collection[str]) -> Statement:
-        return Either(tuple(part.avoiding(names) for part in self.parts))
+    def decided(self, assumptions: Assumptions) -> bool | None:
+        decisions = {part.decided(assumptions) for part in self.parts}
+        return True if True in decisions else None if None in decisions else False
 
     def text(self) -> str:
         return " or ".join(part.text() for part in self.parts)
@@ -242,29 +257,29 @@ class Either(Statement):
         return r" \text{ or } ".join(part.latex() for part in self.parts)
 
 
-@dataclass(frozen=True)
-class Both(Statement):
+class Both(_Several):
     """All of the statements hold."""
 
-    parts: tuple[Statement, ...]
-
-    def holds(self, point: Point) -> bool:
+    def _holds(self, point: Point) -> bool:
         return all(part.holds(point) for part in self.parts)
 
-    def decided(self, assumptions: Assumptions) -> bool | None:
-        decisions = [part.decided(assumptions) for part in self.parts]
-        if any(d is False for d in decisions):
-            return False
-        return True if all(decisions) else None
+    def sample(self, random: Random) -> list[FunctionPoly]:
+        return [function for part in self.parts for function in part.sample(random)]
 
-    def avoiding(self, names: Collection[str]) -> Statement:
-        return Both(tuple(part.avoiding(names) for part in self.parts))
+    def decided(self, assumptions: Assumptions) -> bool | None:
+        decisions = {part.decided(assumptions) for part in self.parts}
+        return False if False in decisions else None if None in decisions else True
 
     def text(self) -> str:
         return ", and ".join(f"({part.text()})" if isinstance(part, Either) else part.text() for part in self.parts)
 
     def latex(self) -> str:
         return r" \text{ and } ".join(part.latex() for part in self.parts)
+
+
+def both(*statements: Statement) -> Both:
+    """One statement that says that all of them hold."""
+    return Both(tuple(part for one in statements for part in (one.parts if isinstance(one, Both) else (one,))))
 
 
 def either(statements: Sequence[Statement]) -> Statement:
@@ -282,7 +297,7 @@ def either(statements: Sequence[Statement]) -> Statement:
     return merged[0] if len(merged) == 1 else Either(tuple(merged))
 
 
-def integer_roots(equation: FunctionPoly, residues: Sequence[int], modulus: int) -> bool | list[Statement]:
+def integer_roots(equation: FunctionPoly, residues: Sequence[int], modulus: int) -> Literal[True] | list[Statement]:
     """When does a polynomial in N over Q(t) have an integer root in these classes?
 
     A list of statements, one for each way (up to the sign of N where the classes are symmetric); True if it always has one.
@@ -329,19 +344,9 @@ def rational(constant: Poly) -> Fraction | None:
     return constant.field.rational_value(constant)
 
 
-def _letters() -> Iterator[str]:
-    yield from "NMKJ"
-    yield from (f"N{k}" for k in count())
-
-
-def _shifted(form: str, residue: Fraction) -> str:
+def _shifted(form: FunctionPoly, residue: Fraction, written: Callable[[FunctionPoly], str]) -> str:
     """`form - residue`, in symbols."""
-    return form if not residue else f"{form} - {residue}"
-
-
-def _constant(form: FunctionPoly) -> Fraction:
-    value = form.rational_coefficients()
-    return Fraction(int(value[0].p), int(value[0].q)) if value else Fraction(0)
+    return f"{written(form)} - {residue}" if residue else written(form)
 
 
 def _reduced(residues: set[Fraction], modulus: Fraction) -> tuple[set[Fraction], Fraction]:
