@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 
 from kovacic.errors import LimitExceeded
@@ -51,9 +54,28 @@ class Budget:
         if time.monotonic() > self._deadline:
             raise LimitExceeded(f"the time limit of {self._seconds:g} s is used up", limit="seconds")
 
+    @contextmanager
+    def watched(self) -> Iterator[None]:
+        """Inside, `check_time` raises once the time is over: for long computations in fields that know of no budget."""
+        token = _WATCHED.set(self)
+        try:
+            yield
+        finally:
+            _WATCHED.reset(token)
+
     def check_degree(self, degree: int, what: str) -> None:
         if degree > self.limits.unknown_degree:
             raise LimitExceeded(
                 f"{what} may have degree {degree}, above the limit of {self.limits.unknown_degree}",
                 limit="unknown_degree",
             )
+
+
+_WATCHED: ContextVar[Budget | None] = ContextVar("watched", default=None)
+
+
+def check_time() -> None:
+    """Raises `LimitExceeded` where a budget is watched and its time is over."""
+    budget = _WATCHED.get()
+    if budget is not None:
+        budget.check()

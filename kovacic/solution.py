@@ -41,7 +41,8 @@ class Solution:
     certificates, `notices` what was noticed when the input was read (decimals taken as exact fractions, ...), `verified`
     whether the decision has passed its independent check (always, for what `solve` returns), and `seconds` the wall-clock
     time of reading, deciding and verifying together (None for an answer that was read from JSON).  `equation` is the
-    equation of which y'' = S y is the normal form, None where S itself was given.
+    equation of which y'' = S y is the normal form, None where S itself was given.  `assumed` says that a theorem proves the
+    answer for all values with the assumptions, but for those that the notices name.
     """
 
     text: str
@@ -52,6 +53,7 @@ class Solution:
     verified: bool = False
     seconds: float | None = field(default=None, compare=False)
     equation: Equation | None = None
+    assumed: bool = False
 
     @property
     def gauge(self) -> RatFunc:
@@ -299,7 +301,7 @@ def solve(
     else:
         text = parsed.S.to_str(parsed.variable) if parsed.equation is None else parsed.equation.text(caret=False)
     budget = Budget(limits)
-    decision, notices = _decided(parsed, S, assume, budget, certify=True)
+    decision, notices, assumed = _decided(parsed, S, assume, budget, certify=True)
     try:
         verification = verify(parsed.S, decision, budget=budget)
     except LimitExceeded as limit:
@@ -313,7 +315,7 @@ def solve(
             f"the answer for S = {parsed.S} failed its own check; please report it\n{verification}"
         )
     seconds = time.perf_counter() - start
-    return Solution(text, parsed.variable, parsed.S, decision, notices, verified, seconds, parsed.equation)
+    return Solution(text, parsed.variable, parsed.S, decision, notices, verified, seconds, parsed.equation, assumed)
 
 
 def decide(
@@ -329,24 +331,24 @@ def decide(
     """
     from kovacic.reading.read import read_input
 
-    decision, _ = _decided(read_input(S, var=var, limits=limits), S, assume, Budget(limits), certify=False)
+    decision, _, _ = _decided(read_input(S, var=var, limits=limits), S, assume, Budget(limits), certify=False)
     return Verdict(decision.status, decision.case, decision.undecided)
 
 
 def _decided(
     parsed: Parsed, S: Any, assume: Mapping[Any, str] | None, budget: Budget, *, certify: bool
-) -> tuple[Decision, tuple[str, ...]]:
-    """The decision, under the assumptions if there are any, and the notices."""
+) -> tuple[Decision, tuple[str, ...], bool]:
+    """The decision, under the assumptions if there are any, the notices, and is it proven for all values with them?"""
     decision = decide_structure(parsed.S, budget, certify=certify)
     if assume is None and parsed.S.field.ground == QQ:
-        return decision, parsed.notices
+        return decision, parsed.notices, False
     from kovacic.parametric.assumptions import read_assumptions
     from kovacic.reading.names import parameters_of
 
     known = read_assumptions(assume, S, parameters_of(parsed.S.field))
     if not known or (assume is None and not known.concerns_exponents):
-        return decision, parsed.notices
+        return decision, parsed.notices, False
     from kovacic.parametric.api import under_assumptions
 
-    decision, sentence = under_assumptions(parsed, decision, known, budget.limits, certify=certify)
-    return decision, (*parsed.notices, sentence) if sentence else parsed.notices
+    decision, sentence, proven = under_assumptions(parsed, decision, known, budget.limits, certify=certify)
+    return decision, (*parsed.notices, sentence) if sentence else parsed.notices, proven

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import time
 from dataclasses import replace
 from fractions import Fraction
 from random import Random
@@ -24,7 +25,8 @@ from kovacic.limits import Budget, Limits
 from kovacic.parametric.answer import Conditions, Verdict
 from kovacic.parametric.ranks import without_constant_pivots
 from kovacic.parametric.riemann import kimura
-from tests.parametric_cases import FAMILIES, Family
+from kovacic.views.text import render
+from tests.parametric_cases import FAMILIES, Family, hypergeometric, with_squares
 from tests.strategies import parametric_equations
 
 F = Fraction
@@ -323,7 +325,7 @@ def test_an_integer_is_not_called_like_a_parameter() -> None:
     assert "M^2" in str(statement)
     assert "for an odd integer M" in str(statement)
     assert "M^{2}" in statement.latex()
-    assert "for an integer N" in str(kovacic.conditions("x^2 - E/x^2 + 1", var="x").regions[-1].statement)
+    assert "for an odd integer N" in str(kovacic.conditions("x^2 - E/x^2 + 1", var="x").regions[-1].statement)
     latex = kovacic.conditions("mu/x^2 + 1/x", var="x").regions[-1].statement.latex()
     assert latex.startswith(r"\mu = ")
 
@@ -557,3 +559,109 @@ def test_command(capsys: pytest.CaptureFixture[str]) -> None:
 def test_an_equation_in_place_of_S() -> None:
     answer = kovacic.conditions("(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0")
     assert [str(region.statement) for region in answer.regions] == ["n in Z"]
+
+
+@pytest.mark.parametrize("exponents", [(2, 3, 3), (2, 3, 4), (2, 3, 5), (2, 2, 7), (3, 5, 7)])
+def test_a_pole_as_parameter_with_constant_exponents(exponents: tuple[int, int, int]) -> None:
+    """Three points are as good as any others: the same case for every pole, and no impossible region."""
+    p, q, r = (F(1, n * n) for n in exponents)
+    S = f"-(1-{p})/(4*x^2) - (1-{q})/(4*(x-a)^2) - ({p}+{q}-{r}-1)/(4*x*(x-a))"
+    answer = kovacic.conditions(S, var="x")
+    assert answer.complete is True
+    assert [str(region.statement) for region in answer.regions] == ["a = 0"]
+    assert answer.generic.case == kovacic.solve(S.replace("a", "7"), var="x").case
+    assert answer.check(20)
+    assert kovacic.solve(S, var="x", assume={"a": "nonzero"}).case == answer.generic.case
+
+
+def test_rows_that_contain_no_constant_exponent_are_left_out() -> None:
+    with_sevenths = kovacic.conditions(hypergeometric(("1/7", "m", "n")), var="x")
+    assert {region.case for region in with_sevenths.regions} == {1, 2}
+    with_fifths = kovacic.conditions(hypergeometric(("1/5", "m", "n")), var="x")
+    assert {region.case for region in with_fifths.regions} == {1, 2, 3}
+    assert not any("rows 2-3" in str(region.statement) for region in with_fifths.regions)
+    assert with_fifths.check(40)
+
+
+@pytest.mark.parametrize("value", ["x", "3+x", sympy.Symbol("x"), sympy.Symbol("x") + 3, "n", "x1", None])
+def test_values_that_are_no_numbers_are_refused(value: Any, answers: dict[str, Conditions]) -> None:
+    for method in (answers["bessel"].case_at, answers["bessel"].solve_at):
+        with pytest.raises(kovacic.InputError):
+            method({"n": value})
+
+
+@pytest.mark.parametrize("degree", ["7", -5, 2.0, True, None])
+def test_a_degree_is_a_natural_number(degree: Any) -> None:
+    with pytest.raises(kovacic.InputError, match="natural number"):
+        kovacic.conditions("x^6 + a*x^2 + b", var="x", max_degree=degree)
+
+
+def test_a_name_alone_is_the_variable() -> None:
+    with pytest.raises(kovacic.InputError, match="n is taken for the variable"):
+        kovacic.conditions("n")
+    assert kovacic.conditions("n", var="x").generic.case == 1
+
+
+def test_assumptions_refute_single_values() -> None:
+    S = "(b+2)*x^4 + x^2 + b*x"
+    assert any(str(region.statement) == "b + 2 = 0" for region in kovacic.conditions(S, var="x", max_degree=1).regions)
+    for what in ("noninteger", "positive", "irrational", "odd", "half-integer"):
+        answer = kovacic.conditions(S, var="x", assume={"b": what}, max_degree=1)
+        assert not any(str(region.statement) == "b + 2 = 0" for region in answer.regions)
+
+
+def test_a_proven_answer_under_assumptions_has_no_further_conditions() -> None:
+    answer = kovacic.solve("(4*n^2-1)/(4*x^2) - 1", assume={"n": "integer"})
+    assert not answer.generic_conditions
+    assert "isn't rational" not in render(answer)
+    assert kovacic.solve("(4*n^2-1)/(4*x^2) - 1", var="x").generic_conditions
+
+
+def test_the_note_uses_the_name_of_the_constant() -> None:
+    answer = kovacic.conditions("alpha*x^2 + (sqrt(2)+sqrt(3))*x", var="x")
+    assert any("alpha_ is the root of alpha_**4" in notice for notice in answer.notices)
+
+
+def test_families_of_integers_are_merged_and_covered_ones_left_out() -> None:
+    """Yoshida's degrees -1 and 2: each family once, and no region all of whose points lie in an earlier one."""
+
+    def yoshida(k: int) -> list[str]:
+        squares = (F(1, k * k), F(1, 4), f"(({(k - 2) ** 2} + {8 * k}*L)/{4 * k * k})")
+        answer = kovacic.conditions(with_squares(*map(str, squares)), var="x")
+        assert answer.complete is True
+        assert answer.check(60)
+        return [str(region.statement) for region in answer.regions]
+
+    assert yoshida(-1) == ["L = (-N^2 - N + 2)/2 for an integer N"]
+    assert yoshida(2) == ["L = N^2 for an integer N"]
+    assert yoshida(1) == ["L = (N^2 + N)/2 for an integer N"]
+
+
+def test_a_region_inside_an_earlier_one_is_left_out() -> None:
+    answer = kovacic.conditions("(A + B*x + C*x^2)/(x^2 - 1) - 3/(8*(x^2 - 1)^2)", var="x", max_degree=1)
+    statements = [str(region.statement) for region in answer.regions]
+    assert any(text.startswith("C = 0, and B = 0") for text in statements)
+    assert not any(text.startswith("B^2 - 4*C = 0, and B = 0") for text in statements)
+    assert answer.check(40)
+
+
+@pytest.mark.parametrize(
+    "S",
+    [
+        "a/x^2 + b/(x-1)^2 + c/(x-2)^2",
+        "(x+a)^2 + b/(x-c)^2 + 1",
+        # Ince's equation in algebraic form, and Regge & Wheeler's.
+        "(16*a*x^2 - 16*a*x + 16*b*x^3 - 16*b*x^2 + 4*k^2*x^4 - 8*k^2*x^3 + 4*k^2*x^2 + 8*k*x^3 - 12*k*x^2 + 4*k*x - 4*x^2 "
+        "+ 4*x - 3)/(16*x^2*(x - 1)^2)",
+        "(l*(1 - 1/x)*(l + 1)/x^2 - w^2 + (1 - s^2)*(1 - 1/x)/x^3)/(1 - 1/x)^2",
+    ],
+)
+def test_the_limit_of_time_holds(S: str) -> None:
+    kovacic.conditions("x^2 + n", var="x")  # imports
+    start = time.perf_counter()
+    answer = kovacic.conditions(S, var="x", limits=Limits(seconds=1.5))
+    assert time.perf_counter() - start < 2.5
+    assert not answer.within_limits
+    assert answer.regions
+    report = answer.check(10)
+    assert report, report.disagreements

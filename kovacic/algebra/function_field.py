@@ -19,6 +19,7 @@ from kovacic.algebra.interpolation import Evaluation, Samples
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
 from kovacic.algebra.sparse import constant_term, factorisation, format_terms, laurent_constant, square_root
+from kovacic.limits import check_time
 
 #: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.
 _FIRST_PRIME_RUN, _QUOTA = 3, 32
@@ -45,6 +46,7 @@ class FunctionField(Field):
             return FunctionPoly(self, num, den)
         if num.is_zero():
             return FunctionPoly(self, num, self.context.constant(1))
+        check_time()
         common = num.gcd(den)
         if not common.is_one():
             num, den = num // common, den // common
@@ -96,6 +98,7 @@ class FunctionField(Field):
         left, quota, state = _QUOTA, _QUOTA, 0x9E3779B97F4A7C15
         index = 0
         while True:
+            check_time()
             p = first
             if index % (_FIRST_PRIME_RUN + 1) == _FIRST_PRIME_RUN:
                 p, left = other, left - 1

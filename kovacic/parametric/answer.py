@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from itertools import islice
+from itertools import count, islice
 from random import Random
 from typing import Any
 
@@ -314,18 +314,19 @@ def _point(names: tuple[str, ...], values: list[Any], constant: Point, limits: L
 
 def _constants(values: list[Any], limits: Limits) -> tuple[list[Poly], Field]:
     """The values in one field: the coefficients of one polynomial."""
+    name = next(f"x{k}" for k in count() if not any(f"x{k}" in str(value) for value in values))
     is_symbolic = any(type(value).__module__.startswith("sympy") for value in values)
     if is_symbolic and not any(isinstance(value, str) for value in values):
         import sympy
 
-        x = sympy.Symbol("x")
+        x = sympy.Symbol(name)
         try:
             together: Any = sum((sympy.sympify(v, strict=True) * x**i for i, v in enumerate(values)), sympy.Integer(0))
         except sympy.SympifyError as error:
             raise InputError(f"the values of parameters are numbers, not {error.expr!r}") from None
     else:
-        together = " + ".join(f"({value})*x^{i}" for i, value in enumerate(values))
-    polynomial = read_input(together, var="x", limits=limits).S
+        together = " + ".join(f"({value})*{name}^{i}" for i, value in enumerate(values))
+    polynomial = read_input(together, var=name, limits=limits).S
     if not polynomial.is_polynomial or polynomial.field.ground != QQ:
         raise InputError("the values of parameters are numbers")
     return [polynomial.num[i] for i in range(len(values))], polynomial.field

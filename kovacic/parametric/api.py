@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide
 from kovacic.errors import InputError
@@ -13,7 +15,9 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.answer import Condition, Conditions, Verdict
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.partition import Settings, partition
+from kovacic.parametric.redundancy import without_empty
 from kovacic.parametric.restriction import reduced, with_free_constant
+from kovacic.parametric.statements import Point
 from kovacic.reading.names import parameters_of
 from kovacic.reading.parsed import Parsed
 from kovacic.reading.read import read_input
@@ -55,7 +59,11 @@ def conditions(
     parsed = read_input(S, var=var, limits=limits)
     names = parameters_of(parsed.S.field)
     if not names:
-        raise InputError("S has no parameters", hint="solve decides equations without parameters")
+        used = f": {parsed.variable} is taken for the variable" if var is None and parsed.S.degree else ""
+        hint = "solve decides equations without parameters; var= says which name is the variable"
+        raise InputError(f"S has no parameters{used}", hint=hint)
+    if isinstance(max_degree, bool) or not isinstance(max_degree, int) or max_degree < 0:
+        raise InputError(f"max_degree is a natural number, not {max_degree!r}")
     return conditions_of(parsed, read_assumptions(assume, S, names), max_degree, limits)
 
 
@@ -65,13 +73,16 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     assumptions = replace(known, values=tuple(zip(constant.names, constant.values, strict=True)))
     bounded = limits if limits.seconds is not None else replace(limits, seconds=DEFAULT_SECONDS)
     budget = Budget(bounded)
-    result = partition(lifted, Settings(max_degree, budget, parsed.variable))
+    with budget.watched():
+        result = partition(lifted, Settings(max_degree, budget, parsed.variable))
     different: dict[str, Condition] = {}
     for region in result.regions:
         statement = reduced(region.statement, constant).avoiding((parsed.variable, *parameters_of(lifted.field)))
         region = replace(region, statement=statement)
         different.setdefault(region.statement.text(), region)
-    regions = [region for region in different.values() if region.statement.decided(assumptions) is not False]
+    regions = [
+        region for region in without_empty([*different.values()]) if region.statement.decided(assumptions) is not False
+    ]
     always = next((k for k, r in enumerate(regions) if r.statement.decided(assumptions) is True), None)
     generic, complete = result.generic, result.complete
     if always is not None:
@@ -88,33 +99,40 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
         complete,
         result.theory,
         limits,
-        tuple(notice for notice in parsed.notices if "parameter" not in notice),
+        tuple(_renamed(notice, constant) for notice in parsed.notices if "parameter" not in notice),
         known,
         constant,
     )
 
 
+def _renamed(notice: str, constant: Point) -> str:
+    """A notice about the algebraic constant, with the name that it has among the parameters."""
+    if not isinstance(constant.field, AlgebraicField):
+        return notice
+    return re.sub(rf"\b{re.escape(constant.field.name)}\b", constant.names[0], notice)
+
+
 def under_assumptions(
     parsed: Parsed, decision: Decision, known: Assumptions, limits: Limits, *, certify: bool
-) -> tuple[Decision, str]:
-    """The decision for generic parameters where the assumptions hold, and a sentence that says for which of these values.
+) -> tuple[Decision, str, bool]:
+    """The decision where the assumptions hold, a sentence that says for which of these values, and is that proven?
 
     Where the assumptions imply another case, that is the decision if no certificate is asked for.  Else it is undecided, with
     the case in its reason: omega depends on the value of a parameter, so that no single omega is the answer.
     """
     if decision.status is Status.UNDECIDED:
-        return decision, ""
+        return decision, "", False
     answer = conditions_of(parsed, known, None, limits)
     if answer.complete is not True:
-        return decision, f"whether all values with {known} are generic ones isn't known ({answer.theory})"
+        return decision, f"whether all values with {known} are generic ones isn't known ({answer.theory})", False
     if answer.generic.case != decision.case:
         if not certify:
-            return Decision(answer.generic.structure, ()), ""
+            return Decision(answer.generic.structure, ()), "", True
         reason = (
             f"with {known} the equation is in case {answer.generic.case} ({answer.theory}), by an omega that depends on the "
             "values of the parameters: give values, or use kovacic.conditions and its solve_at"
         )
-        return Decision(None, (), undecided=reason), ""
+        return Decision(None, (), undecided=reason), "", False
     exceptions = " or ".join(str(region.statement) for region in answer.regions)
     exception = f" except where {exceptions}" if exceptions else ""
-    return decision, f"with {known} the answer holds{exception} ({answer.theory})"
+    return decision, f"with {known} the answer holds{exception} ({answer.theory})", True

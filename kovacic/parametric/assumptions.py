@@ -15,8 +15,9 @@ from typing import Any
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
-from kovacic.parametric.functions import degrees, element, powers_of
+from kovacic.parametric.functions import degrees, element, numerator, powers_of
 
 _DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
 
@@ -181,6 +182,11 @@ class Assumptions:
         values = self._coset_of(function)
         if (values is not None and not values.contains(Fraction(0))) or self._is_irrational(function):
             return True
+        linear = _linear(numerator(function))
+        if linear is not None and len(linear[1]) == 1:
+            ((name, factor),) = linear[1].items()
+            if not self.of(name).admits(QQ.poly([-linear[0] / factor])):
+                return True
         terms = [(int(c), _powers(function, e)) for e, c in function.num.to_dict().items()]
         if len(terms) == 1:
             return all(self.of(name).nonzero for name in terms[0][1])

@@ -60,14 +60,14 @@ class GenericConditions:
 
 
 def generic_conditions(solution: Solution) -> GenericConditions:
-    """The conditions of an answer over Q(t); empty where there are no parameters.
+    """The conditions of an answer over Q(t); empty where there are no parameters, or where assumptions make it proven.
 
     >>> import kovacic
     >>> print(generic_conditions(kovacic.solve("(m^2*x^4 + (2*n + 1)*m*x^2 + n^2 - n)/x^2")))
     m != 0, n != 0, n - 1 != 0, sqrt(4*n^2 - 4*n + 1) isn't rational
     """
     field = solution.S.field
-    if field.ground == QQ:
+    if field.ground == QQ or solution.assumed:
         return GenericConditions((), ())
     problem = analyse(solution.S, Budget())
     above, below = solution.S.cleared()

@@ -73,7 +73,7 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
     try:
         return _by_theory(S, verdict, settings)
     except LimitExceeded as limit:
-        return Partition(verdict, f"only as far as the limits allowed: {limit}", "nothing but the generic answer")
+        return Partition(verdict, _as_far_as(limit), "nothing but the generic answer")
 
 
 def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
@@ -179,7 +179,7 @@ def _by_candidates(problem: Problem, expected: Verdict, settings: Settings, max_
             if any(not r.verdict.known or r.case != expected.case or r.complete is not True for r in found_there):
                 regions += found_there
     except LimitExceeded as limit:
-        complete = f"only as far as the limits allowed: {limit}"
+        complete = _as_far_as(limit)
     if complete is True:
         complete = _together(regions)
     return Partition(expected, complete, theory, tuple(regions))
@@ -199,8 +199,18 @@ def _discriminants(problem: Problem, expected: Verdict, settings: Settings) -> l
 
 
 def _degenerate(S: RatFunc, functions: Iterable[FunctionPoly], settings: Settings) -> list[Condition]:
-    """Regions for the values at which the generic theory doesn't apply."""
-    return [region for function in functions for region in _pieces(S, function, settings)]
+    """Regions for the values at which the generic theory doesn't apply; what the limits don't allow is unknown."""
+    regions: list[Condition] = []
+    for function in functions:
+        try:
+            regions += _pieces(S, function, settings)
+        except LimitExceeded as limit:
+            regions.append(Condition(Vanishes(function), _UNKNOWN, _as_far_as(limit)))
+    return regions
+
+
+def _as_far_as(limit: LimitExceeded) -> str:
+    return f"only as far as the limits allowed: {limit}"
 
 
 def _pieces(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Condition]:

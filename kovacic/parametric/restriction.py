@@ -51,29 +51,33 @@ def _restricted(S: RatFunc, values: list[Poly], field: Field) -> Restriction:
 
 
 def on_hypersurface(S: RatFunc, function: FunctionPoly) -> Restriction:
-    """S where an irreducible polynomial in the parameters vanishes.
+    """S where an irreducible polynomial in the parameters vanishes.  Raises `UndefinedError` where S isn't defined."""
+    field, values = parametrised(function)
+    return _restricted(S, values, field)
+
+
+def parametrised(function: FunctionPoly) -> tuple[Field, list[Poly]]:
+    """A field, and values of the parameters in it at which an irreducible polynomial vanishes.
 
     A parameter that occurs linearly is eliminated, which misses the zeros of its coefficient (`missed`); else one becomes
-    algebraic over the others: a number, if there are none.  Raises `UndefinedError` where S isn't defined.
+    algebraic over the others: a number, if there are none.
     """
     names, powers = function.field.names, degrees(function)
     linear = _eliminated(function)
     i = min((k for k, n in enumerate(powers) if n), key=lambda k: powers[k]) if linear is None else linear
-    rest = tuple(name for k, name in enumerate(names) if k != i)
-    smaller: Field = FunctionField(rest) if rest else QQ
-    values = [
-        smaller.generator(n) if isinstance(smaller, FunctionField) and n in rest else smaller.poly([0]) for n in names
-    ]
+    rest = FunctionField(tuple(name for name in names if name != names[i]))
+    smaller: Field = rest if rest.names else QQ
+    values = [rest.generator(name) if name in rest.names else smaller.poly([0]) for name in names]
     parts = powers_of(function, i)
     coefficients = [
         parts[k].value_at(values, smaller) if k in parts else smaller.poly([]) for k in range(powers[i] + 1)
     ]
     if linear is not None:
         values[i] = -coefficients[0] / coefficients[1]
-        return _restricted(S, values, smaller)
+        return smaller, values
     extension = AlgebraicField(smaller, smaller.poly([c / coefficients[-1] for c in coefficients]), names[i])
     values[i] = extension.generator
-    return _restricted(S, [value.over(extension) for value in values], extension)
+    return extension, [value.over(extension) for value in values]
 
 
 def leading_factors(function: FunctionPoly) -> list[FunctionPoly]:

@@ -17,7 +17,7 @@ Reference: T. Kimura, Funkcial. Ekvac. 12 (1969) 269-281.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -207,11 +207,15 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Literal[True] | li
     if reducible:
         yield Structure.REDUCIBLE, reducible
     constants, variable = _split(cubic)
-    if sum(d is not None and d.denominator == 2 for d in constants) >= 2:
-        yield Structure.IMPRIMITIVE, True
+    always = _only_structure(constants)
+    if always is not None:
+        yield always, True
+    if always is not None or len(constants) == 3:
         return
     for structure in (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL):
-        statements: list[Statement] = [Schwarz(cubic, structure)] if variable is None else []
+        statements: list[Statement] = []
+        if variable is None and (structure is Structure.IMPRIMITIVE or _in_some_row(constants, structure)):
+            statements.append(Schwarz(cubic, structure))
         for denominator in (2, 3, 4, 5):
             if variable is None or len(constants) < 2:
                 continue
@@ -228,6 +232,18 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Literal[True] | li
             statements += found
         if statements:
             yield structure, statements
+
+
+def _only_structure(constants: Sequence[Fraction | None]) -> Structure | None:
+    """The structure that constant exponent differences determine, if the equation isn't reducible."""
+    first, second, third = (*constants, None, None, None)[:3]
+    return kimura((first, second, third))
+
+
+def _in_some_row(constants: Sequence[Fraction | None], structure: Structure) -> bool:
+    """Do the constant exponent differences (one at most) occur in a row with this structure?"""
+    residues = {int(60 * d) % 120 if d is not None and d.denominator <= 5 else None for d in constants}
+    return any(residues <= set(row) for row, known in _table().items() if known is structure)
 
 
 def _split(cubic: FunctionPoly) -> tuple[list[Fraction | None], Poly | None]:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import chain, count
-from math import gcd
+from math import ceil, gcd, lcm
 from random import Random
 from typing import Literal
 
@@ -70,6 +70,10 @@ class Statement(ABC):
     @abstractmethod
     def latex(self) -> str:
         """As LaTeX, without dollar signs."""
+
+    def merged(self, other: Statement) -> Statement | None:
+        """Both statements in one (either holds), where they are about the same function; else None."""
+        return None
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         """True or False where that follows from what is known about the parameters; None otherwise."""
@@ -137,11 +141,10 @@ class Classes(Statement):
     def sample(self, random: Random) -> list[FunctionPoly]:
         return [self.form - (random.choice(self.residues) + random.randint(-4, 4) * self.modulus)]
 
-    def merged(self, other: Classes) -> Classes | None:
-        """Both statements in one (either holds), where they are about the same form."""
-        sign = 1 if other.form == self.form else -1 if other.form == -self.form else 0
-        if not sign:
+    def merged(self, other: Statement) -> Classes | None:
+        if not isinstance(other, Classes) or other.form not in (self.form, -self.form):
             return None
+        sign = 1 if other.form == self.form else -1
         common = common_multiple(self.modulus, other.modulus)
         numbers = [r + k * self.modulus for r in self.residues for k in range(int(common / self.modulus))]
         numbers += [sign * r + k * other.modulus for r in other.residues for k in range(int(common / other.modulus))]
@@ -185,6 +188,33 @@ class IntegerRoot(Statement):
     modulus: int
     letter: str = field(default="N", compare=False)
 
+    @classmethod
+    def make(cls, equation: FunctionPoly, residues: Iterable[int], modulus: int) -> IntegerRoot:
+        """Normalised: the mean of the roots in (-1, 0] by a shift of N, both signs about it, the least modulus."""
+        classes, shift, Z = set(residues), 0, equation.field.poly([0, 1])
+        mean = equation.field.rational_value(-equation[equation.degree - 1] / (equation.degree * equation.lc))
+        if mean is not None:
+            shift = ceil(mean)
+            equation = over_parameters(equation(Z + shift))
+            classes = {r - shift for r in classes}
+            twice = int(2 * (mean - shift)) if (2 * mean).denominator == 1 else None
+            if twice is not None and equation(twice - Z) == (-1) ** equation.degree * equation:
+                classes |= {twice - r for r in classes}
+        reduced, smallest = _reduced({Fraction(r % modulus) for r in classes}, Fraction(modulus))
+        return cls(equation, tuple(sorted(map(int, reduced))), int(smallest))
+
+    def merged(self, other: Statement) -> IntegerRoot | None:
+        if not isinstance(other, IntegerRoot) or other.equation != self.equation:
+            return None
+        common = lcm(self.modulus, other.modulus)
+        both = (
+            (r + k * part.modulus)
+            for part in (self, other)
+            for r in part.residues
+            for k in range(common // part.modulus)
+        )
+        return IntegerRoot.make(self.equation, both, common)
+
     def avoiding(self, names: Collection[str]) -> Statement:
         return replace(
             self, letter=next(name for name in chain("NMKJ", map("N{}".format, count())) if name not in names)
@@ -207,18 +237,18 @@ class IntegerRoot(Statement):
 
     def text(self) -> str:
         left = f"{shown(numerator(self.equation), self.letter)} = 0"
-        if self._solved:
-            left = f"{self._solved[0]} = {factored(self._solved[1], self.letter)}"
+        if self.solved:
+            left = f"{self.solved[0]} = {factored(self.solved[1], self.letter)}"
         return f"{left} for {self._classes()}"
 
     def latex(self) -> str:
         left = f"{as_latex(numerator(self.equation), self.letter)} = 0"
-        if self._solved:
-            left = f"{symbol(self._solved[0])} = {as_latex(self._solved[1], self.letter)}"
+        if self.solved:
+            left = f"{symbol(self.solved[0])} = {as_latex(self.solved[1], self.letter)}"
         return rf"{left} \text{{ for {self._classes()}}}"
 
     @property
-    def _solved(self) -> tuple[str, RatFunc] | None:
+    def solved(self) -> tuple[str, RatFunc] | None:
         """`(name, f)` where the equation says that a parameter is the rational function f(N)."""
         linear = [i for i, k in enumerate(degrees(self.equation)) if k == 1]
         if not linear:
@@ -287,7 +317,7 @@ def either(statements: Sequence[Statement]) -> Statement:
     merged: list[Statement] = []
     for statement in statements:
         for k, known in enumerate(merged):
-            union = known.merged(statement) if isinstance(known, Classes) and isinstance(statement, Classes) else None
+            union = known.merged(statement)
             if union is not None:
                 merged[k] = union
                 break
@@ -322,7 +352,7 @@ def integer_roots(equation: FunctionPoly, residues: Sequence[int], modulus: int)
         elif factor.degree == 1:
             statements.append(Classes.make(-factor[0], [Fraction(r) for r in sorted(classes)], Fraction(modulus)))
         else:
-            statements.append(IntegerRoot(factor, tuple(sorted(classes)), modulus))
+            statements.append(IntegerRoot.make(factor, classes, modulus))
     return statements
 
 

@@ -45,7 +45,7 @@ def render(solution: Solution, *, style: Style = lambda text, role: text) -> str
         lines.append(f"  {style('Liouvillian solutions exist', 'good')}: {case}")
         lines += [f"  {line}" for line in omega_lines(solution)]
     lines += [f"  {line}" for line in _exclusions(solution)]
-    if parameters_of(solution.S.field) and solution.status is not Status.UNDECIDED:
+    if parameters_of(solution.S.field) and solution.status is not Status.UNDECIDED and not solution.assumed:
         lines.append(f"  for generic parameters: {solution.generic_conditions}")
         lines.append("  (kovacic conditions tells for which values more is solvable)")
     if solution.verified:
