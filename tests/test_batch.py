@@ -455,12 +455,23 @@ def test_what_an_interruption_leaves_is_removed(tmp_path: Path, rest: bytes) -> 
 )
 def test_a_record_that_contradicts_itself_is_no_answer(tmp_path: Path, change: dict[str, object]) -> None:
     path = tmp_path / "answers.jsonl"
-    right = solve_item(Item(1, "x^2 + 3"), Job(), DEFAULT_LIMITS).data
-    path.write_text(json.dumps(right) + "\n")
-    assert len(take_up(path)) == 1
-    path.write_text(json.dumps({**right, **change}) + "\n")
-    assert len(take_up(path)) == 0
-    assert path.read_bytes() == b""
+    right, other = (solve_item(Item(k, "x^2 + 3"), Job(), DEFAULT_LIMITS).data for k in (1, 2))
+    path.write_text(json.dumps(right) + "\n" + json.dumps(other) + "\n")
+    assert len(take_up(path)) == 2
+    path.write_text(json.dumps({**right, **change}) + "\n" + json.dumps(other) + "\n")
+    assert take_up(path).labels == {2: "case 1"}
+    assert json.loads(path.read_text()) == other
+
+
+@pytest.mark.parametrize("content", ["x^2 + 3\n", '{"S": "x", "id": 1}\n"x^2"\n', "\0\nprecious\n", "[]\n"])
+def test_a_file_of_something_else_is_not_taken_up(tmp_path: Path, content: str) -> None:
+    path = tmp_path / "equations.jsonl"
+    path.write_text(content)
+    ran = command(str(path), "-o", str(path), "--resume")
+    assert ran.returncode == 2
+    assert "has no answers" in ran.stderr
+    assert path.read_text() == content
+    assert list(tmp_path.iterdir()) == [path]
 
 
 def test_broken_and_repeated_lines_in_the_middle_are_removed(tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ import tempfile
 import time
 import zlib
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any, BinaryIO
@@ -275,30 +275,45 @@ class Done:
 def take_up(path: Path) -> Done:
     """Read a file of answers, if there is one, and remove what isn't a whole answer and what occurs twice.
 
-    The file is replaced by the repaired one in a single step, and not touched if there is nothing to repair.
+    The file is replaced by the repaired one in a single step, and not touched if there is nothing to repair.  Raises
+    `InputError` for a file with whole lines, none of which is an answer: somebody needs it for something else.
     """
-    done, broken = Done(), 0
-    if not path.exists():
+    done, broken, foreign = Done(), False, False
+    if not path.is_file():
         return done
-    with (
-        path.open("rb") as stream,
-        tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name, delete=False) as copy,
-    ):
-        for line in stream:
-            if line.endswith(b"\n"):
-                with suppress(ValueError, KeyError, TypeError, AttributeError):  # not an answer
-                    data = json.loads(line)
-                    number, checksum, label = int(data["line"]), _checksum(data["input"]), label_of(data)
-                    if number not in done.checksums:
-                        done.checksums[number], done.labels[number] = checksum, label
-                        copy.write(line)
-                        continue
-            broken += 1
-        copy.flush()
-        os.fsync(copy.fileno())
-    os.chmod(copy.name, path.stat().st_mode)
-    os.replace(copy.name, path) if broken else os.unlink(copy.name)
+    repaired = tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name, delete=False)  # noqa: SIM115 - below
+    try:
+        with path.open("rb") as stream, repaired:
+            for line in stream:
+                answer = _answer(line)
+                if answer is None or answer[0] in done.checksums:
+                    broken = True
+                    foreign = foreign or (line.endswith(b"\n") and line.strip(b"\0\n") != b"")
+                    continue
+                number, checksum, label = answer
+                done.checksums[number], done.labels[number] = checksum, label
+                repaired.write(line)
+            repaired.flush()
+            os.fsync(repaired.fileno())
+        if foreign and not done:
+            raise InputError(f"{path} has no answers", hint="--resume continues what kovacic batch or scan has written")
+        if broken:
+            os.chmod(repaired.name, path.stat().st_mode)
+            os.replace(repaired.name, path)
+    finally:
+        Path(repaired.name).unlink(missing_ok=True)
     return done
+
+
+def _answer(line: bytes) -> tuple[int, int, str] | None:
+    """The number, a checksum of the input and the label of a line; None for what isn't a whole answer."""
+    if not line.endswith(b"\n"):
+        return None
+    try:
+        data = json.loads(line)
+        return int(data["line"]), _checksum(data["input"]), label_of(data)
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return None
 
 
 def _checksum(text: str) -> int:
