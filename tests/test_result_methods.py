@@ -69,3 +69,28 @@ def test_a_missing_extra_names_the_command_that_installs_it(missing: str, code: 
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=60)
     assert f"needs {missing}" in done.stdout
     assert f"pip install 'kovacic[{extra}]'" in done.stdout
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["x^2 + 3", "0", "-3/7", "(x^2 - 1/2)/(3*x^3 - x)", "n*x/(m^2 - n*x)", "sqrt(2)*x + 1/(x - sqrt(2))", "I/(x^2 + I)",
+     "cbrt(2)*x + 1/x^2", "2^(1/5)/x", "n*x + sqrt(2)/(x + n)", "sqrt(2)*x + sqrt(3)"],
+)  # fmt: skip
+def test_sympy_takes_rational_functions(text: str) -> None:
+    """The same as the text that is printed means to SymPy (which would execute it, and so is used here only)."""
+    import sympy
+
+    S = kovacic.solve(text, limits=kovacic.Limits(unknown_degree=10)).S
+    printed = sympy.sympify(str(S), locals={"root": lambda a, n: sympy.root(a, n)})
+    assert sympy.simplify(sympy.sympify(S) - printed) == 0
+    assert sympy.Symbol("x") + S == sympy.Symbol("x") + sympy.sympify(S)
+
+
+def test_omega_in_sympy_solves_the_riccati_equation() -> None:
+    import sympy
+
+    for text in ("x^2 + 3", "2/x^2", "(n^2 - 1/4)/x^2", "n^2*x^2 + n"):
+        answer = kovacic.solve(text)
+        omega = sympy.sympify(answer.omega)
+        assert sympy.simplify(sympy.diff(omega, sympy.Symbol("x")) + omega**2 - sympy.sympify(answer.S)) == 0
+    assert sympy.sympify(kovacic.solve("2").omega) == sympy.Symbol("c")

@@ -272,6 +272,16 @@ class ExtensionPoly(Poly):
         element = base.poly([part[0] for part in self.parts]).inverse_modulo(self._field.modulus)
         return ExtensionPoly(self._field, tuple(element[i] for i in range(self._field.dimension)))
 
+    def to_sympy(self, variable: Any) -> Any:
+        """As for every polynomial; the generator is a radical where it is called so, else a symbol."""
+        from sympy import Add, Pow, Rational, Symbol
+
+        field = self._field
+        generator = Symbol(field.name)
+        if field.name == "I" or not field.name.isidentifier():  # sqrt(2), root(2, 5): its power is in the field below
+            generator = Pow(-field.modulus[0].to_sympy(variable), Rational(1, field.modulus.degree))
+        return Add(*(part.to_sympy(variable) * generator**i for i, part in enumerate(self.parts) if part))
+
     def rational_coefficients(self) -> tuple[Any, ...]:
         width = self._field.base.absolute_degree
         result: list[Any] = []

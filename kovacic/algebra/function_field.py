@@ -264,6 +264,16 @@ class FunctionPoly(Poly):
         negative = int(self.num.leading_coefficient()) < 0
         return FunctionPoly(self._field, -self.den if negative else self.den, -self.num if negative else self.num)
 
+    def to_sympy(self, variable: Any) -> Any:
+        from sympy import Add, Mul, Pow, Symbol
+
+        symbols = [variable, *map(Symbol, self._field.names)]
+
+        def expression(part: Any) -> Any:
+            return Add(*(Mul(int(c), *map(Pow, symbols, map(int, powers))) for powers, c in part.to_dict().items()))
+
+        return expression(self.num) / expression(self.den)
+
     def rational_coefficients(self) -> tuple[Any, ...]:
         """The images of the coefficients under a Q-linear map of Q(t) onto Q that is the identity on Q.
 

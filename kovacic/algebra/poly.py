@@ -254,6 +254,10 @@ class Poly(ABC):
         """The size of the largest numerator or denominator among the coordinates, in bits."""
         return max((max(int(c.p).bit_length(), int(c.q).bit_length()) for c in self.rational_coefficients()), default=0)
 
+    @abstractmethod
+    def to_sympy(self, variable: Any) -> Any:
+        """A SymPy expression in this symbol, and in those that `to_str` prints."""
+
     def to_str(self, variable: str = "x") -> str:
         """Python/SymPy syntax, with one common denominator."""
         return quotient_str(self, self.field.poly([1]), variable)

@@ -143,6 +143,13 @@ class RatFunc:
         """Python/SymPy syntax with integer coefficients."""
         return quotient_str(self.num, self.den, variable)
 
+    def _sympy_(self) -> Any:
+        """For `sympy.sympify`: in the symbols that `str` prints."""
+        from sympy import Symbol
+
+        num, den = self.cleared()
+        return num.to_sympy(Symbol("x")) / den.to_sympy(Symbol("x"))
+
     def cleared(self) -> tuple[Poly, Poly]:
         """Numerator and denominator without denominators and common factors in their coefficients."""
         return self.field.ground.cleared(self.num, self.den)

@@ -191,6 +191,11 @@ class RationalPoly(Poly):
     def coefficient_strings(self) -> list[str]:
         return list(map(str, self.rep.numer().coeffs()))
 
+    def to_sympy(self, variable: Any) -> Any:
+        from sympy import Add, Rational
+
+        return Add(*(Rational(int(c.p), int(c.q)) * variable**k for k, c in enumerate(self.rep.coeffs()) if c))
+
     def constant(self) -> Fraction:
         """The constant coefficient."""
         return to_fraction(self.rep[0])

@@ -61,22 +61,10 @@ class Atoms:
         if fraction is not None:
             return rational(fraction)
         if isinstance(value, FunctionPoly):
-            names = [Symbol(name) for name in value.field.names]
-            top, bottom = (self._parametric(part, names) for part in (value.num, value.den))
-            return top / bottom
+            return value.to_sympy(self.x)
         generator = self.generator(value.field)
         parts = value.parts
         return sympy.expand_mul(Add(*(Mul(self.constant(part), generator**i) for i, part in enumerate(parts) if part)))
-
-    @staticmethod
-    def _parametric(polynomial: Any, names: list[Symbol]) -> Expr:
-        """A polynomial in the parameters alone; its first variable, x, doesn't occur."""
-        return Add(
-            *(
-                Mul(Integer(int(c)), *(name ** int(k) for name, k in zip(names, exponents[1:], strict=True)))
-                for exponents, c in polynomial.to_dict().items()
-            )
-        )
 
     def generator(self, field: Field) -> Expr:
         """The generator of an algebraic extension."""
