@@ -212,8 +212,18 @@ def test_a_full_disk_is_told(arguments: list[str]) -> None:
 def test_an_output_in_a_missing_folder_is_refused_before_any_work(tmp_path: Path, command: list[str]) -> None:
     done = run(*command, "-o", str(tmp_path / "missing" / "answers.jsonl"), stdin="x\n")
     assert done.returncode == 2
-    assert "there is no folder" in done.stderr
+    assert "there is no directory" in done.stderr
     assert done.stdout == ""
+
+
+@pytest.mark.parametrize(
+    "command", [["scan", "a*x+b", "a=1:2", "b=1:2", "--map"], ["plot", "x", "--from", "0", "--to", "1", "-o"]], ids=str
+)
+def test_a_picture_that_cannot_be_made_is_refused_before_any_work(tmp_path: Path, command: list[str]) -> None:
+    for name, message in (("missing/map.png", "there is no directory"), ("map.jpeg2", ".jpeg2 isn't one of .png")):
+        done = run(*command, str(tmp_path / name))
+        assert (done.returncode, done.stdout) == (2, "")
+        assert message in done.stderr
 
 
 @pytest.mark.parametrize("redirected", ["", "2>&1"])

@@ -9,14 +9,12 @@ from typing import Any
 import click
 
 from kovacic.cli.many import already_answered, answer_all, batch_options, write_line
-from kovacic.cli.options import parse_limits, var_option
+from kovacic.cli.options import OutputFile, parse_limits, var_option
 
 
 @click.command()
 @click.argument("file", metavar="FILE")
-@click.option(
-    "-o", "--output", type=click.Path(dir_okay=False, path_type=Path), help="Append the answers to this file."
-)
+@click.option("-o", "--output", type=OutputFile(), help="Append the answers to this file.")
 @click.option("--resume", is_flag=True, help="Take an interrupted run up again: answer what the output file lacks.")
 @click.option("--format", "form", type=click.Choice(["lines", "jsonl", "csv"]), help="By default by the file's name.")
 @click.option("--ordered/--as-finished", default=True, show_default=True, help="The order of the answers.")

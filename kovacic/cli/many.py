@@ -44,8 +44,6 @@ def already_answered(output: Path | None, resume: bool) -> Done:
     """What the output file of an interrupted run has.  A file that isn't empty is never written to by accident."""
     from kovacic.batch.files import Done, take_up
 
-    if output is not None and not output.absolute().parent.is_dir():
-        raise click.BadParameter(f"there is no folder {output.parent}", param_hint="--output")
     if resume:
         if output is None:
             raise click.UsageError("--resume needs --output FILE, the JSONL file of the interrupted run")

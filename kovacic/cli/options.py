@@ -14,6 +14,8 @@ import click
 from kovacic.cli.main import BAD_INPUT, CHECK_FAILED, DECIDED, UNDECIDED, reported
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from kovacic.limits import Limits
     from kovacic.solution import Solution
 
@@ -32,6 +34,27 @@ limit_option = click.option(
     multiple=True,
     help="Change a limit: seconds, degree, bits, digits, exponent, text_length, unknown_degree.",
 )
+
+
+class OutputFile(click.Path):
+    """A file that can be made: its folder is there, and its suffix one of those that are possible (any, by default)."""
+
+    def __init__(self, suffixes: Sequence[str] = ()) -> None:
+        super().__init__(dir_okay=False)
+        self._suffixes = suffixes
+
+    def convert(self, value: Any, parameter: click.Parameter | None, context: click.Context | None) -> Path:
+        from pathlib import Path  # not for `kovacic solve`, which starts in less time without it
+
+        path = Path(os.fsdecode(super().convert(value, parameter, context)))
+        if not path.absolute().parent.is_dir():
+            self.fail(f"there is no directory {path.parent}", parameter, context)
+        if self._suffixes and path.suffix.lower() not in self._suffixes:
+            self.fail(f"{path.suffix or 'no suffix'} isn't one of {', '.join(self._suffixes)}", parameter, context)
+        return path
+
+
+PICTURE = OutputFile((".png", ".svg", ".pdf"))
 
 _COLUMNS = re.compile(r"\S {2,}\S")
 _CODE = re.compile(r"\x1b\[\d*m")

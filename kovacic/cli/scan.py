@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from kovacic.cli.many import already_answered, answer_all, batch_options, write_line
-from kovacic.cli.options import EQUATIONS, parse_limits, refuse_options
+from kovacic.cli.options import EQUATIONS, PICTURE, OutputFile, parse_limits, refuse_options
 
 if TYPE_CHECKING:
     from kovacic.batch.records import Record
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 @click.command(context_settings=EQUATIONS)
 @click.argument("expression", metavar="S")
 @click.argument("ranges", metavar="NAME=START:STOP:STEP...", nargs=-1, required=True)
-@click.option("-o", "--output", type=click.Path(dir_okay=False, path_type=Path), help="Write to this file.")
+@click.option("-o", "--output", type=OutputFile(), help="Write to this file.")
 @click.option("--resume", is_flag=True, help="Take an interrupted scan up again (JSONL).")
 @click.option("--format", "form", type=click.Choice(["jsonl", "csv"]), help="By default by the name of the output.")
-@click.option("--map", "picture", type=click.Path(dir_okay=False), help="Draw two parameters as a map (png, pdf, svg).")
+@click.option("--map", "picture", type=PICTURE, help="Draw two parameters as a map (png, pdf, svg).")
 @click.option("--group/--no-group", default=True, show_default=True, help="The differential Galois group.")
 @click.option("--var", metavar="NAME", help="The name of the variable; by default x, or what isn't a parameter.")
 @batch_options
@@ -36,7 +36,7 @@ def command(
     output: Path | None,
     resume: bool,
     form: str | None,
-    picture: str | None,
+    picture: Path | None,
     group: bool,
     var: str | None,
     timeout: float | None,
