@@ -34,7 +34,6 @@ def conditions() -> Conditions:
 
     >>> print(str(conditions()).partition("\\n")[2])
       R1 = 0: S isn't defined
-      x1 - x2 = 0, and R1 = 0: S isn't defined
       x1 - x2 = 0: case 1
       2*R/R1 in Z: case 1
       otherwise: case 2
