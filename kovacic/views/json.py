@@ -85,7 +85,7 @@ def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
     """The answer as a JSON object of plain Python values."""
     names = Names(solution.variable, parameters_of(solution.S.field))
     decision = solution.decision
-    riccati = decision.riccati
+    riccati, form, constants = decision.riccati, decision.semi_invariant, solution.constants
     data = {
         "schema": SCHEMA,
         "input": solution.text,
@@ -93,32 +93,27 @@ def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
         "S": names.ratfunc(solution.S),
         "status": decision.status.value,
         "case": decision.case,
-        "riccati": None
-        if riccati is None
-        else {
+        "riccati": riccati
+        and {
             "variable": names.unknown,
             "degree": riccati.degree,
             "coefficients": [names.ratfunc(coefficient) for coefficient in riccati.coefficients],
         },
-        "constants": None
-        if solution.constants is None
-        else {"symbol": names.symbol, "minimal_polynomial": solution.constants.to_str(names.symbol)},
+        "constants": constants and {"symbol": names.symbol, "minimal_polynomial": constants.to_str(names.symbol)},
         "field": _field(solution.S.field),
         "generic_conditions": _generic(solution),
         "verified": solution.verified,
         "proof": {
-            "structure": None if decision.structure is None else decision.structure.value,
-            "semi_invariant": None
-            if decision.semi_invariant is None or riccati is None
-            else {**_form(decision.semi_invariant, names), "D": names.poly(riccati.D)},
-            "invariant": None if decision.invariant is None else _form(decision.invariant, names),
+            "structure": decision.structure and decision.structure.value,
+            "semi_invariant": form and riccati and {**_form(form, names), "D": names.poly(riccati.D)},
+            "invariant": decision.invariant and _form(decision.invariant, names),
             "excluded": [_exclusion(exclusion, names) for exclusion in decision.exclusions],
             "undecided": decision.undecided,
         },
         "notices": list(solution.notices),
         "seconds": solution.seconds,
-        "equation": None if solution.equation is None else _equation(solution.equation),
-        "gauge": None if solution.equation is None else names.ratfunc(solution.gauge),
+        "equation": solution.equation and _equation(solution.equation),
+        "gauge": solution.equation and names.ratfunc(solution.gauge),
     }
     if full:
         data["group"] = group_dict(solution)
