@@ -15,7 +15,7 @@ from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvaria
 from kovacic.engine.decide import decide as decide_structure
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed, needs
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
-from kovacic.reading.given import Equation
+from kovacic.reading.given import Equation, parameters_of
 from kovacic.verify import Verification, verify
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from kovacic.enclosure.ball import Ball
     from kovacic.galois import EquationGroup, Group
     from kovacic.parametric.generic import GenericConditions
-    from kovacic.reading.parsed import Parsed
+    from kovacic.reading.given import Parsed
 
 
 @dataclass(frozen=True, repr=False)
@@ -343,7 +343,6 @@ def _decided(
     if assume is None and parsed.S.field.ground == QQ:
         return decision, parsed.notices, False
     from kovacic.parametric.assumptions import read_assumptions
-    from kovacic.reading.names import parameters_of
 
     known = read_assumptions(assume, S, parameters_of(parsed.S.field))
     if not known or (assume is None and not known.concerns_exponents):

@@ -13,12 +13,13 @@ from strategies import Example
 from transform import hypergeometric
 
 import kovacic
-from kovacic.algebra.embedding import RATIONAL_NUMBERS
+from kovacic.algebra.embedding import approximation
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.poly import Field
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.limits import Limits
+from kovacic.reading.constants import Constants, read_with_constants
 
 ENTRIES = [
     ("x^6 - 7*x^2 + 2*sqrt(2)", 1),
@@ -182,18 +183,16 @@ def test_limits_on_the_field() -> None:
 
 @pytest.mark.parametrize("radicals", [(2,), (2, 3), (-1, 2, 3), (5, -7)])
 def test_primitive_elements(radicals: tuple[int, ...]) -> None:
-    numbers, roots = RATIONAL_NUMBERS, []
-    for radicand in radicals:
-        numbers, _ = numbers.radical(numbers.field.poly([radicand]), 2, "", 24)
-    field: Field = numbers.field
+    def read(constants: Constants) -> tuple[Field, list[Poly | None]]:
+        return constants.field, [constants.radical(QQ.poly([radicand]), 2, "") for radicand in radicals]
+
+    field, roots = read_with_constants(read, Limits())
     assert field.absolute_degree == 2 ** len(radicals)
-    for radicand in radicals:
-        same, root = numbers.radical(field.poly([radicand]), 2, "", 24)
-        assert same.field == field
-        assert root * root == radicand
-        roots.append(numbers.approximation(root))
     for root, radicand in zip(roots, radicals, strict=True):
-        assert abs(complex(root) - complex(radicand) ** 0.5) < 1e-12
+        assert root is not None
+        assert root.field == field
+        assert root * root == radicand
+        assert abs(complex(approximation(root)) - complex(radicand) ** 0.5) < 1e-12
 
 
 @pytest.mark.parametrize("modulus", [[-1, -1, 0, 0, 0, 1], [-1, -1, 0, 0, 0, 0, 0, 1], [1, -1, *[0] * 8, 1]])

@@ -1,13 +1,13 @@
 """Number fields inside the complex numbers: which root is meant, and one primitive element for several constants.
 
-A user's sqrt(2) + sqrt(8) isn't 0: radicals have principal values.  A `NumberField` is a field Q(theta) with an approximation
-of theta, good enough to tell the roots of every polynomial that turns up from one another; decisions about equality are
-always exact, an approximation only chooses between roots that are known to be different.
+A user's sqrt(2) + sqrt(8) isn't 0: radicals have principal values.  The fields in here are Q, and Q(theta) with an
+approximation of theta, good enough to tell the roots of every polynomial that turns up from one another; decisions about
+equality are always exact, an approximation only chooses between roots that are known to be different.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import count
 from math import isqrt
@@ -16,9 +16,8 @@ from typing import Any
 from flint import acb, arb, ctx, fmpq, fmpq_mat, fmpz, fmpz_poly
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
-from kovacic.algebra.poly import Field, Poly
-from kovacic.algebra.rationals import QQ, RationalPoly
-from kovacic.errors import LimitExceeded
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.rationals import QQ
 
 #: Bits of the approximations.
 _PRECISION = 512
@@ -28,142 +27,87 @@ _TINY_BITS = 200
 _FACTORED_BITS = 160
 
 
-@dataclass(frozen=True)
-class NumberField:
-    """Q(theta) inside C.
+def approximation(constant: Poly) -> Any:
+    """The complex number that an element of Q or of Q(theta) is, as an `acb`."""
+    with ctx.workprec(_PRECISION):
+        if not isinstance(constant, ExtensionPoly):
+            return acb(constant[0].rational_coefficients()[0] if constant else 0)
+        theta, total = _complex(constant.field.approximation), acb(0)
+        for part in reversed(constant.parts):
+            total = total * theta + (part.rational_coefficients()[0] if part else 0)
+        return total
 
-    `field` is Q or a simple extension of it, `theta` the real and imaginary part of the approximation, `labels` what the
-    user called the generators, and `radicals` the roots that are known: (radicand, n, root).
+
+def principal_root(radicand: Poly, n: int) -> Any:
+    """The principal n-th root of an element that isn't zero, as an `acb`."""
+    with ctx.workprec(_PRECISION):
+        value = approximation(radicand)
+        if abs(value.imag) < arb(2) ** -_TINY_BITS:
+            value = acb(value.real)
+        return (value.log() / n).exp()
+
+
+def vanishing_factor(equation: Poly, target: Any) -> Poly:
+    """The irreducible factor of a polynomial over Q or Q(theta) that is zero at `target`, an approximation of a root."""
+    factors = [factor for factor, _ in equation.field.factor(equation)]
+    if len(factors) == 1:
+        return factors[0]
+    with ctx.workprec(_PRECISION):
+        sizes = []
+        for factor in factors:
+            total = acb(0)
+            for power in range(factor.degree, -1, -1):
+                total = total * target + approximation(factor[power])
+            sizes.append(float(abs(total).mid()))
+    smallest, second = sorted(sizes)[:2]
+    if smallest * 2.0**20 > second:
+        raise AssertionError("the approximation doesn't tell the roots apart")
+    return factors[sizes.index(smallest)]
+
+
+def adjoined_root(factor: Poly, target: Any, name: str) -> tuple[Poly, Poly]:
+    """`(theta, c)`: the root c of an irreducible polynomial over K = Q or Q(theta) that lies nearest to `target`.
+
+    Both are elements of one simple extension of Q.  Over Q, its generator is c and is called `name`; over Q(theta) it is
+    theta' = c + s theta with a small integer s, and is called alpha.
     """
-
-    field: Field = QQ
-    theta: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
-    labels: tuple[str, ...] = ()
-    radicals: tuple[tuple[Poly, int, Poly], ...] = ()
-
-    def approximation(self, constant: Poly) -> Any:
-        """The complex number that an element is, as an `acb`."""
-        with ctx.workprec(_PRECISION):
-            if not isinstance(constant, ExtensionPoly):
-                return acb(constant[0].rational_coefficients()[0] if constant else 0)
-            theta, total = _complex(self.theta), acb(0)
-            for part in reversed(constant.parts):
-                total = total * theta + (part.rational_coefficients()[0] if part else 0)
-            return total
-
-    def located(self) -> str:
-        """Where theta lies, to a few digits."""
-        real, imaginary = (f"{float(part):.6g}" for part in self.theta)
-        if not self.theta[1]:
-            return real
-        return f"{real} {'-' if imaginary.startswith('-') else '+'} {imaginary.lstrip('-')}*I"
-
-    def radical(self, radicand: Poly, n: int, label: str, limit: int) -> tuple[NumberField, Poly]:
-        """The principal n-th root, and the field that has it: this one, or an extension.
-
-        Raises `LimitExceeded` if the degree of the extension over Q would exceed `limit`.
-        """
-        if not radicand:
-            return self, radicand
-        for known, exponent, root in self.radicals:
-            if exponent == n and known == radicand:
-                return self, root
-        outer = Fraction(1)
-        if n == 2 and (rational := self.field.rational_value(radicand)) is not None:
-            outer, rest = _square_part(rational)
-            radicand = self.field.poly([rest])
-            label = "I" if rest == -1 else f"sqrt({rest})"
-            if rest == 1:
-                return self, self.field.poly([outer])
-            if outer != 1:
-                field, root = self.radical(radicand, 2, label, limit)
-                return field, root * outer
-        with ctx.workprec(_PRECISION):
-            value = self.approximation(radicand)
-            if abs(value.imag) < arb(2) ** -_TINY_BITS:
-                value = acb(value.real)
-            target = (value.log() / n).exp()
-        equation = self.field.poly([-radicand, *[0] * (n - 1), 1])
-        grown, root = self.root(equation, target, label, limit)
-        rational = self.field.rational_value(radicand)
-        if rational is None:
-            return grown, root  # a nested radical is found again by factoring
-        return replace(grown, radicals=(*grown.radicals, (grown.field.poly([rational]), n, root))), root
-
-    def root(self, equation: Poly, target: Any, label: str, limit: int) -> tuple[NumberField, Poly]:
-        """The root of a polynomial over the field that lies nearest to `target`, an approximation, and its field."""
-        factor = self._vanishing_factor(equation, target)
-        if factor.degree == 1:
-            return self, -factor[0]
-        degree = factor.degree * self.field.absolute_degree
-        if degree > limit:
-            raise LimitExceeded(
-                f"constants in a field of degree {degree} over the rational numbers, above the limit of {limit}",
-                limit="constants",
-            )
-        pure = factor.degree == equation.degree
-        if self.field == QQ:
-            name = label if pure and label else "alpha"
-            position = _nearest_root(factor, target)
-            field = AlgebraicField(QQ, factor, name, position)
-            return NumberField(field, position, (label,)), field.generator
-        return self._compositum(factor, target, label)
-
-    def _vanishing_factor(self, equation: Poly, target: Any) -> Poly:
-        factors = [factor for factor, _ in self.field.factor(equation)]
-        if len(factors) == 1:
-            return factors[0]
-        with ctx.workprec(_PRECISION):
-            sizes = []
-            for factor in factors:
-                total = acb(0)
-                for power in range(factor.degree, -1, -1):
-                    total = total * target + self.approximation(factor[power])
-                sizes.append(abs(total))
-            order = sorted(range(len(sizes)), key=lambda i: float(sizes[i].mid()))
-            if float(sizes[order[0]].mid()) * 2.0**20 > float(sizes[order[1]].mid()):
-                raise AssertionError("the approximation doesn't tell the roots apart")
-        return factors[order[0]]
-
-    def _compositum(self, factor: Poly, target: Any, label: str) -> tuple[NumberField, Poly]:
-        """K(c) as a simple extension of Q, by theta' = c + s theta, s a small integer."""
-        old = self.field
-        assert isinstance(old, AlgebraicField)
-        tower = AlgebraicField(old, factor)
-        n = tower.absolute_degree
-        for k in count():
-            shift = (k + 1) // 2 * (-1) ** (k + 1)  # 0, 1, -1, 2, ...
-            primitive = tower.generator + old.generator * shift
-            powers = [tower.poly([1])]
-            for _ in range(n):
-                powers.append(powers[-1] * primitive)
-            rows = [_coordinates(power, n) for power in powers]
-            matrix = fmpq_mat(n, n, [rows[j][i] for i in range(n) for j in range(n)])
-            if matrix.det() != 0:
-                break
-        columns = [rows[n], _coordinates(tower.embed(old.generator), n), _coordinates(tower.generator, n)]
-        solved = matrix.solve(fmpq_mat(n, 3, [column[i] for i in range(n) for column in columns]))
-        modulus = QQ.poly([*(Fraction(int(-solved[i, 0].p), int(solved[i, 0].q)) for i in range(n)), 1])
-        with ctx.workprec(_PRECISION):
-            position = _nearest_root(modulus, target + _complex(self.theta) * shift)
-        field = AlgebraicField(QQ, modulus, "alpha", position)
-        theta, c = (field.poly([_element(field, [solved[i, k] for i in range(n)])]) for k in (1, 2))
-        grown = NumberField(field, position, (*self.labels, label))
-        radicals = tuple((_substituted(a, theta), k, _substituted(b, theta)) for a, k, b in self.radicals)
-        return replace(grown, radicals=radicals), c
+    old = factor.field
+    if not isinstance(old, AlgebraicField):
+        field = AlgebraicField(QQ, factor, name, _nearest_root(factor, target))
+        return field.poly([]), field.generator
+    tower = AlgebraicField(old, factor)
+    n = tower.absolute_degree
+    for k in count():
+        shift = (k + 1) // 2 * (-1) ** (k + 1)  # 0, 1, -1, 2, ...
+        primitive = tower.generator + old.generator * shift
+        powers = [tower.poly([1])]
+        for _ in range(n):
+            powers.append(powers[-1] * primitive)
+        rows = [_coordinates(power, n) for power in powers]
+        matrix = fmpq_mat(n, n, [rows[j][i] for i in range(n) for j in range(n)])
+        if matrix.det() != 0:
+            break
+    columns = [rows[n], _coordinates(tower.embed(old.generator), n), _coordinates(tower.generator, n)]
+    solved = matrix.solve(fmpq_mat(n, 3, [column[i] for i in range(n) for column in columns]))
+    power, theta, c = ([Fraction(int(q.p), int(q.q)) for q in column] for column in zip(*solved.tolist(), strict=True))
+    modulus = QQ.poly([*(-q for q in power), 1])
+    with ctx.workprec(_PRECISION):
+        position = _nearest_root(modulus, target + _complex(old.approximation) * shift)
+    field = AlgebraicField(QQ, modulus, "alpha", position)
+    return element(field, theta), element(field, c)
 
 
-#: The field Q.
-RATIONAL_NUMBERS = NumberField()
+def element(field: AlgebraicField, coordinates: Sequence[Fraction]) -> Poly:
+    """The constant with these coordinates over the field below; those that are missing are 0."""
+    padded = [*coordinates, *[Fraction(0)] * (field.dimension - len(coordinates))]
+    return ExtensionPoly.make(field, [field.base.poly([c]) for c in padded])
 
 
-def _substituted(constant: Poly, theta: Poly) -> Poly:
+def substituted(constant: Poly, theta: Poly) -> Poly:
     """The element with its generator replaced by another field's element."""
-    field = theta.field
-    if not isinstance(constant, ExtensionPoly):
-        return field.embed(constant) if field.extends(constant.field) else constant
-    total = field.poly([])
-    for part in reversed(constant.parts):
+    parts = constant.parts if isinstance(constant, ExtensionPoly) else (constant,)
+    total = theta.field.poly([])
+    for part in reversed(parts):
         total = total * theta + part
     return total
 
@@ -173,12 +117,8 @@ def _coordinates(constant: Poly, n: int) -> list[Any]:
     return coordinates + [fmpq(0)] * (n - len(coordinates))
 
 
-def _element(field: AlgebraicField, coordinates: list[Any]) -> Poly:
-    parts = [RationalPoly.of([Fraction(int(c.p), int(c.q))]) for c in coordinates]
-    return ExtensionPoly.make(field, parts)
-
-
-def _complex(pair: tuple[Fraction, Fraction]) -> Any:
+def _complex(pair: tuple[Fraction, Fraction] | None) -> Any:
+    assert pair is not None
     real, imaginary = (arb(fmpq(c.numerator, c.denominator)) for c in pair)
     return acb(real, imaginary)
 
@@ -217,7 +157,7 @@ def _fraction(value: Any) -> Fraction:
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
 
 
-def _square_part(value: Fraction) -> tuple[Fraction, int]:
+def square_part(value: Fraction) -> tuple[Fraction, int]:
     """`(s, d)` with value = s**2 d, d an integer, squarefree where the numbers are small enough to be factored."""
     d, outer = value.numerator * value.denominator, 1
     if d.bit_length() <= _FACTORED_BITS:

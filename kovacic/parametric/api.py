@@ -18,8 +18,7 @@ from kovacic.parametric.partition import Settings, partition
 from kovacic.parametric.redundancy import without_empty
 from kovacic.parametric.restriction import reduced, with_free_constant
 from kovacic.parametric.statements import Point
-from kovacic.reading.names import parameters_of
-from kovacic.reading.parsed import Parsed
+from kovacic.reading.given import Parsed, parameters_of
 from kovacic.reading.read import read_input
 
 #: Seconds for the search where the limits don't say.

@@ -7,7 +7,9 @@ so that a sum of n fractions takes n mergers of which most are small, instead of
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -177,15 +179,14 @@ class Arithmetic:
             return _monomial(value.coefficient, value.power)
         if not isinstance(value, OpenSum):
             return value
-        fraction: RatFunc | None = None
-        for _, part in reversed(value.fractions):
-            fraction = part if fraction is None else self._ratfunc_sum(part, fraction)
-        polynomial: Poly | None = None
-        for _, term in reversed(value.polynomials):
-            polynomial = term if polynomial is None else self._poly_sum(term, polynomial)
+        fraction: RatFunc | None = self._total(value.fractions)
+        polynomials = list(value.polynomials)
         if value.coefficients:
-            collected = self._collected(value.coefficients)
-            polynomial = collected if polynomial is None else self._poly_sum(collected, polynomial)
+            dense: list[int | Fraction] = [0] * (max(value.coefficients) + 1)
+            for power, coefficient in value.coefficients.items():
+                dense[power] = coefficient
+            polynomials.insert(0, (0, QQ.poly(dense)))
+        polynomial: Poly | None = self._total(polynomials)
         if fraction is None:
             assert polynomial is not None
             return polynomial
@@ -194,11 +195,12 @@ class Arithmetic:
             fraction = RatFunc(num, fraction.den.over(num.field), reduced=True)
         return fraction.num if fraction.is_polynomial else fraction
 
-    def _collected(self, coefficients: dict[int, int | Fraction]) -> Poly:
-        dense: list[int | Fraction] = [0] * (max(coefficients) + 1)
-        for power, coefficient in coefficients.items():
-            dense[power] = coefficient
-        return QQ.poly(dense)
+    def _total(self, parts: Sequence[tuple[int, Any]]) -> Any:
+        """The sum of fractions, or of polynomials, from the smallest on; None if there are none."""
+        total = None
+        for _, part in reversed(parts):
+            total = part if total is None else self._sum(part, total)
+        return total
 
     def _append(self, total: OpenSum, term: Value) -> None:
         if isinstance(term, Term):
@@ -206,18 +208,15 @@ class Arithmetic:
             if known is None or _bits(known) <= _SMALL_BITS:
                 total.coefficients[term.power] = term.coefficient if known is None else known + term.coefficient
                 return
-        term = self.closed(term)
+        part: Any = self.closed(term)
+        parts: list[Any] = total.fractions if isinstance(part, RatFunc) else total.polynomials
         rank = 0
-        if isinstance(term, RatFunc):
-            fractions = total.fractions
-            while fractions and fractions[-1][0] == rank:
-                term, rank = self._ratfunc_sum(fractions.pop()[1], term), rank + 1
-            fractions.append((rank, term))
-        else:
-            polynomials = total.polynomials
-            while polynomials and polynomials[-1][0] == rank:
-                term, rank = self._poly_sum(polynomials.pop()[1], term), rank + 1
-            polynomials.append((rank, term))
+        while parts and parts[-1][0] == rank:
+            part, rank = self._sum(parts.pop()[1], part), rank + 1
+        parts.append((rank, part))
+
+    def _sum(self, left: Any, right: Any) -> Any:
+        return self._ratfunc_sum(left, right) if isinstance(left, RatFunc) else self._poly_sum(left, right)
 
     def _poly_sum(self, left: Poly, right: Poly) -> Poly:
         self._check(max(left.degree, right.degree), left.height_bits() + right.height_bits() + 1)

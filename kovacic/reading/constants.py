@@ -8,16 +8,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any, TypeVar
 
-from kovacic.algebra.embedding import RATIONAL_NUMBERS, NumberField, refined_root
+from kovacic.algebra.embedding import (
+    adjoined_root,
+    element,
+    principal_root,
+    refined_root,
+    square_part,
+    substituted,
+    vanishing_factor,
+)
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.reading.parsed import ENERGY
+from kovacic.reading.given import ENERGY
 
 T = TypeVar("T")
 
@@ -27,10 +36,15 @@ _LARGEST_RADICAND = 14_000
 
 @dataclass(frozen=True)
 class Constants:
-    """The algebraic numbers (`numbers`) and the names of the parameters that occurred, in the order of appearance."""
+    """The algebraic numbers and the names of the parameters that occurred, in the order of appearance.
+
+    `numbers` is Q or the simple extension of it that has the numbers, and `radicals` the roots in it that are known:
+    (radicand, n, root).
+    """
 
     limits: Limits = DEFAULT_LIMITS
-    numbers: NumberField = RATIONAL_NUMBERS
+    numbers: Field = QQ
+    radicals: tuple[tuple[Fraction, int, Poly], ...] = ()
     parameters: tuple[str, ...] = ()
 
     @property
@@ -41,12 +55,10 @@ class Constants:
             from kovacic.algebra.function_field import FunctionField
 
             base = FunctionField(self.parameters)
-        algebraic = self.numbers.field
-        if not isinstance(algebraic, AlgebraicField):
-            return base
-        if base == QQ:
-            return algebraic
-        return AlgebraicField(base, base.embed(algebraic.modulus), algebraic.name, algebraic.approximation)
+        numbers = self.numbers
+        if base == QQ or not isinstance(numbers, AlgebraicField):
+            return numbers if base == QQ else base
+        return AlgebraicField(base, base.embed(numbers.modulus), numbers.name, numbers.approximation)
 
     def parameter(self, name: str) -> Poly:
         """The parameter of this name.  Raises `Enlarged` where it is new."""
@@ -54,16 +66,16 @@ class Constants:
             if len(self.parameters) >= self.limits.parameters:
                 raise LimitExceeded(f"more than {self.limits.parameters} parameters, the limit", limit="parameters")
             raise Enlarged(replace(self, parameters=(*self.parameters, name)))
-        from kovacic.algebra.function_field import FunctionField
-
         field = self.field
-        ground = field.ground
-        assert isinstance(ground, FunctionField)
-        constant: Poly = ground.generator(name)
-        return constant if field == ground else field.embed(constant)
+        constant: Poly = field.ground.generator(name)  # type: ignore[attr-defined]
+        return constant.over(field)
 
     def radical(self, radicand: Poly, n: int, label: str) -> Poly | None:
-        """The principal n-th root of a number; None where it depends on parameters and isn't in the field."""
+        """The principal n-th root of a number; None where it depends on parameters and isn't in the field.
+
+        Raises `Enlarged` where a number's root isn't in the field, and `LimitExceeded` where the field with it would be
+        too large.
+        """
         value = self._number(radicand)
         if value is None:
             return radicand.field.sqrt(radicand) if n == 2 else None
@@ -73,7 +85,21 @@ class Constants:
                 said = f"a root of a number of {radicand.height_bits()} bits, above the limit of {_LARGEST_RADICAND}"
                 raise LimitExceeded(said, limit="bits")
             return root.over(self.field)
-        return self._accepted(*self.numbers.radical(value, n, label, self.limits.constants))
+        if not value:
+            return self._with_parameters(value)
+        rational, outer = self.numbers.rational_value(value), Fraction(1)
+        if n == 2 and rational is not None:
+            outer, rest = square_part(rational)
+            rational, value = Fraction(rest), self.numbers.poly([rest])
+            label = "I" if rest == -1 else f"sqrt({rest})"
+        if n == 2 and rational == 1:
+            root = self.numbers.poly([1])
+        else:
+            root = next((c for q, k, c in self.radicals if k == n and q == rational), None)
+        if root is None:
+            equation = self.numbers.poly([-value, *[0] * (n - 1), 1])
+            root = self._root(equation, principal_root(value, n), label, () if rational is None else ((rational, n),))
+        return self._with_parameters(root * outer)
 
     def imaginary_unit(self) -> Poly:
         """I."""
@@ -81,11 +107,41 @@ class Constants:
         assert root is not None
         return root
 
-    def root(self, minimal: Poly, approximation: Any, label: str) -> Poly:
+    def root(self, minimal: Poly, approximation: Any) -> Poly:
         """The root of a polynomial over Q that lies nearest to an approximation (an `acb`)."""
-        equation = minimal.over(self.numbers.field)
-        target = refined_root(minimal, approximation)
-        return self._accepted(*self.numbers.root(equation, target, label, self.limits.constants))
+        return self._with_parameters(self._root(minimal.over(self.numbers), refined_root(minimal, approximation), ""))
+
+    def _root(self, equation: Poly, target: Any, label: str, radical: tuple[tuple[Fraction, int], ...] = ()) -> Poly:
+        """The root nearest to `target` of a polynomial over the number field; `radical` says which one it is, if any."""
+        factor = vanishing_factor(equation, target)
+        if factor.degree == 1:
+            return -factor[0]
+        degree, limit = factor.degree * self.numbers.absolute_degree, self.limits.constants
+        if degree > limit:
+            said = f"constants in a field of degree {degree} over the rational numbers, above the limit of {limit}"
+            raise LimitExceeded(said, limit="constants")
+        theta, root = adjoined_root(factor, target, label if label and factor.degree == equation.degree else "alpha")
+        known = [(q, n, substituted(c, theta)) for q, n, c in self.radicals]
+        radicals = (*known, *((q, n, root) for q, n in radical))
+        raise Enlarged(replace(self, numbers=root.field, radicals=radicals))
+
+    def _with_parameters(self, number: Poly) -> Poly:
+        """An element of the number field in the whole field."""
+        field = self.field
+        if not isinstance(field, AlgebraicField) or field.base == QQ:
+            return number
+        parts = number.parts if isinstance(number, ExtensionPoly) else (number,)
+        return element(field, [part.field.rational_value(part) or Fraction(0) for part in parts])
+
+    def _number(self, value: Poly) -> Poly | None:
+        """A constant that doesn't depend on parameters, as an element of the number field."""
+        if value.field in (self.numbers, QQ):
+            return value.over(self.numbers)
+        coordinates = [part.field.rational_value(part) for part in getattr(value, "parts", (value,))]
+        known = [c for c in coordinates if c is not None]
+        if len(known) < len(coordinates):
+            return None
+        return element(self.numbers, known) if isinstance(self.numbers, AlgebraicField) else self.numbers.poly(known)
 
     def embedded(self, function: RatFunc) -> RatFunc:
         """The rational function over the whole field, or over Q if it lies there."""
@@ -110,40 +166,17 @@ class Constants:
         for name, meaning in ((ENERGY, "a parameter here, an energy"), ("e", "a parameter here")):
             if name in self.parameters:
                 found.append(f"{name} is {meaning}; Euler's number, being transcendental, is one of its generic values")
-        algebraic = self.numbers.field
-        if isinstance(algebraic, AlgebraicField) and algebraic.name == "alpha":
-            where = self.numbers.located()
-            found.append(f"alpha is the root of {algebraic.modulus.to_str('alpha')} near {where}")
+        numbers = self.numbers
+        if isinstance(numbers, AlgebraicField) and numbers.name == "alpha":
+            where = _shown(*numbers.approximation)  # type: ignore[misc]
+            found.append(f"alpha is the root of {numbers.modulus.to_str('alpha')} near {where}")
         return found
 
-    def _accepted(self, numbers: NumberField, root: Poly) -> Poly:
-        if numbers.field != self.numbers.field:
-            raise Enlarged(replace(self, numbers=numbers))
-        field = self.field
-        if field == numbers.field or not isinstance(field, AlgebraicField):
-            return root
-        return field.poly([]) if not root else _over_parameters(root, field)
 
-    def _number(self, value: Poly) -> Poly | None:
-        """A constant that doesn't depend on parameters, as an element of the number field."""
-        field = self.numbers.field
-        if value.field == field or value.field == QQ:
-            return value.over(field)
-        parts = value.parts if isinstance(value, ExtensionPoly) else (value,)
-        rational = [part.field.rational_value(part) for part in parts]
-        known = [c for c in rational if c is not None]
-        if len(known) < len(rational):
-            return None
-        if not isinstance(field, AlgebraicField):
-            return field.poly(known)
-        zeros = [QQ.poly([c]) for c in known] + [QQ.poly([])] * (field.dimension - len(known))
-        return ExtensionPoly.make(field, zeros)
-
-
-def _over_parameters(root: Poly, field: AlgebraicField) -> Poly:
-    parts = root.parts if isinstance(root, ExtensionPoly) else (root,)
-    padded = [field.base.embed(part) for part in parts] + [field.base.poly([])] * (field.dimension - len(parts))
-    return ExtensionPoly.make(field, padded)
+def _shown(real: Fraction, imaginary: Fraction) -> str:
+    """A complex number, to a few digits."""
+    size = f"{abs(float(imaginary)):.6g}"
+    return f"{float(real):.6g}" + (f" {'-' if imaginary < 0 else '+'} {size}*I" if imaginary else "")
 
 
 class Enlarged(Exception):

@@ -21,10 +21,9 @@ from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import Place, RationalReader, tokens_of
-from kovacic.reading.given import Equation
+from kovacic.reading.given import DEFAULT_VARIABLE, ENERGY, FUNCTION_NAMES, NUMBER_NAMES, UNKNOWN, Equation
 from kovacic.reading.lexer import PRIMES, Tokens
 from kovacic.reading.linear import REST, LinearArithmetic, LinearForm
-from kovacic.reading.parsed import DEFAULT_VARIABLE, ENERGY, FUNCTION_NAMES, NUMBER_NAMES, UNKNOWN
 from kovacic.reading.parser import Site, evaluate
 
 _DERIVATIVES = frozenset({"diff", "Diff", "Derivative", "D"})
@@ -224,11 +223,7 @@ def _variable_of(tokens: Tokens, unknown: str) -> str:
     usual = [name for name in names if name in _USUAL_VARIABLES]
     if len(usual) != 1 or len(names) > 1:
         question = "is it the variable, or a parameter" if len(names) == 1 else "which is the variable"
-        raise InputError(
-            f"{', '.join(names[:6])}: {question}?",
-            text=tokens.text,
-            position=tokens.starts[tokens.names()[names[-1]]],
-            length=len(names[-1]),
-            hint=f"write {unknown}''(x) for the derivative, or name the variable: var='x' (--var x)",
-        )
+        hint = f"write {unknown}''(x) for the derivative, or name the variable: var='x' (--var x)"
+        k = tokens.names()[names[-1]]
+        raise tokens.error(InputError, f"{', '.join(names[:6])}: {question}?", k, k + 1, hint=hint)
     return usual[0]

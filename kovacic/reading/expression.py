@@ -19,8 +19,8 @@ from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.reading.constants import Constants, read_with_constants
+from kovacic.reading.given import DEFAULT_VARIABLE, ENERGY, NUMBER_NAMES, UNKNOWN, Parsed
 from kovacic.reading.lexer import PRIMES, Tokens, tokenize
-from kovacic.reading.parsed import DEFAULT_VARIABLE, ENERGY, NUMBER_NAMES, UNKNOWN, Parsed
 from kovacic.reading.parser import Site, evaluate, shortened
 
 _SHOWN_DECIMALS = 3
@@ -218,8 +218,8 @@ def _chosen_variable(tokens: Tokens) -> str:
     try:
         return chosen_variable(names)
     except InputError as error:
-        position, length = tokens.span(found[names[1]], found[names[1]] + 1)
-        raise InputError(error.message, text=tokens.text, position=position, length=length, hint=error.hint) from None
+        k = found[names[1]]
+        raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint) from None
 
 
 def _refuse_ambiguous_decimals(tokens: Tokens, variable: str) -> None:
@@ -230,23 +230,16 @@ def _refuse_ambiguous_decimals(tokens: Tokens, variable: str) -> None:
         if kind == "NUMBER" and variable in text:
             mantissa, _, rest = text.partition(variable)
             other = f"{mantissa}*{variable} {rest[0]} {rest[1:]}" if rest[0] in "+-" else f"{mantissa}*{variable}{rest}"
-            raise ParseError(
-                f"{text} can be read as a decimal or as {other}, the variable being {variable}",
-                text=tokens.text,
-                position=tokens.starts[k],
-                length=len(text),
-                hint="write decimals without an exponent, and products with *",
-            )
+            message = f"{text} can be read as a decimal or as {other}, the variable being {variable}"
+            hint = "write decimals without an exponent, and products with *"
+            raise tokens.error(ParseError, message, k, k + 1, hint=hint)
 
 
 def _refuse_equations(tokens: Tokens) -> None:
     found = [tokens.kinds.index(kind) for kind in ("EQUAL", "PRIMED") if kind in tokens.kinds]
     if found:
-        position, length = tokens.span(min(found), min(found) + 1)
-        raise NotRational(
+        message, hint = (
             "this is an equation, or a part of one",
-            text=tokens.text,
-            position=position,
-            length=length,
-            hint="give S alone, the factor of y on the right of y'' = S(x) y",
+            "give S alone, the factor of y on the right of y'' = S(x) y",
         )
+        raise tokens.error(NotRational, message, min(found), min(found) + 1, hint=hint)

@@ -20,9 +20,8 @@ from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Term
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.equation import EquationReader
 from kovacic.reading.expression import RationalReader, chosen_variable
-from kovacic.reading.given import Equation
+from kovacic.reading.given import TRANSCENDENTAL_HINT, Equation, Parsed
 from kovacic.reading.linear import LinearArithmetic, LinearForm
-from kovacic.reading.parsed import TRANSCENDENTAL_HINT, Parsed
 from kovacic.reading.parser import shown
 
 #: Digits of the approximation that tells an algebraic number from its conjugates.
@@ -200,7 +199,7 @@ class _Walker:
         coefficients = [Fraction(index(c.p), index(c.q)) for c in reversed(minimal.all_coeffs())]
         real, imaginary = sympy.N(exact, _DIGITS).as_real_imag()
         approximation = acb(arb(str(real)), arb(str(imaginary)))
-        return self.constants.root(QQ.poly(coefficients), approximation, "")
+        return self.constants.root(QQ.poly(coefficients), approximation)
 
     def _refused(self, node: Any) -> NotRational:
         if node.is_number:

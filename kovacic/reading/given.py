@@ -1,4 +1,4 @@
-"""The equation as it was given, a y'' + b y' + c y = f, and its normal form.
+"""What was given: the equation a y'' + b y' + c y = f and its normal form, and the names that mean something.
 
 With y = v exp(-1/2 int b/a dx) the homogeneous equation becomes
 
@@ -15,9 +15,39 @@ from dataclasses import dataclass
 from typing import Any
 
 from kovacic.algebra.extension import ExtensionPoly
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import RationalPoly
+from kovacic.algebra.rationals import QQ, RationalPoly
+
+DEFAULT_VARIABLE = "x"
+
+# Names that stand for numbers unless the caller says that the variable has this name.
+NUMBER_NAMES = {
+    "I": "the imaginary unit",
+    "pi": "the number pi",
+    "π": "the number pi",
+    "oo": "infinity",
+    "zoo": "infinity",
+    "inf": "infinity",
+    "nan": "not a number",
+}
+
+_FUNCTIONS = """
+    exp log sin cos tan cot sec csc asin acos atan acot sinh cosh tanh coth asinh acosh atanh erf sqrt cbrt
+"""
+
+#: The functions of one argument that expressions and right-hand sides may contain, with SymPy's names.
+FUNCTION_NAMES = {name: name for name in _FUNCTIONS.split()}
+FUNCTION_NAMES |= {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan"}
+
+# Not the variable unless the caller says so: the energy, a parameter.
+ENERGY = "E"
+
+#: What to do with a transcendental number.
+TRANSCENDENTAL_HINT = "write a letter instead: a parameter with generic values, as every transcendental number is one"
+
+# The unknown function of y'' = S y: a variable only where the caller says so.
+UNKNOWN = "y"
 
 
 @dataclass(frozen=True)
@@ -78,6 +108,25 @@ class Equation:
 
     def __str__(self) -> str:
         return self.text()
+
+
+@dataclass(frozen=True, slots=True)
+class Parsed:
+    """S as a rational function, the name of its variable, and what the user should know about how it was read.
+
+    `equation` is the equation that was given, None where S itself was.
+    """
+
+    S: RatFunc
+    variable: str
+    notices: tuple[str, ...] = ()
+    equation: Equation | None = None
+
+
+def parameters_of(field: Field) -> tuple[str, ...]:
+    """The names of the parameters of a coefficient field."""
+    ground = field.ground
+    return () if ground == QQ else ground.names  # type: ignore[attr-defined]
 
 
 def _term(coefficient: RatFunc, name: str, variable: str) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from string import ascii_letters, digits
 
-from kovacic.errors import ParseError
+from kovacic.errors import InputError, ParseError
 
 # Superscript digits count as word characters for `re`; they must not become part of a name.
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
@@ -105,6 +105,13 @@ class Tokens:
     def span(self, begin: int, end: int) -> tuple[int, int]:
         """Position and length of the text of the tokens begin, ..., end - 1."""
         return self.starts[begin], self.ends[end - 1] - self.starts[begin]
+
+    def error(
+        self, kind: type[InputError], message: str, begin: int, end: int, *, hint: str | None = None
+    ) -> InputError:
+        """An error at the tokens begin, ..., end - 1."""
+        position, length = self.span(begin, end)
+        return kind(message, text=self.text, position=position, length=max(1, length), hint=hint)
 
     def names(self) -> dict[str, int]:
         """The different plain names in order of appearance, each with the number of its first token."""

@@ -14,7 +14,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import NotLinear, NotRational
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import Arithmetic, NotAnInteger, Value
-from kovacic.reading.parsed import TRANSCENDENTAL_HINT
+from kovacic.reading.given import TRANSCENDENTAL_HINT
 
 #: The largest integer power of an expression that isn't rational.
 _LARGEST_POWER = 1000

@@ -47,20 +47,16 @@ class Site:
 
     def located(self, error: Exception) -> Exception:
         """An error of the operation with its place in the text."""
-        position, length = self.tokens.span(self.begin, self.end)
         if isinstance(error, LimitExceeded):
-            where = f"{self.text()} at position {position}"
+            where = f"{self.text()} at position {self.tokens.starts[self.begin]}"
             said = f"{error} while {where} was read" if error.limit == "seconds" else f"{where} would have {error}"
             return LimitExceeded(said, limit=error.limit)
-        text = self.tokens.text
         if isinstance(error, ZeroDivisionError):
-            hint = "0^0 isn't defined"
-            if "power" not in str(error):
-                position, length = self.tokens.span(self.right, self.end)
-                hint = "this is zero"
-            return NotRational(str(error), text=text, position=position, length=length, hint=hint)
+            power = "power" in str(error)
+            begin, hint = (self.begin, "0^0 isn't defined") if power else (self.right, "this is zero")
+            return self.tokens.error(NotRational, str(error), begin, self.end, hint=hint)
         if isinstance(error, InputError) and error.text is None:
-            return type(error)(error.message, text=text, position=position, length=length, hint=error.hint)
+            return self.tokens.error(type(error), error.message, self.begin, self.end, hint=error.hint)
         return error
 
 
@@ -239,31 +235,21 @@ def _check_neighbours(tokens: Tokens, reader: Reader, right: int) -> None:
         return
     if tokens.kinds[right] in ("NAME", "PRIMED", "HEAD") and reader.follows_without_sign(tokens.pieces[right]):
         return
-    position, length = tokens.span(left, right + 1)
-    raise ParseError(
-        f"an operator is missing between {shortened(tokens.pieces[left])!r} and {shortened(tokens.pieces[right])!r}",
-        text=tokens.text,
-        position=position,
-        length=length,
-        hint="write a product with *",
-    )
+    first, second = shortened(tokens.pieces[left]), shortened(tokens.pieces[right])
+    message = f"an operator is missing between {first!r} and {second!r}"
+    raise tokens.error(ParseError, message, left, right + 1, hint="write a product with *")
 
 
-def _ambiguous(tokens: Tokens, site: Site, slash: int, split: int) -> ParseError:
+def _ambiguous(tokens: Tokens, site: Site, slash: int, split: int) -> InputError:
     """What to say of a/b c, where c begins with token `split`."""
     spans = ((site.begin, slash), (site.right, site.end), (site.right, split), (split, site.end))
     above, below, first, rest = (shortened(tokens.piece(*span)) for span in spans)
-    position, length = tokens.span(site.begin, site.end)
-    return ParseError(
-        "a product without a sign after / can be read in two ways",
-        text=tokens.text,
-        position=position,
-        length=length,
-        hint=f"write {above}/({below}) or ({above}/{first})*{rest}",
-    )
+    hint = f"write {above}/({below}) or ({above}/{first})*{rest}"
+    message = "a product without a sign after / can be read in two ways"
+    return tokens.error(ParseError, message, site.begin, site.end, hint=hint)
 
 
-def _syntax_error(tokens: Tokens, k: int, pending: Sequence[tuple[int, int]]) -> ParseError:
+def _syntax_error(tokens: Tokens, k: int, pending: Sequence[tuple[int, int]]) -> InputError:
     """What is wrong with token k, which can't follow what was read."""
     kinds, kind = tokens.kinds, tokens.kinds[k]
     before, here = kinds[k - 1] if k else "", tokens.pieces[k]
@@ -293,8 +279,7 @@ def _syntax_error(tokens: Tokens, k: int, pending: Sequence[tuple[int, int]]) ->
         message, hint = "a comma doesn't belong here", "decimals are written with a point, and one expression is one S"
     elif kind == "EQUAL":
         hint = "an equation has one equals sign, outside all parentheses"
-    position, length = tokens.span(first, k + 1)
-    return ParseError(message, text=tokens.text, position=position, length=max(1, length), hint=hint)
+    return tokens.error(ParseError, message, first, k + 1, hint=hint)
 
 
 def shown(value: Any, width: int = 40) -> str:

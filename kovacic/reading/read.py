@@ -15,8 +15,7 @@ from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.equation import is_equation, parse_equation
 from kovacic.reading.expression import parse_rational
-from kovacic.reading.given import Equation
-from kovacic.reading.parsed import DEFAULT_VARIABLE, Parsed
+from kovacic.reading.given import DEFAULT_VARIABLE, Equation, Parsed
 from kovacic.reading.parser import shown
 
 

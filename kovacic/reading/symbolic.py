@@ -20,9 +20,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import Arithmetic
+from kovacic.reading.given import FUNCTION_NAMES, NUMBER_NAMES, parameters_of
 from kovacic.reading.lexer import tokenize
-from kovacic.reading.names import parameters_of
-from kovacic.reading.parsed import FUNCTION_NAMES, NUMBER_NAMES
 from kovacic.reading.parser import Site, evaluate
 
 #: SymPy's functions are recursive, and its integers aren't bounded.

@@ -40,11 +40,11 @@ from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.expression import parse_with
-from kovacic.reading.given import Equation
-from kovacic.reading.names import Names, parameters_of
+from kovacic.reading.given import Equation, parameters_of
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
 from kovacic.verify import verify
+from kovacic.views.formula import Names
 
 SCHEMA = 1
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, Status
-from kovacic.reading.names import parameters_of
+from kovacic.reading.given import parameters_of
 from kovacic.views.formula import Formulas
 
 if TYPE_CHECKING:
