@@ -6,5 +6,6 @@ position in the text, what would be too large `LimitExceeded` before it is compu
 
 `read` is the door: read it first.  A text goes through `lexer` and `parser`, which call a reader: `expression` (S), `equation`
 or `symbolic` (SymPy's expressions).  SymPy's objects go through `from_sympy` to the same readers.  Their operations are those
-of `arithmetic`, and of `linear` where an unknown function occurs; `constants` has the field.
+of `arithmetic`, and of `linear` where an unknown function occurs; `constants` has the field, `given` the results and the
+names that mean something.
 """
