@@ -9,13 +9,13 @@ from typing import Any
 import sympy
 from sympy import Add, Integer, Mul, Pow, Rational, Symbol, log, sqrt
 
-from kovacic.algebra.embedding import real_root_index
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.partial_fractions import Residue
+from kovacic.reading.symbolic import chosen_root
 
 Expr = Any  # SymPy publishes no types
 
@@ -87,7 +87,7 @@ class Atoms:
         principal = field.approximation is None or (field.approximation[0] > 0 and not field.approximation[1])
         if principal and pure is not None and pure > 0 and not any(modulus[k] for k in range(1, modulus.degree)):
             return Pow(rational(pure), rational(Fraction(1, modulus.degree)))
-        return _chosen_root(sympy.Poly.from_list(self.coefficients(modulus)[::-1], self.x), field)
+        return chosen_root(sympy.Poly.from_list(self.coefficients(modulus)[::-1], self.x), field)
 
     def coefficients(self, polynomial: Poly) -> list[Expr]:
         """The coefficients from low to high."""
@@ -175,16 +175,3 @@ def _is_the_smaller_root(field: AlgebraicField) -> bool:
     real, imaginary = field.approximation
     middle = field.base.rational_value(field.modulus[1])
     return imaginary < 0 or (imaginary == 0 and middle is not None and real < -middle / 2)
-
-
-def _chosen_root(polynomial: Any, field: AlgebraicField) -> Expr:
-    """The root that the field means, or SymPy's first one."""
-    if field.approximation is None or field.ground != field.base:
-        return sympy.CRootOf(polynomial, 0)
-    values = [field.base.rational_value(c) for c in field.modulus]
-    index = real_root_index(QQ.poly([v for v in values if v is not None]), field.approximation)
-    if index is not None:
-        return sympy.CRootOf(polynomial, index)
-    real, imaginary = (float(part) for part in field.approximation)
-    roots = [sympy.CRootOf(polynomial, k) for k in range(field.dimension)]
-    return min(roots, key=lambda root: abs(complex(root.evalf(15)) - complex(real, imaginary)))

@@ -15,8 +15,10 @@ from typing import Any
 
 import sympy
 
+from kovacic.algebra.embedding import real_root_index
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import Arithmetic
@@ -58,16 +60,21 @@ def expression_of(function: RatFunc, variable: str) -> Any:
     field = function.field
     names = {name: sympy.Symbol(name) for name in (*parameters_of(field), variable)}
     if isinstance(field, AlgebraicField) and field.name.isidentifier() and field.name not in CONSTANTS:
-        names[field.name] = _root_of(field)  # any other name is that of a radical
+        # Any other name is that of a radical.
+        names[field.name] = chosen_root(sympy.Poly(field.modulus.to_sympy(sympy.Symbol("t"))), field)
     return read_expression(function.to_str(variable), names=names, limits=DEFAULT_LIMITS)
 
 
-def _root_of(field: AlgebraicField) -> Any:
-    """The generator of an algebraic field: the root of its polynomial that lies nearest to the approximation."""
-    coefficients = [field.base.rational_value(c) for c in field.modulus]
-    polynomial = sympy.Poly.from_list([sympy.Rational(c) for c in reversed(coefficients)], sympy.Symbol("t"))
-    real, imaginary = field.approximation or (0, 0)
-    roots = [sympy.CRootOf(polynomial, k) for k in range(polynomial.degree())]
+def chosen_root(polynomial: Any, field: AlgebraicField) -> Any:
+    """The root of the modulus, as SymPy's polynomial, that the field means, or SymPy's first one."""
+    if field.approximation is None or field.ground != field.base:
+        return sympy.CRootOf(polynomial, 0)
+    values = [field.base.rational_value(c) for c in field.modulus]
+    index = real_root_index(QQ.poly([v for v in values if v is not None]), field.approximation)
+    if index is not None:
+        return sympy.CRootOf(polynomial, index)
+    real, imaginary = (float(part) for part in field.approximation)
+    roots = [sympy.CRootOf(polynomial, k) for k in range(field.dimension)]
     return min(roots, key=lambda root: abs(complex(root.evalf(15)) - complex(real, imaginary)))
 
 
