@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from kovacic.errors import LimitExceeded
 
@@ -53,6 +53,11 @@ class Budget:
     def check(self) -> None:
         if time.monotonic() > self._deadline:
             raise LimitExceeded(f"the time limit of {self._seconds:g} s is used up", limit="seconds")
+
+    def share(self, part: float) -> Budget:
+        """A clock for a part of the time that is left."""
+        left = self._deadline - time.monotonic()
+        return Budget(replace(self.limits, seconds=max(part * left, 0.0)))
 
     @contextmanager
     def watched(self) -> Iterator[None]:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 @click.option("--latex", "as_latex", is_flag=True, help="A LaTeX formula.")
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
 @click.option("--assume", metavar="NAME=WHAT", multiple=True, help="What is known about a parameter: n=integer.")
-@click.option("--max-degree", default=12, show_default=True, help="How far to go where no theorem covers all degrees.")
+@click.option("--max-degree", default=2, show_default=True, help="The determinants Delta_d are shown up to this d.")
 @click.option("--check", "samples", metavar="N", type=int, help="Solve at N exact points, and compare.")
 @click.option("--limit", "limits", metavar="NAME=VALUE", multiple=True, help="Change a limit, such as seconds.")
 def command(

@@ -19,9 +19,10 @@ from kovacic.limits import Budget, Limits
 from kovacic.parametric import sampling
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.parametric.functions import as_latex, shown
+from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
 from kovacic.parametric.restriction import NO_CONSTANT, UndefinedError, at_point
-from kovacic.parametric.statements import Point, Statement
+from kovacic.parametric.statements import Point, Statement, both
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
 
@@ -73,7 +74,7 @@ class Condition:
 
     `case` is Kovacic's case (None: no Liouvillian solution), `group` the family of the Galois group, `complete` True where it
     is proven that the statement describes all such values and nothing else, else what isn't proven.  `defined` is False where
-    S isn't defined.  `omega` shows what becomes possible.
+    S isn't defined.  `omega` shows what becomes possible, `determinants` the first ones of a statement with a natural number.
     """
 
     statement: Statement
@@ -81,6 +82,7 @@ class Condition:
     complete: bool | str = True
     defined: bool = True
     omega: str | None = None
+    determinants: tuple[str, ...] = ()
 
     @property
     def case(self) -> int | None:
@@ -93,11 +95,13 @@ class Condition:
     def to_dict(self) -> dict[str, Any]:
         """The region's part of the JSON object."""
         names = ("case", "group", "complete", "defined", "omega")
-        return {"condition": self.statement.text()} | {name: getattr(self, name) for name in names}
+        data = {"condition": self.statement.text()} | {name: getattr(self, name) for name in names}
+        return data | ({"determinants": list(self.determinants)} if self.determinants else {})
 
     def __str__(self) -> str:
         known = "" if self.complete is True or not self.defined else f" [{self.complete}]"
-        return f"{self.statement.text()}: {self.verdict if self.defined else self.group}{known}"
+        first = f"{self.statement.text()}: {self.verdict if self.defined else self.group}{known}"
+        return "\n      ".join([first, *self.determinants])
 
 
 @dataclass(frozen=True)
@@ -149,13 +153,34 @@ class Conditions:
 
     @property
     def within_limits(self) -> bool:
-        """Was everything examined up to `max_degree`, without reaching a limit of time?"""
+        """Was everything examined, without reaching a limit of time?"""
         return self.complete is True or not str(self.complete).startswith("only as far")
 
     def region_at(self, values: Mapping[Any, Any]) -> Condition | None:
         """The region that contains a point; None for the generic one."""
         point = self.point(values)
         return next((region for region in self.regions if region.statement.holds(point)), None)
+
+    def determinant(self, number: int) -> tuple[Determinant, ...]:
+        """Delta_d of the conditions with a natural number d, for one d and each way in which the exponents give it.
+
+        >>> import kovacic
+        >>> quartic = kovacic.conditions("x^4 + a*x^2 + b*x + c", var="x")
+        >>> [str(delta) for delta in quartic.determinant(1)]
+        ['a^4 - 8*a^2*c + 32*a + 16*c^2', 'a^4 - 8*a^2*c + 32*a + 16*c^2']
+
+        Raises `InputError` for what isn't a natural number, or where no region has such a condition, and `LimitExceeded`.
+        """
+        statements = [part for region in self.regions for part in both(region.statement).parts]
+        natural = [statement for statement in statements if isinstance(statement, Natural)]
+        if not natural or isinstance(number, bool) or not isinstance(number, int) or number < 0:
+            raise InputError(
+                f"a natural number is expected, not {number!r}"
+                if natural
+                else "no condition has a natural number in it"
+            )
+        with Budget(self.limits).watched():
+            return tuple(determinant for statement in natural for determinant in statement.determinants(number))
 
     def case_at(self, values: Mapping[Any, Any]) -> int | None:
         """The case at a point with rational or algebraic coordinates: {"n": Fraction(3, 2)}, {n: sqrt(2)}.

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide
-from kovacic.errors import InputError
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.answer import Condition, Conditions, Verdict
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
+from kovacic.parametric.natural import Natural
 from kovacic.parametric.partition import Settings, partition
 from kovacic.parametric.redundancy import without_empty
 from kovacic.parametric.restriction import reduced, with_free_constant
@@ -23,8 +25,8 @@ from kovacic.reading.read import read_input
 
 #: Seconds for the search where the limits don't say.
 DEFAULT_SECONDS = 30.0
-#: The bound for the degree of P where no theorem covers all degrees.
-DEFAULT_DEGREE = 12
+#: The largest d for which the determinants of conditions with a natural number d are computed.
+DEFAULT_DEGREE = 2
 
 
 def conditions(
@@ -39,8 +41,9 @@ def conditions(
 
     Every symbol besides the variable is a parameter.  `assume={"n": "positive integer"}` leaves out what then can't happen;
     its words are integer, even, odd, half-integer, rational, irrational, noninteger, nonzero, positive, negative.  Assumptions
-    of SymPy symbols are used in the same way.  `max_degree` bounds the degree of P where no
-    theorem covers all degrees; `complete` then says so.  A budget that is used up (`limits.seconds`, 30 s where there is
+    of SymPy symbols are used in the same way.  Where a
+    condition has a natural number d in it, its determinants are shown up to d = `max_degree`; `determinant` computes others.
+    A budget that is used up (`limits.seconds`, 30 s where there is
     none) gives a partial list, and `complete` says that as well.
 
     Raises `InputError` for what isn't a rational function with parameters, and `LimitExceeded` for an input above the limits.
@@ -73,15 +76,16 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     bounded = limits if limits.seconds is not None else replace(limits, seconds=DEFAULT_SECONDS)
     budget = Budget(bounded)
     with budget.watched():
-        result = partition(lifted, Settings(max_degree, budget, parsed.variable))
+        result = partition(lifted, Settings(budget, parsed.variable, only_theorems=max_degree is None))
     different: dict[str, Condition] = {}
     for region in result.regions:
         statement = reduced(region.statement, constant).avoiding((parsed.variable, *parameters_of(lifted.field)))
         region = replace(region, statement=statement)
         different.setdefault(region.statement.text(), region)
-    regions = [
-        region for region in without_empty([*different.values()]) if region.statement.decided(assumptions) is not False
-    ]
+    distinct = [*different.values()]
+    with budget.watched(), suppress(LimitExceeded):
+        distinct = without_empty(distinct)
+    regions = [region for region in distinct if region.statement.decided(assumptions) is not False]
     always = next((k for k, r in enumerate(regions) if r.statement.decided(assumptions) is True), None)
     generic, complete = result.generic, result.complete
     if always is not None:
@@ -89,6 +93,9 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
         complete = next((region.complete for region in regions if region.complete is not True), complete)
         if not generic.known:
             generic = Verdict.of(decide(parsed.S, budget, certify=False))
+    if max_degree is not None:
+        with budget.watched():
+            regions = [_with_determinants(region, max_degree) for region in regions]
     return Conditions(
         lifted,
         parsed.variable,
@@ -102,6 +109,15 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
         known,
         constant,
     )
+
+
+def _with_determinants(region: Condition, largest: int) -> Condition:
+    """The region with its determinants as far as time allows."""
+    shown: list[str] = []
+    if isinstance(region.statement, Natural) and region.statement.number.m == 1:
+        with suppress(LimitExceeded):
+            shown.extend(region.statement.shown_determinant(number) for number in range(largest + 1))
+    return replace(region, determinants=tuple(shown))
 
 
 def _renamed(notice: str, constant: Point) -> str:

@@ -27,9 +27,17 @@ from kovacic.galois import group_of
 from kovacic.limits import Budget
 from kovacic.parametric import confluent, generic, riemann
 from kovacic.parametric.answer import Condition, Verdict
-from kovacic.parametric.functions import degrees, denominators, irreducible_factors, union
-from kovacic.parametric.restriction import UndefinedError, leading_factors, missed, on_hypersurface
-from kovacic.parametric.search import degrees_that_decide, form_conditions, has_constant_rational_exponents, search
+from kovacic.parametric.functions import degrees, denominators, irreducible_factors, over_parameters, union
+from kovacic.parametric.natural import Natural
+from kovacic.parametric.restriction import UndefinedError, leading_factors, missed, on_hypersurface, rational_curve
+from kovacic.parametric.search import (
+    NaturalNumber,
+    conditions_in_time,
+    degrees_that_decide,
+    has_constant_rational_exponents,
+    number_of_zeros,
+    search,
+)
 from kovacic.parametric.statements import Statement, Vanishes, both, either
 from kovacic.solution import Solution
 from kovacic.views.text import omega_lines
@@ -52,11 +60,11 @@ class Partition:
 
 @dataclass(frozen=True)
 class Settings:
-    """How far to go: where no theorem covers all degrees up to `max_degree` (None: then no search at all)."""
+    """The limits, and how far to go: `only_theorems` leaves everything else undecided."""
 
-    max_degree: int | None
     budget: Budget
     variable: str = "x"
+    only_theorems: bool = False
 
 
 def partition(S: RatFunc, settings: Settings) -> Partition:
@@ -87,9 +95,9 @@ def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
     form = confluent.recognise(problem, settings.variable)
     if form is not None:
         return _confluent(problem, form, expected, settings)
-    if settings.max_degree is None:
+    if settings.only_theorems:
         return Partition(expected, "for generic values only", "no theorem covers all values")
-    return _by_candidates(problem, expected, settings, settings.max_degree)
+    return _by_candidates(problem, expected, settings)
 
 
 def _riemann(problem: Problem, expected: Verdict, settings: Settings) -> Partition:
@@ -144,30 +152,39 @@ def _together(regions: list[Condition]) -> bool | str:
     return next((r.complete for r in regions if r.complete is not True), True)
 
 
-def _by_candidates(problem: Problem, expected: Verdict, settings: Settings, max_degree: int) -> Partition:
+def _by_candidates(problem: Problem, expected: Verdict, settings: Settings) -> Partition:
     regions: list[Condition] = []
     complete: bool | str = True
     theory = "polynomial conditions"
     reducible: list[FunctionPoly] = []
+    natural: list[NaturalNumber] = []
     try:
         regions = _degenerate(problem.S, generic.structure_changes(problem), settings)
         known = [r.statement.function for r in regions if isinstance(r.statement, Vanishes)]
         if has_constant_rational_exponents(problem):
-            found = [form_conditions(problem, m) for m in degrees_that_decide(problem)]
-            candidates = union([*(c.polynomials for c in found), _discriminants(problem, expected, settings)])
-            if not all(c.complete for c in found):
-                complete = "except for values that are special in two or more parameters at once"
+            known_degrees = degrees_that_decide(problem)
+            found = {m: conditions_in_time(problem, m) for m in known_degrees}
+            candidates = union([*(c.polynomials for c in found.values()), _discriminants(problem, expected, settings)])
+            natural = [
+                NaturalNumber(
+                    m, (over_parameters(problem.field.poly([-(number_of_zeros(problem, m) or 0), 1])),), structure
+                )
+                for structure in (Structure.REDUCIBLE, Structure.IMPRIMITIVE, Structure.TETRAHEDRAL)
+                for m, conditions in found.items()
+                if not conditions.complete and structure in known_degrees[m]
+            ]
             theory = "exponents that don't depend on the parameters: invariants of bounded degree"
             if expected.structure not in (None, Structure.REDUCIBLE, Structure.IMPRIMITIVE):
                 complete = "not proven where the generic group is finite and primitive"
         else:
-            findings = search(problem, max_degree)
+            findings = search(problem)
             candidates, reducible = findings.candidates, findings.reducible
-            theory = "candidates from the exponents"
-            if expected.structure is not None and expected.structure is not Structure.REDUCIBLE:
+            theory = "the exponents, and polynomials of bounded or natural degree"
+            if expected.structure not in (None, Structure.REDUCIBLE, Structure.IMPRIMITIVE):
                 findings.unproven.append("smaller groups than the generic one")
             if findings.unproven:
-                complete = f"up to degree {max_degree} (not proven: {'; '.join(findings.unproven)})"
+                complete = f"for generic values (not proven: {'; '.join(findings.unproven)})"
+            natural = findings.natural
         for function in candidates:
             if function in known:
                 continue
@@ -180,6 +197,13 @@ def _by_candidates(problem: Problem, expected: Verdict, settings: Settings, max_
                 regions += found_there
     except LimitExceeded as limit:
         complete = _as_far_as(limit)
+    for number in natural:
+        if expected.structure not in (number.structure, Structure.REDUCIBLE) and (
+            expected.structure is None or number.structure is Structure.REDUCIBLE
+        ):
+            primitive = "binary tetrahedral, octahedral or icosahedral" if number.structure.case == 3 else None
+            verdict = Verdict(number.structure, family=primitive)
+            regions.append(Condition(Natural(problem.S, number), verdict, omega=_SEMI_INVARIANTS[number.structure]))
     if complete is True:
         complete = _together(regions)
     return Partition(expected, complete, theory, tuple(regions))
@@ -274,6 +298,10 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
     whole = Condition(statement, verdict, inner.complete, omega=omega)
     elsewhere = {Vanishes(factor).text() for factor in leading_factors(function)}
     special = [region for region in inner.regions if both(region.statement).parts[0].text() not in elsewhere]
+    curve = rational_curve(function)
+    if curve is not None:
+        special = [replace(region, statement=region.statement.rewritten(curve.back), omega=None) for region in special]
+        whole = replace(whole, omega=None)
     while special and special[-1].defined and (special[-1].verdict, special[-1].complete) == (verdict, whole.complete):
         special.pop()
     return [*_also(special, statement), whole]

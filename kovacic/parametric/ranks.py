@@ -20,7 +20,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.sparse import by_power
 from kovacic.engine.places import Problem
-from kovacic.limits import Budget
+from kovacic.limits import check_time
 from kovacic.parametric.functions import denominators, element, irreducible_factors, over_parameters, union
 
 #: Determinants whose common factors are taken.
@@ -35,12 +35,15 @@ class RankConditions:
     """Irreducible polynomials that vanish where a rank drops; `complete` False where it may drop elsewhere too.
 
     With several parameters the minors may have common zeros where their common divisor doesn't vanish, unless there is one
-    minor only.  `certain` are those polynomials at whose zeros the rank is known to drop.
+    minor only.  `certain` are those polynomials at whose zeros the rank is known to drop.  Where one unknown is left, it drops
+    exactly at the common zeros of the `system`.  `deficient`: the polynomials are linearly dependent for all values.
     """
 
     polynomials: tuple[FunctionPoly, ...] = ()
     certain: tuple[FunctionPoly, ...] = ()
     complete: bool = True
+    system: tuple[FunctionPoly, ...] = ()
+    deficient: bool = False
 
 
 def rank_conditions(images: list[Poly], problem: Problem, *, certify: bool = False) -> RankConditions:
@@ -52,20 +55,21 @@ def rank_conditions(images: list[Poly], problem: Problem, *, certify: bool = Fal
     assert isinstance(field, FunctionField)
     columns = []
     for image in images:
-        problem.budget.check()
+        check_time()
         columns.append(by_power(over_parameters(image).num, 0))
-    rows, _ = without_constant_pivots(columns, problem.budget)
+    rows, eliminated = without_constant_pivots(columns)
     rank = _generic_rank(rows, field)
+    deficient = eliminated + rank < len(images)
     if rank == 0:
-        return RankConditions()
+        return RankConditions(deficient=deficient)
     single = len(rows) == len(rows[0]) == rank
     zero = common = field.context.constant(0)
     random = Random(20240229)
     for _ in range(1 if single else _DETERMINANTS):
-        problem.budget.check()
-        determinant = _determinant(_mixed(rows, rank, random, zero), field.context.constant(1), problem.budget)
+        check_time()
+        determinant = _determinant(_mixed(rows, rank, random, zero), field.context.constant(1))
         if determinant.is_constant() and not determinant.is_zero():
-            return RankConditions()
+            return RankConditions(deficient=deficient)
         common = common.gcd(determinant)
     factors = irreducible_factors(element(field, common))
     alone = len(field.names) == 1
@@ -75,7 +79,8 @@ def rank_conditions(images: list[Poly], problem: Problem, *, certify: bool = Fal
         for factor in factors
         if factor not in undefined and (single or (certify and alone and _rank_at(rows, factor) < rank))
     ]
-    return RankConditions(tuple(factors), tuple(certain), complete=single or alone)
+    system = tuple(element(field, row[0] // row[0].content()) for row in rows) if len(rows[0]) == 1 else ()
+    return RankConditions(tuple(factors), tuple(certain), single or alone, system, deficient)
 
 
 def _rank_at(rows: list[list[Any]], function: FunctionPoly) -> int:
@@ -103,7 +108,7 @@ def _in_one_variable(entry: Any) -> fmpq_poly:
     return fmpq_poly([terms.get(k, 0) for k in range(max(terms, default=-1) + 1)])
 
 
-def without_constant_pivots(columns: list[dict[int, Any]], budget: Budget) -> tuple[list[list[Any]], int]:
+def without_constant_pivots(columns: list[dict[int, Any]]) -> tuple[list[list[Any]], int]:
     """A smaller matrix, without zero rows and columns, and by how much its rank is smaller.
 
     The columns are given by their entries.  A constant entry clears its column, and its row and column are left out then;
@@ -131,21 +136,21 @@ def without_constant_pivots(columns: list[dict[int, Any]], budget: Budget) -> tu
         if best is None:
             break
         _, i, k = best
-        _clear(rows, where, i, k, budget)
+        _clear(rows, where, i, k)
         eliminated += 1
     used = sorted({k for row in rows.values() for k in row})
     zero = next((0 * entry for row in rows.values() for entry in row.values()), 0)
     return [[row.get(k, zero) for k in used] for _, row in sorted(rows.items()) if row], eliminated
 
 
-def _clear(rows: Sparse, where: dict[int, set[int]], i: int, k: int, budget: Budget) -> None:
+def _clear(rows: Sparse, where: dict[int, set[int]], i: int, k: int) -> None:
     """Clear column k by the pivot in row i, and leave them out."""
     chosen = rows.pop(i)
     pivot = chosen.pop(k)
     for j in chosen:
         where[j].discard(i)
     for other in where.pop(k) - {i}:
-        budget.check()
+        check_time()
         row = rows[other]
         factor = row.pop(k)
         for j in row:
@@ -194,7 +199,7 @@ def _mixed(rows: list[list[Any]], rank: int, random: Random, zero: Any) -> list[
     return combinations([list(column) for column in zip(*half, strict=True)])
 
 
-def _determinant(matrix: list[list[Any]], one: Any, budget: Budget) -> Any:
+def _determinant(matrix: list[list[Any]], one: Any) -> Any:
     """Up to its sign, by elimination without fractions [Bareiss 1968]."""
     rows = [list(row) for row in matrix]
     n, previous = len(rows), one
@@ -205,7 +210,7 @@ def _determinant(matrix: list[list[Any]], one: Any, budget: Budget) -> Any:
         rows[k], rows[pivot] = rows[pivot], rows[k]
         for i in range(k + 1, n):
             for j in range(k + 1, n):
-                budget.check()
+                check_time()
                 rows[i][j] = (rows[k][k] * rows[i][j] - rows[i][k] * rows[k][j]) // previous
         previous = rows[k][k]
     return rows[-1][-1]

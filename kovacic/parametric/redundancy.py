@@ -11,10 +11,13 @@ from itertools import count
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
+from kovacic.limits import check_time
 from kovacic.parametric.answer import Condition
 from kovacic.parametric.functions import irreducible_factors, over_parameters, powers_of
 from kovacic.parametric.restriction import parametrised
 from kovacic.parametric.statements import IntegerRoot, Statement, Vanishes, both
+
+Chart = tuple[Field, Mapping[str, Poly]]
 
 
 def without_empty(regions: Sequence[Condition]) -> list[Condition]:
@@ -22,11 +25,13 @@ def without_empty(regions: Sequence[Condition]) -> list[Condition]:
     kept: list[Condition] = []
     curves: dict[tuple[FunctionPoly, ...], list[FunctionPoly]] = {}
     roots: list[IntegerRoot] = []
+    charts: dict[tuple[FunctionPoly, ...], Chart | None] = {}
     for region in regions:
+        check_time()
         parts = both(region.statement).parts
         functions = tuple(part.function for part in parts if isinstance(part, Vanishes))
         try:
-            if len(functions) > 1 and _is_covered(functions, curves):
+            if len(functions) > 1 and _is_covered(functions, curves, charts):
                 continue
         except ZeroDivisionError:
             pass  # at the values that solve for one parameter another function isn't defined
@@ -46,20 +51,34 @@ def _alternatives(statement: Statement) -> Sequence[Statement]:
 
 
 def _is_covered(
-    functions: tuple[FunctionPoly, ...], curves: dict[tuple[FunctionPoly, ...], list[FunctionPoly]]
+    functions: tuple[FunctionPoly, ...],
+    curves: dict[tuple[FunctionPoly, ...], list[FunctionPoly]],
+    charts: dict[tuple[FunctionPoly, ...], Chart | None],
 ) -> bool:
     """Does an earlier function vanish where these do?  The earlier ones are given by the functions that vanish beside them."""
-    field: Field = functions[0].field
-    values: dict[str, Poly] = {name: functions[0].field.generator(name) for name in functions[0].field.names}
-    for function in functions:
-        factors = irreducible_factors(_at(function, values, field)) if isinstance(field, FunctionField) else []
-        if len(factors) != 1:
-            return False
-        field, chosen = parametrised(factors[0])
-        at = dict(zip(factors[0].field.names, chosen, strict=True))
-        values = {name: _at(over_parameters(value), at, field) for name, value in values.items()}
+    chart = _chart(functions, charts)
     earlier = (g for k in range(len(functions)) for g in curves.get(functions[:k], ()))
-    return any(not _at(g, values, field) for g in earlier)
+    return chart is not None and any(not _at(g, chart[1], chart[0]) for g in earlier)
+
+
+def _chart(functions: tuple[FunctionPoly, ...], charts: dict[tuple[FunctionPoly, ...], Chart | None]) -> Chart | None:
+    """A field, and values of the parameters in it at which the functions vanish; None where that isn't one piece."""
+    if functions in charts:
+        return charts[functions]
+    charts[functions] = None
+    if len(functions) > 1:
+        before = _chart(functions[:-1], charts)
+    else:
+        field = functions[0].field
+        before = field, {name: field.generator(name) for name in field.names}
+    if before is not None and isinstance(before[0], FunctionField):
+        factors = irreducible_factors(_at(functions[-1], before[1], before[0]))
+        if len(factors) == 1:
+            smaller, chosen = parametrised(factors[0])
+            at = dict(zip(factors[0].field.names, chosen, strict=True))
+            values = {name: _at(over_parameters(value), at, smaller) for name, value in before[1].items()}
+            charts[functions] = smaller, values
+    return charts[functions]
 
 
 def _at(function: FunctionPoly, values: Mapping[str, Poly], field: Field) -> Poly:
@@ -75,6 +94,7 @@ def _implies(family: IntegerRoot, other: IntegerRoot) -> bool:
     field = FunctionField((*names, k))
     known = {name: field.generator(name) for name in names}
     for residue in family.residues:
+        check_time()
         N = field.generator(k) * family.modulus + residue
         above, below = (_at(over_parameters(part), known, field)(N) for part in (solved[1].num, solved[1].den))
         equation = _at(other.equation, {**known, solved[0]: above / below}, field)

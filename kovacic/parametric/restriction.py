@@ -6,8 +6,10 @@ larger space that is right at all of its points is right on the slice, and if it
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from fractions import Fraction
 from itertools import count
+from math import gcd
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
@@ -15,7 +17,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters, powers_of
-from kovacic.parametric.statements import Both, Classes, Either, Point, Statement, Vanishes
+from kovacic.parametric.statements import Point, Statement
 
 #: The point of no algebraic constant.
 NO_CONSTANT = Point((), ())
@@ -63,6 +65,9 @@ def parametrised(function: FunctionPoly) -> tuple[Field, list[Poly]]:
     algebraic over the others: a number, if there are none.
     """
     names, powers = function.field.names, degrees(function)
+    curve = rational_curve(function)
+    if curve is not None:
+        return curve.field, list(curve.values)
     linear = _eliminated(function)
     i = min((k for k, n in enumerate(powers) if n), key=lambda k: powers[k]) if linear is None else linear
     rest = FunctionField(tuple(name for name in names if name != names[i]))
@@ -80,17 +85,71 @@ def parametrised(function: FunctionPoly) -> tuple[Field, list[Poly]]:
     return extension, [value.over(extension) for value in values]
 
 
+@dataclass(frozen=True)
+class Curve:
+    """A u^p + B v^q = 0 with coprime p, q > 1, as u = alpha T^q, v = beta T^p: the values of all parameters over Q(T, ...).
+
+    T is a monomial in u and v, `parameter` (at u = v = 0, where T = 0, it isn't defined); `name` is what T is called.
+    """
+
+    field: FunctionField
+    values: tuple[Poly, ...]
+    name: str
+    parameter: FunctionPoly
+
+    def back(self, function: FunctionPoly) -> FunctionPoly:
+        """A function over Q(T, ...) in the original parameters."""
+        field = self.parameter.field
+        values = [self.parameter if name == self.name else field.generator(name) for name in function.field.names]
+        return over_parameters(function.value_at(values, field))
+
+
+def rational_curve(function: FunctionPoly) -> Curve | None:
+    """The parametrisation of a curve with two terms; None for any other."""
+    names, terms = function.field.names, function.num.to_dict()
+    if len(terms) != 2:
+        return None
+    (i, p, A), (j, q, B) = (
+        (next((k for k, n in enumerate(e[1:]) if n), 0), sum(map(int, e)), int(c)) for e, c in terms.items()
+    )
+    single = all(sum(1 for n in e if n) == 1 for e in terms)
+    if not single or i == j or min(p, q) < 2 or gcd(p, q) > 1:
+        return None
+    name = next(t for k in count() if (t := f"T{k or ''}") not in names)
+    field = FunctionField((*(n for k, n in enumerate(names) if k not in (i, j)), name))
+    T, s = field.generator(name), pow(p, -1, q)
+    r = -s % q
+    # A alpha^p + B beta^q = 0 with alpha = A^r (-B)^s, beta = A^((1 + r p)/q) (-B)^((s p - 1)/q).
+    alpha, beta = (
+        Fraction(A) ** r * Fraction(-B) ** s,
+        Fraction(A) ** ((1 + r * p) // q) * Fraction(-B) ** ((s * p - 1) // q),
+    )
+    values: list[Poly] = [field.generator(n) if n in field.names else T for n in names]
+    values[i], values[j] = T**q * alpha, T**p * beta
+    u, v = (function.field.generator(names[k]) for k in (i, j))
+    a = pow(q, -1, p)
+    parameter = (u / alpha) ** a / (v / beta) ** ((a * q - 1) // p)
+    return Curve(field, tuple(values), name, parameter)
+
+
 def leading_factors(function: FunctionPoly) -> list[FunctionPoly]:
     """The irreducible factors of A where `on_hypersurface` solves A t + B = 0 by t = -B/A.
 
     It covers the zeros at which none of them vanishes.
     """
+    curve = rational_curve(function)
+    if curve is not None:
+        return [curve.field.generator(curve.name)]
     i = _eliminated(function)
     return [] if i is None else irreducible_factors(powers_of(function, i)[1])
 
 
 def missed(function: FunctionPoly) -> list[FunctionPoly]:
-    """Those leading factors that can vanish at a zero of the function."""
+    """What can vanish at a zero of the function that isn't covered: leading factors, or a parameter at a curve's cusp."""
+    if rational_curve(function) is not None:
+        return [
+            function.field.generator(next(n for n, k in zip(function.field.names, degrees(function), strict=True) if k))
+        ]
     used = sum(1 for k in degrees(function) if k)
     return leading_factors(function) if used > 2 else []  # else A and B are coprime polynomials in one parameter
 
@@ -134,13 +193,7 @@ def reduced(statement: Statement, constant: Point) -> Statement:
     """The same statement, with high powers of the constant replaced by means of its minimal polynomial."""
     if not constant.names:
         return statement
-    if isinstance(statement, Vanishes):
-        return Vanishes(_reduced(statement.function, constant))
-    if isinstance(statement, Classes):
-        return Classes.make(_reduced(statement.form, constant), statement.residues, statement.modulus)
-    if isinstance(statement, Either | Both):
-        return replace(statement, parts=tuple(reduced(part, constant) for part in statement.parts))
-    return statement
+    return statement.rewritten(lambda function: _reduced(function, constant))
 
 
 def _reduced(function: FunctionPoly, constant: Point) -> FunctionPoly:

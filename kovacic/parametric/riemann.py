@@ -17,8 +17,8 @@ Reference: T. Kimura, Funkcial. Ekvac. 12 (1969) 269-281.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 from itertools import product
@@ -99,6 +99,9 @@ class Schwarz(Statement):
             differences += [difference] * (multiplicity * factor.degree)
         first, second, third = differences
         return kimura((first, second, third)) is self.structure
+
+    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
+        return replace(self, cubic=change(self.cubic))
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         """Equations that give the exponent differences values from a row of the table; [] where they aren't rational in t."""

@@ -5,9 +5,9 @@ linear map P -> A_(m+1) of `kovacic.engine.riccati` has a kernel; a solution exp
 P -> P'' + 2 theta P' + (theta' + theta^2 - S) P has one.  Where no exponent depends on the parameters, N is known.
 
 Else in case 1 the degree d of P satisfies 2 (1 - d) = sum of the weights + sum of +- the exponent differences.  Where the sum
-depends on the parameters each d gives an algebraic condition; where it doesn't, P exists under polynomial conditions.  Cases
-2 and 3 are treated in the same way through the degree of the invariants of degree 4 and 12.  The result is a list of
-polynomials that contains every special value up to the degree, and what remains unproven.
+doesn't depend on the parameters, P exists under polynomial conditions.  Where it does, d is a natural number that is a root of
+a polynomial over Q(t), and P exists where a determinant Delta_d vanishes: a statement with a natural number in it, which says
+exactly when.  Cases 2 and 3 are treated in the same way through the invariants of degree 4 and 12 and their number of zeros.
 """
 
 from __future__ import annotations
@@ -19,16 +19,34 @@ from math import lcm
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import Structure
 from kovacic.engine import invariants
 from kovacic.engine.degree_bound import irregular_difference_squared
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.engine.riccati import Form, singular_part
-from kovacic.parametric.functions import irreducible_factors, union
+from kovacic.errors import LimitExceeded
+from kovacic.limits import check_time
+from kovacic.parametric.functions import over_parameters, union
 from kovacic.parametric.ranks import RankConditions, rank_conditions
 
-#: Places with exponents that depend on the parameters, above which combinations aren't tried.
-_VARIABLE_PLACES = 3
+#: Combinations of exponents above which invariants aren't examined.
+_COMBINATIONS = 400
+#: The part of the time that the determinants of one kind of invariant may take.
+_SHARE = 0.2
 _PRIMITIVE_DENOMINATORS = {1, 2, 3, 4, 5}
+
+
+@dataclass(frozen=True)
+class NaturalNumber:
+    """What the exponents say: an invariant of degree `m` has a natural number of zeros, a root of one of the polynomials.
+
+    m = 1 is a solution with a rational omega, whose zeros are those of P.  `structure` is that of the group where the invariant
+    exists, tetrahedral standing for every primitive finite one.
+    """
+
+    m: int
+    factors: tuple[FunctionPoly, ...]
+    structure: Structure
 
 
 def has_constant_rational_exponents(problem: Problem) -> bool:
@@ -39,16 +57,19 @@ def has_constant_rational_exponents(problem: Problem) -> bool:
     )
 
 
-def degrees_that_decide(problem: Problem) -> list[int]:
-    """Degrees m such that every Liouvillian equation with these exponents has a rational form of one of them.
+def degrees_that_decide(problem: Problem) -> dict[int, list[Structure]]:
+    """Degrees m such that every Liouvillian equation with these exponents has a rational form of one of them, and its group.
 
     2 and q for the reducible ones, q the common denominator of the exponents: if y1 = prod (x - c)^(e_c) P is the only
     solution with a rational omega, y1^q is rational; 4 for the imprimitive ones; 12 for the primitive ones.
     """
-    if any(place.kind is Kind.RAMIFIED for place in problem.places):
-        return [4]
-    deltas = [place.delta for place in problem.places if place.kind is Kind.REGULAR and place.delta is not None]
-    return sorted({2, 4, 12, lcm(*(((1 + delta) / 2).denominator for delta in deltas))})
+    found: dict[int, list[Structure]] = {4: [Structure.IMPRIMITIVE]}
+    if not any(place.kind is Kind.RAMIFIED for place in problem.places):
+        deltas = [place.delta for place in problem.places if place.kind is Kind.REGULAR and place.delta is not None]
+        for m in {2, lcm(*(((1 + delta) / 2).denominator for delta in deltas))}:
+            found.setdefault(m, []).append(Structure.REDUCIBLE)
+        found.setdefault(12, []).append(Structure.TETRAHEDRAL)
+    return dict(sorted(found.items()))
 
 
 def least_valuation(place: Place, m: int) -> int | None:
@@ -56,49 +77,67 @@ def least_valuation(place: Place, m: int) -> int | None:
     return invariants.least_valuation(replace(place, logarithm=False), m)
 
 
-def form_conditions(problem: Problem, m: int) -> RankConditions:
-    """Where there are more rational forms of degree m than generically."""
+def number_of_zeros(problem: Problem, m: int) -> int | None:
+    """The largest degree of P for a form of degree m; None where there is no such form at any values of the parameters."""
     valuations = [least_valuation(place, m) for place in problem.places]
     known = [v for v in valuations if v is not None]
     if len(known) < len(valuations):
-        return RankConditions()
+        return None
     N = m - known[-1] - sum(v * place.degree for v, place in zip(known, problem.finite_places, strict=False))
-    R0 = singular_part(problem, known[:-1])
+    return N if N >= 0 else None
+
+
+def form_conditions(problem: Problem, m: int) -> RankConditions:
+    """Where there are more rational forms of degree m than generically."""
+    N = number_of_zeros(problem, m)
+    if N is None:
+        return RankConditions()
+    valuations = [least_valuation(place, m) for place in problem.finite_places]
+    R0 = singular_part(problem, [v for v in valuations if v is not None])
     x = problem.field.poly([0, 1])
     images = []
     for j in range(N + 1):
         images.append(Form(m, R0, x**j).numerators(problem)[-1])
+        check_time()
+    return rank_conditions(images, problem)
+
+
+def conditions_in_time(problem: Problem, m: int) -> RankConditions:
+    """The same within a part of the time; without polynomials, and incomplete, where they are too large for that."""
+    try:
+        with problem.budget.share(_SHARE).watched():
+            return form_conditions(problem, m)
+    except LimitExceeded:
         problem.budget.check()
-    return rank_conditions(images, problem) if images else RankConditions()
+        return RankConditions(complete=False)
 
 
 @dataclass
 class Findings:
-    """Candidates for special values, and what limits completeness (sentences).
+    """Candidates for special values, conditions with a natural number, and what limits completeness (sentences).
 
     `reducible` are those among the candidates at which a solution of case 1 is known to exist.
     """
 
     candidates: list[FunctionPoly] = field(default_factory=list)
     reducible: list[FunctionPoly] = field(default_factory=list)
+    natural: list[NaturalNumber] = field(default_factory=list)
     unproven: list[str] = field(default_factory=list)
 
-    def add(self, found: RankConditions) -> None:
-        """The candidates that a matrix gives."""
+    def add(self, found: RankConditions) -> bool:
+        """The candidates that a matrix gives; False where there can be more special values."""
         self.candidates += found.polynomials
         self.reducible += found.certain
-        if not found.complete:
-            self.unproven.append("values that are special in two or more parameters at once")
+        return found.complete
 
 
-def search(problem: Problem, max_degree: int) -> Findings:
+def search(problem: Problem) -> Findings:
     """Candidates for the special values of the parameters."""
     findings = Findings()
-    _reducible(problem, max_degree, findings)
-    _imprimitive(problem, max_degree, findings)
-    _primitive(problem, max_degree, findings)
+    _reducible(problem, findings)
+    _imprimitive(problem, findings)
+    _primitive(problem, findings)
     findings.candidates = union([findings.candidates])
-    findings.unproven = list(dict.fromkeys(findings.unproven))
     return findings
 
 
@@ -132,64 +171,52 @@ def _signed_sums(squares: list[Poly], start: Poly) -> Poly:
     return total
 
 
-def _reducible(problem: Problem, max_degree: int, findings: Findings) -> None:
+def _reducible(problem: Problem, findings: Findings) -> None:
     if any(place.kind is Kind.RAMIFIED for place in problem.places):
         return
     differences = _differences(problem)
     if differences is None:
         findings.unproven.append("case 1 where the exponents at conjugate points differ")
         return
-    Y = problem.field.poly([0, 1])
+    field = problem.field
     weights = sum(p.weight * p.degree for p in problem.places if p.kind is not Kind.ORDINARY)
-    sums = _signed_sums(differences, Y)
-    unbounded = any(problem.field.rational_value(c) is None for factor, _ in problem.field.factor(sums) for c in factor)
-    constant: set[int] = set()
-    for factor, _ in problem.field.factor(sums):
-        values = [problem.field.rational_value(c) for c in factor]
-        if factor.degree == 1 and values[0] is not None:
-            d = 1 - (weights - values[0]) / 2
-            if d.denominator == 1 and d >= 0:
-                constant.add(int(d))
-            continue
-        if all(v is not None for v in values):
-            continue  # irrational for all values of the parameters
-        for d_ in range(max_degree + 1):
-            problem.budget.check()
-            value = factor(problem.field.poly([2 * (d_ - 1) + weights]))
-            findings.candidates += irreducible_factors(value)
-    if unbounded:
-        findings.unproven.append(f"case 1 above degree {max_degree} of P")
-    if constant and not _with_constant_degree(problem, constant, findings):
-        findings.unproven.append("case 1 where the exponents are irrational functions of the parameters")
+    sums = _signed_sums(differences, field.poly([0, 1]))
+    factors: list[FunctionPoly] = []
+    for factor, _ in field.factor(sums(field.poly([weights - 2, 2]))):
+        values = [field.rational_value(c) for c in factor]
+        if None in values:
+            factors.append(over_parameters(factor))
+        elif factor.degree == 1 and values[0] is not None and values[0].denominator == 1 and values[0] <= 0:
+            found = with_degree(problem, int(-values[0]))
+            complete = [findings.add(conditions) for conditions in found or ()]
+            if found is None or not all(complete):
+                factors.append(over_parameters(factor))
+    if factors:
+        findings.natural.append(NaturalNumber(1, tuple(factors), Structure.REDUCIBLE))
 
 
-def _with_constant_degree(problem: Problem, degrees: set[int], findings: Findings) -> bool:
-    """Conditions for P where the sum of the exponents doesn't depend on the parameters; False if theta isn't rational."""
-    choices: list[list[tuple[RatFunc, Poly]]] = []
-    for place in problem.places:
-        if place.kind is Kind.ORDINARY:
-            continue
-        options = _local_parts(place, problem)
-        if options is None:
-            return False
-        choices.append(options)
+def with_degree(problem: Problem, d: int) -> list[RankConditions] | None:
+    """Conditions for a P of this degree, for each choice of exponents that gives it; None if theta isn't rational."""
+    places = [place for place in problem.places if place.kind is not Kind.ORDINARY]
+    choices = [_local_parts(place, problem) for place in places]
+    if None in choices:
+        return None
     x = problem.field.poly([0, 1])
-    for choice in product(*choices):
-        theta = sum((part for part, _ in choice), RatFunc(problem.field.poly([])))
-        total = sum((exponent for _, exponent in choice), problem.field.poly([]))
-        d = problem.field.rational_value(1 - total)
-        if d is None or d.denominator != 1 or int(d) not in degrees or d < 0:
+    found = []
+    for choice in product(*(parts for parts in choices if parts is not None)):
+        theta = sum((part for part, _ in choice), RatFunc(0 * x))
+        if problem.field.rational_value(1 - sum((exponent for _, exponent in choice), 0 * x)) != d:
             continue
         zeroth = theta.derivative() + theta * theta - problem.S
         common = theta.den * zeroth.den
         images = []
-        for j in range(int(d) + 1):
-            problem.budget.check()
+        for j in range(d + 1):
+            check_time()
             P = x**j
             value = (P.derivative().derivative() + zeroth * P + 2 * theta * P.derivative()) * common
             images.append(value.num)
-        findings.add(rank_conditions(images, problem, certify=True))
-    return True
+        found.append(rank_conditions(images, problem, certify=True))
+    return found
 
 
 def _local_parts(place: Place, problem: Problem) -> list[tuple[RatFunc, Poly]] | None:
@@ -206,9 +233,12 @@ def _local_parts(place: Place, problem: Problem) -> list[tuple[RatFunc, Poly]] |
         if place.at_infinity:
             return [(zero, e) for e in exponents]
         return [(RatFunc(e * place.factor.derivative(), place.factor), e) for e in exponents]
-    if not place.at_infinity:
+    if place.degree > 1 or place.kind is not Kind.UNRAMIFIED:
         return None
     S, n, x = problem.S, place.order // 2 - 2, base.poly([0, 1])
+    inverse = RatFunc(base.poly([1]), place.factor)
+    if not place.at_infinity:  # v(z) = z y(c + 1/z) solves an equation that is irregular at infinity
+        S = S(RatFunc(1 - place.factor[0] * x, x)) / RatFunc(x**4)
     quotient = S.num * x // S.den
     lead = base.sqrt(quotient.lc)
     if lead is None:
@@ -217,65 +247,61 @@ def _local_parts(place: Place, problem: Problem) -> list[tuple[RatFunc, Poly]] |
     for k in range(1, n + 1):
         root = root + (quotient - x * root * root)[2 * n - k + 1] / (2 * lead) * x ** (n - k)
     ratio = (quotient - x * root * root)[n] / lead
-    return [(RatFunc(sign * root), 1 - (sign * ratio - n) / 2) for sign in (1, -1)]
+    exponents = [1 - (sign * ratio - n) / 2 for sign in (1, -1)]
+    if place.at_infinity:
+        return [(RatFunc(sign * root), e) for sign, e in zip((1, -1), exponents, strict=True)]
+    main = RatFunc(root)(inverse) * inverse * inverse
+    return [(inverse * e - main * sign, e) for sign, e in zip((1, -1), exponents, strict=True)]
 
 
-def _imprimitive(problem: Problem, max_degree: int, findings: Findings) -> None:
+def _imprimitive(problem: Problem, findings: Findings) -> None:
     branch_points = sum(  # places that can be branch points of case 2 for some values of the parameters
         place.degree
         for place in problem.places
         if place.kind is Kind.RAMIFIED
         or (place.kind is Kind.REGULAR and (place.delta is None or place.delta.denominator == 2))
     )
-    if branch_points >= 2 and not _forms(problem, 4, max_degree, findings):
+    if branch_points >= 2 and not _forms(problem, 4, findings):
         findings.unproven.append("case 2")
 
 
-def _primitive(problem: Problem, max_degree: int, findings: Findings) -> None:
+def _primitive(problem: Problem, findings: Findings) -> None:
     if any(place.kind in (Kind.UNRAMIFIED, Kind.RAMIFIED) for place in problem.places):
         return
     for place in problem.places:
         if place.delta is not None and place.delta.denominator not in _PRIMITIVE_DENOMINATORS:
             return
-    if not _forms(problem, 12, max_degree, findings):
+    if not _forms(problem, 12, findings):
         findings.unproven.append("case 3")
 
 
-def _forms(problem: Problem, m: int, max_degree: int, findings: Findings) -> bool:
-    """Candidates for invariants of degree m; False where there are too many combinations of exponents."""
-    variable = [
-        place
-        for place in problem.places
-        if place.kind is Kind.REGULAR
-        and (place.delta_squared is None or problem.field.rational_value(place.delta_squared) is None)
-    ]
-    findings.add(replace(form_conditions(problem, m), certain=()))
-    if not variable:
-        return True
-    points = [place.delta_squared for place in variable for _ in range(place.degree)]
-    known = [square for square in points if square is not None]
-    if len(known) < len(points) or len(variable) > (_VARIABLE_PLACES if m == 4 else 1):
-        return False
-    room = m - m // 2 * len(points)
+def _forms(problem: Problem, m: int, findings: Findings) -> bool:
+    """Conditions for invariants of degree m; False where there are too many combinations of exponents."""
+    field = problem.field
+    complete = findings.add(replace(conditions_in_time(problem, m), certain=()))
+    variable: list[tuple[Poly, int]] = []  # the square of the difference, and how often it can occur in the sum
+    room, combinations = m, 1
     for place in problem.places:
-        if place not in variable:
-            v = least_valuation(place, m)
-            if v is None:
-                return True
+        v, square = least_valuation(place, m), place.delta_squared
+        if place.kind is Kind.REGULAR and square is None:
+            return False
+        if place.kind is Kind.REGULAR and square is not None and field.rational_value(square) is None:
+            largest = m // 2 * place.degree
+            variable.append((square, largest))
+            room, combinations = room - largest, combinations * (largest + 1)
+        elif v is None:
+            return True
+        else:
             room -= v * place.degree
-    seen: list[Poly] = []
-    for choice in product(range(m // 2 + 1), repeat=len(points)):
-        squares = [k * k * square for k, square in zip(choice, known, strict=True) if k]
-        if not squares:
-            continue
-        sums = _signed_sums(squares, problem.field.poly([0, 1]))
-        if sums in seen:
-            continue
-        seen.append(sums)
-        for N in range(max_degree + 1):
-            problem.budget.check()
-            value = sums(problem.field.poly([N - room]))
-            if value:
-                findings.candidates += irreducible_factors(value)
-    findings.unproven.append(f"invariants of degree {m} with more than {max_degree} zeros")
+    if combinations > _COMBINATIONS:
+        return False
+    factors: list[FunctionPoly] = [] if complete else [over_parameters(field.poly([-room, 1]))]
+    for choice in product(*(range(largest + 1) for _, largest in variable)):
+        if any(choice):
+            chosen = [k * k * square for k, (square, _) in zip(choice, variable, strict=True) if k]
+            sums = _signed_sums(chosen, field.poly([0, 1]))(field.poly([-room, 1]))
+            factors += [over_parameters(factor) for factor, _ in field.factor(sums)]
+    if factors:
+        structure = Structure.IMPRIMITIVE if m == 4 else Structure.TETRAHEDRAL
+        findings.natural.append(NaturalNumber(m, tuple(union([factors])), structure))
     return True

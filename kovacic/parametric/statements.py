@@ -79,6 +79,10 @@ class Statement(ABC):
         """True or False where that follows from what is known about the parameters; None otherwise."""
         return None
 
+    @abstractmethod
+    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
+        """The same statement about other parameters: each of its functions is changed."""
+
     def sample(self, random: Random) -> list[FunctionPoly]:
         """Functions, chosen at random, at whose common zeros the statement holds."""
         return []
@@ -99,6 +103,9 @@ class Vanishes(Statement):
 
     def _holds(self, point: Point) -> bool:
         return not point.at(self.function)
+
+    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
+        return Vanishes(numerator(change(self.function)))
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         return [self.function]
@@ -137,6 +144,9 @@ class Classes(Statement):
     def _holds(self, point: Point) -> bool:
         value = rational(point.at(self.form))
         return value is not None and any((value - residue) % self.modulus == 0 for residue in self.residues)
+
+    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
+        return Classes.make(change(self.form), self.residues, self.modulus)
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         return [self.form - (random.choice(self.residues) + random.randint(-4, 4) * self.modulus)]
@@ -224,6 +234,9 @@ class IntegerRoot(Statement):
         roots = rational_roots(point.at(self.equation))
         return any(root.denominator == 1 and int(root) % self.modulus in self.residues for root in roots)
 
+    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
+        return replace(self, equation=change(self.equation))
+
     def sample(self, random: Random) -> list[FunctionPoly]:
         N = random.choice(self.residues) + random.randint(-3, 3) * self.modulus
         return [over_parameters(self.equation(N))]
@@ -236,25 +249,15 @@ class IntegerRoot(Statement):
         return f"an integer {self.letter} = {', '.join(map(str, self.residues))} mod {self.modulus}"
 
     def text(self) -> str:
-        left = f"{shown(numerator(self.equation), self.letter)} = 0"
-        if self.solved:
-            left = f"{self.solved[0]} = {factored(self.solved[1], self.letter)}"
-        return f"{left} for {self._classes()}"
+        return f"{equation_text(self.equation, self.letter)} for {self._classes()}"
 
     def latex(self) -> str:
-        left = f"{as_latex(numerator(self.equation), self.letter)} = 0"
-        if self.solved:
-            left = f"{symbol(self.solved[0])} = {as_latex(self.solved[1], self.letter)}"
-        return rf"{left} \text{{ for {self._classes()}}}"
+        return rf"{equation_text(self.equation, self.letter, latex=True)} \text{{ for {self._classes()}}}"
 
     @property
     def solved(self) -> tuple[str, RatFunc] | None:
         """`(name, f)` where the equation says that a parameter is the rational function f(N)."""
-        linear = [i for i, k in enumerate(degrees(self.equation)) if k == 1]
-        if not linear:
-            return None
-        parts = powers_of(self.equation, linear[0])
-        return self.equation.field.names[linear[0]], -RatFunc(parts.get(0, 0 * parts[1]), parts[1])
+        return solved(self.equation)
 
 
 @dataclass(frozen=True)
@@ -262,6 +265,9 @@ class _Several(Statement):
     """A statement made of others."""
 
     parts: tuple[Statement, ...]
+
+    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
+        return replace(self, parts=tuple(part.rewritten(change) for part in self.parts))
 
     def avoiding(self, names: Collection[str]) -> Statement:
         return replace(self, parts=tuple(part.avoiding(names) for part in self.parts))
@@ -305,6 +311,27 @@ class Both(_Several):
 
     def latex(self) -> str:
         return r" \text{ and } ".join(part.latex() for part in self.parts)
+
+
+def solved(equation: FunctionPoly) -> tuple[str, RatFunc] | None:
+    """`(name, f)` where a polynomial in N over Q(t) vanishes exactly if a parameter is the rational function f(N)."""
+    linear = [i for i, k in enumerate(degrees(equation)) if k == 1]
+    if not linear:
+        return None
+    parts = powers_of(equation, linear[0])
+    return equation.field.names[linear[0]], -RatFunc(parts.get(0, 0 * parts[1]), parts[1])
+
+
+def equation_text(equation: FunctionPoly, letter: str, *, latex: bool = False) -> str:
+    """`equation = 0`, solved for a parameter where one occurs linearly."""
+    written = as_latex if latex else shown
+    if not any(degrees(equation)) and equation.degree == 1:
+        return f"{letter} = {written(-equation[0] / equation[1])}"
+    family = solved(equation)
+    if family is None:
+        return f"{written(numerator(equation), letter)} = 0"
+    name, f = family
+    return f"{symbol(name)} = {as_latex(f, letter)}" if latex else f"{name} = {factored(f, letter)}"
 
 
 def both(*statements: Statement) -> Both:

@@ -1,0 +1,177 @@
+"""Statements with a natural number in them: "b = 2 d + 2 for a natural number d, and Delta_d(a, c) = 0".
+
+The exponents leave finitely many polynomials over Q(t), and d, the degree of P (or the number of zeros of an invariant), is a
+natural root of one of them.  Where d is given, P exists exactly where a determinant Delta_d vanishes: that of a banded system
+for its coefficients.  There are infinitely many of them; each is computed on demand, and at a point with a natural root the
+equation itself is decided.
+
+References: P. Acosta-Humanez & D. Blazquez-Sanz, DCDS-B 10 (2008); A. V. Turbiner, Comm. Math. Phys. 118 (1988) 467.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from itertools import chain, count
+from random import Random
+
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.decision import Status
+from kovacic.engine.decide import decide
+from kovacic.engine.places import analyse
+from kovacic.errors import LimitExceeded
+from kovacic.limits import Budget, Limits
+from kovacic.parametric.assumptions import Assumptions, Coset
+from kovacic.parametric.functions import degrees, irreducible_factors, numerator, over_parameters, shown
+from kovacic.parametric.ranks import RankConditions
+from kovacic.parametric.restriction import UndefinedError, at_point, on_hypersurface, rational_curve
+from kovacic.parametric.search import NaturalNumber, form_conditions, with_degree
+from kovacic.parametric.statements import Point, Statement, equation_text, rational_roots
+
+#: The largest number that is tried for an example.
+_EXAMPLES = 3
+#: For the decision at one point.
+_SECONDS = 60.0
+#: Equations in d that are written out.
+_WRITTEN_OUT = 4
+
+
+@dataclass(frozen=True)
+class Determinant:
+    """Delta_d where the exponents give d: P exists exactly where it vanishes.
+
+    `exponents` vanishes where d is the degree.  `factors` are the irreducible factors of Delta_d: none where it is 1, and P
+    exists nowhere.  Where there are more equations than unknowns, `system` has the polynomials that all have to vanish.  Both
+    are None where they weren't computed.
+    """
+
+    exponents: FunctionPoly
+    factors: tuple[FunctionPoly, ...] | None = None
+    system: tuple[FunctionPoly, ...] | None = None
+
+    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Determinant:
+        """The same about other parameters, which `change` puts into its polynomials."""
+        factors, system = (
+            None if functions is None else tuple(numerator(change(f)) if f else f for f in functions)
+            for functions in (self.factors, self.system)
+        )
+        return replace(self, factors=factors, system=system)
+
+    def __str__(self) -> str:
+        if self.factors is None:
+            return "not computed" if self.system is None else f"({', '.join(map(shown, self.system))})"
+        return " * ".join(f"({shown(f)})" if len(self.factors) > 1 else shown(f) for f in self.factors) or "1"
+
+
+@dataclass(frozen=True)
+class Natural(Statement):
+    """For a natural number that the exponents allow, a solution (or an invariant) with so many zeros exists."""
+
+    S: RatFunc
+    number: NaturalNumber
+    letter: str = field(default="d", compare=False)
+
+    def avoiding(self, names: Collection[str]) -> Statement:
+        letters = chain("dNMKJ" if self.number.m == 1 else "NMKJ", map("N{}".format, count()))
+        return replace(self, letter=next(name for name in letters if name not in names))
+
+    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
+        S = RatFunc(change(over_parameters(self.S.num)), change(over_parameters(self.S.den)))
+        return replace(self, S=S, number=replace(self.number, factors=tuple(map(change, self.number.factors))))
+
+    def numbers_at(self, point: Point) -> list[int]:
+        """The natural numbers that the exponents allow at a point."""
+        roots = {root for factor in self.number.factors for root in rational_roots(point.at(factor))}
+        return sorted(int(root) for root in roots if root.denominator == 1 and root >= 0)
+
+    def _holds(self, point: Point) -> bool:
+        """Decided by the engine where the exponents allow a natural number: `LimitExceeded` where that takes too long."""
+        if not self.numbers_at(point):
+            return False
+        try:
+            decision = decide(at_point(self.S, point), Budget(Limits(seconds=_SECONDS)), certify=False)
+        except UndefinedError:
+            return False
+        if decision.status is Status.UNDECIDED:
+            raise LimitExceeded(str(decision.undecided), limit="seconds")
+        primitive = decision.structure is not None and decision.structure.case == 3
+        return decision.structure is self.number.structure or (primitive and self.number.structure.case == 3)
+
+    def determinants(self, number: int) -> list[Determinant]:
+        """Delta for one natural number, for each way in which the exponents give it."""
+        found: list[Determinant] = []
+        for factor in self.number.factors:
+            for exponents in irreducible_factors(factor(Fraction(number))):
+                if exponents not in (known.exponents for known in found):
+                    found += self._determinants(exponents, number)
+        return found
+
+    def _determinants(self, exponents: FunctionPoly, number: int) -> list[Determinant]:
+        try:
+            S = on_hypersurface(self.S, exponents).S
+        except UndefinedError:
+            return []
+        zero = exponents - exponents
+        if S.field == QQ:
+            exists = decide(S, Budget(), certify=False).structure is self.number.structure
+            return [Determinant(exponents, (zero,) if exists else ())]
+        m, problem = self.number.m, analyse(S, Budget())
+        found = None
+        if isinstance(problem.S.num, FunctionPoly):
+            found = [form_conditions(problem, m)] if m > 1 else with_degree(problem, number)
+        determinants = []
+        for c in found if found is not None else [RankConditions(complete=False)]:
+            if c.deficient and m == 1:
+                determinants.append(Determinant(exponents, (zero,)))
+            elif c.complete:
+                determinants.append(Determinant(exponents, c.polynomials))
+            else:
+                determinants.append(Determinant(exponents, None, c.system or None))
+        curve = rational_curve(exponents)
+        return determinants if curve is None else [determinant.rewritten(curve.back) for determinant in determinants]
+
+    def shown_determinant(self, number: int) -> str:
+        """In one line: one polynomial where it is the same for all exponents that give the number."""
+        found = [(str(determinant), shown(determinant.exponents)) for determinant in self.determinants(number)]
+        same = len({text for text, _ in found}) == 1
+        values = found[0][0] if same else ", ".join(f"{text} where {where} = 0" for text, where in found)
+        return f"Delta_{number} = {values}"
+
+    def sample(self, random: Random) -> list[FunctionPoly]:
+        factor = random.choice(self.number.factors)
+        if not any(degrees(factor)):
+            return []
+        found = [d for d in self.determinants(random.randint(0, _EXAMPLES)) if d.factors or d.system]
+        if not found:
+            return [over_parameters(factor(Fraction(random.randint(0, _EXAMPLES))))]
+        chosen = random.choice(found)
+        return [chosen.exponents, *([random.choice(chosen.factors)] if chosen.factors else chosen.system or ())]
+
+    def decided(self, assumptions: Assumptions) -> bool | None:
+        natural = [Coset(Fraction(0), Fraction(1))]
+        roots = [-f[0] / f[1] for f in self.number.factors if f.degree == 1]
+        never = len(roots) == len(self.number.factors) and all(
+            assumptions.meets_classes(root, natural) is False for root in roots
+        )
+        return False if never else None
+
+    def _written(self, latex: bool) -> str:
+        factors = self.number.factors
+        if len(factors) > _WRITTEN_OUT:
+            return f"the exponents allow a natural number {self.letter} of zeros"
+        return (r" \text{ or } " if latex else " or ").join(equation_text(f, self.letter, latex=latex) for f in factors)
+
+    def text(self) -> str:
+        what = "" if self.number.m == 1 else f" for an invariant of degree {self.number.m}"
+        return f"{self._written(False)}, {self.letter} in N, and Delta_{self.letter} = 0{what}"
+
+    def latex(self) -> str:
+        d = self.letter
+        written = (
+            self._written(True) if len(self.number.factors) <= _WRITTEN_OUT else rf"\text{{{self._written(False)}}}"
+        )
+        what = "" if self.number.m == 1 else rf"\text{{ for an invariant of degree {self.number.m}}}"
+        return rf"{written},\ {d} \in \mathbb{{N}},\ \Delta_{{{d}}} = 0{what}"
