@@ -24,7 +24,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem
 from kovacic.parametric.functions import over_parameters, shown, shown_root
-from kovacic.parametric.statements import Statement, integer_roots
+from kovacic.parametric.integers import integer_roots
+from kovacic.parametric.statements import Statement
 
 
 @dataclass(frozen=True)

@@ -26,10 +26,11 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.assumptions import Assumptions, Coset
 from kovacic.parametric.functions import degrees, irreducible_factors, numerator, over_parameters, shown
+from kovacic.parametric.integers import equation_text, rational_roots
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import UndefinedError, at_point, on_hypersurface, rational_curve
 from kovacic.parametric.search import NaturalNumber, form_conditions, with_degree
-from kovacic.parametric.statements import Point, Statement, equation_text, rational_roots
+from kovacic.parametric.statements import Point, Statement
 
 #: The largest number that is tried for an example.
 _EXAMPLES = 3

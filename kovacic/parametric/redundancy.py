@@ -14,8 +14,9 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.limits import check_time
 from kovacic.parametric.answer import Condition
 from kovacic.parametric.functions import irreducible_factors, over_parameters, powers_of
+from kovacic.parametric.integers import IntegerRoot
 from kovacic.parametric.restriction import parametrised
-from kovacic.parametric.statements import IntegerRoot, Statement, Vanishes, both
+from kovacic.parametric.statements import Statement, Vanishes, both
 
 Chart = tuple[Field, Mapping[str, Poly]]
 

@@ -32,7 +32,8 @@ from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.parametric.functions import over_parameters, shown, shown_root
-from kovacic.parametric.statements import Point, Statement, integer_roots, rational
+from kovacic.parametric.integers import integer_roots, rational
+from kovacic.parametric.statements import Point, Statement
 
 _F = Fraction
 #: Schwarz's rows: the structure, the exponent differences modulo 1, and whether l + m + q must be even.

@@ -1,35 +1,24 @@
 """Exact statements about the parameters: true or false at every point with algebraic coordinates.
 
-The atoms are: a polynomial vanishes; a function of the parameters lies in given classes modulo a number; a polynomial in N
-has an integer root N in given classes.  Nothing here is numerical.
+Here are the simplest one, a polynomial vanishes, and the combinations; see `integers` for statements about integers, `riemann`
+for Schwarz's table, `natural` for determinants.  Nothing here is numerical.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Iterable, Sequence
-from dataclasses import dataclass, field, replace
-from fractions import Fraction
-from itertools import chain, count
-from math import ceil, gcd, lcm
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, replace
 from random import Random
-from typing import Literal
 
-from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ, to_fraction
-from kovacic.parametric.assumptions import Assumptions, Coset, common_multiple
+from kovacic.algebra.rationals import QQ
+from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.functions import (
     as_latex,
-    degrees,
-    factored,
     numerator,
-    over_parameters,
-    powers_of,
     shown,
-    symbol,
 )
 
 
@@ -121,146 +110,6 @@ class Vanishes(Statement):
 
 
 @dataclass(frozen=True)
-class Classes(Statement):
-    """`form` is a rational number that is congruent to one of `residues` modulo `modulus`."""
-
-    form: FunctionPoly
-    residues: tuple[Fraction, ...]
-    modulus: Fraction
-
-    @classmethod
-    def make(cls, form: FunctionPoly, residues: Iterable[Fraction], modulus: Fraction) -> Classes:
-        """Normalised: no constant term (in a Laurent series at 0), coprime coefficients, the least modulus."""
-        shift = to_fraction(form.rational_coefficients()[0]) if form else Fraction(0)
-        numerator = [int(c) for c in (form - shift).num.coeffs()]
-        content = gcd(*numerator) * (1 if numerator[0] > 0 else -1)
-        scale = Fraction(gcd(*(int(c) for c in (form - shift).den.coeffs())), content)
-        normal = (form - shift) * scale
-        modulus = abs(modulus * scale)
-        found = {((residue - shift) * scale) % modulus for residue in residues}
-        reduced, smallest = _reduced(found, modulus)
-        return cls(normal, tuple(sorted(reduced)), smallest)
-
-    def _holds(self, point: Point) -> bool:
-        value = rational(point.at(self.form))
-        return value is not None and any((value - residue) % self.modulus == 0 for residue in self.residues)
-
-    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        return Classes.make(change(self.form), self.residues, self.modulus)
-
-    def sample(self, random: Random) -> list[FunctionPoly]:
-        return [self.form - (random.choice(self.residues) + random.randint(-4, 4) * self.modulus)]
-
-    def merged(self, other: Statement) -> Classes | None:
-        if not isinstance(other, Classes) or other.form not in (self.form, -self.form):
-            return None
-        sign = 1 if other.form == self.form else -1
-        common = common_multiple(self.modulus, other.modulus)
-        numbers = [r + k * self.modulus for r in self.residues for k in range(int(common / self.modulus))]
-        numbers += [sign * r + k * other.modulus for r in other.residues for k in range(int(common / other.modulus))]
-        return Classes.make(self.form, numbers, common)
-
-    def decided(self, assumptions: Assumptions) -> bool | None:
-        return assumptions.meets_classes(self.form, [Coset(residue, self.modulus) for residue in self.residues])
-
-    @property
-    def _in_integers(self) -> tuple[FunctionPoly, Fraction] | None:
-        """A form and a number whose difference is said to be an integer; None where it isn't one class of integers."""
-        if len(self.residues) == 1 and self.modulus == 1:
-            return self.form, self.residues[0]
-        if not any(self.residues) and len(self.residues) == 1 and self.modulus.numerator == 1:
-            return self.form * self.modulus.denominator, Fraction(0)
-        return None
-
-    def text(self) -> str:
-        if self._in_integers:
-            return f"{_shifted(*self._in_integers, shown)} in Z"
-        if self.modulus == 2 and len(self.residues) == 1 and self.residues[0].denominator == 1:
-            return f"{shown(self.form)} is an {'odd' if self.residues[0] else 'even'} integer"
-        return f"{shown(self.form)} = {', '.join(map(str, self.residues))} mod {self.modulus}"
-
-    def latex(self) -> str:
-        if self._in_integers:
-            return rf"{_shifted(*self._in_integers, as_latex)} \in \mathbb{{Z}}"
-        classes = ", ".join(map(str, self.residues))
-        return rf"{as_latex(self.form)} \equiv {classes} \pmod{{{self.modulus}}}"
-
-
-@dataclass(frozen=True)
-class IntegerRoot(Statement):
-    """`equation`, a polynomial in N over Q(t), has an integer root N congruent to one of `residues` modulo `modulus`.
-
-    `letter` is what N is called.
-    """
-
-    equation: FunctionPoly
-    residues: tuple[int, ...]
-    modulus: int
-    letter: str = field(default="N", compare=False)
-
-    @classmethod
-    def make(cls, equation: FunctionPoly, residues: Iterable[int], modulus: int) -> IntegerRoot:
-        """Normalised: the mean of the roots in (-1, 0] by a shift of N, both signs about it, the least modulus."""
-        classes, shift, Z = set(residues), 0, equation.field.poly([0, 1])
-        mean = equation.field.rational_value(-equation[equation.degree - 1] / (equation.degree * equation.lc))
-        if mean is not None:
-            shift = ceil(mean)
-            equation = over_parameters(equation(Z + shift))
-            classes = {r - shift for r in classes}
-            twice = int(2 * (mean - shift)) if (2 * mean).denominator == 1 else None
-            if twice is not None and equation(twice - Z) == (-1) ** equation.degree * equation:
-                classes |= {twice - r for r in classes}
-        reduced, smallest = _reduced({Fraction(r % modulus) for r in classes}, Fraction(modulus))
-        return cls(equation, tuple(sorted(map(int, reduced))), int(smallest))
-
-    def merged(self, other: Statement) -> IntegerRoot | None:
-        if not isinstance(other, IntegerRoot) or other.equation != self.equation:
-            return None
-        common = lcm(self.modulus, other.modulus)
-        both = (
-            (r + k * part.modulus)
-            for part in (self, other)
-            for r in part.residues
-            for k in range(common // part.modulus)
-        )
-        return IntegerRoot.make(self.equation, both, common)
-
-    def avoiding(self, names: Collection[str]) -> Statement:
-        return replace(
-            self, letter=next(name for name in chain("NMKJ", map("N{}".format, count())) if name not in names)
-        )
-
-    def _holds(self, point: Point) -> bool:
-        roots = rational_roots(point.at(self.equation))
-        return any(root.denominator == 1 and int(root) % self.modulus in self.residues for root in roots)
-
-    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        return replace(self, equation=change(self.equation))
-
-    def sample(self, random: Random) -> list[FunctionPoly]:
-        N = random.choice(self.residues) + random.randint(-3, 3) * self.modulus
-        return [over_parameters(self.equation(N))]
-
-    def _classes(self) -> str:
-        if self.modulus == 1:
-            return f"an integer {self.letter}"
-        if self.modulus == 2:
-            return f"an {'odd' if self.residues == (1,) else 'even'} integer {self.letter}"
-        return f"an integer {self.letter} = {', '.join(map(str, self.residues))} mod {self.modulus}"
-
-    def text(self) -> str:
-        return f"{equation_text(self.equation, self.letter)} for {self._classes()}"
-
-    def latex(self) -> str:
-        return rf"{equation_text(self.equation, self.letter, latex=True)} \text{{ for {self._classes()}}}"
-
-    @property
-    def solved(self) -> tuple[str, RatFunc] | None:
-        """`(name, f)` where the equation says that a parameter is the rational function f(N)."""
-        return solved(self.equation)
-
-
-@dataclass(frozen=True)
 class _Several(Statement):
     """A statement made of others."""
 
@@ -313,27 +162,6 @@ class Both(_Several):
         return r" \text{ and } ".join(part.latex() for part in self.parts)
 
 
-def solved(equation: FunctionPoly) -> tuple[str, RatFunc] | None:
-    """`(name, f)` where a polynomial in N over Q(t) vanishes exactly if a parameter is the rational function f(N)."""
-    linear = [i for i, k in enumerate(degrees(equation)) if k == 1]
-    if not linear:
-        return None
-    parts = powers_of(equation, linear[0])
-    return equation.field.names[linear[0]], -RatFunc(parts.get(0, 0 * parts[1]), parts[1])
-
-
-def equation_text(equation: FunctionPoly, letter: str, *, latex: bool = False) -> str:
-    """`equation = 0`, solved for a parameter where one occurs linearly."""
-    written = as_latex if latex else shown
-    if not any(degrees(equation)) and equation.degree == 1:
-        return f"{letter} = {written(-equation[0] / equation[1])}"
-    family = solved(equation)
-    if family is None:
-        return f"{written(numerator(equation), letter)} = 0"
-    name, f = family
-    return f"{symbol(name)} = {as_latex(f, letter)}" if latex else f"{name} = {factored(f, letter)}"
-
-
 def both(*statements: Statement) -> Both:
     """One statement that says that all of them hold."""
     return Both(tuple(part for one in statements for part in (one.parts if isinstance(one, Both) else (one,))))
@@ -352,65 +180,3 @@ def either(statements: Sequence[Statement]) -> Statement:
             if statement not in merged:
                 merged.append(statement)
     return merged[0] if len(merged) == 1 else Either(tuple(merged))
-
-
-def integer_roots(equation: FunctionPoly, residues: Sequence[int], modulus: int) -> Literal[True] | list[Statement]:
-    """When does a polynomial in N over Q(t) have an integer root in these classes?
-
-    A list of statements, one for each way (up to the sign of N where the classes are symmetric); True if it always has one.
-    """
-    classes = {r % modulus for r in residues}
-    symmetric = classes == {-r % modulus for r in classes}
-    statements: list[Statement] = []
-    seen: list[Poly] = []
-    field = equation.field
-    minus = field.poly([0, -1])
-    for factor, _ in field.factor(equation):
-        assert isinstance(factor, FunctionPoly)
-        mirrored = factor(minus).monic()
-        if symmetric and mirrored in seen:
-            continue
-        seen.append(factor)
-        coefficients = [field.rational_value(c) for c in factor]
-        if all(c is not None for c in coefficients):
-            roots = rational_roots(QQ.poly([c for c in coefficients if c is not None]))
-            if any(root.denominator == 1 and int(root) % modulus in classes for root in roots):
-                return True
-        elif factor.degree == 1:
-            statements.append(Classes.make(-factor[0], [Fraction(r) for r in sorted(classes)], Fraction(modulus)))
-        else:
-            statements.append(IntegerRoot.make(factor, classes, modulus))
-    return statements
-
-
-def rational_roots(polynomial: Poly) -> list[Fraction]:
-    """The rational roots of a polynomial over Q or Q(alpha)."""
-    common = polynomial
-    if isinstance(polynomial, ExtensionPoly):
-        common = polynomial.parts[0]
-        for part in polynomial.parts[1:]:
-            common = common.gcd(part)
-    if common.degree < 1:
-        return []
-    roots = (rational(-factor[0]) for factor, _ in QQ.factor(common) if factor.degree == 1)
-    return [root for root in roots if root is not None]
-
-
-def rational(constant: Poly) -> Fraction | None:
-    """A constant as a rational number, or None."""
-    return constant.field.rational_value(constant)
-
-
-def _shifted(form: FunctionPoly, residue: Fraction, written: Callable[[FunctionPoly], str]) -> str:
-    """`form - residue`, in symbols."""
-    return f"{written(form)} - {residue}" if residue else written(form)
-
-
-def _reduced(residues: set[Fraction], modulus: Fraction) -> tuple[set[Fraction], Fraction]:
-    """The same classes for the least modulus of which the given one is a multiple."""
-    for k in range(len(residues), 1, -1):
-        smaller = modulus / k
-        classes = {residue % smaller for residue in residues}
-        if len(classes) * k == len(residues):
-            return classes, smaller
-    return residues, modulus
