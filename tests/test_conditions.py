@@ -161,7 +161,7 @@ def test_sextic_oscillator() -> None:
         (
             "x^6 + a*x^3 + b*x^2 + c*x + e",
             "b = -2*d - 3 or b = 2*d + 3, d in N, and Delta_d = 0",
-            {0: {"(a^2 - 4*e, -c)"}},
+            {0: {"(a^2 - 4*e, c)"}},
         ),
     ],
 )
@@ -413,7 +413,7 @@ def test_an_integer_is_not_called_like_a_parameter() -> None:
         ("x^4 + a*x^2 + 4*x + c", "a^4 - 8*a^2*c + 32*a + 16*c^2 = 0", [(0, 0), (8, "16 + 4*I"), (2, 1), (0, 1)]),
         ("(n^2-2)*x^3 + m", "n^2 - 2 = 0", [("sqrt(2)", 1), ("-sqrt(2)", 0), (1, 1), (1, 0)]),
         ("(n^2-2)*x^4 + m*x", "n^2 - 2 = 0", [("sqrt(2)", 1), ("sqrt(2)", 0), (1, 1), (1, 2)]),
-        ("(n^2-m^3)*x^4 + n*x + m", "n^2 - m^3 = 0", [(1, 1), (0, 0), (8, 4)]),
+        ("(n^2-m^3-1)*x^4 + n*x + m", "n^2 - m^3 - 1 = 0", [(1, 0), (3, 2), (8, 4)]),
     ],
 )
 def test_hypersurfaces_from_which_no_parameter_is_eliminated(
@@ -478,7 +478,8 @@ def test_constant_pivots_lower_the_rank_by_one_each(matrices: int) -> None:
 
 
 def test_an_incomplete_answer_is_for_generic_values() -> None:
-    answer = kovacic.conditions("(a*x^4 + b*x)/(x^3 - c)^2", var="x", limits=Limits(seconds=0.5))
+    heun = "a/x^2 + b/(x-1)^2 + c/(x-t)^2 + (e*x+q)/(x*(x-1)*(x-t))"
+    answer = kovacic.conditions(heun, var="x", limits=Limits(seconds=0.5))
     assert not answer.within_limits
     assert "otherwise, for generic values: no Liouvillian solution" in str(answer)
     assert "otherwise, for generic values" in answer.latex()
@@ -814,3 +815,43 @@ def test_natural_numbers_at_a_point() -> None:
     assert pickle.loads(pickle.dumps(answer)) == answer
     data = json.loads(answer.to_json())
     assert data["regions"][0]["determinants"][0] == "Delta_0 = a^2 - 4*c"
+
+
+@pytest.mark.parametrize(
+    ("S", "number", "known"),
+    [
+        # The exponents are rational only over Q(t) with the square root of -c2.
+        (LITERATURE["spheroidal"], 1, {"m - 2": "L^2 - 2*L + 4*c2", "m + 2": "L^2 - 2*L + 4*c2"}),
+        (LITERATURE["doubly confluent Heun"], 0, {"a*d + 2*a + b": "8*a + 4*c - d^2 - 2*d"}),
+        (LITERATURE["sextic with a centrifugal term"], 2, {"a + 2*l + 9": "c^2 - 16*l - 24"}),
+        (LITERATURE["sextic with a centrifugal term"], 1, {"a + 2*l + 7": "(l + 1, c)"}),
+    ],
+)
+def test_determinants_of_the_literature(S: str, number: int, known: dict[str, str]) -> None:
+    answer = kovacic.conditions(S, var="x")
+    found = {
+        str(determinant.exponents).replace("**", "^"): str(determinant) for determinant in answer.determinant(number)
+    }
+    assert known.items() <= found.items()
+    assert answer.check(30)
+
+
+def test_rows_that_are_multiples_of_others_are_left_out() -> None:
+    """Then one polynomial, not a system of equal ones, tells where P exists: Judd's solutions of Rabi's model."""
+    S = (
+        "(-4*L*x^2 + 4*L*x + 16*N^2*x^2 - 16*N^2*x + 4*N^2 + 4*N*g*x^3 - 8*N*g*x^2 + 4*N*g*x + 4*N*x + g^2*x^4 - 2*g^2*x^3 "
+        "+ g^2*x^2 - 2*g*x^3 + 4*g*x^2 - 2*g*x - x^2 + 2*x - 1)/(4*x^2*(x - 1)^2)"
+    )
+    answer = kovacic.conditions(S, var="x", limits=Limits(seconds=60))
+    assert answer.complete is True
+    assert {"L - g - 4", "L - 3"} <= {str(determinant) for determinant in answer.determinant(0)}
+    report = answer.check(30)
+    assert report, report.disagreements
+
+
+def test_points_of_a_rational_curve() -> None:
+    answer = kovacic.conditions("(n^2-m^3)*x^4 + n*x + m", var="x")
+    assert answer.complete is True
+    for n, m in ((1, 1), (0, 0), (8, 4), (-8, 4), (1, 2)):
+        assert answer.case_at({"n": n, "m": m}) == answer.solve_at({"n": n, "m": m}).case
+    assert answer.check(60)

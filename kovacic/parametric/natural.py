@@ -13,19 +13,20 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import lru_cache
 from itertools import chain, count
 from random import Random
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.decision import Status
+from kovacic.decision import Status, Structure
 from kovacic.engine.decide import decide
 from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.assumptions import Assumptions, Coset
-from kovacic.parametric.functions import degrees, irreducible_factors, numerator, over_parameters, shown
+from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters, shown
 from kovacic.parametric.integers import equation_text, rational_roots
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import UndefinedError, at_point, on_hypersurface, rational_curve
@@ -36,8 +37,8 @@ from kovacic.parametric.statements import Point, Statement
 _EXAMPLES = 3
 #: For the decision at one point.
 _SECONDS = 60.0
-#: Equations in d that are written out.
-_WRITTEN_OUT = 4
+#: Characters up to which the equations for d are written out.
+_WRITTEN_OUT = 300
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,9 @@ class Determinant:
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Determinant:
         """The same about other parameters, which `change` puts into its polynomials."""
         factors, system = (
-            None if functions is None else tuple(numerator(change(f)) if f else f for f in functions)
+            None
+            if functions is None
+            else tuple(g for f in functions for g in (irreducible_factors(change(f)) if f else [f]))
             for functions in (self.factors, self.system)
         )
         return replace(self, factors=factors, system=system)
@@ -92,14 +95,9 @@ class Natural(Statement):
         """Decided by the engine where the exponents allow a natural number: `LimitExceeded` where that takes too long."""
         if not self.numbers_at(point):
             return False
-        try:
-            decision = decide(at_point(self.S, point), Budget(Limits(seconds=_SECONDS)), certify=False)
-        except UndefinedError:
-            return False
-        if decision.status is Status.UNDECIDED:
-            raise LimitExceeded(str(decision.undecided), limit="seconds")
-        primitive = decision.structure is not None and decision.structure.case == 3
-        return decision.structure is self.number.structure or (primitive and self.number.structure.case == 3)
+        structure = _structure_at(self.S, point)
+        primitive = structure is not None and structure.case == 3
+        return structure is self.number.structure or (primitive and self.number.structure.case == 3)
 
     def determinants(self, number: int) -> list[Determinant]:
         """Delta for one natural number, for each way in which the exponents give it."""
@@ -145,9 +143,10 @@ class Natural(Statement):
         factor = random.choice(self.number.factors)
         if not any(degrees(factor)):
             return []
-        found = [d for d in self.determinants(random.randint(0, _EXAMPLES)) if d.factors or d.system]
+        number = random.randint(0, _EXAMPLES)
+        found = [d for d in self.determinants(number) if d.factors or d.system] if self.number.m == 1 else []
         if not found:
-            return [over_parameters(factor(Fraction(random.randint(0, _EXAMPLES))))]
+            return [over_parameters(factor(Fraction(number)))]
         chosen = random.choice(found)
         return [chosen.exponents, *([random.choice(chosen.factors)] if chosen.factors else chosen.system or ())]
 
@@ -159,20 +158,30 @@ class Natural(Statement):
         )
         return False if never else None
 
-    def _written(self, latex: bool) -> str:
-        factors = self.number.factors
-        if len(factors) > _WRITTEN_OUT:
-            return f"the exponents allow a natural number {self.letter} of zeros"
-        return (r" \text{ or } " if latex else " or ").join(equation_text(f, self.letter, latex=latex) for f in factors)
+    def _written(self, latex: bool) -> str | None:
+        """The equations for d; None where that would be too long."""
+        parts = [equation_text(f, self.letter, latex=latex) for f in self.number.factors]
+        return (r" \text{ or } " if latex else " or ").join(parts) if sum(map(len, parts)) <= _WRITTEN_OUT else None
 
     def text(self) -> str:
         what = "" if self.number.m == 1 else f" for an invariant of degree {self.number.m}"
-        return f"{self._written(False)}, {self.letter} in N, and Delta_{self.letter} = 0{what}"
+        written = self._written(False) or f"the exponents allow a natural number {self.letter} of zeros"
+        return f"{written}, {self.letter} in N, and Delta_{self.letter} = 0{what}"
 
     def latex(self) -> str:
         d = self.letter
-        written = (
-            self._written(True) if len(self.number.factors) <= _WRITTEN_OUT else rf"\text{{{self._written(False)}}}"
-        )
         what = "" if self.number.m == 1 else rf"\text{{ for an invariant of degree {self.number.m}}}"
+        written = self._written(True) or rf"\text{{the exponents allow a natural number {d} of zeros}}"
         return rf"{written},\ {d} \in \mathbb{{N}},\ \Delta_{{{d}}} = 0{what}"
+
+
+@lru_cache(maxsize=64)
+def _structure_at(S: RatFunc, point: Point) -> Structure | None:
+    """What the engine says at a point, which several statements ask for; None also where S isn't defined."""
+    try:
+        decision = decide(at_point(S, point), Budget(Limits(seconds=_SECONDS)), certify=False)
+    except UndefinedError:
+        return None
+    if decision.status is Status.UNDECIDED:
+        raise LimitExceeded(str(decision.undecided), limit="seconds")
+    return decision.structure

@@ -47,7 +47,7 @@ class RankConditions:
 
 
 def rank_conditions(images: list[Poly], problem: Problem, *, certify: bool = False) -> RankConditions:
-    """Where do the polynomials span less than generically?
+    """Where do the polynomials over Q(t), or the coordinates of those over an extension, span less than generically?
 
     With `certify` and one parameter, each of the conditions is examined exactly for being certain.
     """
@@ -56,8 +56,9 @@ def rank_conditions(images: list[Poly], problem: Problem, *, certify: bool = Fal
     columns = []
     for image in images:
         check_time()
-        columns.append(by_power(over_parameters(image).num, 0))
+        columns.append(_column(image))
     rows, eliminated = without_constant_pivots(columns)
+    rows = _distinct(rows)
     rank = _generic_rank(rows, field)
     deficient = eliminated + rank < len(images)
     if rank == 0:
@@ -79,8 +80,32 @@ def rank_conditions(images: list[Poly], problem: Problem, *, certify: bool = Fal
         for factor in factors
         if factor not in undefined and (single or (certify and alone and _rank_at(rows, factor) < rank))
     ]
-    system = tuple(element(field, row[0] // row[0].content()) for row in rows) if len(rows[0]) == 1 else ()
+    system = tuple(element(field, row[0]) for row in rows) if len(rows[0]) == 1 else ()
     return RankConditions(tuple(factors), tuple(certain), single or alone, system, deficient)
+
+
+def _distinct(rows: list[list[Any]]) -> list[list[Any]]:
+    """The rows without multiples of others by a number."""
+    known: dict[tuple[str, ...], list[Any]] = {}
+    for row in rows:
+        content = gcd(*(int(c) for entry in row for c in entry.coeffs()))
+        leading = next(entry for entry in row if entry).leading_coefficient()
+        reduced = [entry // (content if int(leading) > 0 else -content) for entry in row]
+        known.setdefault(tuple(map(str, reduced)), reduced)
+    return list(known.values())
+
+
+def _column(image: Poly) -> dict[int, Any]:
+    """The coefficients of the coordinates of a polynomial over Q(t) or an extension, without denominators."""
+    leaves = [over_parameters(leaf) for leaf in image.leaves()]
+    common = leaves[0].den
+    for leaf in leaves[1:]:
+        common = common * (leaf.den // common.gcd(leaf.den))
+    return {
+        power * len(leaves) + k: coefficient
+        for k, leaf in enumerate(leaves)
+        for power, coefficient in by_power(leaf.num * (common // leaf.den), 0).items()
+    }
 
 
 def _rank_at(rows: list[list[Any]], function: FunctionPoly) -> int:

@@ -16,7 +16,8 @@ from dataclasses import dataclass, field, replace
 from itertools import product
 from math import lcm
 
-from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
@@ -183,11 +184,11 @@ def _reducible(problem: Problem, findings: Findings) -> None:
     sums = _signed_sums(differences, field.poly([0, 1]))
     factors: list[FunctionPoly] = []
     for factor, _ in field.factor(sums(field.poly([weights - 2, 2]))):
-        values = [field.rational_value(c) for c in factor]
-        if None in values:
+        root = field.rational_value(-factor[0]) if factor.degree == 1 else None
+        if _may_be_natural(factor) and root is None:
             factors.append(over_parameters(factor))
-        elif factor.degree == 1 and values[0] is not None and values[0].denominator == 1 and values[0] <= 0:
-            found = with_degree(problem, int(-values[0]))
+        elif root is not None and _may_be_natural(factor):
+            found = with_degree(problem, int(root))
             complete = [findings.add(conditions) for conditions in found or ()]
             if found is None or not all(complete):
                 factors.append(over_parameters(factor))
@@ -196,62 +197,89 @@ def _reducible(problem: Problem, findings: Findings) -> None:
 
 
 def with_degree(problem: Problem, d: int) -> list[RankConditions] | None:
-    """Conditions for a P of this degree, for each choice of exponents that gives it; None if theta isn't rational."""
-    places = [place for place in problem.places if place.kind is not Kind.ORDINARY]
-    choices = [_local_parts(place, problem) for place in places]
-    if None in choices:
+    """Conditions for a P of this degree, for each choice of exponents that gives it.
+
+    theta is rational over Q(t), or over Q(t) with one square root; None where it isn't.
+    """
+    roots = _roots(problem)
+    if roots is None:
         return None
-    x = problem.field.poly([0, 1])
+    field, of_places = roots
+    S = RatFunc(problem.S.num.over(field), problem.S.den.over(field))
+    x, zero = field.poly([0, 1]), field.poly([])
+    choices = [_local_parts(place, S, root) for place, root in of_places]
     found = []
-    for choice in product(*(parts for parts in choices if parts is not None)):
-        theta = sum((part for part, _ in choice), RatFunc(0 * x))
-        if problem.field.rational_value(1 - sum((exponent for _, exponent in choice), 0 * x)) != d:
+    for choice in product(*choices):
+        theta = sum((part for part, _ in choice), RatFunc(zero))
+        if field.rational_value(1 - sum((exponent for _, exponent in choice), zero)) != d:
             continue
-        zeroth = theta.derivative() + theta * theta - problem.S
+        zeroth = theta.derivative() + theta * theta - S
         common = theta.den * zeroth.den
         images = []
-        for j in range(d + 1):
+        for power in range(d + 1):
+            P = x**power
+            image = ((P.derivative().derivative() + zeroth * P + 2 * theta * P.derivative()) * common).num
+            images += [image] if isinstance(field, FunctionField) else [image, image * field.generator]
             check_time()
-            P = x**j
-            value = (P.derivative().derivative() + zeroth * P + 2 * theta * P.derivative()) * common
-            images.append(value.num)
         found.append(rank_conditions(images, problem, certify=True))
     return found
 
 
-def _local_parts(place: Place, problem: Problem) -> list[tuple[RatFunc, Poly]] | None:
-    """The two local parts of theta, with the sum of the exponents; None where they aren't rational over Q(t)."""
+def _roots(problem: Problem) -> tuple[FunctionField | AlgebraicField, list[tuple[Place, Poly]]] | None:
+    """The square root at each place that its two exponents differ by, and a field that contains them all.
+
+    That is the exponent difference, or the root of the leading coefficient.  None where one root of a square isn't enough.
+    """
     base = problem.field
-    zero = RatFunc(base.poly([]))
-    if place.kind is Kind.REGULAR:
-        if place.delta_squared is None:
+    assert isinstance(base, FunctionField)
+    field: FunctionField | AlgebraicField = base
+    found: list[tuple[Place, Poly]] = []
+    for place in problem.places:
+        if place.kind is Kind.ORDINARY:
+            continue
+        if place.kind is Kind.REGULAR and (place.degree == 1 or place.at_infinity):
+            square = place.delta_squared
+        else:
+            square = _at_infinity(place, problem.S).lc if place.kind is Kind.UNRAMIFIED and place.degree == 1 else None
+        if square is None:
             return None
-        root = base.sqrt(place.delta_squared)
-        if root is None or (place.degree > 1 and not place.at_infinity):
+        root = base.sqrt(square)
+        if root is None and isinstance(field, FunctionField):
+            field = AlgebraicField(base, base.poly([-square, 0, 1]), "root")
+            root = field.generator
+        elif root is None and isinstance(field, AlgebraicField):
+            quotient = base.sqrt(square / -field.modulus[0])
+            root = None if quotient is None else field.generator * quotient
+        if root is None:
             return None
-        exponents = [(1 + root) / 2, (1 - root) / 2]
-        if place.at_infinity:
-            return [(zero, e) for e in exponents]
-        return [(RatFunc(e * place.factor.derivative(), place.factor), e) for e in exponents]
-    if place.degree > 1 or place.kind is not Kind.UNRAMIFIED:
-        return None
-    S, n, x = problem.S, place.order // 2 - 2, base.poly([0, 1])
-    inverse = RatFunc(base.poly([1]), place.factor)
-    if not place.at_infinity:  # v(z) = z y(c + 1/z) solves an equation that is irregular at infinity
+        found.append((place, root))
+    return field, [(place, root.over(field)) for place, root in found]
+
+
+def _at_infinity(place: Place, S: RatFunc) -> Poly:
+    """The polynomial part of z S(z), where v'' = S(z) v is the equation in a coordinate in which the place is infinity."""
+    x = S.field.poly([0, 1])
+    if not place.at_infinity:  # v(z) = z y(c + 1/z)
         S = S(RatFunc(1 - place.factor[0] * x, x)) / RatFunc(x**4)
-    quotient = S.num * x // S.den
-    lead = base.sqrt(quotient.lc)
-    if lead is None:
-        return None
-    root = lead * x**n  # S - root^2 = b x^(n-1) + ..., and omega = +-root + e/x + ... with e = (+-b/a - n)/2
+    return S.num * x // S.den
+
+
+def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[tuple[RatFunc, Poly]]:
+    """The two local parts of theta, with the exponents."""
+    x, factor = root.field.poly([0, 1]), place.factor.over(root.field)
+    inverse = RatFunc(root.field.poly([1]), factor)
+    if place.kind is Kind.REGULAR:
+        exponents = [(1 + root) / 2, (1 - root) / 2]
+        return [(inverse * (0 if place.at_infinity else e), e) for e in exponents]
+    n, quotient = place.order // 2 - 2, _at_infinity(place, S)
+    main = root * x**n  # S - main^2 = b x^(n-1) + ..., and omega = +-main + e/x + ... with e = (+-b/a - n)/2
     for k in range(1, n + 1):
-        root = root + (quotient - x * root * root)[2 * n - k + 1] / (2 * lead) * x ** (n - k)
-    ratio = (quotient - x * root * root)[n] / lead
-    exponents = [1 - (sign * ratio - n) / 2 for sign in (1, -1)]
+        main = main + (quotient - x * main * main)[2 * n - k + 1] / (2 * root) * x ** (n - k)
+    ratio = (quotient - x * main * main)[n] / root
+    parts = [(sign, 1 - (sign * ratio - n) / 2) for sign in (1, -1)]
     if place.at_infinity:
-        return [(RatFunc(sign * root), e) for sign, e in zip((1, -1), exponents, strict=True)]
-    main = RatFunc(root)(inverse) * inverse * inverse
-    return [(inverse * e - main * sign, e) for sign, e in zip((1, -1), exponents, strict=True)]
+        return [(RatFunc(sign * main), e) for sign, e in parts]
+    return [(inverse * e - RatFunc(main)(inverse) * inverse * inverse * sign, e) for sign, e in parts]
 
 
 def _imprimitive(problem: Problem, findings: Findings) -> None:
@@ -300,8 +328,15 @@ def _forms(problem: Problem, m: int, findings: Findings) -> bool:
         if any(choice):
             chosen = [k * k * square for k, (square, _) in zip(choice, variable, strict=True) if k]
             sums = _signed_sums(chosen, field.poly([0, 1]))(field.poly([-room, 1]))
-            factors += [over_parameters(factor) for factor, _ in field.factor(sums)]
+            factors += [over_parameters(factor) for factor, _ in field.factor(sums) if _may_be_natural(factor)]
     if factors:
         structure = Structure.IMPRIMITIVE if m == 4 else Structure.TETRAHEDRAL
         findings.natural.append(NaturalNumber(m, tuple(union([factors])), structure))
     return True
+
+
+def _may_be_natural(factor: Poly) -> bool:
+    """Can an irreducible polynomial over Q(t) have a natural root for some values of the parameters?"""
+    values = [factor.field.rational_value(c) for c in factor]
+    root = -values[0] if factor.degree == 1 and values[0] is not None else None
+    return None in values or (root is not None and root.denominator == 1 and root >= 0)
