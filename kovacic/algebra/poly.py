@@ -14,7 +14,9 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
+from functools import reduce
 from math import gcd, lcm
+from operator import mul
 from typing import Any, Self
 
 from kovacic.algebra.modular import BadPrimeError, multiplicity
@@ -95,8 +97,10 @@ class Poly(ABC):
     def _common(self, other: object) -> tuple[Any, Any] | None:
         """Both over the larger one of their fields; None if neither field extends the other one, and for other types."""
         field = self.field
+        if type(other) is type(self) and other.field is field:
+            return self, other
         if isinstance(other, Poly):
-            if other.field is field or other.field == field:
+            if other.field == field:
                 return self, other
             if field.extends(other.field):
                 return self, field.embed(other)
@@ -303,7 +307,7 @@ def _parenthesised(text: str, separators: str) -> str:
 def product(factors: Sequence[Poly]) -> Poly:
     """The product of at least one polynomial, by halves, which is faster for many."""
     half = len(factors) // 2
-    return product(factors[:half]) * product(factors[half:]) if half else factors[0]
+    return product(factors[:half]) * product(factors[half:]) if half > 2 else reduce(mul, factors)
 
 
 def remainders(polynomial: Poly, moduli: Sequence[Poly]) -> list[Poly]:
@@ -311,6 +315,15 @@ def remainders(polynomial: Poly, moduli: Sequence[Poly]) -> list[Poly]:
     rest = polynomial % product(moduli)
     half = len(moduli) // 2
     return [rest] if not half else remainders(rest, moduli[:half]) + remainders(rest, moduli[half:])
+
+
+def sum_of_cofactors(factors: Sequence[Poly]) -> Poly:
+    """The sum of `product(factors) // factor`, which is congruent to that quotient modulo each factor."""
+    half = len(factors) // 2
+    if not half:
+        return factors[0].field.poly([1])
+    left, right = factors[:half], factors[half:]
+    return sum_of_cofactors(left) * product(right) + product(left) * sum_of_cofactors(right)
 
 
 class Homomorphism(ABC):

@@ -16,6 +16,8 @@ from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
 _EUCLID_DEGREE = 16
+#: Above this degree it is tried first whether a polynomial to be factored is a square: gcds with derivatives are slow.
+_ROOT_DEGREE = 50
 
 
 def to_fmpq(value: Scalar) -> Any:
@@ -265,10 +267,16 @@ class RationalField(Field):
         return polynomial
 
     def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
-        factors = polynomial.rep.numer().factor()[1]  # type: ignore[attr-defined]
+        rest, power = polynomial.rep.numer(), 1  # type: ignore[attr-defined]
+        try:
+            while rest.degree() > _ROOT_DEGREE:
+                rest, power = rest.sqrt(), 2 * power
+        except DomainError:
+            pass
+        factors = rest.factor()[1]
         if len(factors) > 1:
             factors.sort(key=lambda pair: (pair[0].degree(), [int(c) for c in pair[0].coeffs()]))
-        return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), k) for f, k in factors]
+        return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), power * k) for f, k in factors]
 
     def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
         return ((RationalHomomorphism(p),) for p in primes() if allowed is None or allowed(p))

@@ -25,12 +25,12 @@ from typing import Any
 from flint import nmod_poly
 
 from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
-from kovacic.algebra.poly import Field, Poly, remainders
+from kovacic.algebra.poly import Field, Poly, product, remainders, sum_of_cofactors
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget
 
 #: From so many factors of a denominator on, remainders modulo all of them are quicker by a tree.
-_MANY_FACTORS = 250
+_MANY_FACTORS = 100
 
 
 class Kind(Enum):
@@ -130,10 +130,7 @@ class Problem:
 
     @cached_property
     def D(self) -> Poly:
-        product = self.field.poly([1])
-        for place in self.finite_places:
-            product = product * place.factor**place.weight
-        return product
+        return product([self.field.poly([1]), *(place.factor**place.weight for place in self.finite_places)])
 
     @cached_property
     def T(self) -> Poly:
@@ -143,9 +140,11 @@ class Problem:
 def analyse(S: RatFunc, budget: Budget) -> Problem:
     """The singular places of y'' = S y and their local data."""
     factors = S.field.factor(S.den) if S.den.degree > 0 else []
-    powers = [factor**order for factor, order in factors] if len(factors) >= _MANY_FACTORS else []
-    nums = remainders(S.num, powers) if powers else [S.num] * len(factors)
-    dens = remainders(S.den, [power * power for power in powers]) if powers else [S.den] * len(factors)
+    nums, dens = [S.num] * len(factors), [S.den] * len(factors)
+    if len(factors) >= _MANY_FACTORS:
+        powers = [factor**order for factor, order in factors]
+        nums, cofactors = remainders(S.num, powers), remainders(sum_of_cofactors(powers), powers)
+        dens = [power * cofactor for power, cofactor in zip(powers, cofactors, strict=True)]
     places = []
     for (factor, order), local_num, local_den in zip(factors, nums, dens, strict=True):
         budget.check()

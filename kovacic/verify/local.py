@@ -14,13 +14,16 @@ from math import isqrt
 from typing import Any
 
 from kovacic.algebra.modular import BadPrimeError, simple_roots, translate
-from kovacic.algebra.poly import Homomorphism, Poly
+from kovacic.algebra.poly import Homomorphism, Poly, remainders, sum_of_cofactors
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
 from kovacic.limits import Budget
 from kovacic.verify.residue import exponent_difference_squared
 from kovacic.verify.series import convolving_recurrence
+
+#: For so many points, or more, all remainders modulo their powers are computed together.
+_MANY_POINTS = 100
 
 
 @dataclass(frozen=True)
@@ -33,6 +36,13 @@ class Point:
     order: int
     budget: Budget
     at_infinity: bool = False
+    known: tuple[Poly, Poly] | None = None
+
+    @cached_property
+    def near(self) -> tuple[Poly, Poly]:
+        """N and q modulo p^order, for S = N/(p^order q)."""
+        power = self.factor**self.order
+        return self.known or (self.num % power, self.den // power % power)
 
     @cached_property
     def name(self) -> str:
@@ -45,17 +55,18 @@ class Point:
             return Fraction(1)
         if self.order > 2:
             return None
-        # At a double root den = den''/2 (x - c)^2 + ..., so that Delta^2 = 1 + 4b with b = 2 num/den''.
-        top, bottom = self.num % self.factor, self.den.derivative().derivative() % self.factor
+        # S = b/(x - c)^2 + ... with b = N/(p'^2 q), and Delta^2 = 1 + 4b.
+        top, q = (f % self.factor for f in self.near)
+        bottom = self.factor.derivative() ** 2 * q % self.factor
         field, n = self.factor.field, bottom.degree
         ratio = field.from_scalars([field.scalar(top, n) / field.scalar(bottom, n)])
         if top != ratio * bottom:
             return None
-        square = field.rational_value(8 * ratio + 1)
+        square = field.rational_value(4 * ratio + 1)
         if square is None or square < 0:
             return None
-        p, q = isqrt(square.numerator), isqrt(square.denominator)
-        return Fraction(p, q) if p * p == square.numerator and q * q == square.denominator else None
+        root = Fraction(isqrt(square.numerator), isqrt(square.denominator))
+        return root if root * root == square else None
 
     @cached_property
     def logarithm(self) -> bool:
@@ -85,11 +96,16 @@ class Point:
 def points(S: RatFunc, budget: Budget) -> list[Point]:
     """Every singular place, and infinity even if it is ordinary."""
     factors = S.field.factor(S.den) if S.den.degree else []
+    near: list[tuple[Poly, Poly] | None] = [None] * len(factors)
+    if len(factors) >= _MANY_POINTS:  # modulo a power, the sum of den // power for all of them is that for this one
+        powers = [p**k for p, k in factors]
+        near = list(zip(*(remainders(f, powers) for f in (S.num, sum_of_cofactors(powers))), strict=True))
     # S(1/z)/z^4 = z^-order num/den, where num and den have the coefficients of S.num and S.den in reversed order.
     order = S.num.degree - S.den.degree + 4 if S.num else 0
     num, den = S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0))
     infinity = Point(S.field.poly([0, 1]), num, den, max(order, 0), budget, at_infinity=True)
-    return [*(Point(p, S.num, S.den, k, budget) for p, k in factors), infinity]
+    finite = (Point(p, S.num, S.den, k, budget, known=known) for (p, k), known in zip(factors, near, strict=True))
+    return [*finite, infinity]
 
 
 def least_valuation(point: Point, m: int) -> int | None:
@@ -185,18 +201,17 @@ def _trace_of_difference(point: Point) -> Fraction | None:
     None if it can be seen that Delta, or a, doesn't lie in K[x]/p.
     """
     p, k = point.factor, point.order
-    q = point.den // p**k
+    num, q = point.near
     if k == 2:  # Delta^2 = 1 + 4b with b = N/(p'^2 q), up to the square of p'^2 q
         bottom = p.derivative() ** 2 * q % p
-        square = bottom * (bottom + 4 * point.num) % p
+        square = bottom * (bottom + 4 * num) % p
     else:  # a^2 = N/q, up to the squares of q and of powers of p'
-        square = q * point.num % p
+        square = q * num % p
     if is_provably_not_a_square(square, p):
         return None
-    if k == 2:
-        squared = square * (bottom * bottom).inverse_modulo(p) % p
-    else:
-        squared = exponent_difference_squared(point.num, q, p, k // 2)
+    squared = (
+        square * (bottom * bottom).inverse_modulo(p) % p if k == 2 else exponent_difference_squared(num, q, p, k // 2)
+    )
     trace = trace_of_square_root(squared, p)
     if trace is None:
         return None
