@@ -29,7 +29,7 @@ def reverse(polynomial: Any, degree: int) -> Any:
 def ordinary_point(den: Any) -> int:
     """The integer of least absolute value at which den doesn't vanish, tried in the order 0, 1, -1, 2, ..."""
     point = 0
-    while int(den(point)) == 0:
+    while not den(point):
         point = -point if point > 0 else 1 - point
     return point
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import lcm
 from operator import mul
-from typing import Any, Protocol
+from typing import Any
 
 from flint import fmpq, fmpq_poly, fmpz, fmpz_poly
 
@@ -14,21 +14,8 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ, RationalPoly
 
 
-class Series(Protocol):
-    """A sequence u_0 = 1, u_1, u_2, ... that is extended by `pivot u_n = -sum_(h>0) factors_(h-1) u_(n-h)`."""
-
-    def extend(self, pivot: Any, factors: Sequence[Any]) -> Any:
-        """Append the next term; where the pivot is 0, append 0 and return the sum, which ought to vanish; else return 0."""
-
-    def term(self, n: int) -> Any:
-        """u_n as a scalar of the field."""
-
-    def polynomial(self, count: int) -> Poly:
-        """`sum_(n < count) u_n t^n`."""
-
-
 class RationalSeries:
-    """A `Series` of rational numbers from integer pivots and factors.
+    """Rational numbers u_0 = 1, u_1, u_2, ..., extended by `pivot u_n = -sum_(h>0) factors_(h-1) u_(n-h)` in integers.
 
     The last terms are kept as integers over a common denominator, which grows only by what a division really needs.
     """
@@ -46,6 +33,7 @@ class RationalSeries:
         return fmpq(*self._terms[n])
 
     def polynomial(self, count: int) -> RationalPoly:
+        """`sum_(n < count) u_n t^n`."""
         if not count:
             return RationalPoly(fmpq_poly([]))
         numerators, scale = list[Any](), fmpz(1)
@@ -55,6 +43,7 @@ class RationalSeries:
         return RationalPoly(fmpq_poly(fmpz_poly(numerators[::-1]), self._terms[count - 1][1]))
 
     def extend(self, pivot: Any, factors: Sequence[Any]) -> Any:
+        """Append the next term; where the pivot is 0, append 0 and return the sum, which ought to vanish; else return 0."""
         total = -sum(map(mul, factors, self._window), fmpz(0))
         scale = fmpz(1)
         if not pivot:
@@ -76,7 +65,7 @@ class RationalSeries:
 
 
 class FieldSeries:
-    """A `Series` over any field, in its scalars."""
+    """The same over any field, in its scalars."""
 
     __slots__ = ("_field", "_terms", "_width", "_zero")
 
@@ -113,7 +102,7 @@ class _Operator:
     def width(self) -> int:
         return len(self.coefficients) - 1
 
-    def series(self) -> Series:
+    def series(self) -> RationalSeries | FieldSeries:
         return RationalSeries(self.width) if self.field == QQ else FieldSeries(self.field, self.width)
 
 

@@ -14,7 +14,7 @@ from functools import cache, lru_cache
 from itertools import islice, tee
 from typing import Any
 
-from flint import nmod_poly
+from flint import nmod_mat, nmod_poly
 
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.modular import BadPrimeError, simple_roots
@@ -112,28 +112,14 @@ def _remembered(base: Field, modulus: Poly) -> Iterator[tuple[ExtensionHomomorph
 def coordinates(
     bundle: Sequence[Any], images: Sequence[Sequence[Any]], n: int
 ) -> tuple[list[Homomorphism], list[list[Any]]]:
-    """A bundle of the base field, and the images under it of the n coordinates of each element, by Lagrange's formula."""
+    """A bundle of the base field, and the images under it of the n coordinates of each element."""
     base_bundle, base_images, p = list[Homomorphism](), list[list[Any]](), bundle[0].p
     for start in range(0, len(bundle), n):
         block = bundle[start : start + n]
-        inverse = _vandermonde_inverse([h.root for h in block], p)
+        inverse = nmod_mat(n, n, [pow(h.root, k, p) for h in block for k in range(n)], p).inv().tolist()
         base_bundle.append(block[0].base)
         columns = list(zip(*images[start : start + n], strict=True))
         base_images.append(
             [sum((column[j] * row[j] for j in range(n)), nmod_poly([], p)) for column in columns for row in inverse]
         )
     return base_bundle, base_images
-
-
-def _vandermonde_inverse(nodes: Sequence[int], p: int) -> list[list[int]]:
-    """Row i, column j: the coefficient of X^i in the j-th Lagrange polynomial of the nodes."""
-    columns = []
-    for j, node in enumerate(nodes):
-        basis, scale = nmod_poly([1], p), 1
-        for k, other in enumerate(nodes):
-            if k != j:
-                basis = basis * nmod_poly([-other % p, 1], p)
-                scale = scale * (node - other) % p
-        basis = basis * pow(scale, -1, p)
-        columns.append([int(basis[i]) for i in range(len(nodes))])
-    return [list(row) for row in zip(*columns, strict=True)]

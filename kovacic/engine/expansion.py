@@ -24,6 +24,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_poly
 
+from kovacic.algebra.modular import ordinary_point
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.algebra.recurrence import RationalSeries
@@ -95,7 +96,7 @@ def _coefficients(
         pairs[-1] = (t, valuations[-1], place.weight)
         num, den = place.num, place.den
     else:
-        point = _ordinary_point(problem) if place is None else -place.factor[0].constant()  # type: ignore[attr-defined]
+        point = ordinary_point(problem.S.den) if place is None else -place.factor[0].constant()  # type: ignore[attr-defined]
         finite = zip(problem.finite_places, valuations, strict=False)
         pairs = [(p.factor(t + point), v, p.weight) for p, v in finite]
         num, den = problem.S.num(t + point), problem.S.den(t + point)
@@ -109,13 +110,6 @@ def _coefficients(
     T = num * (D * D // den)
     scale = lcm(D.common_denominator(), R.common_denominator(), T.common_denominator())
     return (D * scale).rep.numer(), (R * scale).rep.numer(), (T * scale**2).rep.numer(), point  # type: ignore[attr-defined]
-
-
-def _ordinary_point(problem: Problem) -> int:
-    point = 0
-    while not problem.S.den(point):
-        point = -point if point > 0 else 1 - point
-    return point
 
 
 @dataclass(frozen=True)
@@ -169,14 +163,6 @@ def _recurrence(m: int, D: Any, R: Any, T: Any) -> _Recurrence:
 
 def _null_vector(rows: list[list[Any]], columns: int) -> list[Any] | None:
     """The vector v with rows v = 0 if it is unique up to a factor, else None; short rows are filled with zeros."""
-    entries = [[*row, *[fmpq(0)] * (columns - len(row))] for row in rows]
-    reduced, rank = fmpq_mat(len(entries), columns, [value for row in entries for value in row]).rref()
-    if rank != columns - 1:
-        return None
-    pivots = [next(c for c in range(columns) if reduced[r, c]) for r in range(rank)]
-    free = next(c for c in range(columns) if c not in pivots)
-    vector = [fmpq(0)] * columns
-    vector[free] = fmpq(1)
-    for r, c in enumerate(pivots):
-        vector[c] = -reduced[r, free]
-    return vector
+    entries = [value for row in rows for value in (*row, *[fmpq(0)] * (columns - len(row)))]
+    basis, nullity = fmpq_mat(len(rows), columns, entries).numer_denom()[0].nullspace()
+    return [basis[i, 0] for i in range(columns)] if nullity == 1 else None

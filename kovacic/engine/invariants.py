@@ -30,7 +30,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.decision import NoInvariant
 from kovacic.engine.expansion import polynomial_invariant
 from kovacic.engine.places import Kind, Place, Problem
-from kovacic.engine.riccati import Form, singular_part
+from kovacic.engine.riccati import Form, numerators, singular_part
 
 #: Equations beyond the number of unknowns, so that accidental solutions are improbable.
 _MARGIN = 6
@@ -163,10 +163,4 @@ def invariants_modulo(h: Homomorphism, problem: Problem, m: int, bound: Bounds, 
 
 def _closes(h: Homomorphism, problem: Problem, m: int, R0: Poly, P: Any) -> bool:
     """Equation (2) of `riccati`, modulo p: is P really an invariant there, beyond the terms that were looked at?"""
-    D, T, R = h(problem.D), h(problem.T), h(R0)
-    slope = D.derivative()
-    previous, current = P * 0, P
-    for k in range(m + 1):
-        following = D * current.derivative() + (R - slope * k) * current - T * previous * (m - k + 1)
-        previous, current = current, following * pow(k + 1, -1, h.p)
-    return not current
+    return not numerators(h(problem.D), h(problem.T), h(R0), P, m, m + 1, problem.budget)[-1]

@@ -47,10 +47,7 @@ class Place:
     """All roots of one irreducible factor, or infinity (the root 0 in the coordinate z = 1/x).
 
     `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den; `local_num` is num modulo
-    factor^order, and `local_den` den modulo factor^(2 order), or something congruent to them.  At a regular place
-    `delta_squared` is the square of the exponent difference where it is the same constant of K at all roots, else None
-    (then Delta is irrational at every root); `delta` is Delta >= 0 where it is rational, else None.  `logarithm` says that
-    a logarithm occurs, which is proven; False only says that no proof was found.
+    factor^order, and `local_den` den modulo factor^(2 order), or something congruent to them.
     """
 
     factor: Poly
@@ -60,9 +57,52 @@ class Place:
     den: Poly
     local_num: Poly
     local_den: Poly
-    delta_squared: Poly | None
-    delta: Fraction | None
-    logarithm: bool
+    budget: Budget
+
+    @cached_property
+    def delta_squared(self) -> Poly | None:
+        """The square of the exponent difference at a regular place, where it is the same constant of K at all roots.
+
+        None elsewhere; then Delta is irrational at every root.  It is 1 + 4b with b = num/(p'^2 cofactor) in K[x]/p.
+        """
+        if self.order != 2:
+            return self.num.field.poly([1]) if self.order == 1 else None
+        p = self.factor
+        top, bottom = self.local_num % p, self.local_den // (p * p) % p
+        if p.degree > 1:
+            bottom = p.derivative() ** 2 * bottom % p
+        b = top[bottom.degree] / bottom.lc
+        return 4 * b + 1 if p.degree == 1 or top == bottom * b else None
+
+    @cached_property
+    def delta(self) -> Fraction | None:
+        """Delta >= 0 at a regular place where it is rational, else None."""
+        return None if self.delta_squared is None else rational_square_root(self.delta_squared)
+
+    @cached_property
+    def logarithm(self) -> bool:
+        """Does a logarithm provably occur?  False only says that no proof was found.
+
+        At a place with a positive integer Delta the series with the smaller exponent meets an obstruction at its term
+        number Delta.  If it doesn't vanish modulo a prime, it doesn't vanish; if it does vanish, nothing is claimed (and
+        then there is a logarithm only by a chance of about 1 in 2^60).  Nothing is claimed either where the series would be
+        longer than the limits allow.
+        """
+        if self.order != 2 or self.delta is None or self.delta.denominator != 1:
+            return self.order == 1
+        delta = int(self.delta)
+        if not 0 < delta <= self.budget.limits.unknown_degree:
+            return delta == 0
+        for h in self.num.field.homomorphisms():
+            try:
+                root = next(simple_roots(h.keeping_degree(self.factor)), None)
+                if root is not None:
+                    equation = local_equation(h(self.num), h.keeping_degree(self.den), root, 2)
+                    return logarithm_obstruction(equation, delta) != 0
+            except BadPrimeError:
+                pass
+            self.budget.check()
+        raise AssertionError("the sequence of primes is infinite")
 
     @property
     def degree(self) -> int:
@@ -148,10 +188,10 @@ def analyse(S: RatFunc, budget: Budget) -> Problem:
     places = []
     for (factor, order), local_num, local_den in zip(factors, nums, dens, strict=True):
         budget.check()
-        places.append(_place(S.num, S.den, factor, order, local_num, local_den, budget, at_infinity=False))
+        places.append(Place(factor, False, order, S.num, S.den, local_num, local_den, budget))
     num, den, order = at_infinity(S)
     z = S.field.poly([0, 1])
-    places.append(_place(num, den, z, order, num, den, budget, at_infinity=True))
+    places.append(Place(z, True, order, num, den, num, den, budget))
     return Problem(S, tuple(places), budget)
 
 
@@ -164,31 +204,6 @@ def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:
     return S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0)), max(order, 0)
 
 
-def _place(
-    num: Poly,
-    den: Poly,
-    factor: Poly,
-    order: int,
-    local_num: Poly,
-    local_den: Poly,
-    budget: Budget,
-    *,
-    at_infinity: bool,
-) -> Place:
-    delta_squared: Poly | None = None
-    delta: Fraction | None = None
-    logarithm = False
-    if order == 1:
-        delta_squared, delta, logarithm = num.field.poly([1]), Fraction(1), True
-    elif order == 2:
-        delta_squared = _delta_squared(local_num, local_den, factor)
-        if delta_squared is not None:
-            delta = rational_square_root(delta_squared)
-        if delta is not None and delta.denominator == 1:
-            logarithm = delta == 0 or _has_logarithm(num, den, factor, int(delta), budget)
-    return Place(factor, at_infinity, order, num, den, local_num, local_den, delta_squared, delta, logarithm)
-
-
 def rational_square_root(constant: Poly) -> Fraction | None:
     """The non-negative rational square root of a constant of the field, or None."""
     value = constant.field.rational_value(constant)
@@ -196,36 +211,6 @@ def rational_square_root(constant: Poly) -> Fraction | None:
         return None
     p, q = isqrt(value.numerator), isqrt(value.denominator)
     return Fraction(p, q) if p * p == value.numerator and q * q == value.denominator else None
-
-
-def _delta_squared(num: Poly, den: Poly, factor: Poly) -> Poly | None:
-    """1 + 4b for a pole of order 2, b = num/(p'^2 q) mod p with den = p^2 q; None if b isn't constant modulo p."""
-    bottom = den // (factor * factor) % factor
-    if factor.degree > 1:
-        bottom = factor.derivative() ** 2 * bottom % factor
-    top = num % factor
-    b = top[bottom.degree] / bottom.lc
-    return 4 * b + 1 if factor.degree == 1 or top == bottom * b else None
-
-
-def _has_logarithm(num: Poly, den: Poly, factor: Poly, delta: int, budget: Budget) -> bool:
-    """Is there provably a logarithm at a regular place with the positive integer exponent difference delta?
-
-    The series with the smaller exponent meets an obstruction at its term number delta.  If it doesn't vanish modulo a
-    prime, it doesn't vanish; if it does vanish, nothing is claimed (and then there is a logarithm only by a chance of
-    about 1 in 2^60).  Nothing is claimed either where the series would be longer than the limits allow.
-    """
-    if delta > budget.limits.unknown_degree:
-        return False
-    for h in num.field.homomorphisms():
-        try:
-            root = next(simple_roots(h.keeping_degree(factor)), None)
-            if root is not None:
-                return logarithm_obstruction(local_equation(h(num), h.keeping_degree(den), root, 2), delta) != 0
-        except BadPrimeError:
-            pass
-        budget.check()
-    raise AssertionError("the sequence of primes is infinite")
 
 
 @dataclass(frozen=True)

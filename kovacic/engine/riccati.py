@@ -23,6 +23,20 @@ from typing import Any
 from kovacic.algebra.poly import Poly
 from kovacic.decision import Exclusion, Structure
 from kovacic.engine.places import Place, Problem
+from kovacic.limits import Budget
+
+
+def numerators(D: Any, T: Any, R: Any, P: Any, m: int, last: int, budget: Budget) -> list[Any]:
+    """A_0, ..., A_last of equation (2), over the field or modulo a prime."""
+    sequence, slope = [P], D.derivative()
+    for k in range(last):
+        current = sequence[-1]
+        following = D * current.derivative() + (R - k * slope if k else R) * current
+        if k:
+            following = (following - (m - k + 1) * (T * sequence[-2])) / (k + 1)
+        sequence.append(following)
+        budget.check()
+    return sequence
 
 
 @dataclass(frozen=True)
@@ -35,19 +49,8 @@ class Form:
 
     def numerators(self, problem: Problem, last: int | None = None) -> list[Poly]:
         """A_0, ..., A_last of equation (2), by default A_(m+1), which is zero exactly when f is a form in the solutions."""
-        D, T, m = problem.D, problem.T, self.degree
-        slope = D.derivative()
-        sequence: list[Any] = [self.P]
-        previous: Any = None
-        for k in range(m + 1 if last is None else last):
-            current = sequence[-1]
-            following = D * current.derivative() + (self.R - k * slope if k else self.R) * current
-            if previous is not None:
-                following = following - (m - k + 1) * (T * previous)
-            sequence.append(following / (k + 1) if k else following)
-            previous = current
-            problem.budget.check()
-        return sequence
+        count = self.degree + 1 if last is None else last
+        return numerators(problem.D, problem.T, self.R, self.P, self.degree, count, problem.budget)
 
     def is_form(self, problem: Problem) -> bool:
         """Is this really a form in the solutions of the equation?"""
