@@ -36,12 +36,12 @@ from kovacic.engine.riccati import Form, numerators, singular_part
 _MARGIN = 6
 
 
-def least_valuation(place: Place, m: int) -> int | None:
+def least_valuation(place: Place, m: int, *, logarithms: bool = True) -> int | None:
     """The least valuation that a rational invariant of degree m can have at a place; None if there can be none.
 
     A form of degree m is a combination of y+^i y-^(m-i); with local exponents (1 +- Delta)/2 its rational members have
     valuations among m/2 + j Delta, j = -m/2, ..., m/2.  A logarithm leaves only the m-th power of the solution without
-    one, an irregular place only powers of y+ y-, whose valuation is order/2.
+    one, an irregular place only powers of y+ y-, whose valuation is order/2.  With `logarithms=False` none is counted on.
     """
     if place.kind is Kind.ORDINARY:
         return 0
@@ -52,7 +52,7 @@ def least_valuation(place: Place, m: int) -> int | None:
         return m // 2 if m % 2 == 0 else None
     # With Delta = a/b the valuations are (m b + 2 j a) / (2 b).
     a, b = place.delta.numerator, place.delta.denominator
-    multiples = [m * a] if place.logarithm else range(-m * a, m * a + 1, 2 * a or 1)
+    multiples = [m * a] if logarithms and place.logarithm else range(-m * a, m * a + 1, 2 * a or 1)
     for k in multiples:
         v, rest = divmod(m * b + k, 2 * b)
         if not rest:

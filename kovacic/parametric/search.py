@@ -75,7 +75,7 @@ def degrees_that_decide(problem: Problem) -> dict[int, list[Structure]]:
 
 def least_valuation(place: Place, m: int) -> int | None:
     """The least valuation of a rational form of degree m, whether or not there is a logarithm at special values."""
-    return invariants.least_valuation(replace(place, logarithm=False), m)
+    return invariants.least_valuation(place, m, logarithms=False)
 
 
 def number_of_zeros(problem: Problem, m: int) -> int | None:
