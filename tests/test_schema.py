@@ -100,12 +100,19 @@ def test_lines_of_scan(validator: jsonschema.Draft202012Validator, capsys: pytes
         validator.validate(line)
 
 
-@pytest.mark.parametrize("S", ["(4*n^2-1)/(4*x^2) - 1", "x^4 + mu*x", "x^2 + n", "1/(n*x)"])
+@pytest.mark.parametrize("S", ["(4*n^2-1)/(4*x^2) - 1", "x^4 + mu*x", "x^2 + n", "1/(n*x)", "x^6 + a*x^2 + b"])
 def test_lines_of_conditions(
     S: str, validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (line,) = printed(capsys, "conditions", "--json", S)
     validator.validate(line)
+
+
+def test_conditions_that_are_not_complete(validator: jsonschema.Draft202012Validator) -> None:
+    heun = "a/x^2 + b/(x-1)^2 + c/(x-t)^2 + (e*x+q)/(x*(x-1)*(x-t))"
+    answer = kovacic.conditions(heun, var="x", limits=kovacic.Limits(seconds=0.5))
+    assert answer.complete is not True
+    validator.validate(answer.to_dict())
 
 
 @pytest.mark.parametrize(
