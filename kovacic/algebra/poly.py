@@ -310,6 +310,18 @@ def product(factors: Sequence[Poly]) -> Poly:
     return product(factors[:half]) * product(factors[half:]) if half > 2 else reduce(mul, factors)
 
 
+def squarefree_factors(polynomial: Poly) -> list[tuple[Poly, int]]:
+    """(p, k): the squarefree product p of the factors of multiplicity k, for k in rising order [Yun 1976]."""
+    found, k, rest = [], 0, polynomial.gcd(polynomial.derivative())
+    radical = polynomial // rest
+    while radical.degree > 0:
+        k, following = k + 1, radical.gcd(rest)
+        if radical.degree > following.degree:
+            found.append((radical // following, k))
+        radical, rest = following, rest // following
+    return found
+
+
 def remainders(polynomial: Poly, moduli: Sequence[Poly]) -> list[Poly]:
     """The polynomial modulo each of the moduli, by way of their products [Modern Computer Algebra, sec. 10.1]."""
     rest = polynomial % product(moduli)

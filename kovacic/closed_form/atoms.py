@@ -11,10 +11,10 @@ from sympy import Add, Integer, Mul, Pow, Rational, Symbol, log, sqrt
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.partial_fractions import Residue
 from kovacic.reading.symbolic import chosen_root
 
 Expr = Any  # SymPy publishes no types

@@ -17,9 +17,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from kovacic.algebra.partial_fractions import Residue, residue
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.partial_fractions import Residue
 from kovacic.closed_form.units import Unit
 
 
@@ -87,8 +87,7 @@ def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
             C = RatFunc(leading * inverse % p * (1 / scale), p**j)
             exact, r = exact + C, reduce(r, C)
         if not branch and not r.den % p:
-            value = r.num * (r.den // p * p.derivative()).inverse_modulo(p) % p
-            residues.append(Residue(p, value))
+            residues.append(Residue(p, residue(r, p)))
             r = r - residues[-1].logarithmic
     rest = r.num
     x, d = field.poly([0, 1]), g.degree

@@ -13,11 +13,11 @@ from fractions import Fraction
 import sympy
 from sympy import Add, Integer, Mul, atan, cos, exp, log, sin, sqrt
 
+from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr, discriminant, rational
 from kovacic.closed_form.curve import CurveIntegral
-from kovacic.closed_form.partial_fractions import Residue
 from kovacic.closed_form.product_display import display
 from kovacic.closed_form.structure import OnCurve
 from kovacic.closed_form.units import Unit, unit

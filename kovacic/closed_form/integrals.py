@@ -10,11 +10,11 @@ from math import gcd, lcm
 import sympy
 from sympy import Add, Ei, Integer, Mul, erf, erfi, exp, pi, sqrt
 
+from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr, rational
 from kovacic.closed_form.curve_display import curve_integral
-from kovacic.closed_form.partial_fractions import Residue
 from kovacic.closed_form.primitive import (
     CurvePrimitive,
     ExponentialPrimitive,

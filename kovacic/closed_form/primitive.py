@@ -17,10 +17,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from kovacic.algebra.partial_fractions import Decomposition, decompose, reduce_poles
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
-from kovacic.closed_form.partial_fractions import Decomposition, decompose, power_sum
 from kovacic.closed_form.product import Product
 from kovacic.closed_form.torsion import completed
 
@@ -235,46 +235,9 @@ def _reduce(r: RatFunc, alpha: Fraction, beta: Poly, n: int) -> tuple[RatFunc, R
     """W, a Laurent polynomial and simple poles with r = L(W) + Laurent + poles."""
     field = r.field
     x = RatFunc(field.poly([0, 1]))
-    slope = alpha / x + x ** (n - 1) * (beta * n)
-    W = RatFunc(field.poly([]))
-    for p in _multiple_factors(r.den.remove(x.num)[0]):
-        part, r = _reduce_at(r, p, slope)
-        W = W + part
-    zero = RatFunc(field.poly([]))
-    if r.den.remove(x.num)[0].degree == 0:
-        return W, r, Decomposition(zero, ())
-    residues = tuple(residue for residue in decompose(r).residues if residue.factor != x.num)
-    poles = Decomposition(zero, residues)
+    W, r, residues = reduce_poles(r, alpha / x + x ** (n - 1) * (beta * n), x.num)
+    poles = Decomposition(RatFunc(field.poly([])), residues)
     return W, r - poles.derivative, poles
-
-
-def _reduce_at(r: RatFunc, p: Poly, slope: RatFunc) -> tuple[RatFunc, RatFunc]:
-    """W and r - L(W), which has p in its denominator once at most, for a squarefree p prime to the denominator of k'/k."""
-    cofactor, multiplicity = r.den.remove(p)
-    # r = A/(p^k C) and L(B/p^(k-1)) = (B' p C - (k-1) B p' C + B p C k'/k)/(p^k C).
-    C = cofactor * (slope.den // cofactor.gcd(slope.den))
-    A, rate = r.num * (C // cofactor), slope.num * (C // slope.den)
-    scale = (p.derivative() * C).inverse_modulo(p)
-    parts = []
-    for k in range(multiplicity, 1, -1):
-        B = A % p * scale % p * Fraction(1, 1 - k)
-        A = (A + (k - 1) * B * p.derivative() * C) // p - B.derivative() * C - rate * B
-        parts.append(B)
-    return power_sum(parts, p), RatFunc(A, p * C)
-
-
-def _multiple_factors(polynomial: Poly) -> list[Poly]:
-    """The squarefree p for which p^k, k > 1, is the part of multiplicity k: by greatest common divisors [Yun 1976]."""
-    found = []
-    rest = polynomial.gcd(polynomial.derivative())
-    radical = polynomial // rest
-    while rest.degree > 0:
-        radical = radical.gcd(rest)
-        rest = rest // radical
-        p = radical // radical.gcd(rest)
-        if p.degree > 0:
-            found.append(p)
-    return found
 
 
 def _reduce_laurent(

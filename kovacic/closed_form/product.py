@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
+from kovacic.algebra.partial_fractions import Residue, decompose
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.partial_fractions import Residue, decompose
 
 
 @dataclass(frozen=True)

@@ -22,10 +22,10 @@ import sympy
 from sympy import Add, Integer, Mul, cos, sin, sqrt
 
 from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr
-from kovacic.closed_form.partial_fractions import Residue
 from kovacic.closed_form.product import Power
 from kovacic.closed_form.product_display import display
 from kovacic.closed_form.structure import Conjugate

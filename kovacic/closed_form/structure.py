@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.partial_fractions import Decomposition, decompose
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
 from kovacic.closed_form.klein import KleinForm, klein_form
-from kovacic.closed_form.partial_fractions import Decomposition, decompose
 from kovacic.closed_form.primitive import Primitive, integrate_inverse_square
 from kovacic.closed_form.product import Product, product
 from kovacic.closed_form.torsion import completed
@@ -163,7 +163,7 @@ def logarithmic_derivative(polynomial: Poly) -> RatFunc:
 def _rational_powers(parts: Decomposition) -> list[tuple[Poly, int]]:
     powers = []
     for residue in parts.residues:
-        value = residue.value.field.rational_value(residue.value) if residue.is_constant else None
+        value = residue.rational
         if value is None or value.denominator != 1:
             raise AssertionError("the square of y1 y2 is rational")
         powers.append((residue.factor, int(value)))

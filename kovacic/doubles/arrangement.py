@@ -22,8 +22,8 @@ from typing import Any
 
 from flint import acb, acb_poly, arb
 
+from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.partial_fractions import decompose
 from kovacic.closed_form.structure import OnCurve, build
 from kovacic.doubles.double_double import Complex, pair_of
 from kovacic.doubles.product_form import Conic, Factor, ProductForm, RationalFunction, Shape

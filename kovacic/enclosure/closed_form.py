@@ -28,9 +28,9 @@ from functools import cached_property, cmp_to_key
 from flint import acb, acb_poly, arb
 
 from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.partial_fractions import decompose
 from kovacic.decision import Decision
 from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, sharp_roots
 from kovacic.enclosure.matrices import Matrix, State, adjugate, multiply

@@ -27,7 +27,7 @@ from typing import Any
 from flint import acb, acb_poly, acb_series, arb, ctx
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Field, Poly, squarefree_factors
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.enclosure.matrices import Matrix, multiply, product, scaled
@@ -69,8 +69,9 @@ def zeros(poly: Poly, c: acb | None) -> list[tuple[acb, int]]:
     if not isinstance(poly, ExtensionPoly):
         return list(_roots(poly))
     result = []
-    for factor, k in _squarefree(poly):
-        rational, *rest = factor.monic().parts
+    for p, k in squarefree_factors(poly):
+        factor = p.monic()
+        rational, *rest = factor.parts
         found = sharp_roots(embed(factor, c)) if any(rest) else [root for root, _ in _roots(rational)]
         result += [(root, k) for root in found]
     return result
@@ -85,19 +86,6 @@ def sharp_roots(poly: acb_poly) -> list[acb]:
             continue
         return roots
     return []
-
-
-def _squarefree(poly: ExtensionPoly) -> list[tuple[ExtensionPoly, int]]:
-    """The products of the linear factors of multiplicity k, with k, from the radicals of what remains."""
-    result, k = [], 0
-    radical = poly // poly.gcd(poly.derivative())
-    while radical.degree > 0:
-        k, poly = k + 1, poly // radical
-        following = poly // poly.gcd(poly.derivative()) if poly.degree > 0 else poly.monic()
-        if radical.degree > following.degree:
-            result.append((radical // following, k))
-        radical = following
-    return result
 
 
 @dataclass(frozen=True)

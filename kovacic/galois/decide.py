@@ -16,6 +16,7 @@ from __future__ import annotations
 from fractions import Fraction
 from math import lcm
 
+from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, SemiInvariant, Structure
 from kovacic.engine.invariants import invariants
@@ -68,7 +69,7 @@ def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> G
         square = _is_square(problem, F)
     if isinstance(residues, Ground):
         return Group(Kind.BOREL if F is None else Kind.MULTIPLICATIVE, residues, form=F)
-    n = _common_denominator(residues)
+    n = lcm(1, *(r.denominator for r in residues))
     if square and isinstance(space, list) and len(space) == 3:
         return Group(Kind.CYCLIC, Ground.ALL_INVARIANT, n, F)
     if F is None or square:  # y1^n is rational, and the second solution y1 int y1^-2 isn't, over C(x, y1)
@@ -88,24 +89,8 @@ def rational_residues(theta: RatFunc) -> list[Fraction] | Ground:
 
     A pole at infinity counts: theta must vanish there.  Residues of c p'/p are constant on p; others aren't rational.
     """
-    if theta.num.degree >= theta.den.degree > 0 or (theta.den.degree == 0 and theta):
+    parts = decompose(theta)
+    residues = [residue.rational for residue in parts.residues]
+    if parts.exact:
         return Ground.EXPONENTIAL
-    if not theta:
-        return []
-    field = theta.num.field
-    factors = field.factor(theta.den)
-    if any(multiplicity > 1 for _, multiplicity in factors):
-        return Ground.EXPONENTIAL
-    residues = []
-    slope = theta.den.derivative()
-    for factor, _ in factors:
-        value = theta.num * slope.inverse_modulo(factor) % factor
-        rational = field.rational_value(value) if value.degree <= 0 else None
-        if rational is None:
-            return Ground.IRRATIONAL
-        residues.append(rational)
-    return residues
-
-
-def _common_denominator(residues: list[Fraction]) -> int:
-    return lcm(1, *(r.denominator for r in residues))
+    return Ground.IRRATIONAL if None in residues else [value for value in residues if value is not None]

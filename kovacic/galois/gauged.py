@@ -23,7 +23,8 @@ from math import gcd, lcm
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.partial_fractions import decompose
+from kovacic.algebra.poly import Field, product
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalField, to_fraction
 from kovacic.decision import Decision, SemiInvariant
@@ -158,7 +159,9 @@ def _is_integral(theta: RatFunc) -> bool:
 def _residues_on_curve(curve: Curve, rho: RatFunc) -> list[tuple[Fraction, Fraction]]:
     """The residues of lambda_1 and lambda_2 at the points of the curve, up to integers."""
     field = rho.field
-    rest, rows, total = rho.den, [], Fraction(0)
+    residues = {part.factor: part.rational or Fraction(0) for part in decompose(rho).residues}
+    total = sum((r * factor.degree for factor, r in residues.items()), Fraction(0))
+    rows: list[tuple[Fraction, Fraction]] = []
     quarter, half = Fraction(1, 4), Fraction(1, 2)
 
     def row(e: int, delta: Fraction, r: Fraction) -> list[tuple[Fraction, Fraction]]:
@@ -173,48 +176,21 @@ def _residues_on_curve(curve: Curve, rho: RatFunc) -> list[tuple[Fraction, Fract
 
     for point in curve.points:
         for factor, _ in field.factor(point.factor.over(field)):
-            r = _residue(rho, factor)
-            rest = rest // factor if not rest % factor else rest
-            total += r * factor.degree
-            rows += row(point.e, point.residue, r)
-    for factor, _ in field.factor(rest) if rest.degree > 0 else []:
-        r = _residue(rho, factor)
-        total += r * factor.degree
-        rows.append((r, r))
+            rows += row(point.e, point.residue, residues.pop(factor, Fraction(0)))
+    rows += [(r, r) for r in residues.values()]
     return [*rows, *row(curve.infinity.e, curve.infinity.residue, -total)]
-
-
-def _residue(rho: RatFunc, factor: Poly) -> Fraction:
-    """The rational residue of rho at the roots of a factor; its poles are simple."""
-    if rho.den % factor:
-        return Fraction(0)
-    value = rho.num * rho.den.derivative().inverse_modulo(factor) % factor
-    rational = rho.field.rational_value(value)
-    assert rational is not None
-    return rational
 
 
 def _forms(theta: RatFunc, rho: RatFunc) -> tuple[list[tuple[Fraction, Fraction]], list[tuple[Fraction, Fraction]]]:
     """Linear forms in (a, b) that must vanish, and those that must be integers, for a lambda_1 + b lambda_2 to be in L."""
     zero = theta * 0 + rho * 0
-    first, second = zero + rho + theta, zero + rho - theta
-    field = first.num.field
-    den = first.den * second.den // first.den.gcd(second.den)
-    vanishing: list[tuple[Fraction, Fraction]] = []
+    pair = [decompose(zero + rho + theta), decompose(zero + rho - theta)]
+    den = product([part.exact.den for part in pair])
+    vanishing = _coordinates([part.exact.num * (den // part.exact.den) for part in pair])
     integral: list[tuple[Fraction, Fraction]] = []
-    numerators = [value.num * (den // value.den) for value in (first, second)]
-    vanishing += _coordinates([divmod(num, den)[0] for num in numerators])
-    for factor, multiplicity in field.factor(den) if den.degree > 0 else []:
-        cofactor = den // factor**multiplicity
-        power = factor**multiplicity
-        inverse = cofactor.inverse_modulo(power)
-        parts = [num * inverse % power for num in numerators]
-        for _ in range(multiplicity - 1):
-            pairs = [divmod(part, factor) for part in parts]
-            vanishing += _coordinates([low for _, low in pairs])
-            parts = [high for high, _ in pairs]
-        slope = factor.derivative().inverse_modulo(factor)
-        constant, *rest = _coordinates([part * slope % factor for part in parts]) or [(Fraction(0), Fraction(0))]
+    residues = [{residue.factor: residue.value for residue in part.residues} for part in pair]
+    for factor in residues[0] | residues[1]:
+        constant, *rest = _coordinates([part.get(factor, factor * 0) for part in residues])
         integral.append(constant)
         vanishing += rest
     return vanishing, integral
