@@ -54,10 +54,14 @@ class Budget:
         if time.monotonic() > self._deadline:
             raise LimitExceeded(f"the time limit of {self._seconds:g} s is used up", limit="seconds")
 
+    @property
+    def seconds_left(self) -> float:
+        """Seconds until `check` raises."""
+        return max(0.0, self._deadline - time.monotonic())
+
     def share(self, part: float) -> Budget:
         """A clock for a part of the time that is left."""
-        left = self._deadline - time.monotonic()
-        return Budget(replace(self.limits, seconds=max(part * left, 0.0)))
+        return Budget(replace(self.limits, seconds=part * self.seconds_left))
 
     @contextmanager
     def watched(self) -> Iterator[None]:
@@ -84,3 +88,9 @@ def check_time() -> None:
     budget = _WATCHED.get()
     if budget is not None:
         budget.check()
+
+
+def watched_seconds(most: float) -> float:
+    """So many seconds, or what is left of a watched budget."""
+    budget = _WATCHED.get()
+    return most if budget is None else min(most, budget.seconds_left)

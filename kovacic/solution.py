@@ -42,7 +42,8 @@ class Solution:
     whether the decision has passed its independent check (always, for what `solve` returns), and `seconds` the wall-clock
     time of reading, deciding and verifying together (None for an answer that was read from JSON).  `equation` is the
     equation of which y'' = S y is the normal form, None where S itself was given.  `assumed` says that a theorem proves the
-    answer for all values with the assumptions, but for those that the notices name.
+    answer for all values with the assumptions, but for those that the notices name.  `limits` hold for each view that is
+    computed later, the group and the closed form for instance.
     """
 
     text: str
@@ -54,6 +55,7 @@ class Solution:
     seconds: float | None = field(default=None, compare=False)
     equation: Equation | None = None
     assumed: bool = False
+    limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
 
     @property
     def gauge(self) -> RatFunc:
@@ -104,16 +106,21 @@ class Solution:
     def group(self) -> Group | None:
         """The differential Galois group of y'' = S y, a subgroup of SL2(C).
 
-        None if the equation is undecided, or, rarely, if a limit of the work keeps the group from being determined.
+        None if the equation is undecided, or if a limit of the work keeps the group from being determined or checked.
 
         Raises `VerificationFailed` if the kernel doesn't confirm it, which for an answer of `solve` is a defect.
         """
         from kovacic.galois import group_of
 
-        group = group_of(self.S, self.decision)
-        if group is not None and not (verification := verify(self.S, self.decision, group.claim)):
-            raise VerificationFailed(f"the group of S = {self.S} failed its own check\n{verification}")
-        return group
+        budget = Budget(self.limits)
+        try:
+            with budget.watched():
+                group = group_of(self.S, self.decision, self.limits)
+                if group is None or (verification := verify(self.S, self.decision, group.claim, budget=budget)):
+                    return group
+        except LimitExceeded:
+            return None
+        raise VerificationFailed(f"the group of S = {self.S} failed its own check\n{verification}")
 
     @cached_property
     def equation_group(self) -> EquationGroup | None:
@@ -129,10 +136,14 @@ class Solution:
 
     @cached_property
     def closed_form(self) -> ClosedForm | None:
-        """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution."""
+        """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution.
+
+        Raises `LimitExceeded` where they would take longer than the limits allow.
+        """
         from kovacic.closed_form.form import solutions
 
-        return None if self.case is None else solutions(self.S, self.decision, self.gauge, self.variable)
+        with Budget(self.limits).watched():
+            return None if self.case is None else solutions(self.S, self.decision, self.gauge, self.variable)
 
     @property
     def solutions(self) -> tuple[Any, ...]:
@@ -315,7 +326,9 @@ def solve(
             f"the answer for S = {parsed.S} failed its own check; please report it\n{verification}"
         )
     seconds = time.perf_counter() - start
-    return Solution(text, parsed.variable, parsed.S, decision, notices, verified, seconds, parsed.equation, assumed)
+    return Solution(
+        text, parsed.variable, parsed.S, decision, notices, verified, seconds, parsed.equation, assumed, limits
+    )
 
 
 def decide(

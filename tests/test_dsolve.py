@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import time
+
 import mpmath
 import pytest
 import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from sympy import I, Rational, cos, exp, sin, sqrt
 
 import kovacic
 from kovacic.general_solution import dsolve, solve_riccati
+from kovacic.general_solution.undetermined import undetermined
 from kovacic.reading.symbolic import read_expression
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
@@ -53,16 +58,100 @@ def test_checkodesol_agrees(left: sympy.Expr) -> None:
 
 
 def test_an_integral_that_is_not_done() -> None:
-    solution = dsolve("y'' - y = exp(x^2)")
+    solution = dsolve("y'' - y = exp(x^3)")
     assert solution.rhs.has(sympy.Integral)
-    left = y(x).diff(x, 2) - y(x) - exp(x**2)
+    left = y(x).diff(x, 2) - y(x) - exp(x**3)
     assert sympy.simplify(left.subs(y(x), solution.rhs).doit(integrals=False)) == 0
-    started = dsolve("y'' - y = exp(x^2)", ics={"y(0)": 0, "y'(0)": 1}).rhs
+    started = dsolve("y'' - y = exp(x^3)", ics={"y(0)": 0, "y'(0)": 1}).rhs
     assert started.subs(x, 0).doit() == 0
     value = complex(sympy.N(started.subs(x, 1), 20))
 
-    expected = mpmath.sinh(1) + mpmath.quad(lambda s: mpmath.sinh(1 - s) * mpmath.exp(s**2), [0, 1])
+    expected = mpmath.sinh(1) + mpmath.quad(lambda s: mpmath.sinh(1 - s) * mpmath.exp(s**3), [0, 1])
     assert abs(value - expected) < 1e-9
+
+
+def test_an_error_function() -> None:
+    left = y(x).diff(x, 2) - y(x) - exp(x**2)
+    solution = dsolve(left)
+    assert solution.rhs.has(sympy.erfi)
+    assert not solution.rhs.has(sympy.Integral)
+    assert residual(left, solution) < 1e-20
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("y'' + y = cos(5*x)", -cos(5 * x) / 24),
+        ("y'' + 4*y = cosh(x)", exp(x) / 10 + exp(-x) / 10),
+        ("y'' + 2*y' + 5*y = sin(x)", sin(x) / 5 - cos(x) / 10),
+        ("y'' + y = sin(x)", -x * cos(x) / 2),
+        ("y'' - 2*y' + y = x*exp(x)", x**3 * exp(x) / 6),
+        ("y'' + 4*y = sin(x)^2", Rational(1, 8) - x * sin(2 * x) / 8),
+    ],
+)
+def test_undetermined_coefficients(text: str, expected: sympy.Expr) -> None:
+    """No integrals: at once, and without parts that solve the homogeneous equation."""
+    assert sympy.expand(dsolve(text).rhs.subs({C1: 0, C2: 0}) - expected) == 0
+
+
+numbers = st.integers(-3, 3).map(sympy.Integer)
+waves = st.tuples(
+    numbers, st.integers(0, 3), numbers, st.sampled_from((sin, cos, sympy.sinh, sympy.cosh)), numbers, numbers
+)
+#: (b, c), with the roots 0, 1, -2, +-i, 1 +- 2i, +-sqrt(2) among those of the characteristic polynomials.
+constants = st.sampled_from(
+    [(0, 0), (0, 1), (-1, 0), (2, 0), (4, 4), (1, -2), (-2, 5), (0, -2), (-2, 1), (0, 9), (1, 1)]
+)
+
+
+@settings(max_examples=60, deadline=None)
+@given(constants, st.lists(waves, min_size=1, max_size=3))
+def test_random_right_hand_sides(equation: tuple[int, int], terms: list) -> None:
+    """Substituted; the roots of the characteristic polynomial often are exponents on the right: resonance."""
+    b, c = map(sympy.Integer, equation)
+    right = sympy.Add(*(k * x**m * exp(r * x) * wave(w * x + d) for k, m, r, wave, w, d in terms))
+    found = undetermined(b, c, right, x)
+    assert found is not None
+    left = found.diff(x, 2) + b * found.diff(x) + c * found - right
+    for point in (Rational(3, 7), Rational(-5, 4)):
+        assert abs(sympy.N(left.subs(x, point), 30)) < 1e-15 * (1 + abs(sympy.N(right.subs(x, point))))
+
+
+@pytest.mark.parametrize("right", [1 / x, exp(x**2), sympy.tan(x), sympy.log(x), sqrt(x), sin(x**2), sin(x) / cos(x)])
+def test_other_right_hand_sides(right: sympy.Expr) -> None:
+    assert undetermined(sympy.Integer(0), sympy.Integer(1), right, x) is None
+
+
+def test_constants_and_variables_are_new() -> None:
+    """Where the equation has a C1, the constants are C2 and C3; and no integral captures a parameter."""
+    found = dsolve("y'' - C1^2*y = 0", var="x").rhs
+    assert {symbol.name for symbol in found.free_symbols} == {"x", "C1", "C2", "C3"}
+    started = dsolve("y'' - C1^2*y = 0", var="x", ics={"y(0)": 1, "y'(0)": 0}).rhs
+    assert sympy.simplify(started.rewrite(sympy.cosh) - sympy.cosh(C1 * x)) == 0
+    s = sympy.Symbol("s")
+    captured = dsolve(y(x).diff(x, 2) - y(x) - exp(s * x**3), ics={y(0): 0, y(x).diff(x).subs(x, 0): 0}).rhs
+    assert captured.has(sympy.Integral)
+    assert s in captured.free_symbols
+    assert all(s not in integral.variables for integral in captured.atoms(sympy.Integral))
+
+
+def test_symbols_are_the_users() -> None:
+    omega = sympy.Symbol("w", positive=True)
+    found = dsolve(y(x).diff(x, 2) + omega**2 * y(x) - 1).rhs
+    assert omega in found.free_symbols
+    assert w not in found.free_symbols
+
+
+@pytest.mark.parametrize("right", ["sin(x)/x", "exp(x)*log(x)*sin(x)", "exp(sin(x))"])
+def test_integration_ends_in_time(right: str) -> None:
+    """SymPy's integration runs in a process that is killed; what isn't done is an `Integral`."""
+    start = time.monotonic()
+    found = dsolve(f"y'' + 2*y' + 5*y = {right}", limits=kovacic.Limits(seconds=2)).rhs
+    assert time.monotonic() - start < 2 + 1 + 5  # other processes share the machine
+    assert found.has(sympy.Integral)
+    part = found.subs({C1: 0, C2: 0})
+    left = part.diff(x, 2) + 2 * part.diff(x) + 5 * part - read_expression(right)
+    assert sympy.simplify(left.doit(integrals=False)) == 0
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from fractions import Fraction
 
 from kovacic.algebra.poly import Poly, squarefree_factors
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.limits import check_time
 
 
 @dataclass(frozen=True)
@@ -94,6 +95,7 @@ def _reduce_at(r: RatFunc, p: Poly, multiplicity: int, slope: RatFunc) -> tuple[
     scale = (p.derivative() * C).inverse_modulo(p)
     total = r.num * 0
     for k in range(multiplicity, 1, -1):
+        check_time()
         B = A * scale % p * Fraction(1, 1 - k)
         A = (A + (k - 1) * B * p.derivative() * C) // p - B.derivative() * C - rate * B
         total = total + B * p ** (multiplicity - k)

@@ -13,6 +13,7 @@ from flint.utils.flint_exceptions import DomainError
 from kovacic.algebra.lifting import Lifter, Residues, primes
 from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
+from kovacic.limits import check_time
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
 _EUCLID_DEGREE = 16
@@ -219,6 +220,7 @@ def _inverse_by_primes(element: RationalPoly, modulus: Poly) -> RationalPoly:
         raise ZeroDivisionError("not invertible: the polynomials have a common factor")
     lifter = Lifter(QQ)
     for bundle in QQ.bundles():
+        check_time()
         try:
             image, reduced = bundle[0](element), bundle[0].keeping_degree(modulus)
         except BadPrimeError:

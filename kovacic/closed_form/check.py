@@ -31,6 +31,7 @@ from kovacic.closed_form.structure import (
     Triangular,
     logarithmic_derivative,
 )
+from kovacic.limits import check_time
 
 DIGITS = 50
 
@@ -138,6 +139,7 @@ def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: Rat
     """Does the expression satisfy the equation to 50 digits at a point with negative real and imaginary part?"""
     # Legendre's Q_60 is the difference of two terms that agree in a hundred digits; hence the repetitions.
     for digits in (DIGITS + 15, 3 * DIGITS, 8 * DIGITS, 24 * DIGITS, 96 * DIGITS):
+        check_time()
         with ctx.workdps(digits):
             point = acb(arb(fmpq(-137, 101)), arb(fmpq(-71, 89)))
             if residual(expression, variable, S, gauge, point) < arb(10) ** -DIGITS:

@@ -19,6 +19,7 @@ from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pa
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular, build
 from kovacic.decision import Decision
 from kovacic.errors import VerificationFailed
+from kovacic.limits import check_time
 
 EXACT = "exact"
 NUMERICAL = "numerical, 50 digits"
@@ -66,7 +67,7 @@ def solutions(S: RatFunc, decision: Decision, gauge: RatFunc, variable: str = "x
     form, these are returned.
 
     Raises `ValueError` if the equation has no Liouvillian solution or is undecided, and `VerificationFailed` if a solution
-    doesn't pass its check, which is a defect of this package.
+    doesn't pass its check, which is a defect of this package; `LimitExceeded` within `Budget.watched`.
 
     >>> import kovacic
     >>> answer = kovacic.solve("2/x^2 - 1")
@@ -77,9 +78,11 @@ def solutions(S: RatFunc, decision: Decision, gauge: RatFunc, variable: str = "x
     if decision.case is None:
         raise ValueError(decision.undecided or "there is no Liouvillian solution")
     structure = build(S, decision, gauge)
+    check_time()
     x = Symbol(variable)
     atoms = Atoms(x)
     y1, y2, notes = expressions(structure, atoms)
+    check_time()
     exact = not isinstance(structure, KleinForm)
     passed = not exact or is_exact_solution(structure, S, gauge)
     if not passed or not all(is_numerical_solution(y, x, S, gauge) for y in (y1, y2)):

@@ -43,7 +43,7 @@ from kovacic.closed_form.product import Power, Product, product
 from kovacic.decision import SemiInvariant, Structure
 from kovacic.engine.places import Problem, analyse
 from kovacic.engine.riccati import Form, hessian, jacobian, normalised, residue, root
-from kovacic.limits import Budget
+from kovacic.limits import Budget, check_time
 
 Monomials = dict[tuple[int, int], Fraction]
 
@@ -157,7 +157,9 @@ def covariants(S: RatFunc, structure: Structure, invariant: SemiInvariant) -> Co
     problem = analyse(S, Budget())
     F = normalised(Form(invariant.degree, (invariant.theta * problem.D).num, invariant.P), problem)
     H = hessian(F, problem)
+    check_time()
     T = jacobian(F, H, problem)
+    check_time()
     ratio = RATIOS[structure]
     cube, square = H.P**3, T.P**2
     vertices, edges = F, normalised(T, problem)

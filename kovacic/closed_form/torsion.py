@@ -35,7 +35,7 @@ from kovacic.engine.places import Problem, analyse, rational_square_root
 from kovacic.errors import LimitExceeded
 from kovacic.galois.group import Kind
 from kovacic.galois.imprimitive import imprimitive_group
-from kovacic.limits import Budget, Limits
+from kovacic.limits import Budget, Limits, watched_seconds
 
 #: Seconds that the decision may take; beyond, the integral is left with that reason.
 SECONDS = 5.0
@@ -78,7 +78,7 @@ def _decide(integral: CurveIntegral) -> Unit | str:
     phi = RatFunc(g.derivative(), g) / 2 - r.derivative() / r
     S = phi.derivative() / 2 + phi * phi / 4 + r * r / g * kappa_squared
     try:
-        problem = analyse(S, Budget(Limits(seconds=SECONDS)))
+        problem = analyse(S, Budget(Limits(seconds=watched_seconds(SECONDS))))
         group = imprimitive_group(problem, SemiInvariant(2, phi, field.poly([1])))
         if group.kind is Kind.INFINITE_DIHEDRAL:
             return NOT_TORSION

@@ -16,6 +16,7 @@ from kovacic.decision import (
     Structure,
 )
 from kovacic.engine.places import Kind
+from kovacic.errors import LimitExceeded
 from kovacic.views.bibliography import references
 from kovacic.views.document import FORMATS, Block, Formula, Heading, Paragraph, Sentence, Table
 from kovacic.views.formula import Formulas, Math, given, latex_text
@@ -229,7 +230,11 @@ class _Writer:
     def closed_form(self) -> Iterator[Block]:
         from sympy import latex
 
-        form = self.solution.closed_form
+        try:
+            form = self.solution.closed_form
+        except LimitExceeded as limit:
+            yield _say(f"The solutions were not written out: {limit}.")
+            return
         if form is None:
             return
         unknown = "y" if self.solution.equation is None else self.solution.equation.unknown

@@ -36,7 +36,7 @@ from kovacic.decision import (
     Status,
     Structure,
 )
-from kovacic.errors import InputError
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.expression import parse_with
@@ -117,7 +117,10 @@ def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
     }
     if full:
         data["group"] = group_dict(solution)
-        data["solutions"] = None if solution.case is None else [str(y) for y in solution.solutions]
+        try:
+            data["solutions"] = [str(y) for y in solution.solutions] or None
+        except LimitExceeded:
+            data["solutions"] = None
     return data
 
 

@@ -1,0 +1,93 @@
+"""Riccati equations: w' = p + q w + r w^2 by w = -u'/(r u),  u'' - (q + r'/r) u' + p r u = 0."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+
+from kovacic.closed_form.atoms import Atoms
+from kovacic.errors import InputError
+from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.reading.given import Equation
+from kovacic.solution import Solution, solve
+
+
+@dataclass(frozen=True)
+class RiccatiSolutions:
+    """All rational and algebraic solutions of w' = p + q w + r w^2, as SymPy expressions in the variable.
+
+    `rational`: the rational ones where they are finitely many.  `family`: all solutions, with a constant C1, where all are
+    algebraic and known in closed form (C1 may be infinite: then it is `rational[0]`'s place).  `polynomial`: a polynomial in
+    w with the algebraic solutions of least degree as its roots, None without one.  `all_algebraic`: are all solutions
+    algebraic?  None if that wasn't determined.  `solution` is the answer for the linear equation.
+    """
+
+    rational: tuple[Any, ...]
+    family: Any
+    polynomial: Any
+    all_algebraic: bool | None
+    solution: Solution
+
+    def __iter__(self) -> Any:
+        return iter(self.rational)
+
+
+def solve_riccati(
+    p: Any, q: Any, r: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS
+) -> RiccatiSolutions:
+    """All rational and algebraic solutions of the Riccati equation w' = p + q w + r w^2 with rational p, q, r.
+
+    The coefficients are texts, numbers or SymPy expressions.  If the group of the linear equation is trivial or {1, -1} all
+    solutions are rational, with a constant: then `family` has them.  Raises `InputError` for r = 0, which isn't a Riccati
+    equation, and what `solve` raises.
+
+    >>> found = solve_riccati("x^2 + 3", 0, -1)
+    >>> found.rational, found.family, found.all_algebraic
+    (((x**2 + 1)/x,), None, False)
+    """
+    from kovacic.reading.read import read_coefficients
+
+    if str(r).strip() in ("0", "0.0"):
+        raise InputError("r is zero: the equation is linear of first order")
+    given = read_coefficients(r, q, p, 0, var=var, limits=limits).equation
+    assert given is not None
+    R, Q, P = given.a, given.b, given.c
+    unit = R / R
+    linear = Equation(unit, -(Q + R.derivative() / R), P * R, R - R, None, given.variable, "u")
+    solution = solve(linear, limits=limits)
+    group = solution.group
+    x = sympy.Symbol(solution.variable)
+    atoms = Atoms(x)
+    gauge, factor = atoms.ratio(linear.gauge), atoms.ratio(R)
+    if solution.case is None:
+        return RiccatiSolutions((), None, None, None if group is None else False, solution)
+    finite = None if group is None else group.finite
+    w = sympy.Symbol("w")
+    family = None
+    if finite and solution.case == 1:
+        y1, y2 = solution.solutions
+        u = y1 + sympy.Symbol("C1") * y2
+        family = sympy.simplify(-u.diff(x) / (factor * u))
+    rational: tuple[Any, ...] = ()
+    polynomial = None
+    if solution.case == 1 and (group is None or group.order is None or group.order > 2):
+        omegas = _rational_omegas(solution, atoms)
+        rational = tuple(sympy.cancel(-(omega + gauge) / factor) for omega in omegas)
+    if solution.case != 1 and solution.riccati is not None:
+        omega = -factor * w - gauge
+        coefficients = [atoms.ratio(c) for c in solution.riccati.coefficients]
+        polynomial = sympy.numer(sympy.together(sum(c * omega**k for k, c in enumerate(coefficients))))
+        polynomial = sympy.collect(sympy.expand(polynomial), w)
+    return RiccatiSolutions(rational, family, polynomial, finite, solution)
+
+
+def _rational_omegas(solution: Solution, atoms: Any) -> list[Any]:
+    """One omega, or both where the group is diagonal: their sum is F'/F for the invariant F = y1 y2."""
+    assert solution.omega is not None
+    first = atoms.ratio(solution.omega)
+    invariant = solution.decision.invariant
+    if invariant is None or solution.group is None or solution.group.kind.value not in ("cyclic", "multiplicative"):
+        return [first]
+    return [first, atoms.ratio(invariant.logarithmic_derivative) - first]

@@ -1,0 +1,120 @@
+"""y'' + b y' + c y = sum of polynomials times exp(rho x) cos(omega x) and sin(omega x), by undetermined coefficients.
+
+p cos(omega x) + q sin(omega x) is the real part of (p - i q) exp(i omega x), for a symbol i whatever p, q, omega are.  With
+lambda = rho + i omega, y = Q exp(lambda x) is a solution for the right-hand side P exp(lambda x) if
+
+    Q'' + (2 lambda + b) Q' + (lambda^2 + b lambda + c) Q = P,                                                      (1)
+
+which gives the coefficients of Q from the highest one down, divided by the first of the three factors that isn't 0: in
+resonance Q has a degree one or two higher, and no part that solves the homogeneous equation.
+"""
+
+from __future__ import annotations
+
+from math import perm
+from typing import Any
+
+import sympy
+from sympy import cos, cosh, sin, sinh
+from sympy.simplify.fu import TR8
+
+Expr = Any  # SymPy publishes no types
+Pair = tuple[Expr, Expr]  # u + i v
+#: The largest degree of a polynomial, and number of terms, that is solved for.
+_LARGEST = 200
+
+
+def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
+    """A solution of y'' + b y' + c y = right for constants b and c; None if the right-hand side has another form.
+
+    >>> x = sympy.Symbol("x")
+    >>> undetermined(0, 1, sin(x), x)
+    -x*cos(x)/2
+    """
+    terms = _terms(right, x)
+    if terms is None:
+        return None
+    total = []
+    for (rate, frequency), P in terms.items():
+        Q = _solved(b, c, rate, frequency, P)
+        if Q is None:
+            return None
+        A, B = (sympy.Add(*(pair[part] * x**k for k, pair in Q.items())) for part in (0, 1))
+        wave = sympy.expand_mul(A * cos(frequency * x) - B * sin(frequency * x))
+        total.append(sympy.exp(rate * x) * wave)
+    return sympy.Add(*total)
+
+
+def _terms(right: Expr, x: Expr) -> dict[Pair, dict[int, Pair]] | None:
+    """{(rho, omega): {k: the coefficient of x^k exp((rho + i omega) x)}}; a real part is meant."""
+    right = sympy.expand(right.rewrite((sinh, cosh), sympy.exp))
+    if right.has(sin, cos):
+        right = sympy.expand(TR8(right))  # powers and products of waves become waves
+    result: dict[Pair, dict[int, Pair]] = {}
+    summands = sympy.Add.make_args(right) if right != 0 else ()
+    if len(summands) > _LARGEST:
+        return None
+    for term in summands:
+        constant, rest = term.as_independent(x, as_Add=False)
+        degree, rate, wave = 0, sympy.Integer(0), None
+        for factor in sympy.Mul.make_args(rest) if rest != 1 else ():
+            base, exponent = factor.as_base_exp()
+            if base == x and exponent.is_Integer and 0 <= exponent <= _LARGEST:
+                degree += int(exponent)
+            elif not base.has(x) and (line := _line(exponent, x)):
+                constant, rate = constant * base ** line[0], rate + line[1] * sympy.log(base)
+            elif factor.func in (sin, cos) and wave is None and (line := _line(factor.args[0], x)):
+                wave = factor.func, *line
+            else:
+                return None
+        frequency, pair = sympy.Integer(0), (constant, sympy.Integer(0))
+        if wave is not None:
+            function, phase, frequency = wave
+            pair = (constant * cos(phase), constant * sin(phase))
+            if function is sin:
+                pair = (pair[1], -pair[0])
+            if frequency.could_extract_minus_sign():
+                frequency, pair = -frequency, (pair[0], -pair[1])
+        P = result.setdefault((rate, frequency), {})
+        old = P.get(degree, (0, 0))
+        P[degree] = (old[0] + pair[0], old[1] + pair[1])
+    return result
+
+
+def _line(expression: Expr, x: Expr) -> Pair | None:
+    """(d, e) for d + e x, None for another expression."""
+    slope = sympy.expand(expression).diff(x)
+    return None if slope.has(x) else (expression.subs(x, 0), slope)
+
+
+def _solved(b: Expr, c: Expr, rate: Expr, frequency: Expr, P: dict[int, Pair]) -> dict[int, Pair] | None:
+    """Q of equation (1); None where u^2 + v^2 = 0 for a factor u + i v other than 0."""
+    factors = [
+        (_constant(rate**2 - frequency**2 + b * rate + c), _constant((2 * rate + b) * frequency)),
+        (_constant(2 * rate + b), 2 * frequency),
+        (sympy.Integer(1), sympy.Integer(0)),
+    ]
+    m = next(k for k, factor in enumerate(factors) if factor != (0, 0))
+    divisor = factors[m]
+    norm = _constant(divisor[0] ** 2 + divisor[1] ** 2)
+    if norm == 0:
+        return None
+    Q: dict[int, Pair] = {}
+    for n in range(max(P), -1, -1):
+        u, v = P.get(n, (0, 0))
+        for j in range(m + 1, 3):
+            (f, g), (r, s) = factors[j], Q.get(n + j, (0, 0))
+            u, v = u - perm(n + j, j) * (f * r - g * s), v - perm(n + j, j) * (f * s + g * r)
+        f, g = divisor
+        scale = norm * perm(n + m, m)
+        Q[n + m] = _constant((u * f + v * g) / scale), _constant((v * f - u * g) / scale)
+    return Q
+
+
+def _constant(value: Expr) -> Expr:
+    """In a form that shows whether it is zero."""
+    value = sympy.sympify(value, strict=True)
+    if value.is_Rational:
+        return value
+    value = sympy.radsimp(sympy.cancel(sympy.expand(value)))
+    return sympy.Integer(0) if value.is_number and value.equals(0) else value

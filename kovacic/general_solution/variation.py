@@ -1,0 +1,107 @@
+"""Variation of parameters: y = -y1 int y2 f/(a W) dx + y2 int y1 f/(a W) dx,  W = y1 y2' - y1' y2.
+
+SymPy's simplification and integration can't be interrupted, so that they work in a process that can.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import sympy
+from sympy import cos, cot, csc, expand, powsimp, sec, sin, tan
+
+from kovacic.apart import last_of
+
+#: The largest expression (in operations) that is handed to SymPy's general simplification.
+_SIMPLIFIED = 150
+#: Seconds for the integrals of one equation, at most.
+SECONDS = 30.0
+
+
+def particular_solution(y1: Any, y2: Any, right: Any, x: Any, start: Any, seconds: float) -> Any:
+    """A solution of y'' + ... = right; integrals that aren't done (in time) stay, and begin at `start` unless it is None."""
+    stages = last_of(_stages, y1, y2, right, x, start, seconds=min(seconds, SECONDS))
+    if stages is not None:
+        return stages
+    wronskian = y1 * y2.diff(x) - y1.diff(x) * y2
+    first, second = (_open(y * right / wronskian, x, start) for y in (y2, y1))
+    return y2 * second - y1 * first
+
+
+def _stages(y1: Any, y2: Any, right: Any, x: Any, start: Any) -> Iterator[Any]:
+    """The solution as far as it is known, better every time."""
+    wronskian = _wronskian(y1, y2, x)
+    integrands = [simplified(y * right / wronskian) for y in (y2, y1)]
+    first, second = (_open(integrand, x, start) for integrand in integrands)
+    yield y2 * second - y1 * first
+    first = _integral(integrands[0], x, start)
+    yield y2 * second - y1 * first
+    second = _integral(integrands[1], x, start)
+    result = y2 * second - y1 * first
+    yield result
+    if not result.has(sympy.Integral):
+        yield simplified(expand(result))
+
+
+def _wronskian(y1: Any, y2: Any, x: Any) -> Any:
+    """y1 y2' - y1' y2, simplified: over the field of the functions that occur, and by trigonometry where that's needed."""
+    value = expand(y1 * y2.diff(x) - y1.diff(x) * y2)
+    if value.has(sin, cos):
+        value = sympy.trigsimp(value)
+    if value.has(sympy.log, sympy.erf, sympy.Integral):
+        value = sympy.cancel(sympy.together(value))
+    return simplified(value)
+
+
+def simplified(expression: Any) -> Any:
+    """Simplified, if it isn't long."""
+    return sympy.simplify(expression) if expression.count_ops() < _SIMPLIFIED else expression
+
+
+def _open(integrand: Any, x: Any, start: Any) -> Any:
+    """The unevaluated integral, from `start` on with a variable that doesn't occur."""
+    if start is None:
+        return sympy.Integral(integrand, x)
+    names = {symbol.name for symbol in integrand.free_symbols | start.free_symbols}
+    s = next(sympy.Symbol(name) for name in ("s", "t", "u", *(f"s{k}" for k in range(99))) if name not in names)
+    return sympy.Integral(integrand.subs(x, s), (s, start, x))
+
+
+def _integral(integrand: Any, x: Any, start: Any) -> Any:
+    """The antiderivative by SymPy's rules for hand calculation, else an `Integral`."""
+    parts = []
+    for term in sympy.Add.make_args(_prepared(integrand)):
+        for form in (_one_exponential(term), term, _with_secants(term)):
+            done = sympy.Integral(form, x).doit(manual=True)
+            if not done.has(sympy.Integral):
+                break
+        else:
+            return _open(integrand, x, start)
+        parts.append(done)
+    return sympy.Add(*parts)
+
+
+def _prepared(integrand: Any) -> Any:
+    """Expanded, in sines and cosines, and without sin^2 over a cosine: as tables have it."""
+    if integrand.has(tan, cot, sec, csc):
+        integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
+        integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
+    if sympy.denom(integrand).has(cos):
+        integrand = integrand.replace(
+            lambda e: e.is_Pow and e.exp == 2 and e.base.func is sin, lambda e: 1 - cos(e.base.args[0]) ** 2
+        )
+    return expand(integrand)
+
+
+def _with_secants(term: Any) -> Any:
+    inverse = {cos: sec, sin: csc}
+    return term.replace(
+        lambda e: e.is_Pow and e.exp.is_Integer and e.exp < 0 and e.base.func in inverse,
+        lambda e: inverse[e.base.func](*e.base.args) ** -e.exp,
+    )
+
+
+def _one_exponential(term: Any) -> Any:
+    """exp(x^2) exp(x) as exp(x^2 + x)."""
+    return expand(powsimp(term), power_exp=False)
