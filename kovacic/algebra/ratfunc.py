@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from kovacic.algebra.poly import Field, Poly, Scalar, quotient_str
+from kovacic.limits import check_time
 
 
 class RatFunc:
@@ -35,6 +36,7 @@ class RatFunc:
             if num.field != den.field:
                 num, den = (num, num.field.embed(den)) if num.field.extends(den.field) else (den.field.embed(num), den)
             if den.degree > 0:
+                check_time()
                 common = num.gcd(den)
                 if common.degree > 0:
                     num, den = num // common, den // common

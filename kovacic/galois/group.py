@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any
+from typing import Any, NamedTuple
 
 from kovacic.decision import SemiInvariant
 from kovacic.verify import GroupClaim
@@ -54,25 +54,54 @@ class Ground(Enum):
     NO_LIOUVILLIAN = "there is no Liouvillian solution"
 
 
-_FINITE_ORDERS = {Kind.TETRAHEDRAL: 24, Kind.OCTAHEDRAL: 48, Kind.ICOSAHEDRAL: 120}
-_NAMES = {
-    Kind.MULTIPLICATIVE: ("G_m", r"\mathbb{G}_m"),
-    Kind.BOREL: ("Borel", r"\mathbb{G}_a \rtimes \mathbb{G}_m"),
-    Kind.INFINITE_DIHEDRAL: ("N(T)", "N(T)"),
-    Kind.TETRAHEDRAL: ("SL(2,3)", r"\mathrm{SL}(2,3)"),
-    Kind.OCTAHEDRAL: ("binary octahedral", r"2O"),
-    Kind.ICOSAHEDRAL: ("SL(2,5)", r"\mathrm{SL}(2,5)"),
-    Kind.SL2: ("SL2", r"\mathrm{SL}_2(\mathbb{C})"),
+_UPPER = "the upper triangular matrices with c and 1/c on the diagonal, "
+
+
+class _Facts(NamedTuple):
+    """What is said of a kind, with n and the order where they belong; `components` is the name of the component group."""
+
+    name: str
+    latex: str
+    description: str
+    dimension: int | None = 0
+    order: int | None = None
+    components: str | None = "trivial"
+
+
+_FACTS = {
+    Kind.CYCLIC: _Facts("mu_{n}", r"\mu_{{{n}}}", "the cyclic group of order {n}"),
+    Kind.MULTIPLICATIVE: _Facts("G_m", r"\mathbb{{G}}_m", "the diagonal matrices of determinant 1", 1),
+    Kind.ADDITIVE: _Facts(
+        "G_a extended by mu_{n}", r"\mathbb{{G}}_a \rtimes \mu_{{{n}}}", _UPPER + "c^{n} = 1", 1, None, "mu_{n}"
+    ),
+    Kind.BOREL: _Facts(
+        "Borel", r"\mathbb{{G}}_a \rtimes \mathbb{{G}}_m", "all upper triangular matrices of determinant 1", 2
+    ),
+    Kind.DICYCLIC: _Facts(
+        "dicyclic of order {order}", r"\mathrm{{Dic}}_{{{n}}}", "the dicyclic group of order {order}"
+    ),
+    Kind.INFINITE_DIHEDRAL: _Facts(
+        "N(T)", "N(T)", "the normaliser of the diagonal matrices, the infinite dihedral group", 1, None, "mu_2"
+    ),
+    Kind.IMPRIMITIVE: _Facts(
+        "dicyclic or N(T), order not determined",
+        r"\subseteq N(T)",
+        "a subgroup of N(T), dicyclic if it is finite; its order wasn't determined",
+        None,
+        None,
+        None,
+    ),
+    Kind.TETRAHEDRAL: _Facts("SL(2,3)", r"\mathrm{{SL}}(2,3)", "the binary tetrahedral group", 0, 24),
+    Kind.OCTAHEDRAL: _Facts("binary octahedral", "2O", "the binary octahedral group", 0, 48),
+    Kind.ICOSAHEDRAL: _Facts("SL(2,5)", r"\mathrm{{SL}}(2,5)", "the binary icosahedral group", 0, 120),
+    Kind.SL2: _Facts("SL2", r"\mathrm{{SL}}_2(\mathbb{{C}})", "all matrices of determinant 1", 3),
 }
-_DESCRIPTIONS = {
-    Kind.MULTIPLICATIVE: "the diagonal matrices of determinant 1",
-    Kind.BOREL: "all upper triangular matrices of determinant 1",
-    Kind.INFINITE_DIHEDRAL: "the normaliser of the diagonal matrices, the infinite dihedral group",
-    Kind.IMPRIMITIVE: "a subgroup of N(T), dicyclic if it is finite; its order wasn't determined",
-    Kind.TETRAHEDRAL: "the binary tetrahedral group",
-    Kind.OCTAHEDRAL: "the binary octahedral group",
-    Kind.ICOSAHEDRAL: "the binary icosahedral group",
-    Kind.SL2: "all matrices of determinant 1",
+#: Where a small n has a name of its own.
+_SMALL = {
+    (Kind.CYCLIC, 1): _Facts("trivial", r"\{{1\}}", "the trivial group"),
+    (Kind.ADDITIVE, 1): _Facts("G_a", r"\mathbb{{G}}_a", _UPPER + "c = 1", 1),
+    (Kind.ADDITIVE, 2): _FACTS[Kind.ADDITIVE]._replace(description=_UPPER + "c = 1 or -1"),
+    (Kind.DICYCLIC, 2): _FACTS[Kind.DICYCLIC]._replace(description="the quaternion group of order {order}"),
 }
 
 
@@ -98,51 +127,30 @@ class Group:
         return GroupClaim(self.kind.value, self.n, self.form)
 
     @property
+    def _facts(self) -> _Facts:
+        return _SMALL.get((self.kind, self.n or 0), _FACTS[self.kind])
+
+    @property
     def name(self) -> str:
         """A short name in plain characters: `mu_4`, `G_m`, `G_a extended by mu_3`, `dicyclic of order 12`, `SL(2,3)`."""
-        if self.kind is Kind.CYCLIC:
-            return "trivial" if self.n == 1 else f"mu_{self.n}"
-        if self.kind is Kind.ADDITIVE:
-            return "G_a" if self.n == 1 else f"G_a extended by mu_{self.n}"
-        if self.kind is Kind.DICYCLIC:
-            return f"dicyclic of order {self.order}"
-        if self.kind is Kind.IMPRIMITIVE:
-            return "dicyclic or N(T), order not determined"
-        return _NAMES[self.kind][0]
+        return self._facts.name.format(n=self.n, order=self.order)
 
     @property
     def latex(self) -> str:
         """The name for formulas."""
-        if self.kind is Kind.CYCLIC:
-            return r"\{1\}" if self.n == 1 else rf"\mu_{{{self.n}}}"
-        if self.kind is Kind.ADDITIVE:
-            return r"\mathbb{G}_a" if self.n == 1 else rf"\mathbb{{G}}_a \rtimes \mu_{{{self.n}}}"
-        if self.kind is Kind.DICYCLIC:
-            return rf"\mathrm{{Dic}}_{{{self.n}}}"
-        if self.kind is Kind.IMPRIMITIVE:
-            return r"\subseteq N(T)"
-        return _NAMES[self.kind][1]
+        return self._facts.latex.format(n=self.n)
 
     @property
     def description(self) -> str:
         """One phrase for a reader who doesn't know the name."""
-        if self.kind is Kind.CYCLIC:
-            return "the trivial group" if self.n == 1 else f"the cyclic group of order {self.n}"
-        if self.kind is Kind.ADDITIVE:
-            diagonal = {1: "c = 1", 2: "c = 1 or -1"}.get(self.n or 0, f"c^{self.n} = 1")
-            return f"the upper triangular matrices with c and 1/c on the diagonal, {diagonal}"
-        if self.kind is Kind.DICYCLIC:
-            return f"the {'quaternion' if self.n == 2 else 'dicyclic'} group of order {self.order}"
-        return _DESCRIPTIONS[self.kind]
+        return self._facts.description.format(n=self.n, order=self.order)
 
     @property
     def order(self) -> int | None:
         """The number of elements; None if that is infinite or not determined (see `finite`)."""
-        if self.kind is Kind.CYCLIC:
-            return self.n
         if self.kind is Kind.DICYCLIC and self.n is not None:
             return 4 * self.n
-        return _FINITE_ORDERS.get(self.kind)
+        return self.n if self.kind is Kind.CYCLIC else self._facts.order
 
     @property
     def finite(self) -> bool | None:
@@ -157,26 +165,12 @@ class Group:
     @property
     def dimension(self) -> int | None:
         """The dimension as an algebraic group; 0 for a finite one, None if it wasn't determined."""
-        dimensions = {
-            Kind.MULTIPLICATIVE: 1,
-            Kind.ADDITIVE: 1,
-            Kind.INFINITE_DIHEDRAL: 1,
-            Kind.BOREL: 2,
-            Kind.SL2: 3,
-            Kind.IMPRIMITIVE: None,
-        }
-        return dimensions.get(self.kind, 0)
+        return self._facts.dimension
 
     @property
     def component_group(self) -> str | None:
         """The finite group of components: the group itself if it is finite; None if that wasn't determined."""
-        if self.kind is Kind.IMPRIMITIVE:
-            return None
-        if self.kind is Kind.ADDITIVE and self.n != 1:
-            return f"mu_{self.n}"
-        if self.kind is Kind.INFINITE_DIHEDRAL:
-            return "mu_2"
-        return self.name if self.finite else "trivial"
+        return self.name if self.finite else self._facts.components and self._facts.components.format(n=self.n)
 
     def generators(self) -> tuple[Any, ...] | None:
         """SymPy matrices that generate the group, acting on (y1, y2) suitably chosen and scaled.
