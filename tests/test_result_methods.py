@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 import subprocess
 import sys
+import time
+from dataclasses import replace
 
 import pytest
 
@@ -94,3 +97,19 @@ def test_omega_in_sympy_solves_the_riccati_equation() -> None:
         omega = sympy.sympify(answer.omega)
         assert sympy.simplify(sympy.diff(omega, sympy.Symbol("x")) + omega**2 - sympy.sympify(answer.S)) == 0
     assert sympy.sympify(kovacic.solve("2").omega) == sympy.Symbol("c")
+
+
+def test_views_keep_the_limits_of_solve() -> None:
+    """A view that would take longer says so; the limits aren't a part of the answer."""
+    answer = kovacic.solve("y'' - 2*x*y' + 2400*y = 0")
+    hurried = replace(answer, limits=kovacic.Limits(seconds=0.5))
+    assert hurried == answer
+    start = time.process_time()
+    with pytest.raises(kovacic.LimitExceeded, match="time limit"):
+        _ = hurried.closed_form
+    assert time.process_time() - start < 3  # importing SymPy included
+    assert "were not written out: the time limit" in hurried.explain()
+    assert json.loads(hurried.to_json(full=True))["solutions"] is None
+    assert "limits" not in json.loads(hurried.to_json())
+    tetrahedral = kovacic.solve("-3/(16*x^2) - 2/(9*(x-1)^2) + 3/(16*x*(x-1))")
+    assert replace(tetrahedral, limits=kovacic.Limits(seconds=0)).group is None
