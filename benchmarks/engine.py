@@ -5,8 +5,8 @@
 
 Measured inside one process after import: `solve` from coefficient sequences, verification included, the median of
 several runs, in seconds of processor time (the work is done by one thread, so that on an idle machine it's the wall
-clock).  "verify" is the time of the verification alone, the physical limit of any engine whose answers are checked,
-and "ratio" is the total over that.  "memory" is the growth of the peak resident set of a fresh process in which
+clock); then the decision and the verification of the decision alone, the physical limit of any engine whose answers are
+checked.  "memory" is the growth of the peak resident set of a fresh process in which
 nothing else runs, against one that only imports the package and builds the equation.  "exponent" is the slope of
 log(time) over log(parameter) from the second size on; the number of poles is counted, not taken from the name.
 """
@@ -32,6 +32,7 @@ import families
 
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.verify import verify as verified
 
 HERE = Path(__file__).resolve().parent
 PUBLISHED = HERE.parent / "tests" / "data" / "cases.jsonl"
@@ -47,13 +48,10 @@ class Measurement:
     degree: int
     digits: int
     total: float
+    decide: float
     verify: float
     memory: float | None
     resident: float | None
-
-    @property
-    def ratio(self) -> float:
-        return self.total / self.verify
 
 
 def coefficients(S: RatFunc) -> tuple[Sequence[Any], Sequence[Any]]:
@@ -78,14 +76,15 @@ def measure(name: str, parameter: int, *, memory: bool) -> Measurement:
     total, answer = timed(lambda: kovacic.solve(pair))
     if answer.case != one.case or answer.status is kovacic.Status.UNDECIDED:
         raise SystemExit(f"{name}, {parameter}: case {answer.case} instead of {one.case}")
-    verify, _ = timed(answer.verify)
+    decide, _ = timed(lambda: kovacic.decide(pair))
+    verify, _ = timed(lambda: verified(one.S, answer.decision))
     peak = resident = None
     if memory:
         resident = _peak(name, parameter, "solve")
         peak = max(resident - _peak(name, parameter, "build"), 0.0)
     degree = max(one.S.num.degree, one.S.den.degree)
     digits = int(max(one.S.num.height_bits(), one.S.den.height_bits()) * math.log10(2)) + 1
-    return Measurement(name, parameter, one.poles, degree, digits, total, verify, peak, resident)
+    return Measurement(name, parameter, one.poles, degree, digits, total, decide, verify, peak, resident)
 
 
 def _peak(name: str, parameter: int, what: str) -> float:
@@ -126,7 +125,7 @@ def published() -> dict[str, Any]:
         total, answer = timed(lambda text=entry["S"]: kovacic.solve(text), 0.2)
         if answer.case != entry["case"]:
             raise SystemExit(f"{entry['id']}: case {answer.case} instead of {entry['case']}")
-        verify, _ = timed(answer.verify, 0.2)
+        verify, _ = timed(lambda one=answer: verified(one.S, one.decision), 0.2)
         decide, _ = timed(lambda text=entry["S"]: kovacic.decide(text), 0.2)
         rows.append({"id": entry["id"], "total": total, "verify": verify, "decide": decide})
     summary = {
@@ -180,7 +179,7 @@ def markdown(report: dict[str, Any]) -> str:
         chosen = [one for one in report["series"] if one["kind"] == kind]
         if not chosen:
             continue
-        lines += [f"## By {title} (seconds; total / verification alone; MiB)", ""]
+        lines += [f"## By {title} (seconds: total = decision + verification; MiB)", ""]
         parameters = [m["parameter"] for m in chosen[0]["measurements"]]
         lines += ["| | " + " | ".join(map(str, parameters)) + " | exponent |"]
         lines += ["|---" + "|---:" * (len(parameters) + 1) + "|"]
@@ -199,7 +198,7 @@ def markdown(report: dict[str, Any]) -> str:
 def _cell(kind: str, m: dict[str, Any]) -> str:
     memory = "" if m["memory"] is None else f"; {m['memory']:.0f}"
     digits = f" ({m['digits']})" if "digits" in kind else ""
-    return f"{m['total']:.3f}; {m['total'] / m['verify']:.1f}{memory}{digits}"
+    return f"{m['total']:.3f} = {m['decide']:.3f} + {m['verify']:.3f}{memory}{digits}"
 
 
 def main() -> None:
@@ -223,7 +222,10 @@ def main() -> None:
         for name, parameter in chosen:
             results.append(measure(name, parameter, memory=not options.quick))
             m = results[-1]
-            print(f"{name:32} {parameter:5}  {m.poles:3} poles  {m.total:8.3f} s  verify {m.verify:8.3f} s", flush=True)
+            print(
+                f"{name:32} {parameter:5}  {m.poles:3} poles  decide {m.decide:8.3f} s  verify {m.verify:8.3f} s",
+                flush=True,
+            )
         size = (lambda m: m.poles) if kind == "poles" else (lambda m: m.parameter)
         slope = exponent([(size(m), m.total) for m in results])
         report["series"].append(
