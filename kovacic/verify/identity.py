@@ -78,8 +78,9 @@ def rational_residues(theta: RatFunc) -> list[tuple[Poly, Fraction]] | None:
         return [] if not num else None
     field, residues = den.field, []
     for p, _ in field.factor(den):
-        value = num * slope.inverse_modulo(p) % p
-        rational = field.rational_value(value) if value.degree <= 0 else None
+        above, below = num % p, slope % p
+        residue = above[below.degree] / below.lc
+        rational = field.rational_value(residue) if above == residue * below else None
         if rational is None:
             return None
         residues.append((p, rational))
