@@ -506,7 +506,7 @@ def test_the_command_answers_every_line(tmp_path: Path) -> None:
     answers = [json.loads(line) for line in ran.stdout.splitlines()]
     assert [answer["line"] for answer in answers] == list(range(1, 7))
     assert [answer["status"] for answer in answers] == ["liouvillian", "none", *["liouvillian"] * 3, "error"]
-    assert answers[0]["group"] == {"name": "Borel", "order": None, "finite": False}
+    assert answers[0]["group"] == {"name": "Borel", "order": None, "finite": False, "family": "borel", "n": None}
     assert re.search(r"case 1\s+3\n", ran.stderr)
     assert re.search(r"bad input\s+1\n", ran.stderr)
     assert "6/6" in ran.stderr

@@ -25,6 +25,7 @@ COMMANDS = {
     "conditions": "For which values of the parameters do Liouvillian solutions exist?",
     "batch": "Decide many equations from a file, in parallel, with a result for every line.",
     "scan": "Tabulate the case over a grid of parameter values.",
+    "check": "Prove answers in JSON anew, by a program that shares no code with this one.",
     "ball": "The ball on the sphere: its equation, its motion.",
     "plot": "Draw solutions.",
     "schema": "The JSON Schema of what the commands print as JSON.",

@@ -8,6 +8,7 @@
 Coefficients run from low to high, in Python/SymPy syntax in the variable and the symbol of the constants; the last one is
 "1".  `proof` has what a check needs beside the polynomial: the semi-invariant of omega as prod D^... exp(int theta) P, the
 rational invariant that was found, the evidence against everything excluded, and the reason of an undecided equation.
+`group`, on request, has the name, the order, and the family of the group with its parameter n.
 Keys may be added within schema 1; none is removed or changes its meaning.
 """
 
@@ -127,7 +128,10 @@ def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
 def group_dict(solution: Solution) -> dict[str, Any] | None:
     """The name, the order (None if infinite) and the finiteness of the group; None if undecided."""
     group = solution.group
-    return None if group is None else {"name": group.name, "order": group.order, "finite": group.finite}
+    if group is None:
+        return None
+    kept = {"name": group.name, "order": group.order, "finite": group.finite}
+    return {**kept, "family": group.kind.value, "n": group.n}
 
 
 def from_dict(data: Mapping[str, Any]) -> Solution:

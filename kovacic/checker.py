@@ -1,0 +1,500 @@
+#!/usr/bin/env python3
+"""A second opinion on answers of kovacic: reads them as JSON lines and proves them anew, sharing no code with the program.
+
+    python checker.py answers.jsonl          (or kovacic check answers.jsonl; "-" reads standard input)
+
+For each line: "checked", "refuted: why", "not checked: why" or "unreadable: why".  Exit status: 0 all checked, 1 one
+refuted, 2 one unreadable, 3 one not checked.  It needs Python 3.11 and python-flint alone.
+
+What is proven, for y'' = S y over Q(x) with the S of the line (`input`, `equation`, `gauge`, `solutions` and D aren't looked
+at; answers with parameters or with algebraic numbers in S aren't checked):
+- "yes": prod (W - omega), over the conjugates of omega = y'/y, is the polynomial that belongs to a form in the solutions,
+  over Q(c)(x), c a root of an irreducible polynomial; and no smaller degree is possible, by the exclusions below.
+- "no": the group is neither reducible nor imprimitive nor one of the three finite primitive groups.  Each exclusion is a
+  local condition at places of S, or the absence of a rational form in the solutions (of degree 2, 4, 6, 8, 12), by a rank
+  modulo a prime, which can only be smaller than over Q; and for reducible groups the absence of a single rational omega: its
+  expansion at one place, modulo a prime, isn't that of a rational function whose degree the exponents allow.
+- the rational form that comes with an answer; and the group, where it is given, but for orders on curves of positive genus.
+
+References: J. Kovacic, J. Symb. Comp. 2 (1986); F. Ulmer & J.-A. Weil, ibid. 22 (1996); M. van Hoeij, ibid. 24 (1997).
+"""
+
+from __future__ import annotations
+
+import fileinput
+import json
+import re
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from functools import cached_property
+from itertools import islice
+from math import isqrt, lcm
+from operator import add, mul, truediv
+from typing import Any
+
+from flint import Ordering, acb_poly, acb_series, arb, ctx, fmpq, fmpq_mat, fmpq_mpoly_ctx, fmpq_poly, fmpz, nmod_mat
+from flint import nmod_poly as nmod
+
+#: Kovacic's case, the degree of omega, and the degree of a rational form.
+STRUCTURES = {"reducible": (1, 1, 2), "imprimitive": (2, 2, 4), "tetrahedral": (3, 4, 6), "octahedral": (3, 6, 8),
+              "icosahedral": (3, 12, 12)}  # fmt: skip
+ORDERS = {"tetrahedral": {1, 2, 3}, "octahedral": {1, 2, 3, 4}, "icosahedral": {1, 2, 3, 5}}
+SIZES = {"cyclic": 1, "dicyclic": 4, "tetrahedral": 24, "octahedral": 48, "icosahedral": 120}
+NAMES = {"cyclic": "mu_{n}", "cyclic1": "trivial", "additive": "G_a extended by mu_{n}", "additive1": "G_a", "borel": "Borel",
+         "multiplicative": "G_m", "dicyclic": "dicyclic of order {order}", "infinite dihedral": "N(T)", "SL2": "SL2",
+         "tetrahedral": "SL(2,3)", "octahedral": "binary octahedral", "icosahedral": "SL(2,5)"}  # fmt: skip
+LONGEST = 6000  # the largest degrees, and the most terms of a series, that are computed with
+PRIMES = [q for q in range(2**60 + 33, 2**60 + 20_000, 2) if fmpz(q).is_prime()]
+STATUSES = {"checked": 0, "refuted": 1, "unreadable": 2, "not checked": 3}
+
+
+def demand(holds: Any, claim: str) -> None:
+    """Refute the answer unless this holds."""
+    if not holds:
+        raise AssertionError(claim)
+
+
+def demand_equal(found: Any, expected: Any, what: str) -> None:
+    """Refute the answer unless this is the value, and of the same type (true isn't 1)."""
+    demand(type(found) is type(expected) and found == expected, f"{what} is {expected!r}")
+
+
+def affordable(size: Any, what: str) -> int:
+    """The size; gives up where it would make a computation too long, or isn't known."""
+    if size is None or size > LONGEST:
+        raise NotImplementedError(f"{what} is too large")
+    return int(size)
+
+
+PLANE = fmpq_mpoly_ctx.get(("c", "x"), Ordering.lex)
+C, X2 = PLANE.gens()
+X = fmpq_poly([0, 1])
+
+
+class Value:
+    """num/den in Q(c, x), in lowest terms."""
+
+    def __init__(self, num: Any, den: Any = 1) -> None:
+        self.num, self.den = PLANE.constant(1) * num, PLANE.constant(1) * den
+        demand(self.den != 0, "there is no division by zero")
+        if (common := self.den if self.den.is_constant() else self.num.gcd(self.den)) != 1:
+            self.num, self.den = self.num // common, self.den // common
+
+    def __add__(self, other: Value) -> Value:
+        return Value(self.num * other.den + other.num * self.den, self.den * other.den)
+
+    def __mul__(self, other: Value) -> Value:
+        return Value(self.num * other.num, self.den * other.den)
+
+    def __truediv__(self, other: Value) -> Value:
+        return Value(self.num * other.den, self.den * other.num)
+
+    def __pow__(self, n: int) -> Value:
+        length = len(str(self.num.leading_coefficient()) + str(self.den.leading_coefficient()))
+        affordable(n * max(length, *self.num.degrees(), *self.den.degrees()), "a power")
+        return Value(self.num**n, self.den**n)
+
+    def derivative(self) -> Value:
+        return Value(self.num.derivative(1) * self.den - self.num * self.den.derivative(1), self.den * self.den)
+
+    def over_q(self) -> tuple[Any, Any]:
+        """Numerator and monic denominator, of a value without c."""
+        demand(self.num.degrees()[0] <= 0 and self.den.degrees()[0] <= 0, "the constants are rational")
+        num, den = in_one_variable(self.num, 1), in_one_variable(self.den, 1)
+        return num / den[den.degree()], den / den[den.degree()]
+
+
+def in_one_variable(f: Any, i: int) -> Any:
+    """The polynomial in the i-th variable, without the other."""
+    terms = {powers[i]: coefficient for powers, coefficient in f.to_dict().items()}
+    return fmpq_poly([terms.get(n, fmpq(0)) for n in range(max(terms, default=0) + 1)])
+
+
+STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 3}
+OPERATIONS = {"+": add, "-": lambda a, b: a + Value(-1) * b, "*": mul, "/": truediv}
+
+
+def read(text: str, names: dict[str, Value]) -> Value:
+    """The value of an expression with + - * / ** and parentheses, as the program prints them."""
+    tokens = [*re.findall(r"[0-9]+|\w+|\*\*|\S", text), ""][::-1]
+
+    def expression(least: int) -> Value:
+        token = tokens.pop()
+        if token == "-":
+            value = Value(-1) * expression(2)
+        elif token == "(":
+            value = expression(0)
+            demand(tokens.pop() == ")", "each ( has its )")
+        else:
+            value = Value(fmpq(fmpz(token))) if token.isdecimal() else names[token]
+        while STRENGTH.get(tokens[-1], -1) >= least:
+            operator = tokens.pop()
+            if operator == "**":
+                value = value ** int(tokens.pop())
+                demand(tokens[-1] != "**", "a power isn't an exponent")
+            else:
+                value = OPERATIONS[operator](value, expression(STRENGTH[operator] + 1))
+        return value
+
+    value = expression(0)
+    demand(tokens == [""], f"{text[:60]!r} can be read")
+    return value
+
+
+def reduced(f: Any, q: int, point: int = 0) -> Any:
+    """f(t + point) modulo q, which must keep the degree."""
+    demand(int(f.denom()) % q and (f == 0 or int(f.numer()[f.degree()]) % q), f"{q} is a good prime")
+    image = nmod([int(c) % q for c in f.numer().coeffs()], q) * pow(int(f.denom()), -1, q)
+    return image.compose(nmod([point % q, 1], q)) if point else image
+
+
+def frobenius(E: Any, M: Any, e: int, count: int, q: int) -> tuple[Any, bool]:
+    """The series a with t^e a a solution of t^2 E y'' = M y modulo q; False where it would need a logarithm."""
+    top, bottom, a = [int(c) for c in E.coeffs()], [int(c) for c in M.coeffs()] or [0], [1]
+    for n in range(1, count):
+        total = sum(bottom[j] * a[n - j] for j in range(1, min(n + 1, len(bottom))))
+        total -= sum(top[j] * (n - j + e) * (n - j + e - 1) * a[n - j] for j in range(1, min(n + 1, len(top))))
+        pivot = (top[0] * (n + e) * (n + e - 1) - bottom[0]) % q
+        if not pivot and total % q:
+            return nmod(a, q), False
+        a.append(total * pow(pivot, -1, q) % q if pivot else 0)
+    return nmod(a, q), True
+
+
+class Place:
+    """The roots of an irreducible p, of multiplicity k in den, where S = num/den; infinity as z = 0 for S(1/z)/z^4."""
+
+    def __init__(self, p: Any, k: int, num: Any, den: Any, infinite: bool = False) -> None:
+        self.p, self.k, self.num, self.den, self.infinite = p, k, num, den, infinite
+        self.size, self.nu = int(p.degree()), max(k // 2, 1)  # nu: of a pole of omega, for k even or 1
+
+    @cached_property
+    def leading(self) -> Any:
+        """In Q[x]/p: Delta^2 = 1 + 4b for k <= 2, else the leading coefficient of S up to a square."""
+        rest = self.den // self.p**self.k
+        if self.k > 2:
+            return self.num * rest % self.p
+        b = self.num * (rest * self.p.derivative() ** 2 % self.p).xgcd(self.p)[1] if self.k == 2 else 0
+        return (1 + 4 * fmpq_poly(b)) % self.p
+
+    @cached_property
+    def difference(self) -> Any:
+        """The exponent difference where it is a rational number."""
+        if self.k > 2 or self.leading.degree() > 0:
+            return None
+        product = int(self.leading[0].p * self.leading[0].q)
+        return fmpq(isqrt(product), self.leading[0].q) if product >= 0 and isqrt(product) ** 2 == product else None
+
+    def roots(self, moduli: Iterable[int] = PRIMES) -> Iterator[tuple[int, int]]:
+        """The primes modulo which p has a simple root, and the least one."""
+        for q in moduli:
+            if found := [int(root) for root, multiplicity in reduced(self.p, q).roots() if multiplicity == 1]:
+                yield q, min(found)
+
+    def local(self, root: int, q: int) -> tuple[Any, Any]:
+        """E and M with S = M/(t^max(k, 2) E) at a root of p modulo q."""
+        num, den = reduced(self.num, q, root), reduced(self.den, q, root)
+        demand(not any(int(den[i]) for i in range(self.k)) and int(den[self.k]), f"{q} keeps the order of a pole")
+        return den.right_shift(self.k), num.left_shift(max(2 - self.k, 0))
+
+    @cached_property
+    def logarithm(self) -> bool:
+        """Is there a logarithm, provably?"""
+        if self.k != 2 or self.difference is None or self.difference == 0 or self.difference.q > 1:
+            return self.k == 1 or self.difference == 0
+        n = affordable(self.difference, "an exponent difference")
+        q, root = next(self.roots())
+        return not frobenius(*self.local(root, q), (1 - n) * pow(2, -1, q) % q, n + 1, q)[1]
+
+    def is_not_a_square(self) -> bool:
+        """Is `leading` no square in Q[x]/p?  Proven by a prime modulo which it isn't one at a root of p."""
+        return any(fmpz(int(reduced(self.leading, q)(r))).jacobi(q) == -1 for q, r in islice(self.roots(), 40))
+
+    def least_valuation(self, m: int) -> Any:
+        """The least integer that can be the valuation of a rational form of degree m; None if there is none."""
+        signs, d = [m] if self.logarithm else range(-m, m + 1, 2), self.difference or fmpq(0)
+        possible = [fmpq(m * self.k, 4)] if self.k > 2 else [(m + i * d) / 2 for i in signs]
+        return min((int(value.p) for value in possible if value.q == 1), default=None)
+
+    def exponents(self) -> Any:
+        """A ball around the sum over the roots of p of the real parts of the least exponents (k not odd > 2)."""
+        total, nu = arb(0), self.nu
+        parts = self.num * self.p ** (2 * nu - self.k), self.den // self.p**self.k, self.p
+        for root, _ in self.p.complex_roots():
+            shifted = (acb_poly([arb(c) for c in f.coeffs()])(acb_poly([root, 1])).coeffs() for f in parts)
+            num, rest, unit = (acb_series(f, nu + 1) for f in shifted)
+            ratio = num / (rest * acb_series([unit[i + 1] for i in range(nu)], nu) ** self.k)  # t^(2 nu) S
+            half = (1 + 4 * ratio[0]).sqrt() / 2  # of Delta; else the residue of sqrt(S)
+            half = ratio[0].sqrt() * (ratio / ratio[0]).sqrt()[nu - 1] if nu > 1 else half
+            total += arb(nu) / 2 + (abs(half.real) if self.logarithm else -abs(half.real))
+        return total
+
+    def expansions(self, root: int, q: int, count: int) -> Iterator[Any]:
+        """The series t^nu omega modulo q of the solutions that have one, where the place tells the solutions apart."""
+        nu, d, (E, M) = self.nu, self.difference, self.local(root, q)
+        s = [int(c) for c in M.mul_low(E.inverse_series_trunc(count), count).coeffs()] + [0] * count
+        lead = (s[0] if nu > 1 else 1 + 4 * s[0]) % q
+        if fmpz(lead).jacobi(q) == -1:
+            return
+        first = int(fmpz(lead).sqrtmod(q)) if d is None else int(d.p) * pow(int(d.q), -1, q)
+        for sign in (1,) if self.logarithm else (1, -1):
+            w = [(sign * first if nu > 1 else (1 + sign * first) * pow(2, -1, q)) % q]
+            for j in range(1, count):  # t^(2 nu) (omega' + omega^2) = s
+                rest = s[j] - sum(a * b for a, b in zip(w[1:j], w[j - 1 : 0 : -1], strict=True))
+                rest -= (j - 2 * nu + 1) * w[j - nu + 1] if nu > 1 and j >= nu - 1 else 0
+                pivot = (2 * w[0] + (j - 1 if nu == 1 else 0)) % q
+                demand(pivot, "the prime avoids the exponents")
+                w.append(rest * pow(pivot, -1, q) % q)
+            yield nmod(w, q)
+
+
+def residues(phi: Value) -> list[tuple[Any, int]]:
+    """The factors of the denominator of phi, and the residues there, for a phi = F'/F with F rational."""
+    num, den = phi.over_q()
+    simple = num.degree() < den.degree() and den.gcd(den.derivative()).degree() == 0
+    found = [(p / p[p.degree()], num * den.derivative().xgcd(p)[1] % p) for p, _ in den.factor()[1]] if simple else []
+    demand(simple and all(v.degree() <= 0 and v[0].q == 1 for _, v in found), "a form is a rational function")
+    return [(p, int(v[0].p)) for p, v in found]
+
+
+def has_rational_integral(num: Any, den: Any) -> bool:
+    """Is num/den = (A/E)' with E = gcd(den, den')?  A linear system for A, which is unique up to multiples of E."""
+    E = den.gcd(den.derivative())
+    size = affordable(max(num.degree() - den.degree() + E.degree() + 2, E.degree() + 1), "the degree of a form")
+    columns = [(X**i).derivative() * den - X**i * (E.derivative() * den // E) for i in range(size)] + [num * E]
+    height = max(column.degree() for column in columns) + 1
+    entries = [column[k] for k in range(height) for column in columns]
+    return bool(fmpq_mat(height, size + 1, entries).rank() == size - 1)
+
+
+class Answer:
+    """One line: the JSON object, the names in its expressions, and S = num/den."""
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self.data, self.proof, self.names = data, data["proof"], {data["variable"]: Value(X2)}
+        self.S = read(data["S"], self.names)
+        self.num, self.den = self.S.over_q()
+        affordable(max(self.num.degree(), self.den.degree()), "the degree of S")
+        if data["constants"] is not None:
+            demand(data["constants"]["symbol"] not in self.names, "the variable and the constant have different names")
+            self.names[data["constants"]["symbol"]] = Value(C)
+
+    @cached_property
+    def places(self) -> list[Place]:
+        """The finite ones and, last, infinity."""
+        k = self.num.degree() - self.den.degree() + 4 if self.num != 0 else 0
+        flipped = [fmpq_poly(f.coeffs()[::-1]) * X ** max(e, 0) for f, e in ((self.num, -k), (self.den, k))]
+        found = [Place(p / p[p.degree()], m, self.num, self.den) for p, m in self.den.factor()[1]]
+        return [*found, Place(X, max(k, 0), flipped[0], flipped[1], infinite=True)]
+
+    def place(self, name: str) -> Place:
+        """The place with this factor, or "infinity"."""
+        factor = None if name == "infinity" else read(name, self.names).over_q()
+        found = [p for p in self.places if (p.infinite if factor is None else not p.infinite and factor == (p.p, 1))]
+        demand(found, f"{name!r} is a singular place")
+        return found[0]
+
+    def check(self) -> None:
+        """Prove everything that is claimed."""
+        data, proof, names = self.data, self.proof, list(STRUCTURES)
+        structure, excluded = proof["structure"], [entry["structure"] for entry in proof["excluded"]]
+        if proof["undecided"] is not None:
+            raise NotImplementedError(f"the answer is undecided: {proof['undecided']!r}")
+        demand_equal(excluded, names if structure is None else names[: names.index(structure)], "what is excluded")
+        demand_equal(data["case"], None if structure is None else STRUCTURES[structure][0], "the case")
+        demand_equal(data["status"], "none" if structure is None else "liouvillian", "the status")
+        for entry in proof["excluded"]:
+            self.excluded(entry["structure"], entry["evidence"])
+        form = slope = None
+        if structure is None:
+            beside = data["riccati"], data["constants"], proof["invariant"], proof["semi_invariant"]
+            demand(beside == (None,) * 4, "there is no solution beside a proof that there is none")
+        else:
+            slope = self.solution(STRUCTURES[structure][1])
+            if structure != "reducible" or proof["invariant"] is not None:
+                form = self.form(proof["invariant"], STRUCTURES[structure][2], C)
+            demand(residues(form[0]) is not None if form else self.dimension(2) == 0, "omega is unique")
+        if data.get("group") is not None:
+            family, n = self.group(structure, form, slope)
+            order = SIZES[family] * (n or 1) if family in SIZES else None
+            expected = {"order": order, "finite": order is not None, "family": family, "n": n}
+            expected["name"] = NAMES.get(f"{family}{n}", NAMES[family]).format(n=n, order=order)
+            for key in {"name", "order", "finite"} | (set(expected) & set(data["group"])):
+                demand_equal(data["group"][key], expected[key], f"the {key} of the group")
+
+    def excluded(self, structure: str, evidence: Any) -> None:
+        """The group doesn't have this structure, by the evidence."""
+        reducible, finite, m = structure == "reducible", ORDERS.get(structure), STRUCTURES[structure][2]
+        branches = sum(p.size for p in self.places if (p.k % 2 if p.k > 2 else (p.difference or fmpq(1)).q == 2))
+        rules: dict[str, Callable[[Place], Any]] = {
+            "ramified": lambda p: reducible and p.k > 2 and p.k % 2,
+            "not_a_square": lambda p: reducible and p.k > 1 and p.k % 2 == 0 and p.is_not_a_square(),
+            "logarithm": lambda p: not reducible and p.logarithm,
+            "irregular": lambda p: finite and p.k > 2,
+            "exponents": lambda p: finite and 0 < p.k <= 2 and int((p.difference or fmpq(1, 7)).q) not in finite,
+        }
+        found = set() if reducible else {"no_rational_omega"}
+        for item in evidence:
+            kind, rule = item["kind"], item.get("rule")
+            if kind == "no_rational_omega":
+                self.no_unique_omega(item["prime"], item["place"])
+            elif kind == "no_invariant":
+                demand_equal(item["invariant_degree"], m, "the degree of the form")
+                demand(self.dimension(m, item["prime"], item["point"]) == 0, f"there is no rational form of degree {m}")
+            elif rule == "too_few_branch_points":
+                demand(structure == "imprimitive" and branches < 2, "there are few branch points")
+            else:
+                demand(any(rules[rule](self.place(name)) for name in item["places"]), f"a place is {rule}")
+            found.add("no_rational_omega" if rule == "not_a_square" else kind)
+        demand("necessary_condition" in found or len(found) == 2, f"the group isn't {structure}")
+
+    def dimension(self, m: int, prime: int | None = None, point: int | None = None) -> int:
+        """An upper bound for the dimension of the rational forms of degree m, from expansions modulo a prime."""
+        valuations = [place.least_valuation(m) for place in self.places]
+        room = (
+            m - sum(v * p.size for v, p in zip(valuations, self.places, strict=True)) if None not in valuations else -1
+        )
+        if room < 0:
+            return 0
+        count = affordable(room + m + 6, f"the number of zeros of a form of degree {m}")
+        q = prime or PRIMES[0]
+        demand(q > 2 * count and fmpz(q).is_prime(), "the modulus is a large prime")
+        c = point if point is not None else next(c for c in range(LONGEST + 1) if int(reduced(self.den, q)(c)))
+        den, num = reduced(self.den, q, c), reduced(self.num, q, c).left_shift(2)
+        demand(int(den[0]), "the point is ordinary")
+        y1, y2 = frobenius(den, num, 0, count, q)[0], frobenius(den, num, 1, count, q)[0].left_shift(1)
+        scale = nmod([1], q)
+        for place, v in zip(self.places[:-1], valuations, strict=False):
+            power = reduced(place.p, q, c).truncate(count).pow_trunc(abs(v), count)
+            scale = scale.mul_low(power.inverse_series_trunc(count) if v > 0 else power, count)
+        powers = [(y1.pow_trunc(m - i, count), y2.pow_trunc(i, count)) for i in range(m + 1)]
+        forms = [scale.mul_low(a, count).mul_low(b, count) for a, b in powers]
+        entries = [int(form[j]) for form in forms for j in range(room + 1, count)]
+        return m + 1 - int(nmod_mat(m + 1, count - room - 1, entries, q).rank())
+
+    def no_unique_omega(self, prime: int | None, name: str) -> None:
+        """No omega in Q(x), where there is no rational form of degree 2 either, so that it would be the only one.
+
+        No solution has an expansion at the place, modulo a prime, with omega = A/(den B), deg B <= the number of zeros.
+        """
+        if any(place.k > 2 and place.k % 2 for place in self.places):
+            return
+        zeros = 1 - sum((place.exponents() for place in self.places if place.k), arb(0))
+        if zeros < 0:
+            return
+        degree = affordable(zeros.upper().floor().unique_fmpz(), "the number of zeros of a solution")
+        apart = [p for p in self.places if p.k and (p.difference is None or p.difference.q > 1 or p.logarithm)]
+        place = self.place(name) if name or not apart else apart[0]
+        demand(place in apart, "the place tells the solutions apart")
+        q, root = next(place.roots([prime] if prime else PRIMES), (0, 0))
+        demand(q > 10**6 and fmpz(q).is_prime(), "the place has a root modulo a large prime")
+        den = reduced(place.den, q, root)
+        top = degree + den.degree() + max(p.k for p in self.places)
+        count = affordable(top + degree + 12, "the number of zeros of a solution")
+        for w in place.expansions(root, q, count):
+            r0, r1 = nmod([1], q).left_shift(count), den.right_shift(place.nu).mul_low(w, count)
+            t0, t1 = nmod([], q), nmod([1], q)
+            while r1.degree() > top:
+                quotient, rest = divmod(r0, r1)
+                r0, r1, t0, t1 = r1, rest, t1, t0 - quotient * t1
+            demand(t1.degree() > degree, "no expansion of omega is that of a rational function")
+
+    def form(self, data: dict[str, Any], m: int, modulus: Any) -> tuple[Value, Any, list[Any]]:
+        """F'/F, G and N_k with prod (W - y_i'/y_i) = sum (-1)^k N_k/G^k W^(m-k) for a form F = y_1 ... y_m in the solutions.
+
+        N_0 = 1, (k + 1) N_(k+1) = G N_k' + (N_1 - k G') N_k - (m - k + 1) G^2 S N_(k-1), and N_(m+1) = 0, which is demanded.
+        """
+        demand_equal(data["degree"], m, "the degree of a form")
+        P = read(data["P"], self.names)
+        slope = read(data["theta"], self.names) + P.derivative() / P
+        G = slope.den * (self.S.den // slope.den.gcd(self.S.den))
+        T, N = self.S.num * (G * G // self.S.den), [PLANE.constant(1), slope.num * (G // slope.den)]
+        for k in range(1, m + 1):
+            total = G * N[k].derivative(1) + (N[1] - k * G.derivative(1)) * N[k] - (m - k + 1) * T * N[k - 1]
+            N.append(total * fmpq(1, k + 1))
+        demand(divmod(N.pop(), modulus)[1] == 0, f"there is this form of degree {m}")
+        return slope, G, N
+
+    def solution(self, n: int) -> Value:
+        """The polynomial of omega is that of a form of degree n, whose logarithmic derivative is returned."""
+        constants, riccati = self.data["constants"], self.data["riccati"]
+        modulus = read(constants["minimal_polynomial"], self.names).num if constants else C
+        multiplicities = [k for _, k in in_one_variable(modulus, 0).factor()[1]]
+        demand(modulus.degrees()[1] <= 0 and multiplicities == [1], "c has an irreducible polynomial")
+        slope, G, N = self.form(self.proof["semi_invariant"], n, modulus)
+        a = [read(text, self.names) for text in reversed(riccati["coefficients"])]
+        demand(repr(riccati["degree"]) == repr(len(a) - 1) == repr(n), f"the degree of omega is {n}")
+        for k in range(n + 1):
+            difference = a[k].num * G**k - (-1) ** k * N[k] * a[k].den
+            demand(divmod(difference, modulus)[1] == 0, "the roots of the polynomial solve omega' + omega^2 = S")
+        return slope
+
+    def group(self, structure: str | None, form: Any, slope: Any) -> tuple[str, int | None]:
+        """The family of the group and its parameter; `slope` is the sum of the conjugates of omega."""
+        differences: list[Any] = [None if place.k > 2 else place.difference for place in self.places]
+        if structure is None or structure in ORDERS:
+            return structure or "SL2", None
+        if structure == "imprimitive":
+            if None in differences:  # a local monodromy of infinite order makes the group infinite
+                return "infinite dihedral", None
+            if self.data["constants"] is not None:
+                raise NotImplementedError("an imprimitive group where omega has irrational constants")
+            values = residues(Value(2) * slope)  # the orders of f^2, f = y1 y2, f'/f = slope
+            orders = [sum(v for p, v in values if p == place.p) for place in self.places[:-1]]
+            zeros = sum(int(p.degree()) * v for p, v in values if all(p != place.p for place in self.places[:-1]))
+            orders.append(4 - zeros - sum(e * place.size for e, place in zip(orders, self.places, strict=False)))
+            branched = sum(place.size for e, place in zip(orders, self.places, strict=True) if e % 2)
+            poles = [d.q for e, d in zip(orders, differences, strict=True) if e == 2]
+            if branched > 2 and (poles or zeros):
+                raise NotImplementedError("the order of a group on a curve of positive genus")
+            return ("dicyclic", lcm(*poles)) if branched == 2 else ("infinite dihedral", None)
+        # The residues of omega are exponents, (1 + d)/2 or (1 - d)/2, and whole numbers; or it has other poles.
+        n = None if None in differences else lcm(*(((1 + d) / 2).q for d in differences))
+        if form is None:
+            return ("borel", None) if n is None else ("additive", n)
+        if form[2][1] * form[2][1] != 4 * form[2][2]:  # F has two different factors
+            return ("multiplicative", None) if n is None else ("cyclic", n)
+        num = den = fmpq_poly([1])
+        for p, v in residues(form[0]):
+            affordable(abs(v) * p.degree(), "the degree of a form")
+            num, den = num * p ** max(-v, 0), den * p ** max(v, 0)
+        return "cyclic" if has_rational_integral(num, den) else "additive", n
+
+
+def verdict(line: str) -> str:
+    """What is to be said of one line."""
+    try:
+        data = json.loads(line)
+        if not isinstance(data, dict) or repr(data.get("schema")) != "1" or data.get("field") is not None:
+            return "not checked: no answer in schema 1 for an S with rational coefficients"
+        with ctx.workprec(333):
+            Answer(data).check()
+    except json.JSONDecodeError as error:
+        return f"unreadable: {error}"
+    except AssertionError as claim:
+        return f"refuted: it isn't shown that {claim}"
+    except (RuntimeError, StopIteration) as reason:
+        return f"not checked: {str(reason) or type(reason).__name__}"
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
+        return f"refuted: malformed ({type(error).__name__})"
+    return "checked"
+
+
+def main(files: list[str]) -> int:
+    """Check all lines of the files; the exit status."""
+    statuses = {0}
+    try:
+        with fileinput.input(files, encoding="utf-8") as lines:
+            for line in lines:
+                if line.strip():
+                    said = verdict(line)
+                    statuses.add(STATUSES[said.partition(":")[0]])
+                    print(f"{lines.filename()}:{lines.filelineno()}: {said}")
+    except (OSError, UnicodeError) as error:
+        print(f"checker: {error}", file=sys.stderr)
+        return 2
+    return min(statuses - {0}, default=0)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,317 @@
+"""The checker that shares nothing with the program: answers are checked, forged ones refuted by it and by the kernel."""
+
+from __future__ import annotations
+
+import ast
+import json
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+import strategies
+from hypothesis import given, settings
+from published import Published, load
+
+import kovacic
+from kovacic import checker
+from kovacic.algebra.modular import ordinary_point
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import (
+    Decision,
+    Evidence,
+    Exclusion,
+    NecessaryCondition,
+    NoInvariant,
+    NoRationalOmega,
+    Rule,
+    Structure,
+)
+from kovacic.limits import Budget
+from kovacic.solution import Solution
+from kovacic.verify import verify
+from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
+from kovacic.verify.local import zero_counts
+from kovacic.views.json import group_dict, to_dict
+
+FILE = Path(checker.__file__)
+PUBLISHED = load()
+SOLVABLE = [entry for entry in PUBLISHED if entry.case is not None]
+#: What the checker may leave unchecked, and says so.
+REASONS = (
+    "not checked: the order of a group on a curve of positive genus",
+    "not checked: an imprimitive group where omega has irrational constants",
+    "not checked: the number of zeros of a solution is too large",
+    "not checked: the number of zeros of a form of degree",
+)
+
+
+def solve(S: RatFunc) -> Solution:
+    return kovacic.solve((S.num.coefficients(), S.den.coefficients()))  # type: ignore[attr-defined]
+
+
+def run(*arguments: str, stdin: str = "") -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, *arguments], input=stdin, capture_output=True, text=True, check=False, timeout=120
+    )
+
+
+# ------------------------------------------------------------------------------------------- as a program
+
+
+def test_it_is_one_short_file_that_imports_the_standard_library_and_flint() -> None:
+    source = FILE.read_text(encoding="utf-8")
+    assert len(source.splitlines()) <= 500
+    for node in ast.walk(ast.parse(source)):
+        names = [node.module] if isinstance(node, ast.ImportFrom) else []
+        names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+        for name in names:
+            assert name == "flint" or str(name).partition(".")[0] in sys.stdlib_module_names
+
+
+def test_it_runs_alone(tmp_path: Path) -> None:
+    alone = Path(shutil.copy(FILE, tmp_path / "checker.py"))
+    right, wrong = tmp_path / "right.jsonl", tmp_path / "wrong.jsonl"
+    lines = [kovacic.solve(text).to_json(full=True) for text in ("x^2 + 3", "x", "2")]
+    right.write_text("\n".join(lines) + "\n\n")
+    wrong.write_text(lines[0] + "\n" + lines[1].replace('"S": "x"', '"S": "x**2 + 3"') + "\n")
+    done = run("-I", str(alone), str(right))
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.splitlines() == [f"{right}:{n}: checked" for n in (1, 2, 3)]
+    done = run("-I", str(alone), str(right), str(wrong))
+    assert done.returncode == 1
+    assert done.stdout.splitlines()[-1].startswith(f"{wrong}:2: refuted: ")
+
+
+UNDECIDED = '{"schema": 1, "proof": {"undecided": "a\\nb", "structure": null, "excluded": []}, "status": "undecided"'
+
+
+@pytest.mark.parametrize(
+    ("stdin", "status", "said"),
+    [
+        (kovacic.solve("2").to_json(), 0, "checked"),
+        ("{", 2, "unreadable: "),
+        ("[1]", 3, "not checked: no answer"),
+        ('{"schema": true}', 3, "not checked: no answer"),
+        (kovacic.solve("sqrt(2)/x^2").to_json(), 3, "not checked: no answer"),
+        (UNDECIDED + ', "S": "x", "variable": "x", "constants": null}', 3, "not checked: the answer is undecided: 'a"),
+        ('{"schema": 1, "proof": {}}', 1, "refuted: malformed"),
+    ],
+)
+def test_the_command(stdin: str, status: int, said: str) -> None:
+    done = run("-m", "kovacic", "check", "-", stdin=stdin + "\n")
+    assert (done.returncode, done.stderr) == (status, "")
+    assert done.stdout.startswith(f"<stdin>:1: {said}")
+    assert len(done.stdout.splitlines()) == 1
+
+
+def test_a_file_that_is_missing() -> None:
+    done = run("-m", "kovacic", "check", "there_is_no_such_file")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "there_is_no_such_file" in done.stderr
+
+
+# ------------------------------------------------------------------------------------------- right answers
+
+
+@pytest.mark.parametrize("entry", PUBLISHED, ids=lambda entry: entry.id)
+def test_published_answers_are_checked(entry: Published) -> None:
+    said = checker.verdict(kovacic.solve(entry.S).to_json(full=True))
+    assert said == "checked" or said.startswith(REASONS)
+
+
+def test_textbook_answers_are_checked(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(FILE.parent.parent / "benchmarks"))
+    import closed_forms
+
+    for text in closed_forms.TEXTBOOK:
+        said = checker.verdict(kovacic.solve(text).to_json(full=True))
+        assert said == "checked" or said.startswith(REASONS), (text, said)
+
+
+def check_generated(example: strategies.Example) -> None:
+    answer = solve(example.S)
+    said = checker.verdict(json.dumps({**to_dict(answer), "group": group_dict(answer)}))
+    assert said == "checked" or said.startswith(REASONS), said
+
+
+@settings(max_examples=100)
+@given(strategies.examples())
+def test_generated_answers_are_checked(example: strategies.Example) -> None:
+    check_generated(example)
+
+
+@pytest.mark.slow
+@settings(max_examples=2000)
+@given(strategies.examples())
+def test_two_thousand_generated_answers_are_checked(example: strategies.Example) -> None:
+    check_generated(example)
+
+
+# ------------------------------------------------------------------------------------------- forged answers
+
+
+def forged_evidence(S: RatFunc, structure: Structure) -> Iterator[tuple[Evidence, ...]]:
+    """Evidence against a structure in every form, with the kernel's own bounds, places, primes and points."""
+    inspector = Inspector(S, Budget())
+    names, m = tuple(point.name for point in inspector.points), INVARIANT_DEGREE[structure]
+    primes = [h.p for h, _ in zip(S.field.homomorphisms(), range(2), strict=False)]
+    forms, omegas = [NoInvariant(m)], [NoRationalOmega(-1)]
+    bounds, counts = inspector._valuations(m), zero_counts(inspector.points)
+    if bounds is not None:
+        h = next(S.field.homomorphisms())
+        forms += [NoInvariant(m, p, ordinary_point(h(S.den)), bounds[1]) for p in primes]
+    if counts is not None:
+        omegas += [NoRationalOmega(counts.largest), *(NoRationalOmega(counts.largest, primes[0], n) for n in names)]
+    rules = [NecessaryCondition(rule, names) for rule in Rule]
+    yield ()
+    for item in (*forms, *omegas, *rules):
+        yield (item,)
+    for form in forms:
+        for omega in (*omegas, NecessaryCondition(Rule.NOT_A_SQUARE, names)):
+            yield (form, omega)
+
+
+def refuse(text: str) -> None:
+    """No forged proof that there is no solution passes, in the kernel or in the checker."""
+    answer = kovacic.solve(text)
+    S, decision, structure = answer.S, answer.decision, answer.decision.structure
+    assert structure is not None
+    later = list(Structure)[list(Structure).index(structure) + 1 :]
+    for evidence in forged_evidence(S, structure):
+        assert not Inspector(S, Budget()).excludes(structure, evidence), evidence
+        following = [Exclusion(other, (NoInvariant(INVARIANT_DEGREE[other]),)) for other in later]
+        exclusions = (*decision.exclusions, Exclusion(structure, evidence), *following)
+        none = Decision(None, exclusions)
+        assert not verify(S, none), evidence
+        said = checker.verdict(json.dumps(to_dict(replace(answer, decision=none))))
+        assert said.startswith("refuted"), (evidence, said)
+
+
+@pytest.mark.parametrize("entry", SOLVABLE[::8], ids=lambda entry: entry.id)
+def test_no_solvable_equation_has_a_proof_of_none(entry: Published) -> None:
+    refuse(entry.S)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("entry", SOLVABLE, ids=lambda entry: entry.id)
+def test_no_published_solvable_equation_has_a_proof_of_none(entry: Published) -> None:
+    refuse(entry.S)
+
+
+def edited(text: str, **changes: Any) -> str:
+    """The verdict on an answer in which the values at these places ("proof.invariant") are others."""
+    data = json.loads(kovacic.solve(text).to_json(full=True))
+    for place, value in changes.items():
+        *path, last = place.split("__")
+        inner = data
+        for key in path:
+            inner = inner[int(key) if key.isdigit() else key]
+        inner[int(last) if last.isdigit() else last] = value
+    return checker.verdict(json.dumps(data))
+
+
+def form(degree: int, theta: str, P: str = "1") -> dict[str, Any]:
+    return {"degree": degree, "theta": theta, "P": P, "D": "1"}
+
+
+@pytest.mark.parametrize(
+    ("text", "changes"),
+    [
+        ("x^2 + 3", {"proof__semi_invariant": form(1, "0")}),  # the group of another form
+        ("x^2 + 3", {"proof__semi_invariant": form(1, "0"), "group__name": "G_a"}),
+        ("x^2 + 3", {"proof__invariant": form(2, "0")}),
+        ("x^2 + 3", {"riccati__degree": 2}),
+        ("x^2 + 3", {"riccati__degree": True}),
+        ("x^2 + 3", {"riccati__coefficients": ["-x", "1"]}),
+        ("x^2 + 3", {"riccati__coefficients": ["-(x**2+1)/x", "1", "0"]}),
+        ("x^2 + 3", {"case": True}),
+        ("x^2 + 3", {"group__name": "G_m"}),
+        ("x^2 + 3", {"group__finite": True}),
+        ("x^2 + 3", {"group__order": 2}),
+        ("x^2 + 3", {"group__n": 1}),
+        ("2", {"proof__invariant": None}),
+        ("2", {"constants": None}),
+        ("2", {"constants__minimal_polynomial": "c**2 - 3"}),
+        ("2", {"constants__minimal_polynomial": "(c**2 - 2)*(c**2 - 3)"}),
+        ("2", {"constants__symbol": "x"}),
+        ("4", {"constants": {"symbol": "c", "minimal_polynomial": "c**2 - 4"}, "riccati__coefficients": ["-c", "1"]}),
+        ("0", {"riccati__coefficients": ["c", "1"]}),  # no constant is named
+        ("3/(4*x^2)", {"proof__invariant": None, "group": None}),
+        ("3/(4*x^2)", {"group__n": 2.0}),
+        ("1/x - 3/(16*x^2)", {"proof__structure": "reducible", "proof__excluded": [], "case": 1}),
+        ("1/x - 3/(16*x^2)", {"proof__invariant": None}),
+        ("1/x - 3/(16*x^2)", {"proof__excluded__0__evidence": []}),
+        ("x", {"proof__excluded__0__evidence": []}),
+        ("x", {"proof__excluded__1__evidence": [{"kind": "no_rational_omega", "prime": None, "place": ""}]}),
+        ("x", {"proof__invariant": form(2, "0")}),
+        ("x", {"riccati": {"variable": "w", "degree": 1, "coefficients": ["-x", "1"]}}),
+        ("x", {"proof__excluded__4__structure": "octahedral"}),
+    ],
+)
+def test_an_edited_answer_is_refuted(text: str, changes: dict[str, Any]) -> None:
+    said = edited(text, **changes)
+    assert said.startswith("refuted: "), said
+
+
+@pytest.mark.parametrize("power", ["9**9**9", "((9**5000)**5000)**5000", "(x + 1)**100000", "x**1000000", "(" * 10**5])
+def test_an_expression_that_is_too_large_is_not_computed(power: str) -> None:
+    assert not edited("x", S=power).startswith("checked")
+    assert not edited("x^2 + 3", riccati__coefficients=[power, "1"]).startswith("checked")
+
+
+def paths(data: Any, prefix: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """Every place of a JSON object."""
+    yield prefix
+    items = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
+    for key, value in items:
+        yield from paths(value, (*prefix, key))
+
+
+WRONG = [None, True, 3, -1, 0.5, "7", "x", "", [], {}, ["x"], 10**30, "1/0", "y'' + (", "infinity", "\ud800\n"]
+#: What the checker says it doesn't look at, and what is right or wrong by itself: the details of the evidence.
+SAME: list[Any] = [
+    ("P", "7"),
+    ("excluded", ""),
+    ("excluded", {}),
+    ("S", "x"),
+]  # a multiple; nothing; another right answer
+UNREAD = {"input", "verified", "notices", "seconds", "equation", "gauge", "generic_conditions", "solutions"}
+
+
+@pytest.mark.parametrize("text", ["2", "x", "x^2 + 3", "1/x - 3/(16*x^2)", "3/(4*x^2)", "x^4 + 6*x", "x^2 + 1"])
+def test_a_mutated_field_is_refuted_or_not_checked(text: str) -> None:
+    line = kovacic.solve(text).to_json(full=True)
+    for path in paths(json.loads(line)):
+        if not path or path[0] in UNREAD or path[-1] in ("D", "variable", "group", "field"):
+            continue
+        if path[:2] == ("proof", "excluded") and len(path) > 3 and path[3] != "structure":
+            continue
+        for wrong in WRONG:
+            data = json.loads(line)
+            place = data
+            for key in path[:-1]:
+                place = place[key]
+            if (path[-1], wrong) in SAME or (place[path[-1]] == wrong and type(place[path[-1]]) is type(wrong)):
+                continue
+            place[path[-1]] = wrong
+            said = checker.verdict(json.dumps(data))
+            assert said.startswith(("refuted: ", "not checked: ")), (path, wrong, said)
+            assert "\n" not in said
+
+
+@pytest.mark.parametrize("text", ["2", "x", "x^2 + 3", "1/x - 3/(16*x^2)", "x^2 + 1"])
+def test_mutated_evidence_ends_in_a_verdict(text: str) -> None:
+    line = kovacic.solve(text).to_json(full=True)
+    for path in paths(json.loads(line)):
+        for wrong in WRONG if path[:2] == ("proof", "excluded") or path[-1:] in (("variable",), ("field",)) else ():
+            data = json.loads(line)
+            place = data
+            for key in path[:-1]:
+                place = place[key]
+            place[path[-1]] = wrong
+            assert checker.verdict(json.dumps(data)).startswith(("checked", "refuted: ", "not checked: "))
