@@ -14,28 +14,18 @@ from typing import Any
 
 import pytest
 import strategies
+from forged import forged_evidence
 from hypothesis import given, settings
 from published import Published, load
 
 import kovacic
 from kovacic import checker
-from kovacic.algebra.modular import ordinary_point
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import (
-    Decision,
-    Evidence,
-    Exclusion,
-    NecessaryCondition,
-    NoInvariant,
-    NoRationalOmega,
-    Rule,
-    Structure,
-)
+from kovacic.decision import Decision, Exclusion, NoInvariant, Structure
 from kovacic.limits import Budget
 from kovacic.solution import Solution
 from kovacic.verify import verify
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
-from kovacic.verify.local import zero_counts
 from kovacic.views.json import group_dict, to_dict
 
 FILE = Path(checker.__file__)
@@ -153,27 +143,6 @@ def test_two_thousand_generated_answers_are_checked(example: strategies.Example)
 
 
 # ------------------------------------------------------------------------------------------- forged answers
-
-
-def forged_evidence(S: RatFunc, structure: Structure) -> Iterator[tuple[Evidence, ...]]:
-    """Evidence against a structure in every form, with the kernel's own bounds, places, primes and points."""
-    inspector = Inspector(S, Budget())
-    names, m = tuple(point.name for point in inspector.points), INVARIANT_DEGREE[structure]
-    primes = [h.p for h, _ in zip(S.field.homomorphisms(), range(2), strict=False)]
-    forms, omegas = [NoInvariant(m)], [NoRationalOmega(-1)]
-    bounds, counts = inspector._valuations(m), zero_counts(inspector.points)
-    if bounds is not None:
-        h = next(S.field.homomorphisms())
-        forms += [NoInvariant(m, p, ordinary_point(h(S.den)), bounds[1]) for p in primes]
-    if counts is not None:
-        omegas += [NoRationalOmega(counts.largest), *(NoRationalOmega(counts.largest, primes[0], n) for n in names)]
-    rules = [NecessaryCondition(rule, names) for rule in Rule]
-    yield ()
-    for item in (*forms, *omegas, *rules):
-        yield (item,)
-    for form in forms:
-        for omega in (*omegas, NecessaryCondition(Rule.NOT_A_SQUARE, names)):
-            yield (form, omega)
 
 
 def refuse(text: str) -> None:

@@ -12,16 +12,20 @@ from typing import Any
 import pytest
 import strategies
 from flint import nmod_poly
+from forged import forged_evidence
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.decision import SemiInvariant
+from kovacic.decision import SemiInvariant, Structure
+from kovacic.engine.degree_bound import irregular_difference_squared
+from kovacic.engine.places import analyse
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, Limits
 from kovacic.verify import GroupClaim, verify
+from kovacic.verify.evidence import Inspector
 from kovacic.verify.residue import exponent_difference_squared
 from kovacic.verify.series import convolving_recurrence, fraction_of_series
 
@@ -94,6 +98,24 @@ def test_exponents_at_conjugate_places_by_taylors_formula(p: Any, nu: int, M: An
     """sqrt(S) = M/p^nu is rational, so that r is its residue; S = M^2 q/(p^(2 nu) q)."""
     assume(p.gcd(M * q).degree == 0)
     assert exponent_difference_squared(M * M * q, q, p, nu) == 4 * _residue(M, p, nu) ** 2 % p
+
+
+@given(strategies.irreducibles(3), st.integers(2, 4), strategies.polynomials(0, 8), strategies.polynomials(0, 2))
+def test_the_search_and_the_kernel_find_the_same_exponents_at_irregular_places(p: Any, nu: int, N: Any, q: Any) -> None:
+    assume(p.gcd(N * q).degree == 0)
+    problem = analyse(RatFunc(N, p ** (2 * nu) * q), Budget())
+    place = next(place for place in problem.finite_places if place.factor == p)
+    assert irregular_difference_squared(place) == exponent_difference_squared(N, q, p, nu)
+
+
+@pytest.mark.parametrize("p", ["x^2+1", "x^2-2", "x^3-2"])
+@pytest.mark.parametrize("b", ["0", "1", "x", "3*x"])
+@pytest.mark.parametrize("d", [0, 1, 2])
+def test_the_degree_bound_with_conjugate_irregular_poles(p: str, b: str, d: int) -> None:
+    """The record of the search has the number of zeros that the kernel finds; else the check of the answer fails."""
+    answer = kovacic.solve(f"1/({p})^4 + ({b})/({p})^3 + {d}")
+    assert answer.case is None
+    assert answer.verified
 
 
 def _residue(M: Any, p: Any, nu: int) -> Any:
@@ -296,6 +318,47 @@ def test_a_claim_beside_the_proof_fails() -> None:
     assert not verify(S, replace(yes, exclusions=no.exclusions))
     assert not verify(x, replace(no, exclusions=(*no.exclusions, no.exclusions[0])))
     assert not verify(x, replace(no, exclusions=no.exclusions[::-1]))
+
+
+SOLVABLE = {
+    "x^2 + 3": Structure.REDUCIBLE,
+    "x^2 + 1": Structure.REDUCIBLE,
+    "x^2 - 1 + 2/x^2": Structure.REDUCIBLE,
+    "1/x^4": Structure.REDUCIBLE,
+    "2": Structure.REDUCIBLE,
+    "3/(4*x^2)": Structure.REDUCIBLE,
+    "-1/(4*x^2)": Structure.REDUCIBLE,
+    "(16*x - 3)/(16*x^2)": Structure.IMPRIMITIVE,
+    "1/x - 3/(16*x^2)": Structure.IMPRIMITIVE,
+    "-3/(16*x^2) - 2/(9*(x-1)^2) + 3/(16*x*(x-1))": Structure.TETRAHEDRAL,
+}
+
+
+@pytest.mark.parametrize("text", SOLVABLE)
+def test_no_evidence_with_the_kernels_own_bounds_excludes_the_structure_of_the_group(text: str) -> None:
+    """Without evidence of uniqueness, RAMIFIED at an unramified place, two branch points, an omega that exists, ..."""
+    S = kovacic.solve(text).S
+    inspector = Inspector(S, Budget())
+    for evidence in forged_evidence(S, SOLVABLE[text]):
+        assert not inspector.excludes(SOLVABLE[text], evidence), evidence
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("x^2 + 3", {"infinity": True}),
+        ("x", {"infinity": False}),  # ramified
+        ("1/x^4", {"x": True, "infinity": False}),  # infinity is an ordinary point
+        ("2/x^2 + 1", {"x": False, "infinity": True}),  # Delta = 3 without a logarithm
+        ("1/x + 1", {"x": True, "infinity": True}),  # a logarithm
+        ("(16*x - 3)/(16*x^2)", {"x": True, "infinity": False}),
+        ("1/x^2", {"x": True, "infinity": True}),  # an irrational Delta
+        ("1/x^5 + 1", {"x": False, "infinity": True}),
+    ],
+)
+def test_which_places_tell_the_solutions_apart(text: str, expected: dict[str, bool]) -> None:
+    inspector = Inspector(kovacic.solve(text).S, Budget())
+    assert {p.name: inspector._tells_solutions_apart(p) for p in inspector.points} == expected
 
 
 # ------------------------------------------------------------------------------------------- limits
