@@ -34,7 +34,7 @@ from kovacic.enclosure.points import as_point
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Limits
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
 MEDIAN, WORST = 8.0, 1000.0
 """What is promised, in units in the last place."""
@@ -51,7 +51,12 @@ _SAMPLES = 24
 
 
 def lambdify(
-    solution: object, *, interval: tuple[object, object], which: int = 0, check: bool = True
+    solution: object,
+    *,
+    interval: tuple[object, object],
+    which: int = 0,
+    check: bool = True,
+    limits: Limits | None = None,
 ) -> ProductForm | TabulatedFunction:
     """The solution with the logarithmic derivative number `which`, as a NumPy function on an interval without singular points.
 
@@ -78,17 +83,22 @@ def lambdify(
             "lambdify needs a Liouvillian solution, found by kovacic.solve",
             hint="kovacic.doubles.tabulate.tabulate treats every S, by initial values",
         )
-    region, candidates = region_of(problem, interval)
-    base = finite_base(problem, which, candidates)
-    with working_precision(_PREC):
-        found: ProductForm | TabulatedFunction | None = product_form(problem, which, region, base)
-    if found is None:
-        if not region.is_real:
-            raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
-        slope = ball_from_flint(omega(problem, which, base, _SLOPE_BITS))
-        found = tabulate(problem, region.low.real, region.high.real, x0=base, y0=1, dy0=slope)
+    budget = Budget(limits or DEFAULT_LIMITS)
+    with budget.watched():
+        region, candidates = region_of(problem, interval)
+        base = finite_base(problem, which, candidates)
+        with working_precision(_PREC):
+            found: ProductForm | TabulatedFunction | None = product_form(problem, which, region, base)
+        if found is None:
+            if not region.is_real:
+                raise InputError(
+                    "complex arguments need a solution of case 1", hint="evaluate treats every complex point"
+                )
+            slope = ball_from_flint(omega(problem, which, base, _SLOPE_BITS))
+            ends = region.low.real, region.high.real
+            found = tabulate(problem, *ends, x0=base, y0=1, dy0=slope, limits=budget.share(1).limits)
     if check:
-        warn_unless_accurate(found, problem, which)
+        warn_unless_accurate(found, problem, which, budget.seconds_left)
     return found
 
 
@@ -155,10 +165,12 @@ def _units(value: complex, exact: acb) -> float | None:
     return float(abs(value - exact) / float(np.spacing(float(size))))
 
 
-def warn_unless_accurate(function: ProductForm | TabulatedFunction, equation: object, which: int) -> None:
+def warn_unless_accurate(
+    function: ProductForm | TabulatedFunction, equation: object, which: int, seconds: float = math.inf
+) -> None:
     """Measure on the default points, and give an AccuracyWarning where the promise isn't kept or can't be checked."""
     try:
-        found = measure(function, equation, which=which, limits=Limits(seconds=20))
+        found = measure(function, equation, which=which, limits=Limits(seconds=max(0.0, min(20.0, seconds))))
     except LimitExceeded as limit:
         text = f"the error of this function couldn't be measured: {limit}"
     else:

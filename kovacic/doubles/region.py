@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from kovacic.enclosure.points import Point, as_point, to_acb
-from kovacic.enclosure.problem import NumericProblem, System
+from kovacic.enclosure.problem import NumericProblem, System, name_of
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 
@@ -94,9 +94,7 @@ def _singular_ends(problem: NumericProblem, low: Point, high: Point) -> tuple[bo
             x, y = root.real, root.imag
             outside = x < a.real or x > b.real or y < a.imag or y > b.imag
             if not (here or there or outside):
-                text = root.real.mid().str(12, radius=False)
-                text += "" if root.imag.contains(0) else f" + {root.imag.mid().str(12, radius=False)}i"
-                raise InputError(f"the interval contains the singular point {text}")
+                raise InputError(f"the interval contains the singular point {name_of(system, root)}")
     return at_low, at_high
 
 

@@ -97,6 +97,7 @@ def tabulate(
     -0.544021110889370
     """
     problem = as_problem(equation)
+    budget = Budget(limits or DEFAULT_LIMITS)
     region, _ = region_of(problem, (start, stop))
     if not region.is_real:
         raise InputError("a table needs an interval of the real axis")
@@ -114,10 +115,9 @@ def tabulate(
             )
             gauge = gauge_form(problem.gauge, hull(region, origin), origin)
     normal = NumericProblem(problem.system)
-    budget = Budget(limits or DEFAULT_LIMITS)
     pieces = _pieces(problem.system, region, budget)
     centres = [frame.centre for frame, _ in pieces]
-    states = evaluate_states(normal, centres, x0=origin, y0=y0, dy0=dy0, digits=_DIGITS, limits=limits)
+    states = evaluate_states(normal, centres, x0=origin, y0=y0, dy0=dy0, digits=_DIGITS, limits=budget.share(1).limits)
     with working_precision(_PREC + 60):
         rows = [
             _coefficients(problem.system, piece, state, budget) for piece, state in zip(pieces, states, strict=True)

@@ -20,7 +20,7 @@ from typing import Any
 
 from flint import acb, arb
 
-from kovacic.enclosure.points import as_point
+from kovacic.enclosure.points import Point, as_point
 from kovacic.enclosure.working import working_precision
 
 Dyadic = tuple[int, int]
@@ -116,20 +116,13 @@ class Ball:
         A Ball is accepted as well: True if it lies in this one as a whole.
         """
         if isinstance(number, Ball):
-            x, y, inner = _to_fraction(number.re), _to_fraction(number.im), _to_fraction(number.rad)
-        else:
-            point = as_point(number, "the number")
-            x, y, inner = point.re, point.im, Fraction(0)
-        slack = _to_fraction(self.rad) - inner
-        dx, dy = x - _to_fraction(self.re), y - _to_fraction(self.im)
-        return slack >= 0 and dx * dx + dy * dy <= slack * slack
+            return _reaches(self, number, -1)
+        point, (re, im) = as_point(number, "the number"), self.midpoint
+        return (point - Point(re, im)).norm_squared() <= _to_fraction(self.rad) ** 2
 
     def overlaps(self, other: Ball) -> bool:
         """True if the two exact values can be equal; False proves that they differ."""
-        dx = _to_fraction(self.re) - _to_fraction(other.re)
-        dy = _to_fraction(self.im) - _to_fraction(other.im)
-        reach = _to_fraction(self.rad) + _to_fraction(other.rad)
-        return dx * dx + dy * dy <= reach * reach
+        return _reaches(self, other, 1)
 
     @property
     def digits(self) -> float:
@@ -171,6 +164,23 @@ class Ball:
 
     def __repr__(self) -> str:
         return f"<Ball {self}>"
+
+
+def _reaches(a: Ball, b: Ball, sign: int) -> bool:
+    """True if the distance of the midpoints is at most the radius of a plus `sign` times that of b, decided exactly.
+
+    First with a few hundred bits, which tell where the exponents are too far apart for fractions.
+    """
+    with working_precision(256):
+        reach = arb(a.rad) + sign * arb(b.rad)
+        distance = (arb(a.re) - arb(b.re)) ** 2 + (arb(a.im) - arb(b.im)) ** 2
+        if reach < 0 or distance > reach * reach:
+            return False
+        if reach >= 0 and distance <= reach * reach:
+            return True
+    rest = _to_fraction(a.rad) + sign * _to_fraction(b.rad)
+    step = [_to_fraction(x) - _to_fraction(y) for x, y in ((a.re, b.re), (a.im, b.im))]
+    return rest >= 0 and step[0] ** 2 + step[1] ** 2 <= rest**2
 
 
 def ball_from_flint(value: acb | arb) -> Ball | None:

@@ -25,7 +25,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 
-from flint import acb, acb_poly, arb
+from flint import acb, acb_poly, arb, ctx
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import decompose
@@ -38,7 +38,10 @@ from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import NumericProblem, check_segment
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Budget
+from kovacic.limits import Budget, check_duration
+
+_NODES = 3e-11
+"""Seconds that the nodes of a quadrature take, over bits^2.7 (measured): they are computed in one piece."""
 
 _CHEAP_DEGREE = 60
 """Degree of P up to which its evaluation costs less than the Taylor steps."""
@@ -262,6 +265,7 @@ def integral(function: Callable[[acb, bool], acb], a: acb, b: acb, budget: Budge
                 stopped = reason
         return acb(0)
 
+    check_duration(_NODES * ctx.prec**2.7, f"a quadrature with {ctx.prec} bits")
     try:
         result: acb = acb.integral(guarded, a, b)
     except SystemError as error:  # the interrupt came between two calls of the integrand

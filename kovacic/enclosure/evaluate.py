@@ -98,13 +98,14 @@ def evaluate_states(
     check_digits(digits, limits)
     if method is not None and method not in METHODS:
         raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
+    budget = Budget(limits)
     problem = as_problem(equation)
     itinerary = make_itinerary(points, x0, path)
-    budget = Budget(limits)
     start = (initial_value(y0, "y0"), initial_value(dy0, "dy0"))
-    route, used = _route(problem, itinerary, start, method)
-    exact = not any(isinstance(value, Ball) for value in start)
-    return raise_precision(route, used, itinerary.targets, digits, budget, exact)
+    with budget.watched():
+        route, used = _route(problem, itinerary, start, method)
+        exact = not any(isinstance(value, Ball) for value in start)
+        return raise_precision(route, used, itinerary.targets, digits, budget, exact)
 
 
 def _route(problem: NumericProblem, itinerary: Itinerary, start: Start, method: Method | None) -> tuple[Route, Method]:

@@ -9,6 +9,7 @@ Symbols: c centre, H = 2^e scale, u = (x - c)/H.
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 from fractions import Fraction
@@ -157,6 +158,30 @@ def ray_bound(frame: Frame, target: Point) -> RayBound | None:
         if not total < arb((1, _LARGEST)):
             return None
         return RayBound((error / least).upper(), (slope / least).upper(), log2(least), log2(total))
+
+
+def least_growth(system: System, a: Point, b: Point) -> float:
+    """A lower bound of int |S|^(1/2) |dx| along the segment from a to b: so much the solutions grow, or oscillate.
+
+    From the enclosed zeros, on pieces that get shorter towards both ends; 0 for a numerator whose zeros aren't isolated.
+    """
+    zeros, poles = offsets(system, "num", a), offsets(system, "den", a)
+    if not zeros and len(system.num) != 1:
+        return 0.0
+    total = 0.0
+    towards = [i / 64 * 2.0**-k for k in range(60) for i in range(32, 16, -1 if k == 0 else -4)]  # 1/2, 31/64, ...
+    with working_precision(_BITS):
+        step = to_acb(b - a)
+        marks = [arb(0), *map(arb, reversed(towards)), *(1 - arb(t) for t in towards[1:]), arb(1)]
+        for start, stop in itertools.pairwise(marks):
+            middle, half = step * (start + stop) / 2, abs(step).upper() * (stop - start) / 2
+            size = arb(abs(system.num[-1])) / abs(system.den[-1])
+            for eta, n in zeros or ():
+                size *= max((abs(eta - middle) - half).lower(), arb(0)) ** n
+            for zeta, n in poles or ():
+                size /= (abs(zeta - middle) + half) ** n
+            total += float((size.sqrt() * 2 * half).lower())
+    return total
 
 
 def fitting(

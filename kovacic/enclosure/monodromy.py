@@ -83,7 +83,7 @@ def monodromy(equation: object, *, digits: int = 15, limits: Limits | None = Non
     result = []
     for loop, z in _loops(_places(system)):
         budget.check()
-        matrix = transition_matrix(system, loop, digits=digits, limits=limits)
+        matrix = transition_matrix(system, loop, digits=digits, limits=budget.share(1).limits)
         result.append(_local(system, z, loop, matrix, digits))
     return tuple(result)
 

@@ -6,6 +6,7 @@ First digits + guard bits, then as many bits more as were missing.  The global p
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -110,10 +111,15 @@ def _stalled(previous: tuple[Evaluation, ...], found: tuple[Evaluation, ...]) ->
 
 def _reason(result: Evaluation) -> str:
     if result.y.contains_zero():
-        size = f"|y| is at most about {result.y.radius:.1e}"
-        return f"the value can't be told from zero ({size}): no relative accuracy was reached"
-    known = max(0.0, result.y.digits)
-    return f"only {known:.1f} of {result.digits} digits: the initial values or the limits allow no more"
+        known = arb(result.y.rad).mid().str(2, radius=False)
+        growth = result.y.rad[0].bit_length() + result.y.rad[1] + result.bits
+        lost = f": other solutions grow to about 10^{growth * math.log10(2):.0f} on the way, so that as many digits are lost"
+        return (
+            f"the value can't be told from zero (|y| is at most about {known}): no relative accuracy was reached"
+            f" with {result.bits} bits{lost if growth > 200 else ''}"
+        )
+    known = f"{max(0.0, result.y.digits):.1f}"
+    return f"only {known} of {result.digits} digits: the initial values or the limits allow no more"
 
 
 def _as_evaluations(

@@ -22,12 +22,19 @@ from kovacic.decision import Decision
 from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
+from kovacic.limits import check_duration
 
 _NUMERATOR_ROOTS = 128
 """Above this degree the zeros of the numerator aren't isolated (its size is then bounded by its coefficients)."""
 
+_ISOLATION = 4e-6
+"""Seconds that it takes to isolate the zeros of a polynomial, over the square of its degree."""
+
 _SHARP = 40
 """Relative bits to which the distances of singular points are known."""
+
+_SHORT = 10**9
+"""The largest denominator of a singular point that messages name exactly."""
 
 _EXACT = 400
 """Bits from which on it is worth while to decide exactly whether a point is singular."""
@@ -123,6 +130,9 @@ def as_problem(equation: object) -> NumericProblem:
 @lru_cache(maxsize=64)
 def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
     poly = fmpz_poly(list(coefficients))
+    check_duration(
+        _ISOLATION * poly.degree() ** 2, f"the isolation of the zeros of a polynomial of degree {poly.degree()}"
+    )
     with working_precision(prec):
         return tuple((root, int(k)) for root, k in poly.complex_roots()) if poly.degree() > 0 else ()
 
@@ -180,11 +190,21 @@ def check_segment(system: System, a: Point, b: Point) -> None:
     if hit is not None:
         where, distance = hit
         raise InputError(
-            f"the path from {a} to {b} runs through the singular point near {where} "
+            f"the path from {a} to {b} runs through the singular point {where} "
             f"(distance 0; {distance:.6g} from the start)",
             hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
             "the result depends on the side",
         )
+
+
+def name_of(system: System, point: acb) -> str:
+    """The singular point in this ball, in words: its exact value where that is a short Gaussian rational."""
+    parts = [Fraction(int(m)) * Fraction(2) ** int(e) for m, e in (x.mid().man_exp() for x in (point.real, point.imag))]
+    guess = Point(*(part.limit_denominator(_SHORT) for part in parts))
+    if point.overlaps(to_acb(guess)) and system.is_singular(guess):
+        return str(guess)
+    text = point.real.mid().str(12, radius=False)
+    return f"near {text}" if point.imag.contains(0) else f"near {text} + {point.imag.mid().str(12, radius=False)}i"
 
 
 def _first_hit(system: System, a: Point, b: Point) -> tuple[str, float] | None:
@@ -192,21 +212,31 @@ def _first_hit(system: System, a: Point, b: Point) -> tuple[str, float] | None:
     step = b - a
     if step.norm_squared() == 0:
         return None
+    with working_precision(128):
+        if not any(_may_meet(t) for t in _parameters(system, a, step, 128)):
+            return None
     common = along(system.den, a, step)
-    poly = common[0].gcd(common[1]).numer()
-    prec = 64
-    while poly.degree() > 0:
+    poly = common[0].gcd(common[1]).numer() if common[1] else None  # on the axis every singular point has its t
+    prec = 128
+    while poly is None or poly.degree() > 0:
         with working_precision(prec):
-            real = sorted((r.real for r, _ in poly.complex_roots() if r.imag.is_zero()), key=lambda t: float(t.mid()))
-            inside = [t for t in real if not (t < 0 or t > 1)]
+            found = _parameters(system, a, step, prec) if poly is None else [t for t, _ in poly.complex_roots()]
+            inside = sorted((t.real for t in found if t.imag.is_zero() and _may_meet(t)), key=lambda t: float(t.mid()))
             if not inside:
                 break
             t = inside[0]
             if not (t.contains(0) or t.contains(1)):  # the ends were excluded exactly: else refine
-                where = to_acb(a) + to_acb(step) * t
-                text = where.real.mid().str(12, radius=False)
-                if not (a.is_real() and b.is_real()):
-                    text += f" + {where.imag.mid().str(12, radius=False)}i"
-                return text, float(t.mid()) * math.sqrt(step.norm_squared())
+                where = name_of(system, to_acb(a) + to_acb(step) * t)
+                return where, float(t.mid()) * math.sqrt(step.norm_squared())
         prec *= 2
     return None
+
+
+def _parameters(system: System, a: Point, step: Point, prec: int) -> list[acb]:
+    """The numbers t for which a + t step is a singular point."""
+    return [(root - to_acb(a)) / to_acb(step) for root, _ in system.roots("den", prec)]
+
+
+def _may_meet(t: acb) -> bool:
+    """Can t be a number of the interval [0, 1]?"""
+    return t.imag.contains(0) and not (t.real < 0 or t.real > 1)

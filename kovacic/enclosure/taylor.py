@@ -43,6 +43,9 @@ from kovacic.enclosure.working import working_precision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 
+_CHECKED = 64
+"""The clock is read every so many terms."""
+
 
 @dataclass(frozen=True)
 class Expansion:
@@ -70,8 +73,7 @@ def expand(system: System, frame: Frame, prec: int, bound: RayBound, budget: Bud
     p, q = _cut(p, excess), _cut(q, excess)
     columns, defects = [], []
     for start in (0, 1):
-        budget.check()
-        re, im = (_recurrence_real if real else _recurrence_complex)(p, q, w, start, 1 << quiet)
+        re, im = (_recurrence_real if real else _recurrence_complex)(p, q, w, start, 1 << quiet, budget)
         columns.append((fmpz_poly(re), None if im is None else fmpz_poly(im)))
         defects.append(_proven_defect(p, q, excess, re, im, 1 << quiet))
     return Expansion(frame, w, (columns[0], columns[1]), (defects[0], defects[1]), q_0)
@@ -91,7 +93,7 @@ def _numbers(values: list[int], w: int) -> list[Any]:
     return [fmpz(v) for v in values]
 
 
-def _recurrence_real(p: Parts, q: Parts, w: int, start: int, small: int) -> tuple[list[Any], None]:
+def _recurrence_real(p: Parts, q: Parts, w: int, start: int, small: int, budget: Budget) -> tuple[list[Any], None]:
     dp, dq = len(p[0]), len(q[0]) - 1
     p_rev, q_rev, q0 = _numbers(p[0][::-1], w), _numbers(q[0][:0:-1], w), _numbers(q[0][:1], w)[0]
     one, zero = _numbers([1 << w, 0], w)
@@ -100,6 +102,8 @@ def _recurrence_real(p: Parts, q: Parts, w: int, start: int, small: int) -> tupl
     b = [zero] * (pad + 2)  # b[pad + n] = n (n - 1) a_n
     n, quiet, cap = 0, 0, 40 * w + 4000
     while quiet <= pad:
+        if n % _CHECKED == 0:
+            budget.check()
         i = pad + n
         total = sum(map(mul, p_rev, a[i - dp + 1 : i + 1])) if dp else zero
         if dq:
@@ -115,7 +119,9 @@ def _recurrence_real(p: Parts, q: Parts, w: int, start: int, small: int) -> tupl
     return a[pad:], None
 
 
-def _recurrence_complex(p: Parts, q: Parts, w: int, start: int, small: int) -> tuple[list[Any], list[Any]]:
+def _recurrence_complex(
+    p: Parts, q: Parts, w: int, start: int, small: int, budget: Budget
+) -> tuple[list[Any], list[Any]]:
     p_im, q_im = p[1] or [0] * len(p[0]), q[1] or [0] * len(q[0])
     dp, dq = len(p[0]), len(q[0]) - 1
     pr, pi = _numbers(p[0][::-1], w), _numbers(p_im[::-1], w)
@@ -127,6 +133,8 @@ def _recurrence_complex(p: Parts, q: Parts, w: int, start: int, small: int) -> t
     br, bi = [zero] * (pad + 2), [zero] * (pad + 2)
     n, quiet, cap = 0, 0, 40 * w + 4000
     while quiet <= pad:
+        if n % _CHECKED == 0:
+            budget.check()
         i = pad + n
         x, y = ar[i - dp + 1 : i + 1], ai[i - dp + 1 : i + 1]
         re = sum(map(mul, pr, x)) - sum(map(mul, pi, y)) if dp else zero

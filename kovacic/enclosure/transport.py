@@ -21,7 +21,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from kovacic.enclosure.frame import Frame, RayBound, fitting, log2
+from kovacic.enclosure.frame import Frame, RayBound, fitting, least_growth, log2
 from kovacic.enclosure.matrices import Matrix, adjugate, multiply, product
 from kovacic.enclosure.points import Point
 from kovacic.enclosure.problem import System, check_segment, distance_lower
@@ -37,6 +37,9 @@ _GROWTH = 0.2
 """Growth of the solutions in one disc, as a share of the working precision."""
 
 _MAX_DISCS = 200_000
+
+_TRIED = 16
+"""Steps after which the time of the others is known well enough."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +60,7 @@ class Disc:
 def piece_matrices(system: System, a: Point, b: Point, prec: int, budget: Budget) -> list[Matrix]:
     """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about 2^-prec)."""
     result: list[Matrix] = []
+    begun = budget.seconds_left
     for disc in cover(system, a, b, prec, budget):
         frame, worst = disc.frame, disc.bounds[0].worst(disc.bounds[1])
         if is_split(system, prec):
@@ -68,9 +72,31 @@ def piece_matrices(system: System, a: Point, b: Point, prec: int, budget: Budget
                 for point, bound in zip((disc.enter, disc.leave), disc.bounds, strict=True)
             )
         result.append(multiply(product(stop), adjugate(product(start))) if start else product(stop))
+        if len(result) == _TRIED:
+            _refuse(system, a, b, prec, begun - budget.seconds_left, budget)
         if len(result) > _MAX_DISCS:
             raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
     return result
+
+
+def _refuse(system: System, a: Point, b: Point, prec: int, used: float, budget: Budget) -> None:
+    """Raise as soon as it is clear that the limits don't allow all steps from a to b; the first few took `used` seconds.
+
+    A disc of growth g bits, on either side of its centre, has int |S|^(1/2) below 2 (g + 10) log 2: that gives the least
+    number of steps.
+    """
+    growth, each = least_growth(system, a, b), used / _TRIED
+    least = growth / (2 * (_allowed_growth(prec) + 10) * math.log(2))
+    reason = f"the solutions grow or oscillate by exp({growth:.2g}) on the way from {a} to {b}, which takes {least:.2g} steps"
+    if least > _MAX_DISCS:
+        raise LimitExceeded(f"{reason} or more, above the limit of {_MAX_DISCS}", limit="unknown_degree")
+    if each * (least - _TRIED) > budget.seconds_left:
+        raise LimitExceeded(f"{reason} of {each:.2g} s each: more than the time limit allows", limit="seconds")
+
+
+def _allowed_growth(prec: int) -> float:
+    """The bits by which the solutions may grow from the centre of a disc to its junctions."""
+    return max(100.0, prec * _GROWTH)
 
 
 def cover(system: System, a: Point, b: Point, prec: int, budget: Budget) -> Iterator[Disc]:
@@ -157,7 +183,7 @@ def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int
     corners = (piece.at(t), piece.at(stop), enter, leave)
     if stop <= t or stop > 1 or any((p - centre).norm_squared() > unit * unit for p in corners):
         return None
-    found = fitting(system, centre, e, _RATIO, max(100.0, prec * _GROWTH), (enter, leave))
+    found = fitting(system, centre, e, _RATIO, _allowed_growth(prec), (enter, leave))
     return None if found is None else Disc(found[0], enter, leave, stop, found[1])
 
 

@@ -22,7 +22,7 @@ from kovacic.enclosure.points import Point, as_point
 from kovacic.enclosure.precision import Evaluation
 from kovacic.enclosure.problem import as_problem
 from kovacic.errors import InputError
-from kovacic.limits import Limits
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -66,7 +66,7 @@ def sample(
     intervals = _regular_intervals(a.re, b.re, cuts)
     longest = max(intervals, key=lambda i: i[1] - i[0])
     origin = Point((longest[0] + longest[1]) / 2) if x0 is None else as_point(x0, "x0")
-    height = _height(singular, b.re - a.re)
+    height, budget = _height(singular, b.re - a.re), Budget(limits or DEFAULT_LIMITS)
     runs = []
     for left, right in intervals:
         count = max(2, round(points * (right - left) / (b.re - a.re)))
@@ -75,7 +75,10 @@ def sample(
         middle = Point((left + right) / 2)
         lift = Point(Fraction(0), height)
         path = None if direct else [origin + lift, middle + lift, middle]
-        runs.append(evaluate_states(problem, grid, x0=origin, y0=y0, dy0=dy0, digits=digits, path=path, limits=limits))
+        states = evaluate_states(
+            problem, grid, x0=origin, y0=y0, dy0=dy0, digits=digits, path=path, limits=budget.share(1).limits
+        )
+        runs.append(states)
     return Samples(tuple(runs), tuple(map(complex, singular)))
 
 

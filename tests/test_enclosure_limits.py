@@ -1,0 +1,132 @@
+"""Limits of the numerical calls: they hold, and what can't be had is said at once, with the reason."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from fractions import Fraction
+from random import Random
+from typing import Any
+
+import pytest
+
+import kovacic
+from kovacic.doubles.lambdify import lambdify
+from kovacic.doubles.tabulate import tabulate
+from kovacic.enclosure.ball import Ball
+from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, transition_matrix
+from kovacic.enclosure.frame import least_growth
+from kovacic.enclosure.monodromy import monodromy
+from kovacic.enclosure.points import Point
+from kovacic.enclosure.problem import System, check_segment
+from kovacic.enclosure.transport import cover
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import Budget, Limits
+from kovacic.views.plot import sample
+
+START: dict[str, Any] = {"y0": 1, "dy0": 0}
+
+
+@pytest.mark.parametrize(
+    ("S", "x", "x0"),
+    [("x", 10**6, 0), ("-1-1/x^2", 10**9, 1), ("10^20", 1, 0), ("10^20", 1j, 0), ("1/x^6", "1e-8", 1)],
+)
+def test_growth_beyond_all_steps_is_said_at_once(S: str, x: object, x0: object) -> None:
+    begun = time.process_time()
+    with pytest.raises(LimitExceeded, match=r"grow or oscillate by exp\(\d.*steps or more, above the limit"):
+        evaluate(S, x, x0=x0, **START)
+    assert time.process_time() - begun < 1
+
+
+def test_a_closed_form_needs_no_steps_whatever_the_growth() -> None:
+    value = kovacic.solve("10^20").at(1, x0=0, y0=1, dy0=10**10)
+    size = math.log2(value.re[0]) + value.re[1]
+    assert size == pytest.approx(10**10 / math.log(2), rel=1e-12)
+
+
+def test_the_time_of_the_first_steps_tells_that_the_others_dont_fit() -> None:
+    begun = time.process_time()
+    with pytest.raises(LimitExceeded, match="more than the time limit allows"):
+        evaluate("-1-1/x^2", 10**7, x0=1, limits=Limits(seconds=20), **START)
+    assert time.process_time() - begun < 3
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_no_path_takes_fewer_steps_than_the_bound(seed: int) -> None:
+    rng = Random(seed)
+    num = tuple(rng.randrange(-9, 10) * 10 ** rng.randrange(0, 6) for _ in range(rng.randrange(1, 4)))
+    system = System.make((*num, 1), (1, 0, 1) if rng.random() < 0.5 else (1,))
+    a, b = (Point(Fraction(rng.randrange(-40, 41), 4), Fraction(rng.randrange(2, 9), 8)) for _ in "ab")
+    steps = len(list(cover(system, a, b, 60, Budget(Limits()))))
+    assert least_growth(system, a, b) <= 2 * 110 * math.log(2) * steps
+
+
+def test_the_growth_is_the_integral_of_the_root() -> None:
+    airy = System.make((0, 1), (1,))
+    assert least_growth(airy, Point(Fraction(0)), Point(Fraction(100))) == pytest.approx(2000 / 3, rel=0.03)
+    assert least_growth(airy, Point(Fraction(0)), Point(Fraction(100))) < 2000 / 3
+    euler = System.make((1,), (0, 0, 1))
+    assert least_growth(euler, Point(Fraction(2)), Point(Fraction(1))) == pytest.approx(math.log(2), rel=0.03)
+    assert least_growth(System.make((), (1,)), Point(Fraction(2)), Point(Fraction(1))) == 0
+
+
+def test_digits_lost_by_a_recessive_start_are_counted() -> None:
+    with pytest.warns(AccuracyWarning, match=r"other solutions grow to about 10\^21\d\d on the way"):  # exp(5000)
+        evaluate("1", 5000, x0=0, y0=1, dy0=-1)
+    with pytest.warns(AccuracyWarning, match=r"10\^43429448\d\d on"):  # exp(10^10)
+        assert kovacic.solve("10^20").at(1, x0=0, y0=1, dy0=-(10**10)).contains_zero()
+
+
+CALLS: dict[str, Callable[[Limits], object]] = {
+    "many digits": lambda limits: evaluate("x^9 + 1/(x-7)^3", 2, x0=1, digits=100_000, limits=limits, **START),
+    "a high degree": lambda limits: evaluate("1/(x^500+x+3)", 2, x0=1, limits=limits, **START),
+    "a higher degree": lambda limits: evaluate("1/(x^2000+x+3)", 2, x0=1, limits=limits, **START),
+    "a long way": lambda limits: evaluate("-1-1/x^2", 10**5, x0=1, limits=limits, **START),
+    "many points": lambda limits: evaluate("x", range(-300, 0), x0=0, digits=300, limits=limits, **START),
+    "at": lambda limits: kovacic.solve("x^2+3").at(2, x0=1, digits=90_000, method="taylor", limits=limits, **START),
+    "quadrature": lambda limits: kovacic.solve("x^2+3").at(9, x0=1, digits=5000, method="closed form", limits=limits, **START),
+    "a matrix": lambda limits: transition_matrix("x^9+1/(x-7)^3", [1, 2, 3, 4], digits=50_000, limits=limits),
+    "monodromy": lambda limits: monodromy("1/(x^60+x+3)", digits=200, limits=limits),
+    "plot": lambda limits: sample("1/(x^2-2) - 10^7/(x^2-3)", -9, 9, points=4000, digits=50, limits=limits),
+    "a table": lambda limits: tabulate("-10^9*x", 0, 9, x0=0, limits=limits, **START),
+    "lambdify": lambda limits: lambdify(kovacic.solve("x^2-401"), interval=(-20, 20), limits=limits),
+}  # fmt: skip
+
+
+@pytest.mark.filterwarnings("ignore::kovacic.enclosure.evaluate.AccuracyWarning")
+@pytest.mark.parametrize("name", CALLS)
+def test_every_call_ends_within_its_time(name: str) -> None:
+    names, limits, begun = ["seconds"], Limits(seconds=0.5), time.process_time()
+    try:
+        CALLS[name](limits)
+    except LimitExceeded as error:
+        names.append(error.limit)
+    assert time.process_time() - begun < 1.5
+    assert names[-1] in ("seconds", "unknown_degree")
+
+
+@pytest.mark.parametrize(
+    ("den", "a", "b", "name"),
+    [
+        ((0, 1), -1, 1, "point 0 "),
+        ((-1, 3), -1, 1, "point 1/3 "),
+        ((-1, 0, 10**12), 0, 1, "point 1/1000000 "),
+        ((1, 0, 9), -2j, 2j, "point 0 - 1/3i "),
+        ((-2, 0, 1), 0, 2, r"near 1\.41421356237 "),
+        ((-2, *[0] * 499, 1), "1/3", 2, r"near 1\.0013872557"),
+    ],
+)
+def test_a_singular_point_has_its_exact_name(den: tuple[int, ...], a: Any, b: Any, name: str) -> None:
+    ends = [kovacic.enclosure.points.as_point(v, "x") for v in (a, b)]
+    with pytest.raises(InputError, match=name):
+        check_segment(System.make((1,), den), *ends)
+    check_segment(System.make((1,), den), *(end + Point(Fraction(0), Fraction(9)) for end in ends))
+
+
+def test_balls_of_any_exponents_are_compared_exactly() -> None:
+    far = Ball((1, 10**10), rad=(1, 5 - 10**10))
+    assert not far.contains_zero()
+    assert far.contains(far)
+    assert not Ball((3, 0), rad=(3, -(10**9))).overlaps(Ball((5, 0), rad=(1, -(10**9))))
+    assert Ball((3, 0), rad=(1, 0)).overlaps(Ball((5, 0), rad=(1, 0)))  # they touch
