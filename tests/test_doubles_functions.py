@@ -17,6 +17,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.doubles import double_double as dd
 from kovacic.doubles.lambdify import MEDIAN, WORST, lambdify, measure, warn_unless_accurate
 from kovacic.doubles.product_form import ProductForm
+from kovacic.doubles.region import BLOCK
 from kovacic.doubles.tabulate import TabulatedFunction, tabulate
 from kovacic.enclosure.evaluate import AccuracyWarning, evaluate
 from kovacic.enclosure.problem import as_problem
@@ -240,6 +241,22 @@ def test_functions_take_scalars_lists_and_arrays_of_every_shape() -> None:
 
 
 # --- tables ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("size", [BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK + 5])
+def test_long_arrays_have_the_values_of_their_points(size: int) -> None:
+    functions = [
+        lambdify(kovacic.solve("x^2 - 11"), interval=(-3, 3), check=False),
+        lambdify(kovacic.solve("-1"), interval=(0, 3), check=False),  # complex
+        tabulate("x", -3, 3, x0=0, y0=1, dy0=0),
+    ]
+    points = np.linspace(0, 3, size)
+    for f in functions:
+        whole = f(points)
+        assert whole.shape == points.shape
+        for k in (0, 1, BLOCK - 2, size - 1):
+            assert whole[k] == f(points[k])
+        assert np.array_equal(f(points[::-1].reshape(1, -1, 1)), whole[::-1].reshape(1, -1, 1))
 
 
 def test_a_table_of_a_solution_without_closed_form() -> None:

@@ -113,8 +113,8 @@ def test_every_call_ends_within_its_time(name: str) -> None:
         ((-1, 3), -1, 1, "point 1/3 "),
         ((-1, 0, 10**12), 0, 1, "point 1/1000000 "),
         ((1, 0, 9), -2j, 2j, "point 0 - 1/3i "),
-        ((-2, 0, 1), 0, 2, r"near 1\.41421356237 "),
-        ((-2, *[0] * 499, 1), "1/3", 2, r"near 1\.0013872557"),
+        ((-2, 0, 1), 0, 2, r"point 1\.41421356237\.\.\. "),
+        ((-2, *[0] * 499, 1), "1/3", 2, r"point 1\.0013872557\d*\.\.\. "),
     ],
 )
 def test_a_singular_point_has_its_exact_name(den: tuple[int, ...], a: Any, b: Any, name: str) -> None:

@@ -46,7 +46,7 @@ from kovacic.doubles.double_double import (
     subtract,
     two_sum,
 )
-from kovacic.doubles.region import Region
+from kovacic.doubles.region import Region, in_blocks
 from kovacic.enclosure.points import Point
 
 
@@ -144,7 +144,10 @@ class ProductForm:
 
     def __call__(self, x: Any) -> Any:
         """y(x) as doubles, or complex doubles (inf or 0 where the value is beyond their range)."""
-        mantissa, binary, size, phase = self._parts(self.region.points(x))
+        return in_blocks(self._values, self.region.points(x))
+
+    def _values(self, x: Any) -> Any:
+        mantissa, binary, size, phase = self._parts(x)
         turns = np.rint(size[0] / log_2()[0])
         rest = subtract(size, multiply((turns, 0.0 * turns), log_2()))
         growth = np.exp(rest[0])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -15,6 +16,9 @@ from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 
 _PREC = 240
+
+BLOCK = 4096
+"""Points that are treated together (measured: from 1,000 to 8,000 about the same)."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +56,20 @@ class Region:
             shown = (self.low.real, self.high.real) if self.is_real else (self.low, self.high)
             raise InputError(f"a point lies outside of the interval {shown} of this function, or on a singular point")
         return points
+
+
+def in_blocks(function: Callable[[Any], Any], points: Any) -> Any:
+    """The function of the points, `BLOCK` of them at a time: what is formed on the way stays in the processor's cache."""
+    if points.size <= BLOCK:
+        return function(points)
+    flat = points.reshape(-1)
+    result = None
+    for start in range(0, flat.size, BLOCK):
+        values = function(flat[start : start + BLOCK])
+        result = np.empty(flat.shape, values.dtype) if result is None else result
+        result[start : start + BLOCK] = values
+    assert result is not None
+    return result.reshape(points.shape)
 
 
 def region_of(problem: NumericProblem, interval: tuple[object, object]) -> tuple[Region, list[Point]]:

@@ -23,7 +23,7 @@ from flint import acb, arb
 from kovacic.doubles.arrangement import gauge_form
 from kovacic.doubles.double_double import horner, pair_of, scaled, two_sum
 from kovacic.doubles.product_form import ProductForm
-from kovacic.doubles.region import Region, hull, region_of
+from kovacic.doubles.region import Region, hull, in_blocks, region_of
 from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
 from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.evaluate import evaluate_states, initial_ball, initial_value
@@ -67,7 +67,9 @@ class TabulatedFunction:
 
     def __call__(self, x: Any) -> Any:
         """y(x) as doubles, or complex doubles; raises InputError outside of the interval."""
-        points = self.region.points(x)
+        return in_blocks(self._values, self.region.points(x))
+
+    def _values(self, points: Any) -> Any:
         index = np.searchsorted(self.edges, points, side="right")
         u = scaled(two_sum(points, -self.centres[index]), -self.exponents[index])
         rows = [part[:, ::-1, index] for part in self.coefficients]

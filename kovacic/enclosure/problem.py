@@ -198,13 +198,13 @@ def check_segment(system: System, a: Point, b: Point) -> None:
 
 
 def name_of(system: System, point: acb) -> str:
-    """The singular point in this ball, in words: its exact value where that is a short Gaussian rational."""
+    """The singular point in this ball, in words: its exact value where that is a short Gaussian rational, else 12 digits."""
     parts = [Fraction(int(m)) * Fraction(2) ** int(e) for m, e in (x.mid().man_exp() for x in (point.real, point.imag))]
     guess = Point(*(part.limit_denominator(_SHORT) for part in parts))
     if point.overlaps(to_acb(guess)) and system.is_singular(guess):
         return str(guess)
-    text = point.real.mid().str(12, radius=False)
-    return f"near {text}" if point.imag.contains(0) else f"near {text} + {point.imag.mid().str(12, radius=False)}i"
+    re, im = (part.mid().str(12, radius=False) + "..." for part in (point.real, point.imag))
+    return re if point.imag.contains(0) else f"{re} + {im}i"
 
 
 def _first_hit(system: System, a: Point, b: Point) -> tuple[str, float] | None:
