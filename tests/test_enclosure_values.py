@@ -329,7 +329,7 @@ def test_large_denominators_dont_cost_precision() -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ({"x": 1, "x0": -1}, "through the singular point near 0"),
+        ({"x": 1, "x0": -1}, "through the singular point 0 "),
         ({"x": 0, "x0": -1}, "is a singular point"),
         ({"x": 1, "x0": 0}, "is a singular point"),
         ({"x": 1j, "x0": -1j}, "through the singular point"),
@@ -434,7 +434,7 @@ def test_both_routes_for_an_equation_with_a_first_derivative() -> None:
 
 
 def test_poles_of_the_first_coefficient_are_singular_even_where_the_normal_form_is_regular() -> None:
-    with pytest.raises(InputError, match="through the singular point near 0"):
+    with pytest.raises(InputError, match="through the singular point 0 "):
         evaluate("x*y'' + 2*y' - x*y = 0", 1, x0=-1, y0=1, dy0=0)
     with pytest.raises(InputError, match="homogeneous"):
         evaluate("y'' - y = x", 1, x0=0, y0=1, dy0=0)
