@@ -130,3 +130,22 @@ def test_balls_of_any_exponents_are_compared_exactly() -> None:
     assert far.contains(far)
     assert not Ball((3, 0), rad=(3, -(10**9))).overlaps(Ball((5, 0), rad=(1, -(10**9))))
     assert Ball((3, 0), rad=(1, 0)).overlaps(Ball((5, 0), rad=(1, 0)))  # they touch
+
+
+def test_the_parts_of_a_call_share_one_clock(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[float | None] = []
+
+    def slow(*arguments: Any, limits: Limits, **options: Any) -> Any:
+        seen.append(limits.seconds)
+        time.sleep(0.05)
+        return ()
+
+    monkeypatch.setattr("kovacic.views.plot.evaluate_states", slow)
+    sample("1/((x-1)*(x-2)*(x-3))", 0, 4, points=8, limits=Limits(seconds=9))
+    assert len(seen) == 4
+    assert all(k * 0.05 <= 9 - (left or 0) < 9 for k, left in enumerate(seen))
+    seen.clear()
+    monkeypatch.setattr("kovacic.doubles.lambdify.evaluate_states", slow)
+    with pytest.raises(ValueError, match="shorter"):
+        lambdify(kovacic.solve("x^2+3"), interval=(1, 2), limits=Limits(seconds=5))
+    assert 0 < (seen[0] or 9) < 5
