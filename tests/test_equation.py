@@ -255,7 +255,7 @@ def test_equations_in_json(text: str) -> None:
 
 def test_the_full_json_has_group_and_solutions() -> None:
     data = json.loads(kovacic.solve("x^2*y'' + x*y' + (x^2-1/4)*y = 0").to_json(full=True))
-    assert data["group"] == {"name": "G_m", "order": None, "finite": False}
+    assert data["group"] == {"name": "G_m", "order": None, "finite": False, "family": "multiplicative", "n": None}
     assert data["gauge"] == "-1/(2*x)"
     assert [sympy.sympify(s) for s in data["solutions"]] == [sympy.cos(x) / sympy.sqrt(x), sympy.sin(x) / sympy.sqrt(x)]
     schema = json.loads((Path(kovacic.__file__).parent / "views" / "schema.json").read_text("utf-8"))
