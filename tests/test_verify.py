@@ -218,6 +218,20 @@ def test_an_order_on_a_curve_of_positive_genus_needs_its_form() -> None:
         assert not verify(S, answer.decision, replace(group.claim, n=n))
 
 
+def test_a_power_of_the_product_is_no_second_form() -> None:
+    """f^n in disguise, a factor moved from theta to P, doesn't make an infinite group on a curve of positive genus finite."""
+    import transform
+
+    S = transform.from_squared_product((X**4 + X + 1) / (X + 2) ** 2, 4)
+    decision = kovacic.solve(S.to_str("x")).decision
+    f, p = decision.semi_invariant, QQ.poly([2, 1])
+    assert f is not None
+    for n in (2, 4, 6, 12):
+        disguised = SemiInvariant(2 * n, n * f.theta - RatFunc(p.derivative(), p), f.P**n * p)
+        for form in (SemiInvariant(2 * n, n * f.theta, f.P**n), disguised):
+            assert not verify(S, decision, GroupClaim("dicyclic", n, form))
+
+
 # ------------------------------------------------------------------------------------------- forged answers
 
 
