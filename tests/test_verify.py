@@ -19,13 +19,14 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.decision import SemiInvariant, Structure
+from kovacic.decision import NoInvariant, NoRationalOmega, SemiInvariant, Structure
 from kovacic.engine.degree_bound import irregular_difference_squared
 from kovacic.engine.places import analyse
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, Limits
 from kovacic.verify import GroupClaim, verify
 from kovacic.verify.evidence import Inspector
+from kovacic.verify.local import zero_counts
 from kovacic.verify.residue import exponent_difference_squared
 from kovacic.verify.series import convolving_recurrence, fraction_of_series
 
@@ -216,6 +217,9 @@ def test_an_order_on_a_curve_of_positive_genus_needs_its_form() -> None:
         assert not verify(S, answer.decision, replace(group.claim, form=form))
     for n in (1, 2, 4, 6):
         assert not verify(S, answer.decision, replace(group.claim, n=n))
+    for k in (2, 4):  # a power of the form, which a smaller order explains
+        higher = SemiInvariant(6 * k, k * group.form.theta, group.form.P**k)
+        assert not verify(S, answer.decision, GroupClaim("dicyclic", 3 * k, higher))
 
 
 def test_a_power_of_the_product_is_no_second_form() -> None:
@@ -373,6 +377,23 @@ def test_no_evidence_with_the_kernels_own_bounds_excludes_the_structure_of_the_g
 def test_which_places_tell_the_solutions_apart(text: str, expected: dict[str, bool]) -> None:
     inspector = Inspector(kovacic.solve(text).S, Budget())
     assert {p.name: inspector._tells_solutions_apart(p) for p in inspector.points} == expected
+
+
+@pytest.mark.parametrize(
+    "omega",
+    [1 + 1 / X**3, X + 1 / X**2, 2 + 1 / X**4 + 1 / (X - 1), 1 / X**3 + 1 / (X - 2) ** 2, X**2 + 3 / X**5],
+    ids=str,
+)
+def test_a_rational_omega_is_found_from_every_place(omega: RatFunc) -> None:
+    """Irregular at 0 and elsewhere: the degree of its numerator follows from the orders of both ends of the chart."""
+    inspector = Inspector(omega.derivative() + omega**2, Budget())
+    counts, prime = zero_counts(inspector.points), next(QQ.homomorphisms()).p
+    assert counts is not None
+    for point in inspector.points:
+        if point.order > 2:
+            evidence = (NoInvariant(2, prime, 3, 0), NoRationalOmega(counts.largest, prime, point.name))
+            assert not inspector._no_rational_omega(evidence[1]), point.name
+            assert not inspector.excludes(Structure.REDUCIBLE, evidence)
 
 
 # ------------------------------------------------------------------------------------------- limits
