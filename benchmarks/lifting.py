@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import platform
+import sys
 import time
 from collections.abc import Callable
 from fractions import Fraction
@@ -20,7 +21,6 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-import transform
 from flint import nmod_poly
 
 import kovacic
@@ -34,6 +34,9 @@ from kovacic.engine.expansion import polynomial_invariant
 from kovacic.engine.places import analyse
 from kovacic.limits import Budget
 from kovacic.verify import verify
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
+import transform
 
 RESULTS = Path(__file__).parent / "results"
 X = RatFunc(QQ.poly([0, 1]))
