@@ -52,10 +52,9 @@ EXPLAINED: dict[str, str] = {
     "kovacic/verify/evidence.py: Inspector._at_prime: LtE in h.p < p": "over Q each prime has one homomorphism, tried before",
     "kovacic/verify/evidence.py: _first_terms: 1 + 1": "a double root modulo the prime is met as a pivot zero later",
     "kovacic/verify/group.py: _dicyclic: Sub in k + 1": "k - 1 and k + 1 have the same parity",
-    "kovacic/verify/local.py: least_valuation: 1 + 1": "range(-m, m + 2, 2) has the same members as range(-m, m + 1, 2)",
-    "kovacic/verify/residue.py: exponent_difference_squared: Add in (root + root * (1 - unit * root * root % ahead) / 2) % ahead": (
-        "the same class, reduced later"
-    ),
+    "kovacic/verify/local.py: least_valuation: 1 + 1": "0/2 is 0/1",
+    "kovacic/verify/residue.py: exponent_difference_squared: Add in "
+    "(root + root * (1 - unit * root * root % ahead) / 2) % ahead": "the same class, reduced later",
 }
 
 SWAPPED: dict[type[ast.AST], type[ast.AST]] = {
