@@ -277,10 +277,27 @@ def test_E_is_the_energy_and_not_the_base_of_the_exponential_function() -> None:
         kovacic.solve("y'' - y = E^x")
 
 
-@pytest.mark.parametrize("number", ["e", "pi", "e^2"])
-def test_transcendental_coefficients_are_refused_with_the_way_out(number: str) -> None:
+@pytest.mark.parametrize("number", ["e", "pi", "e^2", "(1 + x*pi)/pi", "1/(2*e - 1)"])
+def test_pi_and_e_in_coefficients_are_parameters(number: str) -> None:
+    """They are transcendental, so that Q(pi) is isomorphic to Q(t)."""
+    answer = kovacic.solve(f"(1-x)*y'' + {number}*y = 0")
+    letter = "pi" if "pi" in number else "e"
+    expected = kovacic.solve(f"(1-x)*y'' + {number.replace(letter, 'q')}*y = 0")
+    assert answer.S.to_str("x").replace(letter, "q") == expected.S.to_str("x")
+    assert answer.case == expected.case
+
+
+def test_other_numbers_in_coefficients_are_refused_with_the_way_out() -> None:
     with pytest.raises(kovacic.NotRational, match="isn't an algebraic number") as caught:
-        kovacic.solve(f"(1-x)*y'' + {number}*y = 0")
+        kovacic.solve("(1-x)*y'' + e^sqrt(2)*y = 0")
     assert "a parameter with generic values" in (caught.value.hint or "")
+    with pytest.raises(kovacic.NotRational, match="algebraically independent"):
+        kovacic.solve("(1-x)*y'' + (e + pi)*y = 0")
+    y = sympy.Function("y")(sympy.Symbol("x"))
+    with pytest.raises(kovacic.InputError, match="a symbol and a number"):
+        kovacic.solve(y.diff("x", 2) + sympy.Symbol("pi") * y - sympy.pi * y)
+
+
+def test_euler_s_number_is_a_value_of_a_parameter() -> None:
     (notice,) = [n for n in kovacic.solve("x^2 + e").notices if "Euler" in n]
     assert "one of its generic values" in notice

@@ -15,6 +15,7 @@ from typing import Any
 
 from flint import Ordering, fmpz_mpoly_ctx
 
+from kovacic.algebra.embedding import square_part
 from kovacic.algebra.interpolation import Evaluation, Samples
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
@@ -263,6 +264,20 @@ class FunctionPoly(Poly):
             raise ZeroDivisionError("zero has no inverse")
         negative = int(self.num.leading_coefficient()) < 0
         return FunctionPoly(self._field, -self.den if negative else self.den, -self.num if negative else self.num)
+
+    def square_part(self) -> tuple[FunctionPoly, FunctionPoly]:
+        """(c, d) for a constant other than 0: it is c^2 d, d a polynomial without squares of polynomials or integers."""
+        number, factors = (self.num * self.den).factor_squarefree()
+        outer, inner = square_part(Fraction(int(number)))
+        c, d = self._field.context.constant(int(outer)), self._field.context.constant(inner)
+        for factor, exponent in factors:
+            c, d = c * factor ** (int(exponent) // 2), d * factor ** (int(exponent) % 2)
+        return self._field.make(c, self.den), self._field.make(d, self._field.context.constant(1))
+
+    @property
+    def is_written_with_minus(self) -> bool:
+        """Is the leading coefficient negative, in the order of the parameters?"""
+        return bool(self.num) and int(self.num.leading_coefficient()) < 0
 
     def to_sympy(self, variable: Any) -> Any:
         from sympy import Add, Mul, Pow, Symbol

@@ -66,6 +66,19 @@ class Atoms:
         parts = value.parts
         return sympy.expand_mul(Add(*(Mul(self.constant(part), generator**i) for i, part in enumerate(parts) if part)))
 
+    def sqrt(self, value: Poly) -> Expr:
+        """A square root of a constant; squares of parameters come out of the root once and for all, sqrt(w^2) = w."""
+        if isinstance(value, FunctionPoly):
+            outer, inner = value.square_part()
+            return outer.to_sympy(self.x) * sqrt(inner.to_sympy(self.x))
+        return sqrt(self.constant(value))
+
+    def is_negative(self, value: Poly) -> bool:
+        """Is a constant negative?  With parameters: is the first coefficient, so that -w^2 counts as negative?"""
+        if isinstance(value, FunctionPoly):
+            return value.is_written_with_minus
+        return bool(self.constant(value).is_negative)
+
     def generator(self, field: Field) -> Expr:
         """The generator of an algebraic extension."""
         if not isinstance(field, AlgebraicField):
@@ -80,8 +93,8 @@ class Atoms:
     def _new_generator(self, field: AlgebraicField) -> Expr:
         modulus = field.modulus
         if modulus.degree == 2:
-            half = self.constant(modulus[1]) / 2
-            root = sqrt(half**2 - self.constant(modulus[0]))
+            middle = modulus[1] * Fraction(1, 2)
+            half, root = self.constant(middle), self.sqrt(middle * middle - modulus[0])
             return -half - root if _is_the_smaller_root(field) else -half + root
         pure = modulus.field.rational_value(-modulus[0])
         principal = field.approximation is None or (field.approximation[0] > 0 and not field.approximation[1])
@@ -149,7 +162,7 @@ class Atoms:
             return self.constant(value) * log(self.primitive(p)[1], evaluate=False)
         if roots := self.real_roots(p):
             return Add(*(sympy.expand_mul(self.poly(value, a)) * log(self.x - a) for a in roots))
-        if p.degree == 2 and p.field == QQ:
+        if p.degree == 2 and discriminant(p) is not None:
             centre, slope, root = (
                 -self.constant(p[1]) / 2,
                 self.constant(value[1]),

@@ -41,8 +41,8 @@ def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, tuple[s
 def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
     """The two solutions, with cos and sin where kappa is imaginary, and notes."""
     form = _oriented(form)
-    zeros, square = form.zeros, atoms.constant(form.kappa_squared)
-    kappa = sqrt(-square if square.is_negative else square)
+    zeros, oscillates = form.zeros, atoms.is_negative(form.kappa_squared)
+    kappa = atoms.sqrt(-form.kappa_squared if oscillates else form.kappa_squared)
     terms = _terms(form.integral, atoms, alone=zeros is None)
     common = display(form.common, atoms)
     A, B = (
@@ -50,7 +50,7 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
     )
     if not terms.others and not terms.logarithms:
         return common * A, common * B, terms.notes
-    if square.is_negative:
+    if oscillates:
         angle = Add(
             *(_times(kappa, t) for t in terms.others), *(_times(kappa, c) * log(b) for c, b in terms.logarithms)
         )
@@ -141,17 +141,17 @@ def _integrand(integral: CurveIntegral) -> RatFunc:
 
 def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr, Expr]], others: list[Expr]) -> None:
     """factor * log((A + B tau s)/p)/tau, or the arc tangent for tau^2 < 0."""
-    square, factor = atoms.constant(u.tau_squared), rational(u.factor)
+    factor = rational(u.factor)
     A, B, p = u.A, u.B, u.p
     content, _ = atoms.primitive(A)
     if content:
         A, B = A * (1 / content), B * (1 / content)
-    if square.is_negative:
-        eta = sqrt(-square)
+    if atoms.is_negative(u.tau_squared):
+        eta = atoms.sqrt(-u.tau_squared)
         (a, top), (b, bottom) = atoms.primitive(A), atoms.primitive(B)
         others.append(atan(Mul(rational(a / b) / eta, top, 1 / bottom, 1 / root)) * -factor / eta)
         return
-    tau = sqrt(square)
+    tau = atoms.sqrt(u.tau_squared)
     top = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root
     logarithms.append((factor / tau, top / atoms.primitive(p)[1] if p.degree > 0 else top))
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Add, Mul, Symbol, evaluate, hyper
+from sympy import Add, Mul, Symbol, evaluate, exp, hyper
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr, rational
@@ -82,6 +82,7 @@ def solutions(S: RatFunc, decision: Decision, gauge: RatFunc, variable: str = "x
     x = Symbol(variable)
     atoms = Atoms(x)
     y1, y2, notes = expressions(structure, atoms)
+    y1, y2 = _one_exponential(y1), _one_exponential(y2)
     check_time()
     exact = not isinstance(structure, KleinForm)
     passed = not exact or is_exact_solution(structure, S, gauge)
@@ -102,6 +103,18 @@ def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[
         return exponentials(form, atoms)
     J = atoms.factored(form.J)
     return _hypergeometric(form.first, J, atoms), _hypergeometric(form.second, J, atoms), ()
+
+
+def _one_exponential(y: Expr) -> Expr:
+    """With one exponential in every product."""
+
+    def merged(product: Expr) -> Expr:
+        inner = [factor.args[0] for factor in product.args if isinstance(factor, exp)]
+        if len(inner) < 2:
+            return product
+        return Mul(*(factor for factor in product.args if not isinstance(factor, exp)), exp(Add(*inner)))
+
+    return y.replace(lambda e: e.is_Mul, merged) if y.has(exp) else y
 
 
 def _hypergeometric(y: Hypergeometric, J: Expr, atoms: Atoms) -> Expr:

@@ -118,7 +118,7 @@ def _exponential(form: Triangular, primitive: ExponentialPrimitive, first: Facto
     t = atoms.x - atoms.constant(primitive.centre)
     scale, parts = first
     for term in primitive.terms:
-        c, value = _special(primitive.alpha, atoms.constant(primitive.beta), primitive.n, term.power, t)
+        c, value = _special(primitive, term.power, t, atoms)
         terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, value]))
     beta, centre = atoms.constant(primitive.beta), atoms.constant(primitive.centre)
     for residue in primitive.poles.residues:
@@ -171,14 +171,15 @@ def _algebraic_part(form: Triangular, primitive: ExponentialPrimitive, atoms: At
     return _scaled(*factors(Product(merged, first.roots, inner), atoms, primitive.W, like=first))
 
 
-def _special(alpha: Fraction, beta: Expr, n: int, power: int, t: Expr) -> Scaled:
+def _special(primitive: ExponentialPrimitive, power: int, t: Expr, atoms: Atoms) -> Scaled:
     """int t^(power + alpha) exp(beta t^n) dt by equation (1) of `kovacic.closed_form.primitive`."""
+    alpha, beta, n = primitive.alpha, atoms.constant(primitive.beta), primitive.n
     s = (power + alpha + 1) / n
     if s == 0:
         return sympy.Rational(1, n), Ei(beta * t**n)
     if s == Fraction(1, 2):
-        positive = beta.is_positive
-        root = sqrt(beta if positive else -beta)
+        positive = beta.is_real is not False and not atoms.is_negative(primitive.beta)
+        root = atoms.sqrt(primitive.beta if positive else -primitive.beta)
         u = root * t ** sympy.Rational(n, 2)
         return 1 / (root * n), sqrt(pi) * (erfi if positive else erf)(u)
     order = rational(s)

@@ -50,15 +50,16 @@ class _Pair:
 
 
 def is_real_pair(form: Conjugate, atoms: Atoms) -> bool:
-    """Are the two solutions complex conjugates: real coefficients and delta < 0?"""
+    """Are the two solutions complex conjugates: real coefficients (for real parameters) and delta < 0?"""
     field = form.delta.field
-    real = field == QQ or (isinstance(field, AlgebraicField) and field.base == QQ and atoms.generator(field).is_real)
-    return bool(real and atoms.constant(form.delta).is_negative)
+    if isinstance(field, AlgebraicField) and not (field.base == QQ and atoms.generator(field).is_real):
+        return False
+    return atoms.is_negative(form.delta)
 
 
 def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
     """The real and the imaginary part of y+, each a solution."""
-    s = sqrt(-atoms.constant(form.delta))
+    s = atoms.sqrt(-form.delta)
     pair = _Pair(form.A, form.B, form.common.powers)
     phase: list[Expr] = []
     if form.phase.exact:
@@ -153,7 +154,7 @@ def _merged(powers: tuple[Power, ...]) -> tuple[Power, ...]:
 
 def conjugate_roots(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
     """y+ and y- for a delta that isn't negative: real where S is."""
-    root = sqrt(atoms.constant(form.delta))
+    root = atoms.sqrt(form.delta)
     first, second = (_conjugate_root(form, s, atoms) for s in (root, -root))
     return first, second
 

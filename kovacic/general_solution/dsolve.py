@@ -1,8 +1,8 @@
-"""`dsolve`: linear equations of second order, a y'' + b y' + c y = f, with initial values: y = C1 y1 + C2 y2 + y0."""
+"""`dsolve`: linear equations of second order, a y'' + b y' + c y = f, with values given: y = C1 y1 + C2 y2 + y0."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import islice
 from typing import Any
 
@@ -11,13 +11,19 @@ import sympy
 from kovacic.algebra.poly import Poly
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.form import solutions
+from kovacic.closed_form.product import product
+from kovacic.closed_form.product_display import display
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.general_solution.initial_values import Start, constants, read_initial_values
+from kovacic.general_solution.impulses import response
+from kovacic.general_solution.initial_values import Given, constants, read_values
+from kovacic.general_solution.real_basis import real_basis
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.variation import particular_solution
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
-from kovacic.reading.given import Equation
+from kovacic.parametric.api import conditions_of
+from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
+from kovacic.reading.given import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.solution import Solution, solve
 
 
@@ -31,17 +37,24 @@ def dsolve(
 ) -> Any:
     """The general solution of a linear equation of second order as a SymPy `Eq(y(x), ...)` with constants C1 and C2.
 
-    `eq` is a SymPy `Eq` or an expression that is zero, or text; `func` is y(x), where more than one function occurs.  `ics`
-    gives the values at one ordinary point as for `sympy.dsolve`, {y(0): 1, y(x).diff(x).subs(x, 0): 2}, or as text,
-    {"y(0)": 1, "y'(0)": 2}: then the constants are determined exactly.  An integral that isn't done stays an `Integral`.
+    `eq` is a SymPy `Eq` or an expression that is zero, or text; `func` is y(x) or y, where more than one function occurs.
+    `ics` gives values at ordinary points as for `sympy.dsolve`, {y(0): 1, y(x).diff(x).subs(x, 0): 2}, or as text,
+    {"y(0)": 1, "y'(0)": 2}, at one point or, as boundary values, at several: the constants that they determine are found
+    exactly, and one that stays is free.  Floats are the decimals that they are written as; values at the place of an
+    impulse or a step are those just before it.  An integral that isn't done stays an `Integral`.
+
+    With parameters, the answer holds for generic values; assumptions of their symbols are used.
 
     Raises `NotImplementedError` where it is proven that there is no Liouvillian solution, with the reason, or where a limit
-    was reached; `InputError` for what isn't such an equation, and `ValueError` for initial values at a singular point.
+    was reached; `InputError` for what isn't such an equation and where no solution has the given values, and `ValueError`
+    for values at a singular point.
 
     >>> print(dsolve("y'' + y = x"))
     Eq(y(x), C1*cos(x) + C2*sin(x) + x)
     >>> print(dsolve("y'' - 2*x*y' + 2*y = 0", ics={"y(0)": 0, "y'(0)": 5}))
     Eq(y(x), 5*x)
+    >>> print(dsolve("y'' + y = 0", ics={"y(0)": 0, "y(pi/2)": 3}))
+    Eq(y(x), 3*sin(x))
     """
     budget = Budget(limits)
     with budget.watched():
@@ -50,66 +63,146 @@ def dsolve(
 
 def _solved(eq: Any, func: Any, ics: Mapping[Any, Any] | None, var: str | None, budget: Budget) -> Any:
     equation, function = _read(eq, func, var, budget.limits)
-    solution = solve(equation, limits=budget.share(1).limits)
+    known = read_assumptions(None, eq, parameters_of(equation.S.field))
+    assume = known.to_dict() if known.concerns_exponents else None
+    solution = solve(equation, assume=assume, limits=budget.share(1).limits)
     if solution.case is None:
-        raise NotImplementedError(no_solution(solution))
+        raise NotImplementedError(no_solution(solution, known))
     try:
         y1, y2 = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
     except LimitExceeded as limit:
         raise NotImplementedError(f"undecided: {limit}") from None
     x = sympy.Symbol(equation.variable)
-    start = read_initial_values(ics, function, equation) if ics else None
-    particular = 0 if equation.is_homogeneous else _particular(equation, y1, y2, x, start, budget)
-    given = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
-    taken = {*given, *(symbol.name for symbol in (y1 + y2 + particular).free_symbols)} | (
-        start.names if start else set()
-    )
-    C1, C2 = islice(sympy.numbered_symbols("C", start=1, exclude=map(sympy.Symbol, taken)), 2)
+    given = read_values(ics, function, equation) if ics else ()
+    if given:
+        y1, y2 = real_basis(solution, y1, y2, x, given[0].point)
+    numbers = {sympy.Symbol(name): value for name, value in ((PI, sympy.pi), (EULER, sympy.E))}
+    y1, y2 = (y.xreplace(numbers) for y in (y1, y2))
+    right = (Atoms(x).sum(equation.f) + (equation.h or 0)).xreplace(numbers)
+    particular = _particular(equation, y1, y2, x, right, given, numbers, budget).xreplace(numbers)
+    own = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
+    C1, C2 = _new_constants({*own}, (y1, y2, particular, *(part for g in given for part in (g.point, g.value))))
     general = C1 * y1 + C2 * y2 + particular
-    if start is not None:
-        general = general.subs(constants(start, y1, y2, particular, x, (C1, C2)))
+    if given:
+        general = general.xreplace(constants(given, y1, y2, particular, x, (C1, C2)))
         general = sympy.expand_mul(general, deep=False)
-    own = {sympy.Symbol(name): symbol for name, symbol in given.items()}
-    return sympy.Eq(function, general.xreplace(own).subs(x, function.args[0]))
+    general = general.xreplace({sympy.Symbol(name): symbol for name, symbol in own.items()})
+    return sympy.Eq(function, general.subs(x, function.args[0]))
 
 
-def no_solution(solution: Solution) -> str:
-    """Why there is no closed form, in one sentence."""
+def _new_constants(taken: set[str], expressions: Sequence[Any]) -> list[Any]:
+    """C1 and C2, or the next ones that don't occur."""
+    names = taken | {symbol.name for e in expressions for symbol in getattr(e, "free_symbols", ())}
+    return list(islice(sympy.numbered_symbols("C", start=1, exclude=map(sympy.Symbol, names)), 2))
+
+
+def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str:
+    """Why there is no closed form, in a sentence; with parameters, for which values there is one."""
     if solution.status is Status.UNDECIDED:
         return f"undecided: {solution.reason}"
-    return (
-        f"there is no Liouvillian solution, and that is proven: the differential Galois group of the normal form "
-        f"y'' = ({solution.S.to_str(solution.variable)}) y is SL2(C)"
+    names = parameters_of(solution.S.field)
+    group = (
+        f"the differential Galois group of the normal form y'' = ({solution.S.to_str(solution.variable)}) y is SL2(C)"
     )
+    if not names:
+        return f"there is no Liouvillian solution, and that is proven: {group}"
+    said = f"for generic {', '.join(names)} there is no Liouvillian solution, and that is proven: {group}"
+    try:
+        found = conditions_of(Parsed(solution.S, solution.variable), known, None, solution.limits)
+    except LimitExceeded:
+        return said
+    regions = [region for region in found.regions if region.case is not None and region.defined]
+    if not regions:
+        return said + (f"; nor is there for any others ({found.theory})" if found.complete is True else "")
+    listed = "; ".join(f"{region.statement} (case {region.case})" for region in regions[:6])
+    more = "; ..." if len(regions) > 6 or found.complete is not True else ""
+    return f"{said}\nthere is one where {listed}{more}: give such values"
 
 
 def _read(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equation, Any]:
-    if isinstance(eq, str | Equation):
-        if isinstance(eq, str):
-            from kovacic.reading.equation import parse_equation
+    applied = func if isinstance(func, sympy.core.function.AppliedUndef) else None
+    name = func if applied is None else applied.func  # y of y(x)
+    if func is not None and not isinstance(name, sympy.core.function.UndefinedFunction):
+        raise InputError(f"{func!r} isn't a function", hint="give y(x), or y = Function('y')")
+    if isinstance(eq, str):
+        from kovacic.reading.equation import parse_equation
 
-            eq, _ = parse_equation(eq, variable=var, limits=limits)
-        return eq, sympy.Function(eq.unknown)(sympy.Symbol(eq.variable))
+        variable = var if applied is None else str(applied.args[0])
+        unknown = None if func is None else str(name)
+        eq, _ = parse_equation(eq, variable=variable, unknown=unknown, limits=limits)
+    if isinstance(eq, Equation):
+        return eq, applied or (name or sympy.Function(eq.unknown))(sympy.Symbol(eq.variable))
     from kovacic.reading.from_sympy import parse_sympy_equation
 
     if not hasattr(eq, "free_symbols"):
         raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
-    equation, _, function = parse_sympy_equation(eq, variable=var, unknown=func, limits=limits)
+    if func is not None and applied is None:
+        found = sorted((f for f in eq.atoms(sympy.core.function.AppliedUndef) if f.func == func), key=str)
+        whole = [f for f in found if f.args[0].is_Symbol]
+        if not whole:
+            raise InputError(f"{func} isn't a function in the equation")
+        applied = whole[0]
+    equation, _, function = parse_sympy_equation(eq, variable=var, unknown=applied, limits=limits)
     return equation, function
 
 
-def _particular(equation: Equation, y1: Any, y2: Any, x: Any, start: Start | None, budget: Budget) -> Any:
+def _particular(
+    equation: Equation,
+    y1: Any,
+    y2: Any,
+    x: Any,
+    right: Any,
+    given: Sequence[Given],
+    numbers: Mapping[Any, Any],
+    budget: Budget,
+) -> Any:
     """A particular solution: a polynomial, by undetermined coefficients where these are constants, or by integrals."""
-    atoms = Atoms(x)
+    if right == 0:
+        return sympy.Integer(0)
     if equation.h is None and (polynomial := _polynomial_solution(equation)) is not None:
-        return atoms.poly(polynomial)
-    right = (atoms.sum(equation.f) + (equation.h or 0)) / atoms.ratio(equation.a)
-    b, c = equation.b / equation.a, equation.c / equation.a
-    if all(value.is_polynomial and value.num.degree <= 0 for value in (b, c)):
-        found = undetermined(atoms.ratio(b), atoms.ratio(c), right, x)
+        return Atoms(x).poly(polynomial)
+    right = right / Atoms(x).ratio(equation.a).xreplace(numbers)
+    start = given[0].point if given else None
+
+    def solved(right: Any) -> Any:
+        found = _by_coefficients(equation, right, x, numbers)
+        return particular_solution(y1, y2, right, x, start, budget.seconds_left) if found is None else found
+
+    if right.has(sympy.DiracDelta, sympy.Heaviside):
+        found = response(right, x, y1, y2, solved)
         if found is not None:
             return found
-    return particular_solution(y1, y2, right, x, start.point if start else None, budget.seconds_left)
+    return solved(right)
+
+
+def _by_coefficients(equation: Equation, right: Any, x: Any, numbers: Mapping[Any, Any]) -> Any:
+    """A solution of y'' + ... = right by undetermined coefficients; None where the equation or the right-hand side differ.
+
+    Either the coefficients are constants; or y = G u, G the gauge factor, has u'' = S u + right/G with a constant S, or with
+    S = s/(x - c)^2, which x = c + e^t turns into u_tt - u_t - s u = e^(2t) right/G.
+    """
+    atoms, S = Atoms(x), equation.S
+    b, c = equation.b / equation.a, equation.c / equation.a
+    if all(rate.is_polynomial and rate.num.degree <= 0 for rate in (b, c)):
+        return undetermined(atoms.ratio(b).xreplace(numbers), atoms.ratio(c).xreplace(numbers), right, x)
+    gauge = display(product(equation.gauge), atoms).xreplace(numbers)
+    if S.is_polynomial and S.num.degree <= 0:
+        found = undetermined(0, -atoms.ratio(S).xreplace(numbers), right / gauge, x)
+        if found is not None or S:
+            return None if found is None else sympy.Add(*(gauge * term for term in sympy.Add.make_args(found)))
+    den = S.den if S else equation.gauge.den
+    root = den[den.degree - 1] / (den.degree * den.lc)  # -c
+    s = S * S.field.poly([root, 1]) ** 2
+    if den.degree == 0 or not s.is_polynomial or s.num.degree > 0:
+        return None
+    t, u = sympy.Dummy(real=True), x + atoms.constant(root).xreplace(numbers)
+    gauge = gauge.xreplace({atoms.primitive(s.field.poly([root, 1]))[1]: u})
+    inner = (right / gauge).subs(x, sympy.exp(t) - u + x)
+    found = undetermined(-1, -atoms.ratio(s).xreplace(numbers), sympy.exp(2 * t) * inner, t)
+    if found is None:
+        return None
+    powers = found.replace(sympy.exp, lambda e: u ** e.diff(t) * sympy.exp(e.subs(t, 0)))
+    return sympy.Add(*(gauge * term for term in sympy.Add.make_args(powers.subs(t, sympy.log(u)))))
 
 
 def _polynomial_solution(equation: Equation) -> Poly | None:

@@ -1,9 +1,10 @@
-"""Initial values as a user writes them, and the constants that they determine."""
+"""Initial and boundary values as a user writes them, and the constants that they determine."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Any
 
 import sympy
@@ -15,49 +16,45 @@ from kovacic.reading.given import Equation
 
 
 @dataclass(frozen=True)
-class Start:
-    """y(point) = value and y'(point) = slope; None where it isn't given."""
+class Given:
+    """y(point) = value for order 0, y'(point) = value for order 1."""
 
     point: Any
+    order: int
     value: Any
-    slope: Any
-
-    @property
-    def names(self) -> set[str]:
-        """The symbols that occur in the values."""
-        return {
-            symbol.name
-            for value in (self.point, self.value, self.slope)
-            if value is not None
-            for symbol in value.free_symbols
-        }
 
 
-def read_initial_values(ics: Mapping[Any, Any], function: Any, equation: Equation) -> Start:
-    points, given = set(), {}
+def read_values(ics: Mapping[Any, Any], function: Any, equation: Equation) -> tuple[Given, ...]:
+    """The values that are given.  Raises `InputError`, and `ValueError` for a singular point."""
+    found = []
     for key, value in ics.items():
         point, order = _text_key(key, equation) if isinstance(key, str) else _sympy_key(key, function)
-        points.add(point)
-        given[order] = _constant(value)
-    if len(points) != 1:
-        raise InputError("the initial values belong to one point")
-    (point,) = points
-    x = sympy.Symbol(equation.variable)
-    for coefficient in (equation.a, equation.b, equation.c):
-        quotient = coefficient / equation.a
-        if sympy.simplify(Atoms(x).poly(quotient.den).subs(x, point)) == 0:
-            raise ValueError(f"{point} is a singular point of the equation")
-    return Start(point, given.get(0), given.get(1))
+        found.append(Given(point, order, _exact(value)))
+    atoms = Atoms(sympy.Symbol(equation.variable))
+    for point in {given.point for given in found}:
+        for coefficient in (equation.b, equation.c):
+            quotient = coefficient / equation.a
+            if _is_zero(atoms.poly(quotient.den).subs(atoms.x, point)):
+                raise ValueError(f"{point} is a singular point of the equation")
+    return tuple(found)
 
 
-def _constant(value: Any) -> Any:
+def _exact(value: Any) -> Any:
+    """A SymPy expression; a float is the decimal that it is written as."""
     if isinstance(value, str):
         from kovacic.reading.symbolic import read_expression
 
         return read_expression(value, what="the initial value")
-    if isinstance(value, float):
-        raise InputError(f"the initial value {value!r} is a float", hint="give an exact number, or text such as '0.1'")
-    return value if hasattr(value, "free_symbols") else sympy.Rational(value)
+    try:
+        given = sympy.Rational(repr(float(value))) if isinstance(value, float) else sympy.sympify(value, strict=True)
+        exact = given.xreplace({number: sympy.Rational(str(number)) for number in given.atoms(sympy.Float)})
+    except (sympy.SympifyError, TypeError, ValueError, AttributeError):
+        raise InputError(
+            f"the value {value!r} can't be read", hint="give a number, or text such as 'sqrt(2)'"
+        ) from None
+    if not isinstance(exact, sympy.Expr) or exact.has(sympy.oo, sympy.nan, sympy.zoo):
+        raise InputError(f"the value {value!r} isn't a finite number")
+    return exact
 
 
 def _text_key(key: str, equation: Equation) -> tuple[Any, int]:
@@ -68,40 +65,86 @@ def _text_key(key: str, equation: Equation) -> tuple[Any, int]:
     if name.rstrip("'") != equation.unknown or not separator or not rest.rstrip().endswith(")") or order > 1:
         y = equation.unknown
         raise InputError(f"{key!r} isn't an initial value", hint=f"write {{'{y}(0)': 1, \"{y}'(0)\": 2}}")
-    return _constant(rest.rstrip()[:-1]), order
+    return _exact(rest.rstrip()[:-1]), order
 
 
 def _sympy_key(key: Any, function: Any) -> tuple[Any, int]:
     """y(x0), and y(x).diff(x).subs(x, x0) in either form that SymPy gives it."""
     if getattr(key, "func", None) == function.func and len(key.args) == 1:
-        return key.args[0], 0
+        return _exact(key.args[0]), 0
     is_substitution = type(key).__name__ == "Subs"
     if is_substitution or getattr(key, "is_Derivative", False):
         derivative = key.expr if is_substitution else key
         point = key.point[0] if is_substitution else derivative.expr.args[0]
         orders = [int(count) for _, count in derivative.variable_count]
         if derivative.expr.func == function.func and orders == [1]:
-            return point, 1
+            return _exact(point), 1
     raise InputError(f"{key} isn't an initial value", hint="write {y(0): 1, y(x).diff(x).subs(x, 0): 2}")
 
 
-def constants(start: Start, y1: Any, y2: Any, particular: Any, x: Any, names: tuple[Any, Any]) -> dict[Any, Any]:
-    """The constants that the initial values determine."""
-    equations = []
-    for order, value in enumerate((start.value, start.slope)):
-        if value is not None:
-            u, v, w = (_value_at(sympy.diff(y, x, order) if order else y, x, start.point) for y in (y1, y2, particular))
-            equations.append(sympy.Eq(names[0] * u + names[1] * v + w, value))
-    found = sympy.solve(equations, names, dict=True)
-    if not found:
-        raise InputError("there is no solution with these initial values")
-    return {name: simplified(value) for name, value in found[0].items()}
+def constants(
+    given: Sequence[Given], y1: Any, y2: Any, particular: Any, x: Any, names: Sequence[Any]
+) -> dict[Any, Any]:
+    """The constants that the values determine: both, one in terms of the other, or none.
+
+    Raises `InputError` where there is no solution with these values.
+    """
+    rows = []
+    for item in given:
+        u, v, w = (value_at(y, x, item.point, item.order) for y in (y1, y2, particular))
+        rows.append((u, v, item.value - w))
+    initial = len(rows) == 2 and given[0].point == given[1].point and given[0].order != given[1].order
+    for (a, b, r), (c, d, s) in combinations(rows, 2):
+        determinant = a * d - b * c
+        if initial or not _is_zero(determinant):  # that of initial values is the Wronskian at an ordinary point
+            values = [_tidy((r * d - b * s) / determinant), _tidy((a * s - r * c) / determinant)]
+            break
+    else:
+        values = list(names)
+        for u, v, r in rows:
+            if not _is_zero(v):
+                values[1] = _tidy(r / v) - _tidy(u / v) * names[0]
+            elif not _is_zero(u):
+                values[0] = _tidy(r / u)
+            else:
+                continue
+            break
+    if not initial and any(not _is_zero(u * values[0] + v * values[1] - r) for u, v, r in rows):
+        raise InputError("there is no solution with these values: the conditions contradict one another")
+    return dict(zip(names, values, strict=True))
 
 
-def _value_at(expression: Any, x: Any, point: Any) -> Any:
-    """The value at an ordinary point, where the expression may be of the form 0/0."""
+def _tidy(value: Any) -> Any:
+    """Simplified, but for special functions, which SymPy takes long for."""
+    return value if value.is_Rational or value.has(sympy.hyper, sympy.RootSum) else simplified(value)
+
+
+def _is_zero(value: Any) -> bool:
+    """Is a constant zero?  By its value where it isn't, else by SymPy's simplification; symbols have generic values."""
+    value = sympy.sympify(value, strict=True)
+    if value.is_Rational:
+        return bool(value == 0)
+    if not value.free_symbols and abs(value.evalf(30, maxn=100)) > sympy.Float("1e-20"):
+        return False
+    return value.equals(0) is not False if not value.free_symbols else sympy.simplify(value) == 0
+
+
+def value_at(expression: Any, x: Any, point: Any, order: int = 0) -> Any:
+    """The value of a derivative at an ordinary point, where the expression may be of the form 0/0.
+
+    At a jump of a step function it is that just before it.
+    """
     expression = sympy.sympify(expression, strict=True)
+    expression = expression.diff(x, order) if order else expression
+    if expression.has(sympy.Heaviside):  # of x - a
+        jumps = expression.atoms(sympy.Heaviside, sympy.DiracDelta)
+        expression = expression.xreplace({jump: sympy.Integer(0) for jump in jumps if jump.args[0].subs(x, point) == 0})
     value = expression.subs(x, point)
     if value.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):
+        if expression.has(sympy.hyper):
+            said = (
+                f"the hypergeometric functions of the closed form are singular at {point}, where the solutions aren't"
+            )
+            raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
         value = sympy.limit(expression, x, point)
     return value.doit() if value.has(sympy.Integral) else value

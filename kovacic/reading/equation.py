@@ -21,7 +21,7 @@ from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import Place, RationalReader, tokens_of
-from kovacic.reading.given import DEFAULT_VARIABLE, ENERGY, FUNCTION_NAMES, NUMBER_NAMES, UNKNOWN, Equation
+from kovacic.reading.given import DEFAULT_VARIABLE, ENERGY, EULER, FUNCTION_NAMES, NUMBER_NAMES, PI, UNKNOWN, Equation
 from kovacic.reading.lexer import PRIMES, Tokens
 from kovacic.reading.linear import REST, LinearArithmetic, LinearForm
 from kovacic.reading.parser import Site, evaluate
@@ -33,7 +33,7 @@ _LARGEST_ORDER = 100
 _MARKS = ("=", *PRIMES, *(f"{name}(" for name in _DERIVATIVES))
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
-_USUAL_VARIABLES = frozenset("xtzsruvwXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
+_USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
 
 
 def is_equation(text: str) -> bool:
@@ -71,6 +71,24 @@ class EquationReader(RationalReader):
     def __init__(self, variable: str, unknown: str, arithmetic: LinearArithmetic, constants: Constants) -> None:
         super().__init__({variable: VARIABLE}, variable, arithmetic, constants)
         self.unknown = unknown
+        arithmetic.with_parameters = self.with_parameters  # type: ignore[method-assign]
+
+    def with_parameters(self, coefficient: Any) -> Any:
+        """A rational function of x and pi, or of x and e, with that number as a parameter."""
+        import sympy
+
+        from kovacic.reading.walker import Walker
+
+        powers = {e for e in coefficient.atoms(sympy.exp) if e.args[0].is_Integer}
+        names = {sympy.pi: sympy.Symbol(PI), sympy.E: sympy.Symbol(EULER)}
+        plain = coefficient.xreplace({e: names[sympy.E] ** e.args[0] for e in powers} | names)
+        try:
+            value = Walker(self, self.constants).value(plain)
+        except NotRational:
+            raise self.arithmetic.not_rational(coefficient) from None
+        if {PI, EULER} <= {*self.constants.parameters}:
+            raise NotRational("pi and e in coefficients: it isn't known whether they are algebraically independent")
+        return value
 
     def equation_of(self, value: Any, text: str | None) -> Equation:
         """The equation that says that a linear form is zero; `text` is what it was read from."""
@@ -218,8 +236,10 @@ def _variable_of(tokens: Tokens, unknown: str) -> str:
             return tokens.pieces[k + 2]
     excluded = {*NUMBER_NAMES, ENERGY, unknown, "e"}
     names = [name for name in tokens.names() if name not in excluded]
-    if DEFAULT_VARIABLE in names or not names:
+    if DEFAULT_VARIABLE in names:
         return DEFAULT_VARIABLE
+    if not names:
+        return DEFAULT_VARIABLE if unknown != DEFAULT_VARIABLE else "t"
     usual = [name for name in names if name in _USUAL_VARIABLES]
     if len(usual) != 1 or len(names) > 1:
         question = "is it the variable, or a parameter" if len(names) == 1 else "which is the variable"

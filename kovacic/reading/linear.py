@@ -102,7 +102,7 @@ class LinearArithmetic(Arithmetic):
             raise NotLinear(f"a product of {self.unknown} or its derivatives: the equation isn't linear")
         form, factor = (first, second) if first.coefficients else (second, first)
         if form.coefficients and factor.other is not None:
-            raise self._not_rational(factor.other)
+            factor = LinearForm({REST: self.with_parameters(self.expression(factor))})
         if factor.other is None and form.other is None:
             return LinearForm(self._scaled(form.parts, factor))
         rest = LinearForm({REST: form.parts[REST]} if REST in form.parts else {}, form.other)
@@ -115,7 +115,11 @@ class LinearArithmetic(Arithmetic):
         closed = self.closed(factor.parts[REST])
         return {k: super(LinearArithmetic, self).multiply(c, closed) for k, c in parts.items()}
 
-    def _not_rational(self, coefficient: Any) -> NotRational:
+    def with_parameters(self, coefficient: Any) -> Value:
+        """A coefficient that is a SymPy expression; a reader may have the means to understand it."""
+        raise self.not_rational(coefficient)
+
+    def not_rational(self, coefficient: Any) -> NotRational:
         from sympy import E, Symbol
 
         shown = coefficient.xreplace({E: Symbol("e")})  # E is the energy in texts
