@@ -215,9 +215,9 @@ class Solution:
         return loads(text)
 
     def explain(self, *, format: str = "text", solutions: bool = True) -> str:
-        """The derivation as a reader of Kovacic's paper follows it: "text", "markdown" or "latex".
+        """The derivation as a reader of Kovacic's paper follows it: "text", "markdown", "latex", or "html" (a page of its own).
 
-        With `solutions=False` the closed forms are left out.
+        With `solutions=False` the closed forms are left out.  See `kovacic.views.explain`.
         """
         from kovacic.views.explain import explain
 

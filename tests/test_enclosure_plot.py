@@ -80,3 +80,10 @@ def test_ctrl_c_ends_the_command_without_a_picture(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr("kovacic.views.plot.evaluate_states", interrupted)
     assert run(["plot", "x", "--from", "0", "--to", "1", "-o", str(tmp_path / "a.png")]) == 130
     assert not (tmp_path / "a.png").exists()
+
+
+def test_a_pole_of_the_gauge_is_a_singular_point() -> None:
+    """Bessel's equation of order 1/2 has the normal form y'' = -y: 0 is singular for the equation alone."""
+    samples = sample("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0", -2, 2, points=20)
+    assert samples.singular == (0,)
+    assert len(samples.runs) == 2

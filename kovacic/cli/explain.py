@@ -14,15 +14,21 @@ if TYPE_CHECKING:
 
 @click.command(context_settings=EQUATIONS)
 @click.argument("equations", metavar="EQUATION...", nargs=-1, required=True)
-@click.option("--markdown", "form", flag_value="markdown", help="Markdown with formulas between dollar signs.")
-@click.option("--latex", "form", flag_value="latex", help="The body of a LaTeX document (amsmath).")
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["text", "markdown", "latex", "html"]),
+    default="text",
+    help="Text; Markdown with formulas between dollar signs; the body of a LaTeX document (amsmath, amssymb, graphicx); "
+    "or a page of its own for a browser.",
+)
 @click.option("--cite", is_flag=True, help="Only the references, as BibTeX.")
 @click.option("--no-solutions", is_flag=True, help="Leave the closed forms out.")
 @var_option
 @limit_option
 def command(
     equations: tuple[str, ...],
-    form: str | None,
+    form: str,
     cite: bool,
     no_solutions: bool,
     var: str | None,
@@ -32,13 +38,13 @@ def command(
 
     \b
     kovacic explain "x^2 + 3"
-    kovacic explain --markdown "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"
+    kovacic explain --format html "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0" > bessel.html
     """
 
     def show(answer: Solution) -> str:
         if cite:
             return answer.citation(style="bibtex")
-        text = answer.explain(format=form or "text", solutions=not no_solutions).rstrip("\n")
-        return text if form else fitted(text)
+        text = answer.explain(format=form, solutions=not no_solutions).rstrip("\n")
+        return fitted(text) if form == "text" else text
 
     return answer_each(equations, show, var=var, limits=limits, gap="\n")

@@ -105,6 +105,14 @@ class NumericProblem:
     decision: Decision | None = None
     gauge: RatFunc | None = None
 
+    def singular_points(self, prec: int) -> list[Point]:
+        """Those of the system and the poles of the gauge, as `System.singular_points` gives them."""
+        if self.gauge is None:
+            return self.system.singular_points(prec)
+        one, other = fmpz_poly(list(self.system.den)), fmpz_poly(list(System.of(self.gauge).den))
+        both = one * (other // one.gcd(other))
+        return System((), tuple(int(c) for c in both.coeffs())).singular_points(prec)
+
 
 def as_problem(equation: object) -> NumericProblem:
     """The numerical problem that `equation` stands for; see `kovacic.enclosure.evaluate.evaluate` for what is accepted."""

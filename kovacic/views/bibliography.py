@@ -27,13 +27,20 @@ class Reference:
     journal: str
     year: str
     use: str
+    volume: str = ""
+    pages: str = ""
+    doi: str = ""
 
     def text(self) -> str:
-        authors = self.author.replace(" and ", ", ")
-        return f"[{self.key}] {authors}, {self.title}, {self.journal} ({self.year}): {self.use}."
+        where = ", ".join(filter(None, (f"{self.journal} {self.volume}".strip(), self.pages.replace("--", "-"))))
+        doi = f", doi {self.doi}" if self.doi else ""
+        return (
+            f"[{self.key}] {self.author.replace(' and ', ', ')}, {self.title}, {where} ({self.year}){doi}: {self.use}."
+        )
 
     def bibtex(self) -> str:
-        fields = ",\n".join(f"  {name} = {{{getattr(self, name)}}}" for name in ("author", "title", "journal", "year"))
+        names = ("author", "title", "journal", "volume", "pages", "year", "doi")
+        fields = ",\n".join(f"  {name} = {{{value}}}" for name in names if (value := getattr(self, name)))
         return f"@article{{{self.key},\n{fields}\n}}"
 
 

@@ -5,6 +5,7 @@ A sentence is a sequence of plain strings and `Math`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from html import escape
@@ -34,11 +35,19 @@ class Formula:
 class Table:
     """Rows of cells; without a head, the first cell of each row is its title."""
 
-    head: Sequence[str]
+    head: Sequence[str | Math]
     rows: Sequence[Sequence[Sentence]]
 
 
-Block = Heading | Paragraph | Formula | Table
+@dataclass(frozen=True)
+class Picture:
+    """A drawing as SVG, for HTML alone."""
+
+    svg: str
+    caption: str
+
+
+Block = Heading | Paragraph | Formula | Table | Picture
 
 
 @dataclass(frozen=True)
@@ -63,8 +72,10 @@ class Format:
             return self.paragraph(self._sentence(block.sentence))
         if isinstance(block, Formula):
             return self.formula(block.math)
+        if isinstance(block, Picture):
+            return f"<figure>{block.svg}<figcaption>{self.plain(block.caption)}</figcaption></figure>"
         rows = [[self._sentence(cell) for cell in row] for row in block.rows]
-        return self.table([[self.plain(cell) for cell in block.head], *rows])
+        return self.table([[self._sentence([cell]) for cell in block.head], *rows])
 
     def _sentence(self, sentence: Sentence) -> str:
         return "".join(self.math(part) if isinstance(part, Math) else self.plain(part) for part in sentence)
@@ -84,7 +95,15 @@ def _markdown_table(rows: list[list[str]]) -> str:
 def _latex_table(rows: list[list[str]]) -> str:
     lines = [" & ".join(row) + r" \\" for row in rows]
     body = "\n".join([lines[0], r"\hline", *lines[1:]])
-    return f"\\begin{{tabular}}{{{'l' * len(rows[0])}}}\n{body}\n\\end{{tabular}}"
+    wide = [any(cell.count(" ") > 12 for cell in column) for column in zip(*rows, strict=True)]
+    columns = "".join(r"p{.6\linewidth}" if long else "l" for long in wide)
+    return r"\medskip" + _latex_fitted(f"\\begin{{tabular}}{{{columns}}}\n{body}\n\\end{{tabular}}") + r"\medskip"
+
+
+def _latex_fitted(box: str) -> str:
+    """A box that is made narrower where it is wider than the line (graphicx)."""
+    narrower = r"\ifdim\wd0>\linewidth\resizebox{\linewidth}{!}{\usebox0}\else\usebox0\fi"
+    return f"\\sbox0{{{box}}}\\par\\noindent{narrower}\\par"
 
 
 def _html_table(rows: list[list[str]]) -> str:
@@ -93,7 +112,22 @@ def _html_table(rows: list[list[str]]) -> str:
     first = "td" if head else "th"
     lines = [f"<{first}{left}>{title}</{first}>" + "".join(f"<td{left}>{cell}</td>" for cell in rest)
              for title, *rest in rows[1:]]  # fmt: skip
-    return f"<table>{''.join(f'<tr>{line}</tr>' for line in (head, *lines) if line)}</table>"
+    table = "".join(f"<tr>{line}</tr>" for line in (head, *lines) if line)
+    return f'<div style="overflow-x:auto"><table>{table}</table></div>'
+
+
+def _mathml(math: Math, display: str = "inline") -> str:
+    """Presentation MathML, which browsers show without a script or a font from elsewhere."""
+    from latex2mathml.converter import convert
+
+    if not math.latex:
+        return f"<code>{escape(math.text)}</code>"
+    written = convert(math.latex, display=display)
+    # A prime is raised and small by itself, and infinity is no operator.
+    written = re.sub(
+        r"<msup>(<mi>[^<]*</mi>)<mi>(&#x0?203\d;)</mi></msup>", r"\1<mo lspace='0' rspace='0'>\2</mo>", written
+    )
+    return written.replace("<mo>&#x0221E;</mo>", "<mi>&#x0221E;</mi>")
 
 
 def _latex_escaped(text: str) -> str:
@@ -115,17 +149,17 @@ FORMATS = {
         formula=lambda math: f"$$\n{math.latex}\n$$",
         table=_markdown_table,
     ),
-    "latex": Format(  # the body of a document with amsmath
-        heading=lambda text, level: rf"\{'section' if level == 1 else 'subsection'}*{{{text}}}",
+    "latex": Format(  # the body of a document with amsmath, amssymb and graphicx
+        heading=lambda text, level: rf"\raggedright\{'section' if level == 1 else 'subsection'}*{{{text}}}",
         math=lambda math: f"${math.latex}$",
-        formula=lambda math: f"\\[\n{math.latex}\n\\]",
+        formula=lambda math: r"\smallskip" + _latex_fitted(rf"$\displaystyle {math.latex}$") + r"\smallskip",
         table=_latex_table,
         plain=_latex_escaped,
     ),
     "html": Format(
         heading=lambda text, level: f"<h{level}>{text}</h{level}>",
-        math=lambda math: f"${escape(math.latex)}$" if math.latex else f"<code>{escape(math.text)}</code>",
-        formula=lambda math: f"<p>$$\n{escape(math.latex)}\n$$</p>",
+        math=_mathml,
+        formula=lambda math: f'<div style="overflow-x:auto; padding:.4em 0">{_mathml(math, "block")}</div>',
         table=_html_table,
         plain=escape,
         paragraph=lambda text: f"<p>{text}</p>",

@@ -1,10 +1,16 @@
-"""The derivation that a reader of Kovacic's paper follows, from the typed trace, as text, Markdown, LaTeX or HTML."""
+"""The derivation as a reader of Kovacic's paper follows it, as text, Markdown, LaTeX or HTML.
+
+First the paper's own steps, line by line (`families`), then what this package claims and proves.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from html import escape
+from io import StringIO
 from typing import TYPE_CHECKING
 
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import (
     Evidence,
     Exclusion,
@@ -15,15 +21,16 @@ from kovacic.decision import (
     Status,
     Structure,
 )
-from kovacic.engine.places import Kind
-from kovacic.errors import LimitExceeded
+from kovacic.engine.places import Kind, Place, analyse
+from kovacic.errors import KovacicError, LimitExceeded
+from kovacic.limits import Budget
 from kovacic.views.bibliography import references
-from kovacic.views.document import FORMATS, Block, Formula, Heading, Paragraph, Sentence, Table
-from kovacic.views.formula import Formulas, Math, given, latex_text
-from kovacic.views.trace import PlaceData, Trace, rational_form, trace_of
+from kovacic.views.document import FORMATS, Block, Formula, Heading, Paragraph, Picture, Sentence, Table
+from kovacic.views.formula import Formulas, Math, given, latex_text, of_sympy
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
+    from kovacic.views.families import Family, Point, Search
 
 _CASES = {
     Structure.REDUCIBLE: "case 1 (the group is reducible, omega rational)",
@@ -39,12 +46,31 @@ _BY_INVARIANT = {
     Structure.OCTAHEDRAL: "an invariant of degree 8, the least one of the binary octahedral group",
     Structure.ICOSAHEDRAL: "an invariant of degree 12, the least one of the binary icosahedral group",
 }
-# d from the chosen exponents, by case.
+# d from the chosen exponents, and what P has to satisfy, by case [Kovacic 1986, sections 3.1, 4.1 and 5.1].
 _DEGREE = {
     1: Math("d = alpha_inf - sum alpha_c", r"d = \alpha_\infty - \sum_c \alpha_c"),
     2: Math("d = (e_inf - sum e_c)/2", r"d = \tfrac{1}{2}\left(e_\infty - \sum_c e_c\right)"),
     3: Math("d = n/12 (e_inf - sum e_c)", r"d = \tfrac{n}{12}\left(e_\infty - \sum_c e_c\right)"),
 }
+_EQUATIONS = {
+    1: [Math("P'' + 2 theta P' + (theta' + theta^2 - S) P = 0",
+             r"P'' + 2 \theta P' + \left(\theta' + \theta^{2} - S\right) P = 0")],
+    2: [Math("P''' + 3 theta P'' + (3 theta^2 + 3 theta' - 4 S) P'"
+             "\n + (theta'' + 3 theta theta' + theta^3 - 4 S theta - 2 S') P = 0",
+             r"P''' + 3 \theta P'' + \left(3 \theta^{2} + 3 \theta' - 4 S\right) P'"
+             r" + \left(\theta'' + 3 \theta \theta' + \theta^{3} - 4 S \theta - 2 S'\right) P = 0")],
+    3: [Math("P_n = -P,  P_(-1) = 0,  D = product of the x - c",
+             r"P_n = -P, \quad P_{-1} = 0, \quad D = \prod_c (x - c)"),
+        Math("P_(i-1) = -D P_i' + ((n-i) D' - D theta) P_i - (n-i)(i+1) D^2 S P_(i+1)",
+             r"P_{i-1} = -D P_i' + \left((n-i) D' - D \theta\right) P_i - (n-i)(i+1) D^{2} S P_{i+1}")],
+}  # fmt: skip
+_CONDITIONS = {
+    1: "every pole has order 1 or an even order; the order at infinity is even or greater than 2",
+    2: "at least one pole has order 2 or an odd order greater than 2",
+    3: "no pole has an order greater than 2, the order at infinity is at least 2, and every Delta is rational",
+}
+#: So many families are shown.
+_MOST_SHOWN = 24
 _KINDS = {
     Kind.ORDINARY: "ordinary",
     Kind.REGULAR: "regular",
@@ -54,24 +80,46 @@ _KINDS = {
 
 
 def explain(solution: Solution, *, format: str = "text", solutions: bool = True) -> str:
-    """The derivation as "text", "markdown", "latex" or "html"; `solutions=False` leaves the closed forms out (no SymPy).
+    """The derivation as "text", "markdown", "latex" (the body of a document with amsmath, amssymb and graphicx) or "html".
 
-    Raises `ValueError` for another format.
+    HTML is one page that needs nothing from elsewhere, with MathML, and with the picture of a real solution where there is
+    one (for rational coefficients, if matplotlib is installed).  `solutions=False` leaves the closed forms out.  Raises
+    `ValueError` for another format.
     """
     if format not in FORMATS:
         raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {format!r}")
-    return FORMATS[format].render(document(trace_of(solution), solutions=solutions))
+    blocks = document(solution, solutions=solutions)
+    if format != "html":
+        return FORMATS[format].render(blocks)
+    body = FORMATS[format].render([*blocks, *_picture(solution)])
+    return _PAGE.replace("BODY", body, 1).replace("TITLE", escape(str(solution)), 1)
 
 
-def document(trace: Trace, *, solutions: bool = True) -> list[Block]:
+def document(solution: Solution, *, solutions: bool = True) -> list[Block]:
     """The blocks of the explanation."""
-    writer = _Writer(trace)
-    blocks = [*writer.equation(), *writer.local_data(), *writer.cases()]
-    if trace.solution.status is Status.LIOUVILLIAN:
+    writer = _Writer(solution)
+    blocks = [*writer.equation(), *writer.local_data(), *writer.necessary(), *writer.steps(), *writer.cases()]
+    if solution.status is Status.LIOUVILLIAN:
         blocks += [*writer.certificate(), *writer.omega()]
         if solutions:
             blocks += writer.closed_form()
     return [*blocks, *writer.group(), *writer.check(), *writer.bibliography()]
+
+
+def _picture(solution: Solution) -> list[Block]:
+    """A real solution between and beside the singular points on the axis; nothing where its values can't be had."""
+    from kovacic.enclosure.problem import as_problem
+
+    try:
+        singular = [float(z.re) for z in as_problem(solution).singular_points(64) if z.is_real()]
+        low, high = round(min(singular, default=-3)) - 2, round(max(singular, default=3)) + 2
+        figure = solution.plot(low, high, digits=6, points=240)
+    except (KovacicError, ImportError):
+        return []
+    drawing = StringIO()
+    figure.savefig(drawing, format="svg", metadata={"Date": None})
+    caption = "The solution with y = 1, y' = 0 in the middle of its longest interval without a singular point."
+    return [Heading("A picture"), Picture(drawing.getvalue()[drawing.getvalue().index("<svg") :], caption)]
 
 
 def _say(*sentence: str | Math) -> Paragraph:
@@ -79,9 +127,9 @@ def _say(*sentence: str | Math) -> Paragraph:
 
 
 class _Writer:
-    def __init__(self, trace: Trace) -> None:
-        self.trace = trace
-        self.solution = trace.solution
+    def __init__(self, solution: Solution) -> None:
+        self.solution = solution
+        self.places = analyse(solution.S, Budget()).places
         self.formulas = Formulas(self.solution.variable, self.solution.S.field)
 
     def equation(self) -> Iterator[Block]:
@@ -104,15 +152,18 @@ class _Writer:
 
     def local_data(self) -> Iterator[Block]:
         yield Heading("Poles and local exponents")
+        x = latex_text(self.solution.variable)
         yield _say(
-            "Delta = sqrt(1 + 4b) is the difference of the exponents (1 + Delta)/2 and (1 - Delta)/2 of the local "
-            "solutions; the sets are those of Kovacic's steps 1. Conjugate poles stay together."
+            "At a pole of order 2, ",
+            Math(f"S = b/({self.solution.variable} - c)^2 + ...", rf"S = \frac{{b}}{{({x} - c)^2}} + \dots"),
+            ", the local solutions have exponents with the difference ",
+            Math("Delta = sqrt(1 + 4b)", r"\Delta = \sqrt{1 + 4 b}"),
+            ". Conjugate poles stay together.",
         )
-        head = ("place", "points", "order", "local type", "Delta", "alpha (case 1)", "E (case 2)", "E (case 3, n = 12)")
-        yield Table(head, [self._row(data) for data in self.trace.places])
+        head = ("place", "points", "order", "local type", "Delta")
+        yield Table(head, [self._row(place) for place in self.places])
 
-    def _row(self, data: PlaceData) -> list[Sentence]:
-        place = data.place
+    def _row(self, place: Place) -> list[Sentence]:
         delta: str | Math = "-"
         if place.kind is Kind.REGULAR:
             if place.delta is not None:
@@ -125,18 +176,128 @@ class _Writer:
         cells: list[str | Math] = [
             self.formulas.place(str(place)),
             "1" if place.at_infinity else str(place.degree),
-            "-" if place.at_infinity and not self.solution.S else str(data.order),
+            str(place.order) if not place.at_infinity else str(-self.solution.S.degree) if self.solution.S else "-",
             _KINDS[place.kind] + (", logarithm" if place.logarithm else ""),
             delta,
-            ", ".join(map(str, data.exponents)) if data.exponents is not None else "-",
-            f"{{{', '.join(map(str, data.case_2))}}}",
-            f"{{{', '.join(map(str, data.case_3))}}}" if data.case_3 is not None else "-",
         ]
         return [[cell] for cell in cells]
 
+    def necessary(self) -> Iterator[Block]:
+        yield Heading("Kovacic's necessary conditions (section 2.1)")
+        rows: list[list[Sentence]] = []
+        for case, condition in _CONDITIONS.items():
+            failing = [] if case == 2 else [place for place in self.places if not _allowed(case, [place])]
+            verdict: list[str | Math] = ["holds" if _allowed(case, self.places) else "fails"]
+            for k, place in enumerate(failing):
+                verdict += [", " if k else " at ", self.formulas.place(str(place))]
+            rows.append([[str(case)], [condition], verdict])
+        yield Table(("case", "condition", "verdict"), rows)
+
+    def steps(self) -> Iterator[Block]:
+        """The paper's steps 1 to 3, case by case, up to the one that succeeds."""
+        from kovacic.views.families import search
+
+        solution = self.solution
+        degree = 12 if solution.riccati is None else solution.riccati.degree
+        for m in () if solution.status is Status.UNDECIDED else (1, 2, 4, 6, 12):
+            case = min(m, 3)
+            if m > degree or not _allowed(case, self.places):
+                continue
+            yield Heading(f"Case {case}{f', n = {m}' if case == 3 else ''}: Kovacic's steps")
+            found = search(solution.S, self.places, solution.variable, m)
+            if found is None:
+                domain = (
+                    "rational coefficients, exponents that are square roots of rational numbers, and poles of low order"
+                )
+                yield _say(f"The steps are written out for {domain} only.")
+            else:
+                yield from self._search(found, case)
+
+    def _search(self, search: Search, case: int) -> Iterator[Block]:
+        yield self._sets(search, case)
+        many = f"{search.total} famil{'y' if search.total == 1 else 'ies'} of exponents"
+        natural = "" if search.natural is None else f", d is a natural number for {search.natural}"
+        parity = " (with an odd e)" if case == 2 and natural else ""
+        yield _say("Step 2: ", _DEGREE[case], f"; {many}{natural}{parity}.")
+        if search.families is None:
+            yield _say(
+                "They are too many to be listed; the engine finds omega, or proves that there is none, without them."
+            )
+            return
+        if not search.complete:
+            yield _say("Of conjugate poles, only families with equal exponents are listed.")
+        shown = search.families[:_MOST_SHOWN]
+        if shown:
+            head = [*map(self._point, search.points), Math("d", "d"), Math("P", "P")]
+            rows: list[list[Sentence]] = []
+            for family in shown:
+                values = [of_sympy(choice.value) for choice in family.choices]
+                rows.append([*([value] for value in values), [of_sympy(family.d)], [self._outcome(family)]])
+            yield Table(head, rows)
+        if len(search.families) > _MOST_SHOWN:
+            yield _say(f"and {len(search.families) - _MOST_SHOWN} more.")
+        tried = [family for family in search.families if family.theta is not None]
+        if tried:
+            yield _say("Step 3: P of degree d, with")
+            yield from map(Formula, _EQUATIONS[case])
+        for family in tried[-_MOST_SHOWN:]:
+            yield from self._trial(family)
+
+    def _sets(self, search: Search, case: int) -> Table:
+        """Step 1."""
+        from sympy import Add, Symbol
+
+        rows: list[list[Sentence]] = []
+        for point, choices in zip(search.points, search.choices, strict=True):
+            values = [of_sympy(choice.value) for choice in choices]
+            if case == 1:
+                t = Symbol(self.solution.variable) - (0 if point.place.at_infinity or point.at is None else point.at)
+                singular = of_sympy(Add(*(c * t**power for power, c in choices[0].singular)))
+                rows.append([[self._point(point)], [singular], [values[0]], [values[-1]]])
+            else:
+                inside = ", ".join(value.text for value in values)
+                rows.append([[self._point(point)], [Math(f"{{{inside}}}", rf"\{{{inside}\}}")]])
+        alphas = (Math(f"alpha{sign}", rf"\alpha^{sign}") for sign in "+-")
+        return Table(
+            ("place", Math("[sqrt S]", r"[\sqrt{S}]"), *alphas) if case == 1 else ("place", Math("E", "E")), rows
+        )
+
+    def _point(self, point: Point) -> Math:
+        if point.at is None or point.place.at_infinity:
+            return self.formulas.place(str(point.place))
+        at = of_sympy(point.at)
+        return Math(f"{self.solution.variable} = {at.text}", f"{latex_text(self.solution.variable)} = {at.latex}")
+
+    @staticmethod
+    def _outcome(family: Family) -> str | Math:
+        if family.P is not None:
+            return of_sympy(family.P)
+        if family.theta is not None:
+            return "none"
+        return "not tried" if family.d.is_Integer and family.d >= 0 else ""
+
+    @staticmethod
+    def _trial(family: Family) -> Iterator[Block]:
+        theta, d = of_sympy(family.theta), family.d
+        yield Formula(Math(f"theta = {theta.text}", rf"\theta = {theta.latex}"))
+        impossible = next((condition for condition in family.conditions if condition.is_number), None)
+        conditions = [of_sympy(condition) for condition in family.conditions[:6]]
+        if family.P is not None:
+            P = of_sympy(family.P)
+            yield _say(f"d = {d}: ", Math(f"P = {P.text}", f"P = {P.latex}"), " is a solution.")
+        elif impossible is not None:
+            yield _say(f"d = {d}: no solution, for a coefficient is ", of_sympy(impossible), ", which isn't 0.")
+        elif conditions:
+            system = ", ".join(f"{c.text} = 0" for c in conditions), r",\; ".join(f"{c.latex} = 0" for c in conditions)
+            yield _say(
+                f"d = {d}: no solution, for the lower coefficients a0, ... of P would satisfy ", Math(*system), "."
+            )
+        else:
+            yield _say(f"d = {d}: no solution, for the linear system for its {d + 1} coefficients has rank {d + 1}.")
+
     def cases(self) -> Iterator[Block]:
         decision = self.solution.decision
-        yield Heading("Which case")
+        yield Heading("The proof of this program")
         yield from map(self._exclusion, decision.exclusions)
         if decision.undecided is not None:
             yield _say(f"Undecided: {decision.undecided}.")
@@ -152,7 +313,7 @@ class _Writer:
             )
 
     def _invariant(self, invariant: SemiInvariant) -> Math:
-        F = rational_form(self.trace, invariant)
+        F = rational_form(invariant, self.places)
         if F is None:
             return self.formulas.named("F'/F", "F'/F", invariant.logarithmic_derivative)
         return self.formulas.named("F", "F", F)
@@ -190,12 +351,7 @@ class _Writer:
         form, case = self.solution.semi_invariant, self.solution.case
         if form is None or case is None:
             return
-        yield Heading("The exponents that succeed")
-        rows: list[list[Sentence]] = []
-        for choice in self.trace.choices:
-            value = "see theta" if choice.value is None else str(choice.value)
-            rows.append([[self.formulas.place(str(choice.place))], [value]])
-        yield Table(("place", f"{'alpha' if case == 1 else 'e'} chosen"), rows)
+        yield Heading("theta and P of the answer")
         yield _say(_DEGREE[case], f" = {form.P.degree}, and with theta and P:")
         yield Formula(self.formulas.named("theta", r"\theta", form.theta))
         yield Formula(self.formulas.named("P", "P", form.P))
@@ -228,8 +384,6 @@ class _Writer:
         return Math("\n + ".join(texts) + " = 0", " + ".join(formulas) + " = 0")
 
     def closed_form(self) -> Iterator[Block]:
-        from sympy import latex
-
         try:
             form = self.solution.closed_form
         except LimitExceeded as limit:
@@ -241,9 +395,11 @@ class _Writer:
         yield Heading("Solutions")
         for k, y in enumerate((form.y1, form.y2), start=1):
             text = str(y)
-            shown = text if len(text) < 2000 else f"{text[:1000]} ... ({len(text)} characters)"
-            formula = latex(y) if len(text) < 5000 else r"\text{(too long to print)}"
-            yield Formula(Math(f"{unknown}{k} = {shown.replace('**', '^')}", f"{unknown}_{{{k}}} = {formula}"))
+            if len(text) < 2000:
+                shown = of_sympy(y)
+            else:
+                shown = Math(f"{text[:1000]} ... ({len(text)} characters)", r"\text{(too long to print)}")
+            yield Formula(Math(f"{unknown}{k} = {shown.text}", f"{unknown}_{{{k}}} = {shown.latex}"))
         yield from (_say(f"Note: {note}.") for note in form.notes)
 
     def group(self) -> Iterator[Block]:
@@ -275,3 +431,42 @@ class _Writer:
     def bibliography(self) -> Iterator[Block]:
         yield Heading("References")
         yield from (_say(reference.text()) for reference in references(self.solution))
+
+
+def _allowed(case: int, places: Sequence[Place]) -> bool:
+    """The necessary conditions; that of case 2 has to hold at some pole only."""
+    if case == 1:
+        return all(place.kind is not Kind.RAMIFIED for place in places)
+    if case == 2:
+        return any(place.order == 2 or place.kind is Kind.RAMIFIED for place in places if not place.at_infinity)
+    return all(place.order == 0 or (place.order <= 2 and place.delta is not None) for place in places)
+
+
+def rational_form(form: SemiInvariant, places: Sequence[Place]) -> RatFunc | None:
+    """P times powers of the factors of the poles, where these powers, the residues of theta, are integers; else None."""
+    result, field = RatFunc(form.P), form.theta.num.field
+    for place in places[:-1]:
+        factor = place.factor.over(field)
+        cofactor, order = form.theta.den.remove(factor)
+        if order > 1 or (order == 0 and factor.gcd(form.theta.den).degree > 0):
+            return None
+        if order:
+            residue = form.theta.num * (cofactor * factor.derivative()).inverse_modulo(factor) % factor
+            value = field.rational_value(residue) if residue.degree <= 0 else None
+            if value is None or value.denominator != 1:
+                return None
+            result = result * RatFunc(place.factor) ** value.numerator
+    return result
+
+
+_PAGE = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>TITLE</title>
+<style>
+body { max-width: 52rem; margin: 2rem auto; padding: 0 1rem; font: 1rem/1.5 Georgia, serif; color: #222; background: #fff }
+table { border-collapse: collapse; margin: 1rem 0 } td, th { padding: .25rem .8rem; border-bottom: 1px solid #ddd }
+h2 { margin-top: 2rem; border-bottom: 1px solid #ccc } svg { max-width: 100%; height: auto } math { font-size: 1.08em }
+figure { margin: 1rem 0 } figcaption { color: #666; font-size: .9em }
+</style></head><body>
+BODY</body></html>
+"""

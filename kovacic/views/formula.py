@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import count
 from math import gcd
+from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
@@ -130,6 +131,13 @@ class Formulas:
         if root is None or x in root or " " in root:
             return self.factor_of_place(place)
         return Math(f"{x} = {root}", f"{latex_text(x)} = {latex_text(root)}")
+
+
+def of_sympy(expression: Any) -> Math:
+    """A SymPy expression."""
+    from sympy import latex
+
+    return Math(caret(str(expression)), latex(expression))
 
 
 def caret(text: str) -> str:

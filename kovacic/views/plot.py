@@ -61,7 +61,7 @@ def sample(
     if points < 2:
         raise InputError("at least 2 points are needed")
     problem = as_problem(equation)
-    singular = problem.system.singular_points(128)
+    singular = problem.singular_points(128)
     cuts = sorted({z.re for z in singular if z.is_real() and a.re <= z.re <= b.re})
     intervals = _regular_intervals(a.re, b.re, cuts)
     longest = max(intervals, key=lambda i: i[1] - i[0])
