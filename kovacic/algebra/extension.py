@@ -176,6 +176,12 @@ class ExtensionPoly(Poly):
     def key(self) -> tuple[Any, ...]:
         return tuple(part.key() for part in self.parts)
 
+    def __eq__(self, other: object) -> bool:
+        same = isinstance(other, ExtensionPoly) and other._field is self._field
+        return self.parts == other.parts if same else super().__eq__(other)  # type: ignore[attr-defined]
+
+    __hash__ = Poly.__hash__
+
     def leaves(self) -> list[Poly]:
         return [leaf for part in self.parts for leaf in part.leaves()]
 

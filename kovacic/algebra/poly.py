@@ -464,5 +464,8 @@ class Field(ABC):
         Their coordinates are integers (over Q(t): polynomials in t) without a common factor.
         """
         (p, q), (r, s) = num.content(), den.content()
-        factor = Fraction(q * s, gcd(p * s, r * q))
-        return (num, den) if factor == 1 else (num * factor, den * factor)
+        common, multiple = gcd(p * s, r * q), q * s
+        if common == multiple:
+            return num, den
+        factor = Fraction(multiple, common)
+        return num * factor, den * factor

@@ -1,10 +1,10 @@
 """The trusted kernel: does a decision hold?  Recomputed from S, by other code than the search.
 
-A positive decision is checked by the Riccati identity for the polynomial of omega and by the evidence against every smaller
-structure, which makes that polynomial irreducible over C(x): without a rational omega a polynomial of degree 2 has no
-factor; a primitive group whose smaller ones are excluded has no omega of a smaller degree.  A negative one is checked by
-the evidence against every structure.  Only exact arithmetic and arithmetic modulo primes in the direction in which it
-proves something (a rank can only drop) is used.
+A positive decision is checked by the identities for the form and for the polynomial of omega, and by the evidence against
+every smaller structure, which makes that polynomial irreducible over C(x): without a rational omega a polynomial of degree
+2 has no factor; a primitive group whose smaller ones are excluded has no omega of a smaller degree.  A negative one is
+checked by the evidence against every structure.  Only exact arithmetic and arithmetic modulo primes in the direction in
+which it proves something (a rank can only drop) is used.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
 from kovacic.verify.group import GroupClaim, group_holds
-from kovacic.verify.identity import is_rational_form, solves_riccati
+from kovacic.verify.identity import form_numerators, is_power, is_rational
 
 #: The structures in the order of the proof, with the degree of omega.
 _OMEGA_DEGREE = {
@@ -100,35 +100,34 @@ def _positive(inspector: Inspector, decision: Decision, structure: Structure) ->
     if riccati is None or form is None:
         return [Check("the polynomial of omega is there", False)]
     degree = _OMEGA_DEGREE[structure]
-    P, D, theta = riccati.P, riccati.D, form.theta
-    field, checks = P.field, []
+    P, field, checks = riccati.P, riccati.P.field, []
     if isinstance(field, AlgebraicField) and field != S.field:
         checks.append(Check(f"the polynomial of {field.name} is irreducible", _is_irreducible(field)))
         if not checks[0].passed:
             return checks
+    fitting = form.degree == riccati.degree == degree and form.P == P
+    numerators = form_numerators(S, form, riccati.D) if fitting else None
     checks += [
         Check(f"omega satisfies a polynomial of degree {degree}", riccati.degree == degree),
-        Check("the roots of the polynomial solve omega' + omega^2 = S", solves_riccati(S, riccati)),
+        Check("the roots of the polynomial solve omega' + omega^2 = S", numerators == [*riccati.numerators]),
         Check(
             "the sum of the roots is the logarithmic derivative of the semi-invariant",
-            0 < form.degree == riccati.degree
-            and form.P == P
-            # theta + P'/P = A_1/(P D)
-            and theta.num * D * P == (riccati.numerators[1] - D * P.derivative()) * theta.den,
+            numerators is not None and numerators[1] == riccati.numerators[1],
         ),
-        Check("P has its zeros at ordinary points", P.gcd(S.den.over(P.field)).degree <= 0),
-        Check("the invariant is a rational form", _invariant_holds(inspector, decision, structure)),
+        Check("P has its zeros at ordinary points", P.degree == 0 or P.gcd(S.den.over(field)).degree == 0),
+        Check("the invariant is a rational form", _invariant_holds(S, decision, structure)),
     ]
     return checks
 
 
-def _invariant_holds(inspector: Inspector, decision: Decision, structure: Structure) -> bool:
-    """A rational form of the structure's degree; in case 1 there need not be one."""
-    F = decision.invariant
-    if F is None:
+def _invariant_holds(S: RatFunc, decision: Decision, structure: Structure) -> bool:
+    """A rational form of the structure's degree (perhaps a power of the semi-invariant); in case 1 there need not be one."""
+    F, f, riccati = decision.invariant, decision.semi_invariant, decision.riccati
+    if F is None or f is None or riccati is None:
         return structure is Structure.REDUCIBLE
-    degree_is_right = F.degree == INVARIANT_DEGREE[structure]
-    return degree_is_right and is_rational_form(inspector.S, F, inspector.denominator)
+    if F.degree != INVARIANT_DEGREE[structure] or not is_rational(F):
+        return False
+    return is_power(F, f) or form_numerators(S, F, riccati.D) is not None
 
 
 def _is_irreducible(field: AlgebraicField) -> bool:

@@ -21,7 +21,7 @@ from kovacic.algebra.modular import (
     square_root_series,
     translate,
 )
-from kovacic.algebra.poly import Homomorphism, Poly
+from kovacic.algebra.poly import Homomorphism
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import (
@@ -82,14 +82,6 @@ class Inspector:
     def points(self) -> list[Point]:
         """All singular places, and infinity."""
         return points(self.S, self.budget)
-
-    @cached_property
-    def denominator(self) -> Poly:
-        """A polynomial D without a double root more than needed, for which S D^2 is a polynomial."""
-        D = self.S.field.poly([1])
-        for point in self.points[:-1]:
-            D = D * point.factor ** ((point.order + 1) // 2)
-        return D
 
     def excludes(self, structure: Structure, evidence: tuple[Evidence, ...]) -> bool:
         """Does the evidence, recomputed, prove that the group doesn't have this structure?

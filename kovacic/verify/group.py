@@ -23,10 +23,11 @@ from math import lcm
 
 from flint import fmpz
 
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, SemiInvariant, Structure
 from kovacic.verify.evidence import Inspector
-from kovacic.verify.identity import form_numerators, is_rational_form, rational_residues
+from kovacic.verify.identity import form_numerators, is_rational, rational_residues
 from kovacic.verify.residue import residue
 
 
@@ -66,8 +67,8 @@ def _reducible(inspector: Inspector, decision: Decision, F: SemiInvariant | None
         if not inspector.dimension_is_at_most(0, 2):
             return None
         return ("borel", None) if n is None else ("additive", n)
-    A = form_numerators(inspector.S, F, inspector.denominator)
-    if A is None or F.degree != 2 or not is_rational_form(inspector.S, F, inspector.denominator):
+    A = form_numerators(inspector.S, F, riccati.D) if F.degree == 2 and is_rational(F) else None
+    if A is None:
         return None
     if A[1] * A[1] == 4 * A[0] * A[2]:  # F'^2 - 2 F F'' + 4 S F^2 = 0: F = y1^2
         return ("cyclic" if _inverse_has_an_integral(inspector, F) else "additive", n)
@@ -89,8 +90,8 @@ def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:
 
 
 def _imprimitive(inspector: Inspector, decision: Decision, claim: GroupClaim) -> bool | None:
-    points, f = inspector.points, decision.semi_invariant
-    if f is None:
+    points, f, riccati = inspector.points, decision.semi_invariant, decision.riccati
+    if f is None or riccati is None:
         return False
     if any(point.order > 2 or point.difference is None for point in points):
         return (claim.family, claim.n) == ("infinite dihedral", None)
@@ -113,13 +114,13 @@ def _imprimitive(inspector: Inspector, decision: Decision, claim: GroupClaim) ->
     if not differences:
         return (claim.family, claim.n) == ("infinite dihedral", None)
     if claim.family == "dicyclic" and claim.n is not None:
-        return claim.n % n == 0 and _dicyclic(inspector, f, claim.form, claim.n)
+        return claim.n % n == 0 and _dicyclic(inspector, f, riccati.D, claim.form, claim.n)
     return None if claim.family in ("infinite dihedral", "imprimitive") else False
 
 
-def _dicyclic(inspector: Inspector, f: SemiInvariant, form: SemiInvariant | None, n: int) -> bool:
+def _dicyclic(inspector: Inspector, f: SemiInvariant, D: Poly, form: SemiInvariant | None, n: int) -> bool:
     """Is there a rational form of degree 2n that isn't a multiple of f^n, and none for a proper divisor of n?"""
-    if form is None or form.degree != 2 * n or not is_rational_form(inspector.S, form, inspector.denominator):
+    if form is None or form.degree != 2 * n or not is_rational(form) or form_numerators(inspector.S, form, D) is None:
         return False
     difference = form.theta - n * f.theta
     same = difference + RatFunc(form.P.derivative(), form.P) - n * RatFunc(f.P.derivative(), f.P)

@@ -40,9 +40,13 @@ class Point:
 
     @cached_property
     def near(self) -> tuple[Poly, Poly]:
-        """N and q modulo p^order, for S = N/(p^order q)."""
+        """N and q modulo p^order, for S = N/(p^order q); for a double pole N and p'^2 q modulo p."""
+        if self.known:
+            return self.known
+        if self.order == 2:
+            return self.num % self.factor, self.den.derivative().derivative() / 2 % self.factor
         power = self.factor**self.order
-        return self.known or (self.num % power, self.den // power % power)
+        return self.num % power, self.den // power % power
 
     @cached_property
     def name(self) -> str:
@@ -56,8 +60,7 @@ class Point:
         if self.order > 2:
             return None
         # S = b/(x - c)^2 + ... with b = N/(p'^2 q), and Delta^2 = 1 + 4b.
-        top, q = (f % self.factor for f in self.near)
-        bottom = self.factor.derivative() ** 2 * q % self.factor
+        top, bottom = self.near
         field, n = self.factor.field, bottom.degree
         ratio = field.from_scalars([field.scalar(top, n) / field.scalar(bottom, n)])
         if top != ratio * bottom:
@@ -96,15 +99,16 @@ class Point:
 def points(S: RatFunc, budget: Budget) -> list[Point]:
     """Every singular place, and infinity even if it is ordinary."""
     factors = S.field.factor(S.den) if S.den.degree else []
-    near: list[tuple[Poly, Poly] | None] = [None] * len(factors)
+    known: list[tuple[Poly, Poly] | None] = [None] * len(factors)
     if len(factors) >= _MANY_POINTS:  # modulo a power, the sum of den // power for all of them is that for this one
         powers = [p**k for p, k in factors]
-        near = list(zip(*(remainders(f, powers) for f in (S.num, sum_of_cofactors(powers))), strict=True))
+        near = zip(factors, remainders(S.num, powers), remainders(sum_of_cofactors(powers), powers), strict=True)
+        known = [(N % p, p.derivative() ** 2 * q % p) if k == 2 else (N, q) for (p, k), N, q in near]
     # S(1/z)/z^4 = z^-order num/den, where num and den have the coefficients of S.num and S.den in reversed order.
     order = S.num.degree - S.den.degree + 4 if S.num else 0
     num, den = S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0))
     infinity = Point(S.field.poly([0, 1]), num, den, max(order, 0), budget, at_infinity=True)
-    finite = (Point(p, S.num, S.den, k, budget, known=known) for (p, k), known in zip(factors, near, strict=True))
+    finite = (Point(p, S.num, S.den, k, budget, known=pair) for (p, k), pair in zip(factors, known, strict=True))
     return [*finite, infinity]
 
 
@@ -201,17 +205,15 @@ def _trace_of_difference(point: Point) -> Fraction | None:
     None if it can be seen that Delta, or a, doesn't lie in K[x]/p.
     """
     p, k = point.factor, point.order
-    num, q = point.near
-    if k == 2:  # Delta^2 = 1 + 4b with b = N/(p'^2 q), up to the square of p'^2 q
-        bottom = p.derivative() ** 2 * q % p
-        square = bottom * (bottom + 4 * num) % p
-    else:  # a^2 = N/q, up to the squares of q and of powers of p'
-        square = q * num % p
+    num, bottom = point.near
+    # Delta^2 = 1 + 4b with b = N/(p'^2 q), up to a square; or a^2 = N/q, up to the squares of q and of powers of p'
+    square = bottom * (bottom + 4 * num if k == 2 else num) % p
     if is_provably_not_a_square(square, p):
         return None
-    squared = (
-        square * (bottom * bottom).inverse_modulo(p) % p if k == 2 else exponent_difference_squared(num, q, p, k // 2)
-    )
+    if k == 2:
+        squared = square * (bottom * bottom).inverse_modulo(p) % p
+    else:
+        squared = exponent_difference_squared(num, bottom, p, k // 2)
     trace = trace_of_square_root(squared, p)
     if trace is None:
         return None
