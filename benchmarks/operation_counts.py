@@ -76,7 +76,7 @@ FUNCTIONS: dict[tuple[str, str], Rule] = {
     ("kovacic.algebra.modular", "square_root_series"): _terms(1),
     ("kovacic.algebra.modular", "null_space"): _system,
     ("kovacic.engine.expansion", "_null_vector"): _system,
-    ("kovacic.verify.identity", "solves_riccati"): _verification,
+    ("kovacic.verify", "_positive"): _verification,
 }
 METHODS: dict[tuple[str, str, str], Rule] = {
     ("kovacic.algebra.recurrence", "RationalSeries", "extend"): _exact_term,
