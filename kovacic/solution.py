@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from kovacic.doubles.product_form import ProductForm
     from kovacic.doubles.tabulate import TabulatedFunction
     from kovacic.enclosure.agreement import Agreement
-    from kovacic.enclosure.ball import Ball
     from kovacic.galois import EquationGroup, Group
     from kovacic.parametric.generic import GenericConditions
     from kovacic.reading.given import Parsed
@@ -150,11 +149,12 @@ class Solution:
         """y1 and y2, SymPy expressions that solve the equation as it was given; empty without a Liouvillian solution."""
         return () if self.closed_form is None else (self.closed_form.y1, self.closed_form.y2)
 
-    def at(self, x: Any, *, x0: Any, y0: Any, dy0: Any, digits: int = 15, **options: Any) -> Ball | tuple[Ball, ...]:
-        """A ball that contains y(x) for the solution with y(x0) = y0, y'(x0) = dy0; see `kovacic.evaluate`."""
+    def at(self, x: Any, *, x0: Any, **options: Any) -> Any:
+        """A ball that contains y(x): `y0=` and `dy0=` at x0, or `which="regular"`, or `frobenius=(c1, c2)`; see
+        `kovacic.evaluate`."""
         from kovacic.enclosure.evaluate import evaluate
 
-        return evaluate(self, x, x0=x0, y0=y0, dy0=dy0, digits=digits, **options)
+        return evaluate(self, x, x0=x0, **options)
 
     def lambdify(self, **options: Any) -> ProductForm | TabulatedFunction:
         """A solution as a NumPy function, its error measured; see `kovacic.doubles.lambdify.lambdify`."""

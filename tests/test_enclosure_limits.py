@@ -15,7 +15,7 @@ import kovacic
 from kovacic.doubles.lambdify import lambdify
 from kovacic.doubles.tabulate import tabulate
 from kovacic.enclosure.ball import Ball
-from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, transition_matrix
+from kovacic.enclosure.evaluate import AccuracyWarning, connection_matrix, evaluate
 from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.monodromy import monodromy
 from kovacic.enclosure.points import Point
@@ -86,7 +86,7 @@ CALLS: dict[str, Callable[[Limits], object]] = {
     "many points": lambda limits: evaluate("x", range(-300, 0), x0=0, digits=300, limits=limits, **START),
     "at": lambda limits: kovacic.solve("x^2+3").at(2, x0=1, digits=90_000, method="taylor", limits=limits, **START),
     "quadrature": lambda limits: kovacic.solve("x^2+3").at(9, x0=1, digits=5000, method="closed form", limits=limits, **START),
-    "a matrix": lambda limits: transition_matrix("x^9+1/(x-7)^3", [1, 2, 3, 4], digits=50_000, limits=limits),
+    "a matrix": lambda limits: connection_matrix("x^9+1/(x-7)^3", [1, 2, 3, 4], digits=50_000, limits=limits),
     "monodromy": lambda limits: monodromy("1/(x^60+x+3)", digits=200, limits=limits),
     "plot": lambda limits: sample("1/(x^2-2) - 10^7/(x^2-3)", -9, 9, points=4000, digits=50, limits=limits),
     "a table": lambda limits: tabulate("-10^9*x", 0, 9, x0=0, limits=limits, **START),

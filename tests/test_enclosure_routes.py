@@ -19,7 +19,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.enclosure.agreement import agrees_with_group, compare, is_fuchsian
 from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.closed_form import integral
-from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states, transition_matrix
+from kovacic.enclosure.evaluate import AccuracyWarning, connection_matrix, evaluate, evaluate_states
 from kovacic.enclosure.matrices import identity, multiply
 from kovacic.enclosure.monodromy import monodromy
 from kovacic.enclosure.problem import as_problem
@@ -54,7 +54,7 @@ def agree(S: Any, *, x: Any, x0: Any, path: Any = None, digits: int = 25) -> Non
 
 def agree_with_the_second_opinion(solution: kovacic.Solution, vertices: list[Any], digits: int) -> None:
     """The Taylor route, and Klein's form or quadratures along the same polygon."""
-    taylor = [ball_to_flint(entry) for row in transition_matrix(solution, vertices, digits=digits) for entry in row]
+    taylor = [ball_to_flint(entry) for row in connection_matrix(solution, vertices, digits=digits) for entry in row]
     prec = 4 * digits + 40
     while True:
         closed = second_opinion.transition(solution, vertices, prec)

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from kovacic.enclosure import transport
 from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.evaluate import evaluate, evaluate_states, transition_matrix
+from kovacic.enclosure.evaluate import connection_matrix, evaluate, evaluate_states
 from kovacic.enclosure.frame import Frame, make_frame, ray_to
 from kovacic.enclosure.matrices import Matrix, product
 from kovacic.enclosure.points import Point
@@ -230,7 +230,7 @@ def carried(matrix: object, y: flint.arb, dy: flint.arb) -> flint.arb:
 
 def test_five_thousand_digits_of_airy_functions() -> None:
     assert is_split(AIRY, 3 * DIGITS)
-    matrix = transition_matrix(AIRY, [0, 1], digits=DIGITS)
+    matrix = connection_matrix(AIRY, [0, 1], digits=DIGITS)
     with flint.ctx.workdps(DIGITS + 20):
         zero, one = flint.arb(0), flint.arb(1)
         for name in ("airy_ai", "airy_bi"):
@@ -241,7 +241,7 @@ def test_five_thousand_digits_of_airy_functions() -> None:
 
 def test_five_thousand_digits_of_a_bessel_function_of_order_one_third() -> None:
     S = ([-5, 0, -36], [0, 0, 36])  # y = sqrt(x) J_(1/3)(x)
-    matrix = transition_matrix(S, [1, Fraction(3, 2)], digits=DIGITS)
+    matrix = connection_matrix(S, [1, Fraction(3, 2)], digits=DIGITS)
     with flint.ctx.workdps(DIGITS + 20):
         nu, x, end = flint.arb(1) / 3, flint.arb(1), flint.arb(3) / 2
         J = x.bessel_j(nu)
@@ -252,7 +252,7 @@ def test_five_thousand_digits_of_a_bessel_function_of_order_one_third() -> None:
 @pytest.mark.parametrize("x", ["1/3", "0.3141592653589793"])
 def test_five_thousand_digits_of_a_legendre_function_of_order_one_third(x: str) -> None:
     assert is_split(LEGENDRE, 3 * DIGITS)
-    matrix = transition_matrix(LEGENDRE, [0, x], digits=DIGITS)
+    matrix = connection_matrix(LEGENDRE, [0, x], digits=DIGITS)
     with flint.ctx.workdps(DIGITS + 20):
         nu, end = flint.arb(1) / 3, flint.arb(flint.fmpq(*Fraction(x).as_integer_ratio()))
         start = (flint.arb(0).legendre_p(nu), nu * flint.arb(0).legendre_p(nu - 1))

@@ -16,7 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
-from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states, transition_matrix
+from kovacic.enclosure.evaluate import AccuracyWarning, connection_matrix, evaluate, evaluate_states
 from kovacic.enclosure.frame import make_frame, ray_bound, shift
 from kovacic.enclosure.matrices import product
 from kovacic.enclosure.points import Point, as_point
@@ -287,7 +287,7 @@ def test_higher_precision_lies_inside_and_the_determinant_is_one(seed: int) -> N
     system = random_system(rng)
     polygon = [Point(Fraction(rng.randint(-30, 30), 7), Fraction(rng.randint(-30, 30), 11)) for _ in range(3)]
     try:
-        rough, fine = (transition_matrix(system, polygon, digits=digits) for digits in (8, 30))
+        rough, fine = (connection_matrix(system, polygon, digits=digits) for digits in (8, 30))
     except InputError:
         pytest.skip("the random path meets a singular point")
     for row, finer in zip(rough, fine, strict=True):
@@ -307,7 +307,7 @@ def test_a_contractible_loop_is_the_identity(seed: int) -> None:
     near = distance_lower(system, start)
     size = Fraction(1) if near is None else Fraction(float(near) / 3)
     polygon = [start, start + Point(size), start + Point(Fraction(0), size), start]
-    (a, b), (c, d) = transition_matrix(system, polygon, digits=20)
+    (a, b), (c, d) = connection_matrix(system, polygon, digits=20)
     assert a.contains(1)
     assert d.contains(1)
     assert b.contains_zero()

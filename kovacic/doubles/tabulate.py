@@ -26,7 +26,8 @@ from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Region, hull, in_blocks, region_of
 from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
 from kovacic.enclosure.closed_form import value
-from kovacic.enclosure.evaluate import evaluate_states, initial_ball, initial_value
+from kovacic.enclosure.constants import as_number, to_ball
+from kovacic.enclosure.evaluate import evaluate_states
 from kovacic.enclosure.frame import Frame, RayBound, fitting
 from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.precision import Evaluation
@@ -112,9 +113,7 @@ def tabulate(
         check_segment(System.of(problem.gauge), origin, origin)
         with working_precision(8 * _PREC):
             gamma = value(problem.gauge, None, to_acb(origin))
-            dy0 = ball_from_flint(
-                initial_ball(initial_value(dy0, "dy0")) - gamma * initial_ball(initial_value(y0, "y0"))
-            )
+            dy0 = ball_from_flint(to_ball(as_number(dy0, "dy0")) - gamma * to_ball(as_number(y0, "y0")))
             gauge = gauge_form(problem.gauge, hull(region, origin), origin)
     normal = NumericProblem(problem.system)
     pieces = _pieces(problem.system, region, budget)

@@ -1,39 +1,46 @@
 """Numerical values of solutions as enclosures: one point, many points, complex paths, any number of digits.
 
 The guarantee: the exact value of the solution (in its homotopy class of paths) lies in the returned ball.  The radius is at
-most 10^-digits relative to the value, unless the problem forbids it (a value that is zero or can't be told from zero, initial
-values that are balls themselves, a limit that was reached); then the ball is wide and an `AccuracyWarning` says why.
+most 10^-digits relative to the value, unless the problem forbids it (a value that is zero or can't be told from zero, numbers
+that are balls themselves, a limit that was reached); then the ball is wide and an `AccuracyWarning` says why.
 
 Two independent routes: "taylor" (the equation itself, `kovacic.enclosure.transport`; every S) and "closed form"
-(the certificate of a decision, `kovacic.enclosure.closed_form`; solutions of case 1).  Either gives transition matrices of
-straight legs, and a state (y, y') is carried along a path with many targets by their products.
+(the certificate of a decision, `kovacic.enclosure.closed_form`; solutions of case 1).  A start at a regular singular point
+begins with its Frobenius series (`kovacic.enclosure.frobenius`), whichever the route.
 """
 
 from __future__ import annotations
 
-import itertools
+import math
 import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from fractions import Fraction
+from typing import Any, Literal
 
-from flint import acb, arb
+from flint import acb, acb_poly, arb
 
-from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
-from kovacic.enclosure.exponential import Legs, with_gauge
-from kovacic.enclosure.matrices import Matrix, Product, State, real_part
+from kovacic.enclosure.ball import Ball, ball_from_flint
+from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
+from kovacic.enclosure.frobenius import Basis, junction
+from kovacic.enclosure.journey import Itinerary, Traveller, carry
+from kovacic.enclosure.matrices import Matrix, State, adjugate, multiply
 from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.precision import METHODS, Evaluation, Method, Route, check_digits, raise_precision, start_bits
-from kovacic.enclosure.problem import NumericProblem, as_problem
-from kovacic.enclosure.transport import piece_matrices
+from kovacic.enclosure.problem import NumericProblem, as_problem, equation_of
+from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
-Start = tuple[Point | Ball, Point | Ball]
-"""y(x0) and y'(x0)."""
+Path = Sequence[object] | Literal["chain", "above", "below"] | None
 
-Path = Sequence[object] | Literal["chain"] | None
+Start = tuple[Number, Number]
+"""y(x0) and y'(x0), or the coordinates in the Frobenius basis at x0."""
+
+
+_FEW = 8
+"""Targets up to which a closed form costs less than the Taylor steps, which serve many at once."""
 
 
 class AccuracyWarning(UserWarning):
@@ -45,40 +52,81 @@ def evaluate(
     x: object,
     *,
     x0: object,
-    y0: object,
-    dy0: object,
+    y0: object = None,
+    dy0: object = None,
+    frobenius: Sequence[object] | None = None,
+    which: Literal["regular"] | None = None,
     digits: int = 15,
+    derivative: bool = False,
     method: Method | None = None,
     path: Path = None,
     limits: Limits | None = None,
-) -> Ball | tuple[Ball, ...]:
-    """The solution with y(x0) = y0, y'(x0) = dy0 at x: a ball that contains the exact value.
+) -> Any:
+    """A ball that contains y(x) for one solution y of the equation, given by its start at x0.
 
     `equation` is S of y'' = S y (text, SymPy expression, rational function, or a pair of coefficient lists from low to high),
-    an equation a z'' + b z' + c z = 0, or a solution of this package.  `x` is a number or a sequence of numbers (a tuple of
-    balls is returned, in the same order).  Numbers are exact: int, Fraction, float and complex (their binary values), Decimal
-    and decimal text, mpmath and SymPy numbers; y0 and dy0 may be balls as well.
+    an equation a y'' + b y' + c y = 0, or a solution of this package.
 
-    The path is the straight line from x0 to each x; `path=[v1, v2, ...]` goes through these vertices first; `path="chain"`
-    visits the points of x one after the other.  A path through a singular point is refused.
+    The start is one of
+    - `y0`, `dy0`: y(x0) and y'(x0);
+    - `frobenius=(c1, c2)`: y = c1 y1 + c2 y2 with the Frobenius basis at x0, a regular singular point or an ordinary one (or
+      infinity, "oo").  y1 is the dominant one: the leading terms are t^lambda log(t)^k, t = x - x0 (1/x at infinity), by
+      the real part of lambda upwards, and the logarithm first.  Either has the coefficient 1 at its own leading term and 0
+      at the other's;
+    - `which="regular"`: frobenius=(0, 1), the solution that is smaller than all others at x0.
 
-    Raises InputError (a singular point at an end or on the path, with its distance; digits out of range; a number that
-    isn't finite; an unknown method) and LimitExceeded (nothing could be said within the limits).
+    Numbers are exact: int, Fraction, float and complex (their binary values), Decimal and decimal text, mpmath and SymPy
+    numbers; or constants such as "sqrt(2)" and "1 + 2*I"; or balls (ours, python-flint's, mpmath's), and then the result
+    holds for every number in them.  A ball, or a constant that isn't rational, stands as `x0` of a Frobenius basis for the only
+    singular point that it contains.
+
+    `x` is a number, or a sequence of numbers (a tuple comes back, in the same order), or a NumPy array (an array of balls of
+    the same shape; NaN stays NaN).  With `derivative` there are pairs (y, y') of balls.
+
+    The path is the straight line from x0 to each x (from infinity: along the line through 0).  A path through a singular
+    point is refused, unless `path` says on which side of the real axis to go around: "above" or "below".  `path=[v1, v2,
+    ...]` goes through these vertices first; `path="chain"` visits the points of x one after the other.  At x0 the logarithm
+    is the principal one.
+
+    Raises InputError (a singular point at an end or on the path, with its distance; an irregular one as the start; digits out
+    of range; a number that isn't finite; an unknown method) and LimitExceeded (nothing could be said within the limits).
 
     >>> airy = ([0, 1], [1])                                     # y'' = x y
     >>> value = evaluate(airy, 2, x0=0, y0=1, dy0=0, digits=20)
     >>> print(value.contains(2.73), value.digits >= 20, f"{float(value):.12f}")
     False True 2.730883017890
+    >>> print(evaluate("x^2*y'' + x*y' + x^2*y = 0", 1, x0=0, which="regular"))      # the Bessel function J0
+    0.765197686557966552 ± 7.1e-25
     """
-    many = isinstance(x, Iterable) and not isinstance(x, str)
-    points: list[object] = list(x) if many else [x]  # type: ignore[call-overload]
+    many, shape = isinstance(x, Iterable) and not isinstance(x, str), getattr(x, "shape", None)
+    points = list(x.flat) if shape else list(x) if many else [x]  # type: ignore[attr-defined, call-overload]
+    holes = {i for i, p in enumerate(points) if shape is not None and p != p}
     results = evaluate_states(
-        equation, points, x0=x0, y0=y0, dy0=dy0, digits=digits, method=method, path=path, limits=limits
+        equation,
+        [p for i, p in enumerate(points) if i not in holes],
+        x0=x0,
+        y0=y0,
+        dy0=dy0,
+        frobenius=frobenius,
+        which=which,
+        digits=digits,
+        method=method,
+        path=path,
+        limits=limits,
     )
     for result in results:
         if result.note is not None:
             warnings.warn(f"at x = {result.x}: {result.note}", AccuracyWarning, stacklevel=2)
-    return tuple(result.y for result in results) if many else results[0].y
+    found: list[Any] = [(result.y, result.dy) if derivative else result.y for result in results]
+    if shape is None:
+        return tuple(found) if many else found[0]
+    import numpy as np
+
+    values = iter(found)
+    array = np.empty(len(points), dtype=object)
+    for i in range(len(points)):
+        array[i] = math.nan if i in holes else next(values)
+    return array.reshape(shape) if shape else array[0]
 
 
 def evaluate_states(
@@ -86,8 +134,10 @@ def evaluate_states(
     points: Sequence[object],
     *,
     x0: object,
-    y0: object,
-    dy0: object,
+    y0: object = None,
+    dy0: object = None,
+    frobenius: Sequence[object] | None = None,
+    which: str | None = None,
     digits: int = 15,
     method: Method | None = None,
     path: Path = None,
@@ -100,23 +150,101 @@ def evaluate_states(
         raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
     budget = Budget(limits)
     problem = as_problem(equation)
-    itinerary = make_itinerary(points, x0, path)
-    start = (initial_value(y0, "y0"), initial_value(dy0, "dy0"))
+    targets = tuple(as_number(p, "x") for p in points)
+    side: str | None = None
+    chain, vertices = path == "chain", tuple[Number, ...]()
+    if isinstance(path, str):
+        if path not in ("chain", "above", "below"):
+            raise InputError(
+                f"unknown path {path!r}", hint='a sequence of vertices, "chain", "above", "below", or None'
+            )
+        side = None if chain else path
+    elif path is not None:
+        vertices = tuple(as_number(p, "a vertex of the path") for p in path)
+    origin, start = _start(problem, x0, y0, dy0, frobenius, which)
+    trip = Trip(problem, origin, vertices, targets, start, chain, side)
     with budget.watched():
-        route, used = _route(problem, itinerary, start, method)
-        exact = not any(isinstance(value, Ball) for value in start)
-        return raise_precision(route, used, itinerary.targets, digits, budget, exact)
+        route, used = _route(trip, method)
+        return raise_precision(route, used, targets, digits, budget, trip.exact)
 
 
-def _route(problem: NumericProblem, itinerary: Itinerary, start: Start, method: Method | None) -> tuple[Route, Method]:
+@dataclass(frozen=True)
+class Trip:
+    """What is asked for, before numbers such as sqrt(2) are taken at a working precision."""
+
+    problem: NumericProblem
+    origin: Number | Singular
+    vertices: tuple[Number, ...]
+    targets: tuple[Number, ...]
+    start: Start
+    chain: bool
+    side: str | None
+
+    @property
+    def exact(self) -> bool:
+        """True if a higher precision makes every ball smaller."""
+        numbers = (self.origin, *self.targets, *self.start)
+        return not any(isinstance(number, Constant) and number.fixed for number in numbers)
+
+    def itinerary(self) -> Itinerary:
+        """With exact points: the midpoints of balls."""
+        targets, origin = tuple(map(_middle, self.targets)), self.origin
+        first = origin if isinstance(origin, Singular) else _middle(origin)
+        return Itinerary((first, *map(_middle, self.vertices)), targets, self.chain, self.side)
+
+
+def _middle(number: Number) -> Point:
+    return number if isinstance(number, Point) else number.point()
+
+
+def _start(
+    problem: NumericProblem,
+    x0: object,
+    y0: object,
+    dy0: object,
+    frobenius: Sequence[object] | None,
+    which: str | None,
+) -> tuple[Number | Singular, Start]:
+    """The place and the data of the start, from the arguments of `evaluate`."""
+    if which not in (None, "regular"):
+        raise InputError(f"which = {which!r} isn't known", hint="which='regular'")
+    if sum((y0 is not None or dy0 is not None, frobenius is not None, which is not None)) != 1:
+        raise InputError("one start is expected", hint="y0= and dy0=, or frobenius=(c1, c2), or which='regular'")
+    if frobenius is None and which is None:
+        if y0 is None or dy0 is None:
+            raise InputError("both y0 and dy0 are needed", hint="or frobenius=(c1, c2), or which='regular'")
+        return as_number(x0, "x0"), (as_number(y0, "y0"), as_number(dy0, "dy0"))
+    place = place_of(problem, x0, "x0")
+    if frobenius is None:
+        if not place.has_regular:
+            raise InputError(f"no solution is smaller than all others at {place}", hint="give frobenius=(c1, c2)")
+        frobenius = (0, 1)
+    if isinstance(frobenius, str) or len(frobenius) != 2:
+        raise InputError("frobenius needs two coordinates", hint="frobenius=(c1, c2), the dominant solution first")
+    first, second = (as_number(value, "a coordinate") for value in frobenius)
+    return place, (first, second)
+
+
+def place_of(problem: NumericProblem, x0: object, name: str) -> Singular:
+    """The regular singular point, ordinary point or infinity ("oo") that the argument stands for."""
+    if str(x0) in ("oo", "inf", "+inf"):
+        return Singular.at(problem, None)
+    number = as_number(x0, name)
+    if isinstance(number, Point):
+        return Singular.at(problem, number)
+    with working_precision(256):
+        return Singular.at(problem, number.value())
+
+
+def _route(trip: Trip, method: Method | None) -> tuple[Route, Method]:
     """The route asked for; by itself the cheaper one, by a rule that was measured (`benchmarks/enclosure_work_precision.py`).
 
     A closed form without quadrature costs about a millisecond whatever the distance, the digits and the solution's zeros, if
-    its polynomial has a moderate degree: less than the Taylor steps.  Quadratures cost as much as Taylor steps at 15 digits
-    and several times as much at 500.
+    its polynomial has a moderate degree: less than the Taylor steps to a few points.
     """
-    closed = None
-    if method == "closed form" or (method is None and problem.decision is not None and problem.decision.case == 1):
+    closed, problem = None, trip.problem
+    automatic = problem.decision is not None and problem.decision.case == 1 and len(trip.targets) <= _FEW
+    if method == "closed form" or (method is None and automatic):
         from kovacic.enclosure.closed_form import closed_form_of
 
         closed = closed_form_of(problem)
@@ -129,114 +257,63 @@ def _route(problem: NumericProblem, itinerary: Itinerary, start: Start, method: 
             )
 
     def route(prec: int, budget: Budget) -> list[State]:
-        def legs(a: Point, b: Point) -> list[Matrix]:
-            return piece_matrices(problem.system, a, b, prec, budget) if closed is None else closed.legs(a, b, budget)
-
-        gauged = with_gauge(problem.gauge, legs)
-
-        def known(a: Point, b: Point) -> list[Matrix]:  # along the real axis the matrices of a real equation are real
-            return [real_part(m) for m in gauged(a, b)] if a.is_real() and b.is_real() else gauged(a, b)
-
-        return carry(known, itinerary, start)
+        plan = trip.itinerary()
+        first, second = map(to_ball, trip.start)
+        start = _spread(problem, trip.origin, plan.start, (first, second))
+        states = carry(problem, plan, start, closed, prec, budget)
+        places = zip(trip.targets, plan.targets, states, strict=True)
+        return [_spread(problem, number, middle, state) for number, middle, state in places]
 
     return route, "taylor" if closed is None else "closed form"
 
 
-@dataclass(frozen=True)
-class Itinerary:
-    """Where to go: the polygon `trunk` from x0, then from its end a straight line to each target, or (`chain`) from
-    target to target."""
-
-    trunk: tuple[Point, ...]
-    targets: tuple[Point, ...]
-    chain: bool
-
-
-def make_itinerary(points: Sequence[object], x0: object, path: Path) -> Itinerary:
-    """The exact polygon and targets that the arguments x, x0 and path of `evaluate` stand for."""
-    targets = tuple(as_point(p, "x") for p in points)
-    origin = as_point(x0, "x0")
-    if path is None:
-        return Itinerary((origin,), targets, False)
-    if isinstance(path, str):
-        if path != "chain":
-            raise InputError(f"unknown path {path!r}", hint='a sequence of vertices, "chain", or None')
-        return Itinerary((origin,), targets, True)
-    return Itinerary((origin, *(as_point(p, "a vertex of the path") for p in path)), targets, False)
+def _spread(problem: NumericProblem, number: Number | Singular, middle: Point | Singular, state: State) -> State:
+    """The state at a number in a ball from that at its midpoint: with r the radius and K >= max(1, |b/a| + |c/a|) on the
+    ball, (y, y') changes by at most (exp(K r) - 1) max(|y|, |y'|)."""
+    if not isinstance(number, Constant) or not isinstance(middle, Point):
+        return state
+    ball = number.value()
+    a, b, c = (acb_poly(poly)(ball) for poly in equation_of(problem))
+    size = max(arb(1), (abs(b / a) + abs(c / a)).upper())
+    change = (size * abs(ball - to_acb(middle)).upper()).expm1() * max(abs(v).upper() for v in state)
+    real = all(v.imag.is_zero() for v in (ball, *state))
+    error = acb(arb(0, change.upper()), arb(0, 0 if real else change.upper()))
+    return state[0] + error, state[1] + error
 
 
-def initial_value(value: object, name: str) -> Point | Ball:
-    """The exact number, or the ball, that the argument `name` of `evaluate` stands for."""
-    if isinstance(value, Ball) and not value.is_exact():
-        return value
-    return as_point(value, name)
-
-
-def initial_ball(value: Point | Ball) -> acb:
-    """The flint ball of an initial value at the working precision in force."""
-    return ball_to_flint(value) if isinstance(value, Ball) else to_acb(value)
-
-
-def carry(legs: Legs, plan: Itinerary, start: Start) -> list[State]:
-    """The states at the targets, from the transition matrices that `legs` gives for straight pieces."""
-    state = (initial_ball(start[0]), initial_ball(start[1]))
-    trunk = Product()
-    for a, b in zip(plan.trunk, plan.trunk[1:], strict=False):
-        for matrix in legs(a, b):
-            trunk.push(matrix)
-    result: dict[int, State] = {}
-    for order in _branches(plan):
-        stack, here = trunk.copy(), plan.trunk[-1]
-        for index in order:
-            target = plan.targets[index]
-            for matrix in legs(here, target):
-                stack.push(matrix)
-            here = target
-            result[index] = stack.apply(state)
-    return [result[index] for index in range(len(plan.targets))]
-
-
-def _branches(plan: Itinerary) -> list[list[int]]:
-    """The targets in the order of visit: chains that start at the end of the trunk.
-
-    Straight lines to points on one ray from there share their way: on the real axis two chains (right and left).
-    """
-    origin, indices = plan.trunk[-1], range(len(plan.targets))
-    if plan.chain:
-        return [list(indices)]
-    ahead = {i: t.re - origin.re for i, t in enumerate(plan.targets) if origin.is_real() and t.is_real()}
-    right = sorted((i for i in ahead if ahead[i] >= 0), key=ahead.__getitem__)
-    left = sorted((i for i in ahead if ahead[i] < 0), key=ahead.__getitem__, reverse=True)
-    return [chain for chain in (right, left, *([i] for i in indices if i not in ahead)) if chain]
-
-
-def transition_matrix(
-    equation: object, vertices: Sequence[object], *, digits: int = 15, limits: Limits | None = None
+def connection_matrix(
+    equation: object, path: Sequence[object], *, digits: int = 15, limits: Limits | None = None
 ) -> tuple[tuple[Ball, Ball], tuple[Ball, Ball]]:
-    """Balls around the matrix that carries (y, y') along the polygon through `vertices` (determinant 1), for the
-    normal form y'' = S y.
+    """Balls around the matrix that turns coordinates at the first point of `path` into those at the last one, of the same
+    solution continued along this polygon.
 
-    The radii are at most 10^-digits relative to the largest entry, unless a limit is reached first (then LimitExceeded).
+    At an ordinary point the coordinates are (y, y'), at a regular singular one (or "oo") those in its Frobenius basis, as
+    for `evaluate`.  A path to or from infinity goes along the line through 0 and its neighbour.  The radii are at most
+    10^-digits relative to the largest entry, unless a limit is reached first (then LimitExceeded).
 
-    >>> ((a, b), (c, d)) = transition_matrix(([1], [1]), [0, 1])   # cosh, sinh
+    >>> ((a, b), (c, d)) = connection_matrix(([1], [1]), [0, 1])   # cosh, sinh
     >>> float(a), float(b)
     (1.5430806348152437, 1.1752011936438014)
+    >>> legendre = "(1-x^2)*y'' - 2*x*y' + 2*y = 0"
+    >>> [[f"{entry.mid.real:.6f}" for entry in row] for row in connection_matrix(legendre, [-1, 1])]
+    [['1.000000', '0.000000'], ['0.000000', '-1.000000']]
+
+    Reference: the path and the bases are as in ore_algebra's numerical_transition_matrix.
     """
     limits = limits or DEFAULT_LIMITS
     check_digits(digits, limits)
-    system = as_problem(equation).system
-    polygon = [as_point(v, "a vertex") for v in vertices]
-    if not polygon:
-        raise InputError("a path needs at least one vertex")
+    problem = as_problem(equation)
+    if len(path) < 2:
+        raise InputError("a path needs at least two vertices")
+    ends = [_end(problem, value) for value in (path[0], path[-1])]
+    middle = [as_point(v, "a vertex") for v in path[1:-1]]
+    if len(path) == 2 and isinstance(ends[0], Singular) and isinstance(ends[1], Singular):
+        middle = [_between(ends[0], ends[1])]
     budget = Budget(limits)
     prec = start_bits(digits)
     while True:
-        with working_precision(prec + 40):
-            total = Product()
-            for a, b in itertools.pairwise(polygon):
-                for matrix in piece_matrices(system, a, b, prec, budget):
-                    total.push(matrix)
-            entries = total.matrix()
+        with working_precision(prec + 40), budget.watched():
+            entries = _connection(problem, ends[0], middle, ends[1], prec, budget)
             goal = max((entry.abs_upper() for entry in entries), key=float) * arb(10) ** -digits
             sharp = all(entry.real.rad() + entry.imag.rad() <= goal for entry in entries)
             balls = [ball for ball in map(ball_from_flint, entries) if ball is not None]
@@ -246,3 +323,38 @@ def transition_matrix(
             return (balls[0], balls[1]), (balls[2], balls[3])
         prec += max(16, prec // 4)
         budget.check()
+
+
+def _end(problem: NumericProblem, value: object) -> Point | Singular:
+    """An end of a path: a point where the equation is regular stays one."""
+    place = place_of(problem, value, "a vertex")
+    return place.near if place.is_ordinary else place
+
+
+def _between(a: Singular, b: Singular) -> Point:
+    """A point of the straight line between two finite singular points."""
+    if a.inverted or b.inverted:
+        raise InputError("a path between a singular point and infinity needs a vertex", hint="e.g. [0, 1j, 'oo']")
+    return (a.near + b.near).scaled(Fraction(1, 2)).rounded(-64)
+
+
+def _connection(
+    problem: NumericProblem, a: Point | Singular, middle: list[Point], b: Point | Singular, prec: int, budget: Budget
+) -> Matrix:
+    """The matrix at about so many bits."""
+    traveller, unit = Traveller.at(problem, a, None, prec, budget), ((acb(1), acb(0)), (acb(0), acb(1)))
+    for vertex in middle:
+        traveller.go([vertex], unit[0])
+    if isinstance(b, Singular):
+        here = traveller.here
+        assert isinstance(here, Point)
+        end, bound = junction(b, here, prec)
+        basis: Matrix | None = Basis(b, end, here, bound, prec, budget).at(end)
+    else:
+        end, basis = b, None
+    traveller.go([end], unit[0])
+    (p, r), (q, s) = (traveller.state(start) for start in unit)
+    if basis is None:
+        return p, q, r, s
+    m, determinant = multiply(adjugate(basis), (p, q, r, s)), basis[0] * basis[3] - basis[1] * basis[2]
+    return m[0] / determinant, m[1] / determinant, m[2] / determinant, m[3] / determinant

@@ -7,20 +7,11 @@ The mathematics.  theta = q(x) + sum_zeta sum_k r_(zeta,k) / (x - zeta)^k.  Alon
 zeta the quotient (x - zeta)/(a - zeta) starts at 1 and never meets the negative real axis (it lies on a line through 1 that
 misses 0), so its *principal* logarithm is the continuous one: no branch has to be chosen, and none can be chosen wrongly.
 
-The gauge.  From y'' = S y to the user's a z'' + b z' + c z = 0: z = g y, g'/g = gamma = -b/(2a).  On the leg from u to v, with
-E = exp int_u^v gamma and G(x) = (1, 0; gamma(x), 1),
-
-    (z, z')(v) = E G(v) M G(u)^-1 (z, z')(u)                                                                            (1)
-
-where M is the matrix for (y, y').  A pole of gamma is a singular point of the equation even where S is regular: legs through
-one are refused.
-
 Symbols: c, the root of the field's modulus that constants are embedded by.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -30,12 +21,7 @@ from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly, squarefree_factors
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
-from kovacic.enclosure.matrices import Matrix, multiply, product, scaled
-from kovacic.enclosure.points import Point, to_acb
-from kovacic.enclosure.problem import System, Zeros, check_segment
-
-Legs = Callable[[Point, Point], list[Matrix]]
-"""Matrices whose product carries states from one point to another along the straight segment."""
+from kovacic.enclosure.problem import Zeros
 
 
 def conjugates(field: Field) -> list[acb | None]:
@@ -142,20 +128,3 @@ def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[ac
     quotient = (acb_series(top, k) / acb_series(bottom, k)).coeffs()
     quotient += [acb(0)] * (k - len(quotient))
     return tuple(quotient[k - 1 - j] for j in range(k))
-
-
-def with_gauge(gamma: RatFunc | None, legs: Legs) -> Legs:
-    """The legs for (z, z') from those for (y, y'), equation (1); `gamma` None leaves them as they are."""
-    if gamma is None:
-        return legs
-    singular = System.of(gamma)
-
-    def gauged(a: Point, b: Point) -> list[Matrix]:
-        if a == b:
-            return []
-        check_segment(singular, a, b)
-        theta, u, v = LogDerivative.make(gamma, None), to_acb(a), to_acb(b)
-        shears = ((acb(1), acb(0), slope, acb(1)) for slope in (theta.value(v), -theta.value(u)))
-        return [scaled(multiply(next(shears), multiply(product(legs(a, b)), next(shears))), theta.growth(u, v))]
-
-    return gauged

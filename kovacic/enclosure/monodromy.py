@@ -19,7 +19,7 @@ from fractions import Fraction
 from flint import acb, acb_mat, acb_poly, arb
 
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
-from kovacic.enclosure.evaluate import transition_matrix
+from kovacic.enclosure.evaluate import connection_matrix
 from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import System, as_problem
 from kovacic.enclosure.working import working_precision
@@ -83,7 +83,7 @@ def monodromy(equation: object, *, digits: int = 15, limits: Limits | None = Non
     result = []
     for loop, z in _loops(_places(system)):
         budget.check()
-        matrix = transition_matrix(system, loop, digits=digits, limits=budget.share(1).limits)
+        matrix = connection_matrix(system, loop, digits=digits, limits=budget.share(1).limits)
         result.append(_local(system, z, loop, matrix, digits))
     return tuple(result)
 

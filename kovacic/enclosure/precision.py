@@ -14,8 +14,8 @@ from typing import Literal
 from flint import acb, arb
 
 from kovacic.enclosure.ball import Ball, ball_from_flint
+from kovacic.enclosure.constants import Number
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import Point
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits
@@ -32,7 +32,7 @@ class Evaluation:
     precision of the run that gave the enclosures, `runs` the number of runs (the precision was raised runs - 1 times).
     """
 
-    x: Point
+    x: Number
     y: Ball
     dy: Ball
     digits: int
@@ -63,7 +63,7 @@ def check_digits(digits: object, limits: Limits) -> None:
 
 
 def raise_precision(
-    route: Route, method: Method, targets: tuple[Point, ...], digits: int, budget: Budget, exact: bool
+    route: Route, method: Method, targets: tuple[Number, ...], digits: int, budget: Budget, exact: bool
 ) -> tuple[Evaluation, ...]:
     """Run the route at rising precision until every relative radius is small enough."""
     prec = start_bits(digits)
@@ -123,7 +123,7 @@ def _reason(result: Evaluation) -> str:
 
 
 def _as_evaluations(
-    states: list[State], targets: tuple[Point, ...], digits: int, method: Method, prec: int, runs: int
+    states: list[State], targets: tuple[Number, ...], digits: int, method: Method, prec: int, runs: int
 ) -> tuple[Evaluation, ...] | None:
     results = []
     for target, (y, dy) in zip(targets, states, strict=True):

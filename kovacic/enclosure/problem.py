@@ -135,6 +135,20 @@ def as_problem(equation: object) -> NumericProblem:
     return NumericProblem(system, S, decision, given.gauge or None)
 
 
+def equation_of(problem: NumericProblem) -> tuple[fmpq_poly, fmpq_poly, fmpq_poly]:
+    """The user's equation: with the gauge gamma, z'' - 2 gamma z' + (gamma^2 - gamma' - S) z = 0."""
+    num, den = (fmpq_poly(list(part)) for part in (problem.system.num, problem.system.den))
+    if problem.gauge is None:
+        return den, fmpq_poly([]), -num
+    gamma, square = problem.gauge, problem.gauge * problem.gauge - problem.gauge.derivative()
+    parts = [part for function in (gamma, square) for part in (function.num, function.den)]
+    p, q, r, s = (part.rep for part in parts if isinstance(part, RationalPoly))
+    common = den
+    for other in (q, s):
+        common = common * other // common.gcd(other)
+    return common, -2 * p * (common // q), r * (common // s) - num * (common // den)
+
+
 @lru_cache(maxsize=64)
 def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
     poly = fmpz_poly(list(coefficients))

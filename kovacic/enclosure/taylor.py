@@ -36,7 +36,7 @@ from typing import Any
 from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
 
 from kovacic.enclosure.frame import Frame, Parts, RayBound, log2, norm, shift
-from kovacic.enclosure.matrices import Matrix
+from kovacic.enclosure.matrices import Matrix, State
 from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import System
 from kovacic.enclosure.working import working_precision
@@ -193,6 +193,36 @@ def transition(expansion: Expansion, target: Point, bound: RayBound) -> Matrix:
         h = acb(arb((1, frame.e)))
         y1, d1, y2, d2 = entries
         return y1, y2 * h, d1 / h, d2
+
+
+def states_at(expansion: Expansion, bound: RayBound, state: State, targets: list[Point]) -> list[State]:
+    """The states at `targets`, on the rays to which `bound` belongs, from the state at the centre."""
+    frame = expansion.frame
+    with working_precision(expansion.w + 10):
+        unit, h = arb((1, -expansion.w)), arb((1, frame.e))
+        factors, total = (state[0] * unit, state[1] * h * unit), acb_poly([])
+        radii = [arb(0), arb(0)]
+        for (re, im), factor, defect in zip(expansion.columns, factors, expansion.defect, strict=True):
+            total += factor * (acb_poly(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im))
+            errors = error_radii(arb((defect + 1, -expansion.w)), expansion.q_0, bound)
+            radii = [r + abs(factor / unit).upper() * error for r, error in zip(radii, errors, strict=True)]
+        inverse = 1 / frame.scale
+        us = [to_acb((target - frame.centre).scaled(inverse)) for target in targets]
+        if any(abs(u) > 1 for u in us):
+            raise ArithmeticError("a target lies outside of its disc")
+        real = all(v.imag.is_zero() for v in (*state, *us)) and all(im is None for _, im in expansion.columns)
+        balls = [acb(arb(0, r.upper())) if real else acb(*[arb(0, r.upper())] * 2) for r in radii]
+        values, slopes = (_at_all(poly, us, real) for poly in (total, total.derivative()))
+        return [(y + balls[0], (dy + balls[1]) / h) for y, dy in zip(values, slopes, strict=True)]
+
+
+def _at_all(poly: acb_poly, points: list[acb], real: bool) -> list[acb]:
+    """The values of a polynomial, real where it and the points are."""
+    if not real:
+        found: list[acb] = poly.evaluate(points, algorithm="iter")
+        return found
+    line = arb_poly([v.real for v in poly.coeffs()])
+    return [acb(v) for v in line.evaluate([u.real for u in points], algorithm="iter")]
 
 
 def error_radii(defect: arb, q_0: int, bound: RayBound) -> tuple[arb, arb]:

@@ -17,16 +17,17 @@ less where the solutions grow by more than a fixed share of the working precisio
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections import deque
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from kovacic.enclosure.frame import Frame, RayBound, fitting, least_growth, log2
-from kovacic.enclosure.matrices import Matrix, adjugate, multiply, product
+from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import Point
 from kovacic.enclosure.problem import System, check_segment, distance_lower
 from kovacic.enclosure.splitting import is_split, legs
-from kovacic.enclosure.taylor import expand, transition
+from kovacic.enclosure.taylor import Expansion, expand, states_at, transition
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 
@@ -59,24 +60,66 @@ class Disc:
 
 def piece_matrices(system: System, a: Point, b: Point, prec: int, budget: Budget) -> list[Matrix]:
     """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about 2^-prec)."""
-    result: list[Matrix] = []
-    begun = budget.seconds_left
-    for disc in cover(system, a, b, prec, budget):
-        frame, worst = disc.frame, disc.bounds[0].worst(disc.bounds[1])
-        if is_split(system, prec):
-            start, stop = legs(system, frame, disc.enter, disc.leave, worst, prec, budget)
-        else:
-            expansion = expand(system, frame, prec, worst, budget)
-            start, stop = (
-                [] if point == frame.centre else [transition(expansion, point, bound)]
-                for point, bound in zip((disc.enter, disc.leave), disc.bounds, strict=True)
-            )
-        result.append(multiply(product(stop), adjugate(product(start))) if start else product(stop))
-        if len(result) == _TRIED:
-            _refuse(system, a, b, prec, begun - budget.seconds_left, budget)
-        if len(result) > _MAX_DISCS:
-            raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
-    return result
+    return [leg.matrix for leg in walk(system, a, [b], prec, budget)]
+
+
+@dataclass(frozen=True)
+class Leg:
+    """One disc of a way: its matrix, and the points, of those where the solution is asked for, that it serves.
+
+    `expansion` is None where the only such point is the end of the disc.
+    """
+
+    disc: Disc
+    matrix: Matrix
+    stops: list[Point]
+    expansion: Expansion | None
+    to_centre: Matrix | None
+
+    def states(self, state: State) -> list[State]:
+        """The states at the stops, from the one where the disc is entered: one polynomial for all of them."""
+        if self.expansion is None:
+            return [apply(self.matrix, state)] * len(self.stops)
+        here = state if self.to_centre is None else apply(self.to_centre, state)
+        return states_at(self.expansion, self.disc.bounds[0].worst(self.disc.bounds[1]), here, self.stops)
+
+
+def walk(system: System, a: Point, stops: Sequence[Point], prec: int, budget: Budget) -> Iterator[Leg]:
+    """The discs of the straight way from a to the last of `stops`, which lie on it one after the other."""
+    begun, number, split = budget.seconds_left, 0, is_split(system, prec)
+    for part in [[stop] for stop in stops] if split else [list(stops)]:
+        b, queue = part[-1], deque(part)
+        step = b - a
+        parameters = deque(_parameter(stop - a, step) for stop in part)
+        for disc in cover(system, a, b, prec, budget):
+            frame, served = disc.frame, []
+            while parameters and parameters[0] <= disc.stop:
+                served.append(queue.popleft())
+                parameters.popleft()
+            expansion: Expansion | None = None
+            if split:
+                worst = disc.bounds[0].worst(disc.bounds[1])
+                start, stop = legs(system, frame, disc.enter, disc.leave, worst, prec, budget)
+            else:
+                expansion = expand(system, frame, prec, disc.bounds[0].worst(disc.bounds[1]), budget)
+                start, stop = (
+                    [] if point == frame.centre else [transition(expansion, point, bound)]
+                    for point, bound in zip((disc.enter, disc.leave), disc.bounds, strict=True)
+                )
+            back = adjugate(product(start)) if start else None
+            matrix = product(stop) if back is None else multiply(product(stop), back)
+            yield Leg(disc, matrix, served, None if all(stop == disc.leave for stop in served) else expansion, back)
+            number += 1
+            if number == _TRIED:
+                _refuse(system, a, b, prec, begun - budget.seconds_left, budget)
+            if number > _MAX_DISCS:
+                raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
+        a = b
+
+
+def _parameter(offset: Point, step: Point) -> Fraction:
+    """t for the point t step of the way (offset = t step)."""
+    return offset.re / step.re if step.re else offset.im / step.im if step.im else Fraction(0)
 
 
 def _refuse(system: System, a: Point, b: Point, prec: int, used: float, budget: Budget) -> None:
@@ -112,7 +155,7 @@ def cover(system: System, a: Point, b: Point, prec: int, budget: Budget) -> Iter
         budget.check()
         disc = _next_disc(system, piece, t, enter, prec, guess)
         if disc is None:  # the junction beside the path is too far from it for a disc that fits: back to the path
-            yield from cover(system, enter, piece.at(t), prec, budget)
+            yield from (replace(short, stop=t) for short in cover(system, enter, piece.at(t), prec, budget))
             enter = piece.at(t)
         else:
             yield disc

@@ -154,7 +154,7 @@ def _curves(axes: Any, samples: Samples, is_complex: bool) -> None:
     band: str | None = "error band"
     for label, colour, pick in parts if is_complex else parts[:1]:
         for number, run in enumerate(samples.runs):
-            xs = [float(result.x.re) for result in run]
+            xs = [float(x.re) for x in (result.x for result in run) if isinstance(x, Point)]
             ys = [pick(result.y.mid) for result in run]
             radii = [result.y.radius for result in run]
             shown = label if is_complex else "y"

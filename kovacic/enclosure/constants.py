@@ -1,0 +1,166 @@
+"""Numbers that are known by balls: constants such as sqrt(2) and pi to every precision, and the balls that users have.
+
+SymPy expressions of numbers, and of numbers and x, are computed by FLINT's balls, operation by operation: nothing of SymPy's
+own numerical evaluation, whose digits aren't proven, goes in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from flint import acb, arb, fmpq
+
+from kovacic.enclosure.ball import Ball, ball_to_flint
+from kovacic.enclosure.points import Point, as_point, to_acb
+from kovacic.errors import InputError
+
+_FUNCTIONS = [
+    "exp",
+    "sin",
+    "cos",
+    "tan",
+    "cot",
+    "sec",
+    "csc",
+    "asin",
+    "acos",
+    "atan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "coth",
+    "sech",
+    "csch",
+    "asinh",
+    "acosh",
+    "atanh",
+    "gamma",
+    "erf",
+    "erfc",
+    "zeta",
+]
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A number in a ball: `value()` at the working precision in force, or always the same if `fixed`."""
+
+    text: str
+    value: Callable[[], acb]
+    fixed: bool = False
+
+    def point(self) -> Point:
+        """The midpoint, an exact point."""
+        ball = self.value()
+        if not ball.is_finite():
+            raise InputError(f"{self.text} isn't a finite number")
+        parts = (part.mid().man_exp() for part in (ball.real, ball.imag))
+        return Point(*(Fraction(int(m)) * Fraction(2) ** int(e) for m, e in parts))
+
+    def __str__(self) -> str:
+        return self.text
+
+
+Number = Point | Constant
+
+
+def as_number(value: object, name: str) -> Number:
+    """The exact point, or the number known by balls, that `value` stands for.
+
+    Beside what `as_point` accepts: balls (ours, python-flint's arb and acb, mpmath's intervals), SymPy constants and text
+    such as "sqrt(2)" or "1 + 2*I".  Raises InputError for anything else (`name` says which argument it was).
+
+    >>> print(as_number("1 + 2*I", "x"), as_number("sqrt(2)", "x"))
+    1 + 2i sqrt(2)
+    """
+    if isinstance(value, Ball) and not value.is_exact():
+        ball = value
+        return Constant(str(ball), lambda: ball_to_flint(ball), True)
+    if isinstance(value, arb | acb):
+        fixed = acb(value)
+        return Constant(str(fixed), lambda: fixed, True)
+    if hasattr(value, "_mpi_") or hasattr(value, "_mpci_"):
+        interval = _interval(value)
+        return Constant(str(value), lambda: interval, True)
+    try:
+        return as_point(value, name)
+    except InputError:
+        expression = value
+        if isinstance(value, str):
+            from kovacic.reading.symbolic import read_expression
+
+            expression = read_expression(value, names={}, what=name)
+            if expression.is_number and all(part.is_Rational for part in expression.expand().as_real_imag()):
+                return as_point(expression.expand(), name)
+        if not getattr(expression, "is_number", False) or getattr(expression, "is_finite", None) is False:
+            raise
+        number = Constant(str(value), lambda: in_balls(expression, {}))
+        number.value()
+        return number
+
+
+def to_ball(number: Number) -> acb:
+    """The ball of the working precision in force."""
+    return to_acb(number) if isinstance(number, Point) else number.value()
+
+
+def _interval(value: Any) -> acb:
+    """The ball of an mpmath interval, real or complex."""
+    import mpmath
+
+    pairs = value._mpci_ if hasattr(value, "_mpci_") else (value._mpi_,)
+    return acb(*(_between(*(mpmath.libmp.to_man_exp(end, signed=True) for end in pair)) for pair in pairs))
+
+
+def _between(low: tuple[int, int], high: tuple[int, int]) -> arb:
+    return arb(low).union(arb(high))
+
+
+def in_balls(expression: Any, values: Mapping[Any, acb], *, analytic: bool = False) -> acb:
+    """A SymPy expression at these values of its symbols, at the working precision in force.
+
+    With `analytic` the result isn't finite where the expression isn't analytic on the balls, for quadratures.  Raises
+    InputError for functions that aren't known here.
+    """
+    import sympy
+
+    def of(node: Any) -> acb:
+        if node in values:
+            return values[node]
+        if node.is_Rational:
+            return acb(arb(fmpq(int(node.p), int(node.q))))
+        if node.is_Float:
+            return to_acb(as_point(node, "the number"))
+        if node is sympy.I:
+            return acb(0, 1)
+        constants = {sympy.pi: arb.pi, sympy.E: arb.const_e, sympy.EulerGamma: arb.const_euler}
+        if node in constants:
+            return acb(constants[node]())
+        if node.is_Add or node.is_Mul:
+            total = of(node.args[0])
+            for part in node.args[1:]:
+                total = total + of(part) if node.is_Add else total * of(part)
+            return total
+        if node.is_Pow and node.exp.is_Integer:
+            return of(node.base) ** int(node.exp)
+        if node.is_Pow and abs(node.exp) == sympy.Rational(1, 2):
+            root = of(node.base).sqrt(analytic=analytic)
+            return root if node.exp > 0 else 1 / root
+        if node.is_Pow:
+            return (
+                of(node.exp).exp()
+                if node.base is sympy.E
+                else (of(node.exp) * of(node.base).log(analytic=analytic)).exp()
+            )
+        name = type(node).__name__
+        if name == "log" and len(node.args) == 1:
+            return of(node.args[0]).log(analytic=analytic)
+        if name in _FUNCTIONS and len(node.args) == 1 and not (analytic and name[0] == "a"):
+            result: acb = getattr(of(node.args[0]), name)()
+            return result
+        raise InputError(f"{node} isn't known in balls", hint=f"the functions are log, sqrt, {', '.join(_FUNCTIONS)}")
+
+    return of(sympy.sympify(expression))

@@ -1,0 +1,275 @@
+"""Starting at a regular singular point: Frobenius series with exponents and logarithms, and a proven bound of their tails.
+
+The guarantee: `Basis.at` returns balls that contain the values and slopes at x of the two solutions of the Frobenius basis,
+continued along the straight segment from the point, with the principal logarithm of t.
+
+Conventions (those of ore_algebra).  The basis has the leading terms t^lambda log(t)^k, the dominant one first: by the real
+part of lambda upwards, then by its imaginary part, and the logarithm before its companion.  Each solution has the coefficient
+1 at its own leading term and 0 at that of the other.  At an ordinary point these are the solutions with (y, y') = (1, 0), (0,
+1).
+
+The mathematics.  Write a coefficient of t^(lambda+n) as u + v log t, and eps = d/d(log t), so that eps (u, v) = (v, 0) and
+eps^2 = 0.  With the operators P_j of `kovacic.enclosure.singular`
+
+    P_0(lambda + n + eps) a_n = - sum_(j>=1) P_j(lambda + n - j + eps) a_(n-j).                                          (1)
+
+Where the exponents differ by an integer N, the larger one makes P_0 vanish at n = N: that equation gives v_N, and u_N = 0.
+
+The tail.  Divided by A = sum A_j t^j the equation is I(theta) y = -((beta - beta_0) theta + gamma - gamma_0) y.  The sum of the
+terms before t^N leaves a defect R of finitely many terms, all from the last a_n.  With |(u, v)| = |u| + |v|, E_n the size of
+the error's coefficients, delta the difference of lambda from the other exponent, and Cauchy's bounds |beta_j| <= M_beta rho^-j,
+|gamma_j| <= M_gamma rho^-j, j > 0,
+
+    |I(lambda + n + eps)^-1| <= 1/(kappa n^2),   kappa = (1 - |delta|/N)/(1 + (2 + |delta|/N)/(N - |delta|)),   n >= N,
+    kappa n^2 E_n <= C sum_(j>=1) rho^-j (n - j) E_(n-j) + r_n,   C = M_gamma/N + M_beta (1 + (|lambda| + 1)/N),
+
+so F = sum n E_n t^n stays below the solution of kappa t F' = C (t/rho)/(1 - t/rho) F + r, r the majorant of R/A, which gives
+
+    F(t) <= (1 - t/rho)^(-1 - C/kappa) M_1 sum |R_n| t^n / (kappa N),   |1/A| <= M_1 on |t| = rho.                       (2)
+
+References: F. G. Frobenius, J. reine angew. Math. 76 (1873).  M. Mezzarobba, "Truncation bounds for differentially finite
+series", Ann. H. Lebesgue 2 (2019).  J. van der Hoeven, "Fast evaluation of holonomic functions near and in regular
+singularities", J. Symb. Comp. 31 (2001).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from flint import acb, acb_poly, arb, fmpq
+
+from kovacic.enclosure.frame import log2
+from kovacic.enclosure.matrices import Matrix
+from kovacic.enclosure.points import Point
+from kovacic.enclosure.singular import Operator, Singular
+from kovacic.enclosure.working import working_precision
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import Budget
+
+_STRIDE = 16
+"""Terms between two looks at the tail."""
+
+_GROWTH = 0.2
+"""Growth of the majorant in bits as a share of the working precision, at most."""
+
+_SMALLER = 4000
+"""Bits for which the disc gets smaller by a factor of 2: terms cost more than steps away from the point."""
+
+_SOUGHT = 400
+"""The difference of exponents up to which a logarithm that isn't there is noticed: N terms in exact numbers."""
+
+Pair = tuple[Any, Any]
+"""u + v log t."""
+
+
+@dataclass(frozen=True)
+class Majorant:
+    """Bounds on the circle |t| = rho: of |beta - beta_0|, |gamma - gamma_0| and |1/A|."""
+
+    rho: arb
+    beta: arb
+    gamma: arb
+    inverse: arb
+
+    def growth(self, n: int, delta: arb, size: arb, t: arb) -> tuple[arb, arb]:
+        """(1 - t/rho)^(-1 - C/kappa) and kappa for the terms from n on; `delta` and `size` bound |delta| and |lambda|."""
+        kappa = (1 - delta / n) / (1 + (2 + delta / n) / (n - delta))
+        C = self.gamma / n + self.beta * (1 + (size + 1) / n)
+        return (1 - t / self.rho) ** (-1 - C / kappa), kappa
+
+
+def _majorant(op: Operator, neighbours: list[tuple[acb, int]], rho: arb) -> Majorant:
+    inverse = 1 / abs(op.A[0])
+    for zeta, k in neighbours:
+        inverse /= (1 - rho / abs(zeta)) ** k
+    rows = ([v - row[0] / op.A[0] * a for v, a in zip(row, op.A, strict=True)] for row in (op.B, op.C))
+    beta, gamma = (sum((abs(v) * rho**j for j, v in enumerate(row) if j), arb(0)) * inverse for row in rows)
+    return Majorant(rho, beta.upper(), gamma.upper(), inverse.upper())
+
+
+def _first(delta: arb) -> int:
+    """Terms before which the bound isn't used."""
+    return int(2 * float(delta.upper())) + 8
+
+
+def radius(point: Singular, prec: int, distance: arb) -> tuple[Fraction, Majorant]:
+    """The radius, at most about `distance`, of the disc |t| <= r in which the series are summed, and the bounds for it.
+
+    At most half the distance to the next singular point; there A is at least half of A_0 even with absolute values, so that the
+    recurrence loses no digits, and the majorant grows by a share of the precision only.
+    """
+    op, neighbours = point.operator().in_balls(), point.neighbours()
+    near = min((d.abs_lower() for d, _ in neighbours), default=None)
+    e = math.ceil(log2(distance))
+    if near is not None:
+        e = min(e, math.floor(log2(near)) - 1)
+    e -= prec // _SMALLER
+    lower, upper = (acb(v) for v in point.exponents())
+    delta, size = abs(upper - lower).upper(), max(abs(lower).upper(), abs(upper).upper())
+    for _ in range(20_000):
+        r = arb((1, e))
+        if sum((abs(v) * r**j for j, v in enumerate(op.A) if j), arb(0)) <= abs(op.A[0]):
+            bound = _majorant(op, neighbours, r * 3 / 2)
+            start = max(_first(delta), prec // 2)
+            factor, _ = bound.growth(start, delta, size, r)
+            if factor > 0 and log2(factor) < max(60.0, _GROWTH * prec):
+                return Fraction(2) ** e, bound
+        e -= 1
+    raise LimitExceeded("no disc around the singular point was found", limit="unknown_degree")
+
+
+def junction(point: Singular, towards: Point, prec: int) -> tuple[Point, Majorant]:
+    """Where the straight way to `towards` leaves the disc (or the end itself, if that's inside), and the bounds for it."""
+    with working_precision(64):
+        t = abs(point.offset(towards))
+        if not t.is_finite() or t.contains(0):
+            raise InputError(f"{towards} can't be reached: it's a singular point or 0, seen from {point}")
+        r, bound = radius(point, prec, t.upper())
+        if t <= arb(r.numerator) / r.denominator:
+            return towards, bound
+        e = math.floor(log2(arb(r.numerator) / r.denominator / t))
+    share = Fraction(2) ** e
+    if point.inverted:
+        return towards.scaled(1 / share), bound
+    grain = r.numerator.bit_length() - r.denominator.bit_length() - 20
+    return (point.near + (towards - point.near).scaled(share)).rounded(grain), bound
+
+
+class Basis:
+    """The Frobenius basis on the way from the point to `towards`, at the points of the disc that are no farther than `last`."""
+
+    def __init__(
+        self, point: Singular, last: Point, towards: Point, bound: Majorant, prec: int, budget: Budget
+    ) -> None:
+        self.point, self.towards, self.bits = point, towards, int(prec * (1 + _GROWTH)) + 100
+        with working_precision(self.bits):
+            lower, upper = point.exponents()
+            op, N, length = point.operator(), point.difference, abs(point.offset(last)).upper()
+            start, resonance = (1, 0), N
+            if N == 0:
+                start, resonance = (0, 1), None
+            elif N is not None and isinstance(lower, fmpq) and N <= _SOUGHT and not _has_logarithm(op, lower, N):
+                resonance = -N
+            balls = op.in_balls()
+            self.solutions = (
+                _expand(balls, lower, upper, resonance, start, length, bound, prec, budget),
+                _expand(balls, upper, lower, None, (1, 0), length, bound, prec, budget),
+            )
+
+    def at(self, x: Point) -> Matrix:
+        """The values and slopes at x (the columns: the two solutions)."""
+        with working_precision(self.bits):
+            t, end = self.point.offset(x), self.point.offset(self.towards)
+            if not (t / end).real > 0:
+                raise LimitExceeded(f"{x} can't be told from the singular point {self.point}", limit="digits")
+            log = end.log() + (t / end).log()  # continued along the segment
+            first, second = (solution.at(t, log) for solution in self.solutions)
+            # slopes: dy/dx = theta y / t, and -t theta y for t = 1/x
+            factor = -t if self.point.inverted else 1 / t
+            return first[0], second[0], first[1] * factor, second[1] * factor
+
+
+def _apply(op: Operator, j: int, nu: Any, a: Pair) -> Pair:
+    """P_j(nu + eps) a."""
+    A, B, C, (u, v) = op.A[j], op.B[j], op.C[j], a
+    value = (A * nu + B) * nu + C
+    return value * u + (2 * A * nu + B) * v, value * v
+
+
+def _next(op: Operator, nu: Any, terms: list[Pair], resonance: int | None) -> Pair:
+    """a_n by equation (1), n the number of `terms`; at n = |resonance| with v = 0 if that is negative."""
+    n = len(terms)
+    f0 = f1 = op.A[0] * 0
+    for j in range(1, min(n, len(op.A) - 1) + 1):
+        p, q = _apply(op, j, nu - j, terms[n - j])
+        f0, f1 = f0 - p, f1 - q
+    slope = 2 * op.A[0] * nu + op.B[0]
+    if resonance is not None and n == abs(resonance):
+        return f0 * 0, f0 * 0 if resonance < 0 else f0 / slope
+    value = (op.A[0] * nu + op.B[0]) * nu + op.C[0]
+    v = f1 / value
+    return (f0 - slope * v) / value, v
+
+
+def _has_logarithm(op: Operator, lower: Any, N: int) -> bool:
+    """Does the solution of the smaller exponent have a logarithm?  In exact numbers."""
+    terms: list[Pair] = [(fmpq(1), fmpq(0))]
+    while len(terms) <= N:
+        terms.append(_next(op, lower + len(terms), terms, N))
+    return bool(terms[N][1] != 0)
+
+
+@dataclass(frozen=True)
+class Expansion:
+    """t^exponent (U(t) + V(t) log t), with bounds of what is missing in the second factor of y and of theta y, over max(1,
+    |log t|), on the disc for which they were made."""
+
+    exponent: Any
+    lam: Any
+    U: acb_poly
+    V: acb_poly
+    errors: tuple[arb, arb]
+
+    def at(self, t: acb, log: acb) -> tuple[acb, acb]:
+        """y and theta y at t, with the logarithm of t."""
+        U, V, lam = self.U, self.V, acb(self.lam)
+        value, slope = U(t), lam * U(t) + t * U.derivative()(t)
+        if V.length():
+            value, slope = value + V(t) * log, slope + (lam * V(t) + t * V.derivative()(t)) * log + V(t)
+        real, size = value.imag.is_zero() and slope.imag.is_zero(), max(arb(1), abs(log).upper())
+        balls = [arb(0, (error * size).upper()) for error in self.errors]
+        tails = [acb(ball) if real else acb(ball, ball) for ball in balls]
+        power = _power(self.exponent, t, log)
+        return (value + tails[0]) * power, (slope + tails[1]) * power
+
+
+def _expand(
+    op: Operator,
+    exponent: Any,
+    other: Any,
+    resonance: int | None,
+    start: tuple[int, int],
+    length: arb,
+    bound: Majorant,
+    prec: int,
+    budget: Budget,
+) -> Expansion:
+    """The solution that starts with t^exponent (u + v log t), (u, v) = start, for |t| <= length."""
+    with working_precision(64):
+        delta, size = abs(acb(exponent) - other).upper(), abs(acb(exponent)).upper()
+    first, order = max(_first(delta), len(op.A), abs(resonance or 0) + 1), len(op.A) - 1
+    rational = isinstance(exponent, fmpq)
+    kind = type(op.A[0]) if rational or exponent.imag.is_zero() else acb
+    lam = kind(exponent if rational or kind is acb else exponent.real)
+    terms: list[Pair] = [(kind(start[0]), kind(start[1]))]
+    cap = 40 * prec + 4000 + 4 * first
+    while True:
+        budget.check()
+        for _ in range(_STRIDE if len(terms) > 1 else first):
+            terms.append(_next(op, lam + len(terms), terms, resonance))
+        n = len(terms)
+        with working_precision(64):
+            defect = arb(0)
+            for m in range(order):
+                pairs = [_apply(op, j, lam + (n + m - j), terms[n + m - j]) for j in range(m + 1, order + 1)]
+                defect += (
+                    sum((abs(sum(part, kind(0))).upper() for part in zip(*pairs, strict=True)), arb(0)) * length**m
+                )
+            factor, kappa = bound.growth(n, delta, size, length)
+            F = (factor * bound.inverse * defect * length**n / (kappa * n)).upper()
+        if arb((1, -prec - 20)) > F:
+            U, V = (acb_poly([pair[k] for pair in terms]) for k in (0, 1))
+            return Expansion(exponent, lam, U, V, ((F / n).upper(), (F * (1 + (size + 1) / n)).upper()))
+        if n > cap:
+            raise LimitExceeded(f"a Frobenius expansion needs more than {cap} terms", limit="unknown_degree")
+
+
+def _power(exponent: Any, t: acb, log: acb) -> acb:
+    """t^exponent, real where it is."""
+    if isinstance(exponent, fmpq) and exponent.q == 1:
+        return t ** int(exponent.p)
+    power: acb = (acb(exponent) * log).exp()
+    return power

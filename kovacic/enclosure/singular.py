@@ -1,0 +1,219 @@
+"""Regular singular points: exponents, the operator in theta, and how far its coefficients can be trusted to go.
+
+t = x - c at the point c, and t = 1/x at infinity; theta = t d/dt.  An equation a y'' + b y' + c y = 0 over Q is, up to a power
+of t, sum_j t^j P_j(theta) y = 0 with P_j = A_j theta^2 + B_j theta + C_j, and A_0 isn't zero where the point is a regular
+singular one or ordinary [Fuchs].  The exponents are the zeros of P_0.  Whether they differ by an integer is decided exactly,
+by division by the polynomial, irreducible over Q, of which the point is a zero.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
+from flint.utils.flint_exceptions import DomainError
+
+from kovacic.algebra.rationals import to_fmpq
+from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.problem import NumericProblem, equation_of
+from kovacic.enclosure.working import working_precision
+from kovacic.errors import InputError
+
+Coefficients = tuple["fmpq_poly", "fmpq_poly", "fmpq_poly"]
+"""a, b, c of a y'' + b y' + c y = 0."""
+
+
+@dataclass(frozen=True)
+class Operator:
+    """The coefficients A_j, B_j, C_j of P_j: rational numbers or balls."""
+
+    A: list[Any]
+    B: list[Any]
+    C: list[Any]
+
+    def in_balls(self) -> Operator:
+        """The same in balls, real where all are."""
+        kind = acb if any(isinstance(v, acb) for part in (self.A, self.B, self.C) for v in part) else arb
+        return Operator(*([kind(v) for v in part] for part in (self.A, self.B, self.C)))
+
+
+@dataclass(frozen=True)
+class Singular:
+    """A regular singular point, or an ordinary one, of the user's equation.
+
+    At infinity the equation is that in t = 1/x, and the point is its point 0 (`inverted`).  `minimal` is the polynomial,
+    irreducible over Q, of which the point is a zero; `near` tells it from the others, and is it where `exact`.
+    """
+
+    equation: Coefficients
+    minimal: fmpq_poly
+    near: Point
+    exact: bool = True
+    inverted: bool = False
+
+    @classmethod
+    def at(cls, problem: NumericProblem, point: Point | acb | None) -> Singular:
+        """The place of an exact point, of the only singular point in a ball, or of infinity (None).
+
+        Raises InputError at an irregular singular point, and where the ball has none or several.
+        """
+        a, b, c = equation_of(problem)
+        if point is None:
+            found = cls(_inverted(a, b, c), fmpq_poly([0, 1]), Point(Fraction(0)), inverted=True)
+        elif isinstance(point, Point):
+            re, square = to_fmpq(point.re), to_fmpq(point.norm_squared())
+            found = cls((a, b, c), fmpq_poly([-re, 1] if point.is_real() else [square, -2 * re, 1]), point)
+        else:
+            found = cls((a, b, c), *_root_in(a, point), exact=False)
+        orders = found._orders
+        if orders[1] < orders[0] - 1 or orders[2] < orders[0] - 2:
+            raise InputError(
+                f"{found} is an irregular singular point: there is no Frobenius basis", hint="start beside it"
+            )
+        return found
+
+    def value(self) -> acb:
+        """The point, in a ball of the working precision in force (0 for infinity)."""
+        if self.exact:
+            return to_acb(self.near)
+        roots = [root for root, _ in self.minimal.numer().complex_roots()]
+        return min(roots, key=lambda root: float(abs(root - to_acb(self.near)).mid()))
+
+    @property
+    def is_ordinary(self) -> bool:
+        """True if the equation is regular here."""
+        return self._orders[0] == 0
+
+    @property
+    def has_regular(self) -> bool:
+        """Is there a solution that is smaller than all others at the point?"""
+        if self.difference is not None:
+            return True
+        with working_precision(256):
+            lower, upper = (acb(v).real for v in self.exponents())
+        return bool(lower < upper)
+
+    def __str__(self) -> str:
+        return "infinity" if self.inverted else str(self.near)
+
+    def offset(self, x: Point) -> acb:
+        """t at x."""
+        if self.inverted:
+            return 1 / to_acb(x)
+        return to_acb(x - self.near) if self.exact else to_acb(x) - self.value()
+
+    @cached_property
+    def _orders(self) -> tuple[int, int, int]:
+        a, b, c = (_order(poly, self.minimal) for poly in self.equation)
+        return a, b, c
+
+    @cached_property
+    def _indicial(self) -> tuple[fmpq_poly, fmpq_poly]:
+        """The sum of the exponents and the square of their difference, as polynomials in the point, reduced by `minimal`:
+        constant where they are rational."""
+        first = self._orders[0]
+        alpha, beta, gamma = (_taylor(poly, first - k) for k, poly in enumerate(self.equation))
+        inverse = alpha.xgcd(self.minimal)[1]  # P_0 = alpha theta^2 + (beta - alpha) theta + gamma
+        total, product = ((part * inverse) % self.minimal for part in (alpha - beta, gamma))
+        return total, (total * total - 4 * product) % self.minimal
+
+    @property
+    def difference(self) -> int | None:
+        """The difference of the exponents where it is an integer, decided exactly."""
+        delta = self._delta
+        return int(delta.p) if isinstance(delta, fmpq) and delta.q == 1 else None
+
+    @property
+    def _delta(self) -> Any:
+        """The difference of the exponents: a rational number where it is one, else a ball."""
+        square = self._at(self._indicial[1])
+        try:
+            return square.sqrt() if isinstance(square, fmpq) else acb(square).sqrt()
+        except DomainError:  # no square of a rational number
+            return acb(square).sqrt()
+
+    def _at(self, poly: fmpq_poly) -> Any:
+        """The value of a reduced polynomial: rational where it is constant, real where the point is."""
+        if poly.degree() < 1:
+            return poly[0]
+        here = self.value()
+        value = acb_poly(poly)(here)
+        return value.real if here.imag.is_zero() else value
+
+    def exponents(self) -> tuple[Any, Any]:
+        """The exponents in the order of the basis: rational numbers where they are, else balls."""
+        total, delta = self._at(self._indicial[0]), self._delta
+        return (total - delta) / 2, (total + delta) / 2
+
+    def operator(self) -> Operator:
+        """The operator: rational coefficients at a rational point, else balls of the working precision in force."""
+        lines: list[list[Any]] = []
+        rational = self.exact and self.near.is_real()
+        here = to_fmpq(self.near.re) if rational else self.value()
+        for k, poly in enumerate(self.equation):
+            if rational:
+                moved = list(poly(fmpq_poly([here, 1])).coeffs())
+            else:  # the first coefficients are exactly zero
+                x, kind = (here.real, arb_poly) if here.imag.is_zero() else (here, acb_poly)
+                moved = [v * 0 if i < self._orders[k] else v for i, v in enumerate(kind(poly)(kind([x, 1])).coeffs())]
+            lines.append([0] * k + moved)
+        size = max(map(len, lines))
+        a, b, c = (line + [0] * (size - len(line)) for line in lines)
+        first = self._orders[0]
+        return Operator(a[first:], [y - x for x, y in zip(a, b, strict=True)][first:], c[first:])
+
+    def neighbours(self) -> list[tuple[acb, int]]:
+        """The other singular points in t, with their multiplicities as zeros of A."""
+        prec = 64
+        while True:
+            with working_precision(prec):
+                here = self.value()
+                found = [(root - here, int(k)) for root, k in self.equation[0].numer().complex_roots()]
+            others = [(d, k) for d, k in found if not d.contains(0)]
+            if len(others) == len(found) - (1 if self._orders[0] else 0):
+                return others
+            prec *= 2
+
+
+def _inverted(a: fmpq_poly, b: fmpq_poly, c: fmpq_poly) -> Coefficients:
+    """The equation in t = 1/x: t^4 a y.. + (2 t^3 a - t^2 b) y. + c y = 0, cleared of denominators."""
+    size = max(a.degree(), b.degree(), c.degree())
+
+    def reverse(poly: fmpq_poly, power: int) -> fmpq_poly:  # t^(power + size) poly(1/t)
+        return fmpq_poly([0] * (power + size - poly.degree()) + poly.coeffs()[::-1])
+
+    return reverse(a, 4), 2 * reverse(a, 3) - reverse(b, 2), reverse(c, 0)
+
+
+def _order(poly: fmpq_poly, minimal: fmpq_poly) -> int:
+    """How often `minimal` divides the polynomial (a large number for zero)."""
+    if poly == 0:
+        return 1 << 30
+    order = 0
+    while poly % minimal == 0:
+        poly, order = poly // minimal, order + 1
+    return order
+
+
+def _taylor(poly: fmpq_poly, k: int) -> fmpq_poly:
+    """The derivative of order k over k!; zero for negative k."""
+    if k < 0:
+        return fmpq_poly([])
+    for n in range(1, k + 1):
+        poly = poly.derivative() / n
+    return poly
+
+
+def _root_in(a: fmpq_poly, ball: acb) -> tuple[fmpq_poly, Point]:
+    """The irreducible factor with the only zero of `a` in the ball, and a point that tells this zero from the others."""
+    found = []
+    with working_precision(256):
+        for factor, _ in a.numer().factor()[1]:
+            found += [(fmpq_poly(factor), root) for root, _ in factor.complex_roots() if root.overlaps(ball)]
+    if len(found) != 1:
+        raise InputError(f"there are {len(found)} singular points in the ball {ball}", hint="give the point itself")
+    parts = [part.mid().man_exp() for part in (found[0][1].real, found[0][1].imag)]
+    return found[0][0], Point(*(Fraction(int(m)) * Fraction(2) ** int(e) for m, e in parts))
