@@ -163,4 +163,4 @@ def in_balls(expression: Any, values: Mapping[Any, acb], *, analytic: bool = Fal
             return result
         raise InputError(f"{node} isn't known in balls", hint=f"the functions are log, sqrt, {', '.join(_FUNCTIONS)}")
 
-    return of(sympy.sympify(expression))
+    return of(expression)
