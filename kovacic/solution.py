@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from kovacic.galois import EquationGroup, Group
     from kovacic.parametric.generic import GenericConditions
     from kovacic.reading.given import Parsed
+    from kovacic.special.answer import SpecialFunctions
 
 
 @dataclass(frozen=True, repr=False)
@@ -143,6 +144,16 @@ class Solution:
 
         with Budget(self.limits).watched():
             return None if self.case is None else solutions(self.S, self.decision, self.gauge, self.variable)
+
+    @cached_property
+    def special(self) -> SpecialFunctions:
+        """Two solutions in Airy's, Bessel's, Kummer's or Gauss' functions, or which classes of these were searched in vain.
+
+        An exhausted limit is a value: `stopped`.
+        """
+        from kovacic.special.answer import special_functions
+
+        return special_functions(self.S, self.gauge, self.variable, Budget(self.limits))
 
     @property
     def solutions(self) -> tuple[Any, ...]:

@@ -25,6 +25,7 @@ from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.reading.given import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.solution import Solution, solve
+from kovacic.special.answer import special_functions
 
 
 def dsolve(
@@ -66,10 +67,11 @@ def _solved(eq: Any, func: Any, ics: Mapping[Any, Any] | None, var: str | None, 
     known = read_assumptions(None, eq, parameters_of(equation.S.field))
     assume = known.to_dict() if known.concerns_exponents else None
     solution = solve(equation, assume=assume, limits=budget.share(1).limits)
-    if solution.case is None:
-        raise NotImplementedError(no_solution(solution, known))
     try:
-        y1, y2 = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
+        if solution.case is None:
+            y1, y2 = _special(solution, eq, known, budget)
+        else:
+            y1, y2 = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
     except LimitExceeded as limit:
         raise NotImplementedError(f"undecided: {limit}") from None
     x = sympy.Symbol(equation.variable)
@@ -94,6 +96,15 @@ def _new_constants(taken: set[str], expressions: Sequence[Any]) -> list[Any]:
     """C1 and C2, or the next ones that don't occur."""
     names = taken | {symbol.name for e in expressions for symbol in getattr(e, "free_symbols", ())}
     return list(islice(sympy.numbered_symbols("C", start=1, exclude=map(sympy.Symbol, names)), 2))
+
+
+def _special(solution: Solution, eq: Any, known: Assumptions, budget: Budget) -> tuple[Any, Any]:
+    """Solutions in special functions where there is no Liouvillian one."""
+    symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ()) if symbol.name != solution.variable}
+    found = special_functions(solution.S, solution.gauge, solution.variable, budget, symbols=symbols)
+    if not found:
+        raise NotImplementedError(f"{no_solution(solution, known)}; {found}")
+    return found.y1, found.y2
 
 
 def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str:
@@ -191,9 +202,11 @@ def _by_coefficients(equation: Equation, right: Any, x: Any, numbers: Mapping[An
         if found is not None or S:
             return None if found is None else sympy.Add(*(gauge * term for term in sympy.Add.make_args(found)))
     den = S.den if S else equation.gauge.den
+    if den.degree == 0:
+        return None
     root = den[den.degree - 1] / (den.degree * den.lc)  # -c
     s = S * S.field.poly([root, 1]) ** 2
-    if den.degree == 0 or not s.is_polynomial or s.num.degree > 0:
+    if not s.is_polynomial or s.num.degree > 0:
         return None
     t, u = sympy.Dummy(real=True), x + atoms.constant(root).xreplace(numbers)
     gauge = gauge.xreplace({atoms.primitive(s.field.poly([root, 1]))[1]: u})

@@ -1,0 +1,6 @@
+"""Special functions: S goes in, two solutions in Airy's, Bessel's, Kummer's or Gauss' functions come out.
+
+`answer.special_functions` is the entry, and the module to read first.  `find.find` searches: `confluent` and `gauss` propose
+pull-backs of the standard equations (`pullback`), from the polar parts (`polar`) and the exponents of S, and none is returned
+that doesn't satisfy the identity exactly.  `express` writes the solutions down.
+"""

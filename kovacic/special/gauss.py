@@ -1,0 +1,139 @@
+"""Gauss' equation pulled back by a rational function.
+
+All singular points are regular.  Those that aren't apparent lie over 0, 1 or infinity, and where f has the multiplicity m over
+a point with exponent difference e, the exponent difference of S is m e.  So the singular places are distributed: zeros of f,
+poles of f, and the rest, zeros of f - 1.  The first two groups have to be complete; then f is known up to a constant factor,
+which a place of the third group determines, or, where that has none because m e = 1 at its points, a critical value of f.
+
+Reference: M. van Hoeij, R. Vidunas, J. Algebra 441 (2015) 626-659, for the patterns of branching.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd, lcm
+
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.engine.places import Kind, Place, Problem, rational_square_root
+from kovacic.special.pullback import Gauss, Pullback
+
+#: The largest degree of f, the most places that are distributed, and up to which number apparent ones are among them.
+MOST, _PLACES, _WITH_APPARENT = 12, 14, 7
+
+
+@dataclass(frozen=True)
+class _Fibre:
+    """All points over one of 0, 1, infinity: places with multiplicities, and the square of the exponent difference."""
+
+    places: tuple[tuple[Place, int], ...]
+    square: Poly
+    degree: int
+
+    @property
+    def polynomial(self) -> Poly:
+        """The product over the finite places."""
+        result = self.square.field.poly([1])
+        for place, k in self.places:
+            if not place.at_infinity:
+                result = result * place.factor**k
+        return result
+
+
+def candidates(problem: Problem) -> Iterator[Pullback]:
+    """Pull-backs that are possible, those of small degree first; each of them has to be verified."""
+    regular = [place for place in problem.places if place.kind is Kind.REGULAR]
+    places = [place for place in regular if not place.is_apparent]
+    if len(places) > _PLACES or any(place.delta_squared is None for place in places):
+        return
+    fibres = sorted(_fibres(regular if len(regular) <= _WITH_APPARENT else places), key=lambda fibre: fibre.degree)
+    tried = set()
+    for i, zeros in enumerate(fibres):
+        for poles in fibres[i + 1 :]:
+            problem.budget.check()
+            if zeros.degree != poles.degree or any(p is q for p, _ in zeros.places for q, _ in poles.places):
+                continue
+            used = [place for place, _ in (*zeros.places, *poles.places)]
+            rest = [place for place in places if not any(place is one for one in used)]
+            for f in _scaled(zeros.polynomial, poles.polynomial, rest):
+                if f not in tried:
+                    tried.add(f)
+                    yield from _with_third(f, zeros, poles, regular)
+
+
+def _fibres(places: list[Place]) -> Iterator[_Fibre]:
+    """Every set of places that can be a whole fibre, with every way to choose the multiplicities."""
+
+    def extend(index: int, chosen: list[Place], size: int) -> Iterator[list[Place]]:
+        if chosen:
+            yield chosen
+        for k in range(index, len(places)):
+            more = size + places[k].degree
+            if more <= MOST and (not chosen or _ratio(places[k], chosen[0]) is not None):
+                yield from extend(k + 1, [*chosen, places[k]], more)
+
+    for chosen in extend(0, [], 0):
+        first = chosen[0].delta_squared
+        assert first is not None
+        ratios = [_ratio(place, chosen[0]) for place in chosen]
+        if not first:  # all of them 0: the multiplicities are free, and only equal ones are tried
+            ratios = [Fraction(1)] * len(chosen)
+        known = [ratio for ratio in ratios if ratio is not None]
+        unit = Fraction(gcd(*(r.numerator for r in known)), lcm(*(r.denominator for r in known)))
+        least = [int(ratio / unit) for ratio in known]
+        size = sum(m * place.degree for m, place in zip(least, chosen, strict=True))
+        for k in range(1, MOST // size + 1):
+            square = first * unit * unit * Fraction(1, k * k)
+            yield _Fibre(tuple((place, k * m) for place, m in zip(chosen, least, strict=True)), square, k * size)
+
+
+def _ratio(place: Place, other: Place) -> Fraction | None:
+    """The quotient of the exponent differences if it is rational; 1 where both vanish."""
+    over, under = place.delta_squared, other.delta_squared
+    assert over is not None
+    assert under is not None
+    if not over or not under:
+        return Fraction(1) if not over and not under else None
+    return rational_square_root(over / under)
+
+
+def _scaled(zeros: Poly, poles: Poly, rest: list[Place]) -> Iterator[RatFunc]:
+    """The multiples of zeros/poles that are 1 at the places of the rest, or have 1 for a critical value."""
+    f = RatFunc(zeros, poles)
+    if rest:
+        values = [_value(f, rest[0])]
+    else:
+        slope = f.derivative().num
+        factors = slope.field.factor(slope) if slope.degree > 0 else []
+        values = [
+            f.num * f.den.inverse_modulo(p) % p for p, _ in factors if f.num.gcd(p).degree == f.den.gcd(p).degree == 0
+        ]
+        values.append(f.num.lc if f.degree == 0 else f.num * 0)
+    for value in values:
+        if value is not None and value.degree == 0:
+            yield f / value
+
+
+def _value(f: RatFunc, place: Place) -> Poly | None:
+    if place.at_infinity:
+        return f.num.lc if f.degree == 0 else None
+    if f.den.gcd(place.factor).degree:
+        return None
+    return f.num * f.den.inverse_modulo(place.factor) % place.factor
+
+
+def _with_third(f: RatFunc, zeros: _Fibre, poles: _Fibre, regular: list[Place]) -> Iterator[Pullback]:
+    """The exponent difference over 1 from the exponent difference and the multiplicity of one point there."""
+    over_one = f.num - f.den
+    if over_one.degree < 0:
+        return
+    at_infinity = zeros.degree - over_one.degree
+    if at_infinity:
+        square, m = next((place.delta_squared for place in regular if place.at_infinity), None), at_infinity
+    else:
+        p, m = max(over_one.field.factor(over_one), key=lambda pair: pair[1])
+        square = next((place.delta_squared for place in regular if place.factor == p and not place.at_infinity), None)
+    square = over_one.field.poly([1]) if square is None else square
+    yield Pullback(Gauss(zeros.square, square * Fraction(1, m * m), poles.square), f)

@@ -1,0 +1,166 @@
+"""Special functions: pull-backs that were made first are found, and what is written down solves the equation to 30 digits."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mpmath
+import pytest
+import sympy
+
+import kovacic
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.limits import Budget, Limits
+from kovacic.special import confluent, gauss
+from kovacic.special.answer import special_functions
+from kovacic.special.find import find
+from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
+from tests.special_cases import KINDS, Case, pull_backs
+from tests.transform import pull_back
+
+x = sympy.Symbol("x")
+X = RatFunc(QQ.poly([0, 1]))
+#: Off the real axis, far from the small rational singular points.
+POINT = mpmath.mpc("0.31959", "0.14606")
+
+
+def function(expression: Any, values: dict[str, Any]) -> Any:
+    """A function of x for mpmath, which shares nothing with SymPy's rules for derivatives."""
+    named = {symbol: values[symbol.name] for symbol in expression.free_symbols if symbol.name in values}
+    return sympy.lambdify(x, expression.xreplace(named), "mpmath")
+
+
+def solves(answer: Any, S: Any, gauge: Any = 0, **values: Any) -> bool:
+    """y'' - 2 g y' + (g^2 - g' - S) y = 0 to 30 digits for both solutions, and are these independent?"""
+    S, gauge = sympy.sympify(S), sympy.sympify(gauge)
+    with mpmath.workdps(40):
+        point = mpmath.mpmathify(POINT)
+        first, zeroth = (function(e, values)(point) for e in (-2 * gauge, gauge**2 - gauge.diff(x) - S))
+        jets = [mpmath.taylor(function(y, values), point, 2) for y in answer.solutions]
+        for y, slope, half in jets:
+            terms = (2 * half, first * slope, zeroth * y)
+            if abs(sum(terms)) > mpmath.mpf(10) ** -30 * sum(map(abs, terms)):
+                return False
+        (u, du, _), (v, dv, _) = jets
+        return bool(abs(u * dv - du * v) > mpmath.mpf(10) ** -12 * (abs(u * dv) + abs(du * v)))
+
+
+def special(S: RatFunc) -> Any:
+    return special_functions(S, S * 0, "x", Budget())
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_generated_pull_backs_are_found(kind: str) -> None:
+    for case in pull_backs(4, kinds=(kind,), seed=7):
+        found = find(case.S, Budget()).pullback
+        assert found is not None, (case.f, case.S)
+        # The identity once more, by the code of the tests.
+        assert pull_back(found.equation.S, found.f) == case.S
+
+
+@pytest.mark.parametrize(
+    "case", list(pull_backs(1, degrees=range(1, 4, 2), seed=11)), ids=lambda case: f"{case.kind} {case.degree}"
+)
+def test_solutions_of_generated_pull_backs_are_right_to_30_digits(case: Case) -> None:
+    assert solves(special(case.S), case.S)
+
+
+#: Equations as they stand in the books, with what the solutions are there (DLMF and the sections on each function).
+BOOKS = [
+    ("y'' = x*y", "airyai(x)", "airybi(x)"),
+    ("y'' = (2*x + 3)*y", "airyai(2**(1/3)*(x + 3/2))", "airybi(2**(1/3)*(x + 3/2))"),
+    ("y'' + k*x*y = 0", "airyai(-k**(1/3)*x)", "airybi(-k**(1/3)*x)"),
+    ("x^2*y'' + x*y' + (x^2 - n^2)*y = 0", "besselj(n, x)", "bessely(n, x)"),
+    ("x^2*y'' + x*y' - (x^2 + n^2)*y = 0", "besseli(n, x)", "besselk(n, x)"),
+    ("x^2*y'' + x*y' + (k^2*x^2 - 4)*y = 0", "besselj(2, k*x)", "bessely(2, k*x)"),
+    ("x*y'' + y' + x*y = 0", "besselj(0, x)", "bessely(0, x)"),
+    ("x*y'' + y = 0", "sqrt(x)*besselj(1, 2*sqrt(x))", "sqrt(x)*bessely(1, 2*sqrt(x))"),
+    ("y'' + x^2*y = 0", "sqrt(x)*besselj(1/4, x**2/2)", "sqrt(x)*bessely(1/4, x**2/2)"),
+    ("x^3*y'' + y = 0", "sqrt(x)*besselj(1, 2/sqrt(x))", "sqrt(x)*bessely(1, 2/sqrt(x))"),
+    ("x*y'' + (b - x)*y' - a*y = 0", "hyper((a,), (b,), x)", "x**(1 - b)*hyper((a - b + 1,), (2 - b,), x)"),
+    ("y'' - 2*x*y' + 2*n*y = 0", "hyper((-n/2,), (1/2,), x**2)", "x*hyper((1/2 - n/2,), (3/2,), x**2)"),
+    ("x*(1-x)*y'' + (1-2*x)*y' - y/4 = 0", "hyper((1/2, 1/2), (1,), x)", "hyper((1/2, 1/2), (1,), 1 - x)"),
+    (
+        "x*(1-x)*y'' + (c-(a+b+1)*x)*y' - a*b*y = 0",
+        "hyper((a, b), (c,), x)",
+        "x**(1 - c)*hyper((a - c + 1, b - c + 1), (2 - c,), x)",
+    ),
+    (
+        "(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0",
+        "hyper((-n, n + 1), (1,), 1/2 - x/2)",
+        "hyper((-n, n + 1), (1,), x/2 + 1/2)",
+    ),
+]
+
+
+@pytest.mark.parametrize(("equation", "first", "second"), BOOKS, ids=[row[0] for row in BOOKS])
+def test_equations_of_the_books(equation: str, first: str, second: str) -> None:
+    answer = kovacic.solve(equation)
+    assert answer.status is kovacic.Status.NONE_EXISTS
+    assert [str(y) for y in answer.special] == [first, second]
+    values = {name: mpmath.mpf(k) / 7 for name, k in (("a", 2), ("b", 5), ("c", 3), ("k", 4), ("n", 9))}
+    assert solves(answer.special, answer.S, answer.gauge, **values)
+
+
+def test_constants_of_quadratic_fields() -> None:
+    for equation in (
+        "y'' = (x^2/3 - 1)*y",
+        "y'' = (sqrt(2)*x + 1)*y",
+        "x^2*y'' + x*y' + (x^2 - 2)*y = 0",
+        "y'' = -x^2*y + y",
+    ):
+        answer = kovacic.solve(equation)
+        assert solves(answer.special, answer.S, answer.gauge), equation
+
+
+def test_equations_outside_of_the_classes() -> None:
+    for S in ("x^3 + x^2", "x^4 + x^2 + x", "1/x + 1/(x - 1) + 3", "x + 1/x", "1/x^3 + x^3"):
+        answer = kovacic.solve(S)
+        assert answer.status is kovacic.Status.NONE_EXISTS
+        assert not answer.special
+        assert answer.special.solutions == ()
+        assert "searched" in str(answer.special)
+        assert "Whittaker" in str(answer.special)
+    heun = kovacic.solve("5/(7*x^2) + 3/(11*(x-1)^2) + 2/(x-3)^2 + 1/(x*(x-1)*(x-3))")
+    assert not heun.special
+    assert "Gauss" in str(heun.special)
+
+
+def test_an_exhausted_budget_is_a_value() -> None:
+    search = find(next(pull_backs(1, kinds=("Gauss",))).S, Budget(Limits(seconds=0)))
+    assert search.pullback is None
+    assert "time limit" in str(search.stopped)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_nothing_is_returned_that_does_not_satisfy_the_identity(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every candidate is spoiled: by a parameter, or in f."""
+    case = next(pull_backs(1, kinds=(kind,), degrees=range(3, 4), seed=5))
+    found = find(case.S, Budget()).pullback
+    assert found is not None
+    one = QQ.poly([1])
+    for spoiled in (
+        Pullback(found.equation, found.f + X),
+        Pullback(found.equation, found.f * found.f),
+        Pullback(found.equation, RatFunc(one)),
+        Pullback(Airy(one * 7), found.f),
+        Pullback(Confluent(one, one, one * 5), found.f),
+        Pullback(Gauss(one * 2, one * 3, one * 5), found.f),
+    ):
+        for module in (confluent, gauss):
+            monkeypatch.setattr(module, "candidates", lambda problem, spoiled=spoiled: iter([spoiled]))
+        assert find(case.S, Budget()).pullback is None
+
+
+def test_dsolve_uses_them() -> None:
+    y, t = sympy.Function("y"), sympy.Symbol("t")
+    n = sympy.Symbol("n", real=True)
+    solution = kovacic.dsolve(t**2 * y(t).diff(t, 2) + t * y(t).diff(t) + (t**2 - n**2) * y(t), y(t))
+    C1, C2 = sympy.symbols("C1 C2")
+    assert solution.rhs == C1 * sympy.besselj(n, t) + C2 * sympy.bessely(n, t)
+    start = kovacic.dsolve("y'' = x*y", ics={"y(0)": 1, "y'(0)": 0}).rhs
+    assert abs(start.subs(x, 0).evalf(30) - 1) < 1e-28
+    assert abs(start.diff(x).subs(x, 0).evalf(30)) < 1e-28
+    with pytest.raises(NotImplementedError, match=r"SL2.*searched"):
+        kovacic.dsolve("y'' = (x^3 + x^2)*y")
