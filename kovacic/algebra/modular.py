@@ -6,6 +6,7 @@ A series to order L is a polynomial of degree below L; the prime must exceed the
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import accumulate
 from operator import mul
 from typing import Any
 
@@ -168,20 +169,30 @@ def _extend_one_by_one(
 ) -> None:
     """Append the terms from number `start` on, `shares` having what the terms before contribute."""
     (a1, b0), (a, b, c), (twice_weighted, weighted, u) = indicial, tails, terms
-    reach = max(map(len, tails))
-    for j in range(start or 1, end):
-        pivot = j * (a1 * (j - 1) + b0) % p
-        if pivot == 0:
-            raise BadPrimeError(f"{p} meets an indicial factor")
+    reach, first = max(map(len, tails)), start or 1
+    inverses = inverses_modulo([j * (a1 * (j - 1) + b0) % p for j in range(first, end)], p)
+    for j, inverse in enumerate(inverses, first):
         # Scalar products of the coefficients with the last terms, backwards.
         back = start if j < start + reach else j - reach
         total = shares[j] + sum(map(mul, c, u[:back:-1]))
         total += sum(map(mul, b, weighted[:back:-1]))
         total += sum(map(mul, a, twice_weighted[:back:-1]))
-        value = -total * pow(pivot, -1, p) % p
+        value = -total * inverse % p
         u.append(value)
         weighted.append(j * value % p)
         twice_weighted.append(j * (j - 1) * value % p)
+
+
+def inverses_modulo(values: Sequence[int], p: int) -> list[int]:
+    """The inverses, by one of their product [Montgomery].  Raises `BadPrimeError` where p divides a value."""
+    products = list(accumulate(values, lambda product, value: product * value % p, initial=1))
+    if not products[-1]:
+        raise BadPrimeError(f"{p} divides a value that is to be inverted")
+    inverse, inverses = pow(products.pop(), -1, p), []
+    for value, product in zip(reversed(values), reversed(products), strict=True):
+        inverses.append(inverse * product % p)
+        inverse = inverse * value % p
+    return inverses[::-1]
 
 
 def square_root(value: int, p: int) -> int | None:

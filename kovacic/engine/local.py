@@ -59,8 +59,8 @@ def chart(h: Homomorphism, problem: Problem, place: Place) -> Chart | None:
     num, den, D = h(place.num), h.keeping_degree(place.den), h.keeping_degree(problem.D)
     if place.at_infinity:
         D = reverse(D, D.degree()).left_shift(place.weight)
-    equation = local_equation(num, den, root, place.order)
     num, den, D = (translate(f, root) for f in (num, den, D))
+    equation = local_equation(num, den, place.order)
     return Chart(num, den, D, D.degree() + max(opposite, 1) - 2, equation, root, place.at_infinity)
 
 

@@ -97,8 +97,8 @@ class Place:
             try:
                 root = next(simple_roots(h.keeping_degree(self.factor)), None)
                 if root is not None:
-                    equation = local_equation(h(self.num), h.keeping_degree(self.den), root, 2)
-                    return logarithm_obstruction(equation, delta) != 0
+                    num, den = translate(h(self.num), root), translate(h.keeping_degree(self.den), root)
+                    return logarithm_obstruction(local_equation(num, den, 2), delta) != 0
             except BadPrimeError:
                 pass
             self.budget.check()
@@ -231,15 +231,13 @@ class LocalEquation:
         return max(1, self.order // 2)
 
 
-def local_equation(num: Any, den: Any, root: int, order: int) -> LocalEquation:
-    """The equation at a root of den modulo p.  Raises `BadPrimeError` if the order of the pole isn't `order` there."""
-    E = translate(den, root)
-    if any(int(E[i]) for i in range(order)) or int(E[order]) == 0:
+def local_equation(num: Any, den: Any, order: int) -> LocalEquation:
+    """y'' = num/den y modulo p, with a pole of this order at t = 0.  Raises `BadPrimeError` if it has another order."""
+    if any(den.coeffs()[:order]) or not den[order]:
         raise BadPrimeError("the order of a pole changes")
-    N = translate(num, root)
     if order == 1:
-        return LocalEquation(N.left_shift(1), E.right_shift(1), 2)
-    return LocalEquation(N, E.right_shift(order), order)
+        return LocalEquation(num.left_shift(1), den.right_shift(1), 2)
+    return LocalEquation(num, den.right_shift(order), order)
 
 
 def reduced_equation(equation: LocalEquation, Q: Any) -> tuple[Any, Any, Any]:
