@@ -201,7 +201,8 @@ def outcome(fault: Fault, tests: list[str], seconds: float) -> dict[str, Any]:
     """Whether the tests notice the fault, and in what time."""
     command = [sys.executable, __file__, "--plant", fault.file, str(fault.number), *tests]
     started = time.monotonic()
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1",
+                   "HYPOTHESIS_PROFILE": "mutation"}  # fmt: skip
     try:
         status = subprocess.run(
             command,

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import pickle
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from io import BytesIO
 from typing import Any
 
+_LONGEST = 1e8
 # The interpreter looks for modules where this one does, and not in the current directory.
 _START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.apart import main; main()"
 
@@ -22,8 +24,9 @@ def last_of(function: Callable[..., Iterator[Any]], *arguments: Any, seconds: fl
     """
     if seconds <= 0:
         return None
+    seconds = min(seconds, _LONGEST)
     command = [sys.executable, "-P", "-c", _START, json.dumps(sys.path)]
-    given = pickle.dumps((function, arguments))
+    given = pickle.dumps((function, arguments, seconds))
     try:
         output = subprocess.run(
             command, input=given, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=seconds
@@ -41,8 +44,10 @@ def last_of(function: Callable[..., Iterator[Any]], *arguments: Any, seconds: fl
 
 
 def main() -> None:
-    """The other end: each value is written at once."""
-    function, arguments = pickle.load(sys.stdin.buffer)
+    """The other end: each value is written at once.  The system ends it, if the process that waits for it was killed."""
+    function, arguments, seconds = pickle.load(sys.stdin.buffer)
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_REAL, seconds + 1)
     for value in function(*arguments):
         pickle.dump(value, sys.stdout.buffer)
         sys.stdout.buffer.flush()

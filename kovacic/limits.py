@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
+from functools import wraps
+from typing import ParamSpec, TypeVar
 
 from kovacic.errors import LimitExceeded
 
@@ -41,7 +43,10 @@ DEFAULT_SECONDS = 600.0
 
 
 class Budget:
-    """The running clock of one call: `check()` between the steps, raises `LimitExceeded` once the time is over."""
+    """The running clock of one call: `check()` between the steps, raises `LimitExceeded` once the time is over.
+
+    One that is made while another one is `watched` ends with that at the latest: the parts of a call share its time.
+    """
 
     __slots__ = ("_deadline", "_seconds", "limits")
 
@@ -49,6 +54,9 @@ class Budget:
         self.limits = limits
         self._seconds = DEFAULT_SECONDS if limits.seconds is None else limits.seconds
         self._deadline = time.monotonic() + self._seconds
+        outer = _WATCHED.get()
+        if outer is not None and outer._deadline < self._deadline:
+            self._seconds, self._deadline = outer._seconds, outer._deadline
 
     def check(self) -> None:
         if time.monotonic() > self._deadline:
@@ -81,6 +89,22 @@ class Budget:
 
 
 _WATCHED: ContextVar[Budget | None] = ContextVar("watched", default=None)
+
+
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
+
+
+def limited(call: Callable[_P, _R]) -> Callable[_P, _R]:
+    """The call, watched: it keeps the limits of its keyword `limits`, or of the object that it is a method of."""
+
+    @wraps(call)
+    def within(*arguments: _P.args, **keywords: _P.kwargs) -> _R:
+        given = keywords.get("limits") or (getattr(arguments[0], "limits", None) if arguments else None)
+        with Budget(given if isinstance(given, Limits) else DEFAULT_LIMITS).watched():
+            return call(*arguments, **keywords)
+
+    return within
 
 
 def check_time() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +14,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Status
 from kovacic.engine.decide import decide as decide_structure
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed, needs
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.reading.given import Equation, parameters_of
 from kovacic.verify import Verification, verify
 
@@ -43,7 +43,7 @@ class Solution:
     time of reading, deciding and verifying together (None for an answer that was read from JSON).  `equation` is the
     equation of which y'' = S y is the normal form, None where S itself was given.  `assumed` says that a theorem proves the
     answer for all values with the assumptions, but for those that the notices name.  `limits` hold for each view that is
-    computed later, the group and the closed form for instance.
+    computed later, the group and the closed form for instance, and for `verify`.
     """
 
     text: str
@@ -103,6 +103,7 @@ class Solution:
         return extension.modulus if isinstance(extension, AlgebraicField) else None
 
     @cached_property
+    @limited
     def group(self) -> Group | None:
         """The differential Galois group of y'' = S y, a subgroup of SL2(C).
 
@@ -112,22 +113,27 @@ class Solution:
         """
         from kovacic.galois import group_of
 
-        budget = Budget(self.limits)
         try:
-            with budget.watched():
-                group = group_of(self.S, self.decision, self.limits)
-                if group is None or (verification := verify(self.S, self.decision, group.claim, budget=budget)):
-                    return group
+            group = group_of(self.S, self.decision, self.limits)
+            if group is None or (verification := verify(self.S, self.decision, group.claim)):
+                return group
         except LimitExceeded:
             return None
         raise VerificationFailed(f"the group of S = {self.S} failed its own check\n{verification}")
 
     @cached_property
+    @limited
     def equation_group(self) -> EquationGroup | None:
-        """The group of the equation as it was given, in GL2(C); None if undecided, or with a gauge and parameters."""
+        """The group of the equation as it was given, in GL2(C).
+
+        None without `group`, with a gauge and parameters, or where it would take longer than the limits allow.
+        """
         from kovacic.galois import equation_group
 
-        return None if self.group is None else equation_group(self.S, self.decision, self.group, self.gauge)
+        try:
+            return None if self.group is None else equation_group(self.S, self.decision, self.group, self.gauge)
+        except LimitExceeded:
+            return None
 
     @property
     def is_algebraic(self) -> bool | None:
@@ -135,6 +141,7 @@ class Solution:
         return None if self.equation_group is None else self.equation_group.finite
 
     @cached_property
+    @limited
     def closed_form(self) -> ClosedForm | None:
         """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution.
 
@@ -142,8 +149,7 @@ class Solution:
         """
         from kovacic.closed_form.form import solutions
 
-        with Budget(self.limits).watched():
-            return None if self.case is None else solutions(self.S, self.decision, self.gauge, self.variable)
+        return None if self.case is None else solutions(self.S, self.decision, self.gauge, self.variable)
 
     @cached_property
     def special(self) -> SpecialFunctions:
@@ -160,6 +166,7 @@ class Solution:
         """y1 and y2, SymPy expressions that solve the equation as it was given; empty without a Liouvillian solution."""
         return () if self.closed_form is None else (self.closed_form.y1, self.closed_form.y2)
 
+    @limited
     def at(self, x: Any, *, x0: Any, **options: Any) -> Any:
         """A ball that contains y(x): `y0=` and `dy0=` at x0, or `which="regular"`, or `frobenius=(c1, c2)`; see
         `kovacic.evaluate`."""
@@ -167,6 +174,7 @@ class Solution:
 
         return evaluate(self, x, x0=x0, **options)
 
+    @limited
     def lambdify(self, **options: Any) -> ProductForm | TabulatedFunction:
         """A solution as a NumPy function, its error measured; see `kovacic.doubles.lambdify.lambdify`."""
         with needs("numeric", "lambdify"):
@@ -174,6 +182,7 @@ class Solution:
 
             return lambdify(self, **options)
 
+    @limited
     def plot(self, start: Any, stop: Any, **options: Any) -> Figure:
         """A matplotlib figure of proven values over [start, stop]; see `kovacic.views.plot.plot`."""
         with needs("plot", "a picture"):
@@ -181,6 +190,7 @@ class Solution:
 
             return plot(self, start, stop, **options)
 
+    @limited
     def compare_with_monodromy(self, **options: Any) -> Agreement:
         """Does the monodromy, by analytic continuation, agree with `group`?  See `kovacic.enclosure.agreement`."""
         from kovacic.enclosure.agreement import agrees_with_group
@@ -193,25 +203,31 @@ class Solution:
         return self.decision.exclusions
 
     @property
+    @limited
     def generic_conditions(self) -> GenericConditions:
-        """What must not vanish, and which exponents must not be rational, for the answer to hold; empty without parameters."""
+        """What must not vanish, and which exponents must not be rational, for the answer to hold; empty without parameters.
+
+        Raises `LimitExceeded` where that takes longer than the limits allow.
+        """
         from kovacic.parametric.generic import generic_conditions
 
         return generic_conditions(self)
 
+    @limited
     def verify(self) -> Verification:
         """Recompute every claim, the group's too, by independent code; true exactly when all of them hold.
 
-        Raises `LimitExceeded` where that takes more than the default limits allow.
+        Raises `LimitExceeded` where that takes more than the limits allow.
         """
         from kovacic.galois import group_of
 
         verification = verify(self.S, self.decision)
         if not verification:
             return verification
-        group = group_of(self.S, self.decision)
+        group = group_of(self.S, self.decision, self.limits)
         return verification if group is None else verify(self.S, self.decision, group.claim)
 
+    @limited
     def to_json(self, **options: Any) -> str:
         """The answer as one line of JSON, schema 1."""
         from kovacic.views.json import dumps
@@ -219,11 +235,15 @@ class Solution:
         return dumps(self, **options)
 
     @classmethod
-    def from_json(cls, text: str | Mapping[str, Any]) -> Solution:
-        """The answer that was written by `to_json`; call `verify` before trusting it."""
+    @limited
+    def from_json(cls, text: str | Mapping[str, Any], *, limits: Limits = DEFAULT_LIMITS) -> Solution:
+        """The answer that was written by `to_json`, verified again: `verified` says with what outcome.
+
+        Raises `InputError` where it isn't one, and `LimitExceeded` where verifying takes longer than the limits allow.
+        """
         from kovacic.views.json import loads
 
-        return loads(text)
+        return replace(loads(text), limits=limits)
 
     def explain(self, *, format: str = "text", solutions: bool = True) -> str:
         """The derivation as a reader of Kovacic's paper follows it: "text", "markdown", "latex", or "html" (a page of its own).
@@ -271,6 +291,7 @@ class Verdict:
     reason: str | None = None
 
 
+@limited
 def solve(
     S: Any = None,
     *,
@@ -294,8 +315,8 @@ def solve(
 
     Returns a `Solution`.  Its `status` is UNDECIDED exactly when a limit of the work was reached, or where the assumptions
     imply a case with an omega that depends on the values of the parameters; `reason` says so.  Raises `InputError` for
-    what isn't such a function, `LimitExceeded` for an input above the limits, and `VerificationFailed` if the answer
-    doesn't pass its own check, which is a defect of this package.
+    what isn't such a function, `LimitExceeded` for an input above the limits, or that isn't read in time, and
+    `VerificationFailed` if the answer doesn't pass its own check, which is a defect of this package.
 
     >>> import kovacic
     >>> answer = kovacic.solve("x^2 + 3")
@@ -342,6 +363,7 @@ def solve(
     )
 
 
+@limited
 def decide(
     S: Any, *, var: str | None = None, assume: Mapping[Any, str] | None = None, limits: Limits = DEFAULT_LIMITS
 ) -> Verdict:
@@ -373,5 +395,8 @@ def _decided(
         return decision, parsed.notices, False
     from kovacic.parametric.api import under_assumptions
 
-    decision, sentence, proven = under_assumptions(parsed, decision, known, budget.limits, certify=certify)
+    try:
+        decision, sentence, proven = under_assumptions(parsed, decision, known, budget.limits, certify=certify)
+    except LimitExceeded as limit:
+        return Decision(None, (), undecided=str(limit)), parsed.notices, False
     return decision, (*parsed.notices, sentence) if sentence else parsed.notices, proven

@@ -1,4 +1,5 @@
-"""Hypothesis profiles: `ci` (the default: the same examples every time), `dev` (random), `fuzz` (random, many).
+"""Hypothesis profiles: `ci` (the default: the same examples every time), `dev` (random), `fuzz` (random, many), and
+`mutation` (as `ci`, but a failure isn't made smaller).
 
 Choose one with the environment variable HYPOTHESIS_PROFILE; KOVACIC_FUZZ sets the number of equations of the long run.
 """
@@ -8,13 +9,14 @@ from __future__ import annotations
 import os
 import signal
 
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, Phase, settings
 
 SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large, HealthCheck.large_base_example]
 
 settings.register_profile(
     "ci", max_examples=50, deadline=None, derandomize=True, database=None, suppress_health_check=SLOW
 )
+settings.register_profile("mutation", settings.get_profile("ci"), phases=[Phase.explicit, Phase.generate])
 settings.register_profile("dev", deadline=None, suppress_health_check=SLOW)
 settings.register_profile("fuzz", deadline=None, database=None, suppress_health_check=SLOW, print_blob=True)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))

@@ -20,6 +20,7 @@ from operator import mul
 from typing import Any, Self
 
 from kovacic.algebra.modular import BadPrimeError, multiplicity
+from kovacic.limits import check_time
 
 Scalar = int | Fraction
 
@@ -324,6 +325,7 @@ def squarefree_factors(polynomial: Poly) -> list[tuple[Poly, int]]:
 
 def remainders(polynomial: Poly, moduli: Sequence[Poly]) -> list[Poly]:
     """The polynomial modulo each of the moduli, by way of their products [Modern Computer Algebra, sec. 10.1]."""
+    check_time()
     rest = polynomial % product(moduli)
     half = len(moduli) // 2
     return [rest] if not half else remainders(rest, moduli[:half]) + remainders(rest, moduli[half:])
@@ -334,6 +336,7 @@ def sum_of_cofactors(factors: Sequence[Poly]) -> Poly:
     half = len(factors) // 2
     if not half:
         return factors[0].field.poly([1])
+    check_time()
     left, right = factors[:half], factors[half:]
     return sum_of_cofactors(left) * product(right) + product(left) * sum_of_cofactors(right)
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
+from math import inf
 from typing import Any
 
 from flint import fmpq, fmpq_poly, fmpz_poly, nmod_poly
@@ -13,12 +15,15 @@ from flint.utils.flint_exceptions import DomainError
 from kovacic.algebra.lifting import Lifter, Residues, primes
 from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
-from kovacic.limits import check_time
+from kovacic.apart import last_of
+from kovacic.limits import check_time, watched_seconds
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
 _EUCLID_DEGREE = 16
 #: Above this degree it is tried first whether a polynomial to be factored is a square: gcds with derivatives are slow.
 _ROOT_DEGREE = 50
+#: Above this degree polynomials are factored in a process that can be stopped.
+_LONG_DEGREE = 400
 
 
 def to_fmpq(value: Scalar) -> Any:
@@ -275,7 +280,7 @@ class RationalField(Field):
                 rest, power = rest.sqrt(), 2 * power
         except DomainError:
             pass
-        factors = rest.factor()[1]
+        factors = list(_factored_apart(rest) if rest.degree() > _LONG_DEGREE else rest.factor()[1])
         if len(factors) > 1:
             factors.sort(key=lambda pair: (pair[0].degree(), [int(c) for c in pair[0].coeffs()]))
         return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), power * k) for f, k in factors]
@@ -303,6 +308,28 @@ class RationalField(Field):
 
     def __str__(self) -> str:
         return "Q"
+
+
+def _factored_apart(polynomial: Any) -> list[tuple[Any, int]]:
+    """The factors, found where it can be stopped: that may take hours, for x^5040 - 1 or where many factors lie modulo p.
+
+    The last ones are kept, since the kernel and the views ask for them again.
+    """
+    if watched_seconds(inf) == inf:
+        return list(polynomial.factor()[1])
+    found = _factors(tuple(int(c) for c in polynomial.coeffs()))
+    return [(fmpz_poly(list(factor)), k) for factor, k in found]
+
+
+@lru_cache(maxsize=16)
+def _factors(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
+    found = last_of(_yield_factors, coefficients, seconds=watched_seconds(inf))
+    check_time()
+    return next(_yield_factors(coefficients)) if found is None else found  # where no process can be started
+
+
+def _yield_factors(coefficients: tuple[int, ...]) -> Iterator[list[tuple[tuple[int, ...], int]]]:
+    yield [(tuple(int(c) for c in f.coeffs()), k) for f, k in fmpz_poly(list(coefficients)).factor()[1]]
 
 
 def _flint_scalar(value: Scalar | Poly) -> Any:

@@ -9,7 +9,7 @@ import sympy
 
 from kovacic.closed_form.atoms import Atoms
 from kovacic.errors import InputError
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.reading.given import Equation
 from kovacic.solution import Solution, solve
 
@@ -34,6 +34,7 @@ class RiccatiSolutions:
         return iter(self.rational)
 
 
+@limited
 def solve_riccati(
     p: Any, q: Any, r: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS
 ) -> RiccatiSolutions:
