@@ -134,7 +134,7 @@ def test_both_theorems_by_the_engine_for_all_radii_and_roots():
     assert statement.complete is True
     assert statement.generic.case == 2
     assert {str(region) for region in statement.regions if region.defined} == {
-        "x1 - x2 = 0: case 1",
+        "x1 = x2: case 1",
         "2*R/R1 in Z: case 1",
     }
     for values, case in (((3, 2), 1), ((1, 3), 2), ((-7, 2), 1), ((5, 7), 2)):

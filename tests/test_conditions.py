@@ -131,9 +131,9 @@ def test_sextic_oscillator() -> None:
     answer = kovacic.conditions("x^6 + a*x^2 + b", var="x", max_degree=3)
     assert answer.complete is True
     (region,) = answer.regions
-    assert str(region.statement) == "a = -2*d - 3 or a = 2*d + 3, d in N, and Delta_d = 0"
+    assert str(region.statement) == "a = +-(2*d + 3), d in N, and Delta_d = 0"
     assert region.case == 1
-    assert region.determinants[2] == "Delta_2 = b^2 - 8 where a + 7 = 0, b^2 + 8 where a - 7 = 0"
+    assert region.determinants[2] == "Delta_2 = b^2 - 8 where a = -7, b^2 + 8 where a = 7"
     assert len(region.determinants) == 4
     assert answer.case_at({"a": -7, "b": sympy.sqrt(8)}) == 1
     assert answer.case_at({"a": -7, "b": 1}) is None
@@ -151,16 +151,16 @@ def test_sextic_oscillator() -> None:
     [
         (
             "x^4 + a*x^2 + b*x + c",
-            "b = -2*d - 2 or b = 2*d + 2, d in N, and Delta_d = 0",
+            "b = +-(2*d + 2), d in N, and Delta_d = 0",
             {0: {"a^2 - 4*c"}, 1: {"a^4 - 8*a^2*c + 32*a + 16*c^2"}},
         ),
-        ("x^4 - 2*x^2*a + b*x", "b = -2*d - 2 or b = 2*d + 2, d in N, and Delta_d = 0", {0: {"a"}}),
-        ("(x^2+a)^2 + b*x", "b = -2*d - 2 or b = 2*d + 2, d in N, and Delta_d = 0", {0: {"0"}, 1: {"a"}}),
-        ("g^2*x^4 + b*x + c", "g = -b/(2*d + 2) or g = b/(2*d + 2), d in N, and Delta_d = 0", {0: {"c"}}),
+        ("x^4 - 2*x^2*a + b*x", "b = +-(2*d + 2), d in N, and Delta_d = 0", {0: {"a"}}),
+        ("(x^2+a)^2 + b*x", "b = +-(2*d + 2), d in N, and Delta_d = 0", {0: {"0"}, 1: {"a"}}),
+        ("g^2*x^4 + b*x + c", "g = +-b/(2*d + 2), d in N, and Delta_d = 0", {0: {"c"}}),
         ("g*x^4 + b*x + c", "g = b^2/(4*(d + 1)^2), d in N, and Delta_d = 0", {0: {"c"}}),
         (
             "x^6 + a*x^3 + b*x^2 + c*x + e",
-            "b = -2*d - 3 or b = 2*d + 3, d in N, and Delta_d = 0",
+            "b = +-(2*d + 3), d in N, and Delta_d = 0",
             {0: {"(a^2 - 4*e, c)"}},
         ),
     ],
@@ -397,11 +397,11 @@ def test_algebraic_constants_and_parameters(S: str, known: dict[object, int | No
 
 
 def test_an_integer_is_not_called_like_a_parameter() -> None:
-    statement = kovacic.conditions("N^3 + N/x + 1/x^2", var="x").regions[-1].statement
-    assert "M^2" in str(statement)
-    assert "for an odd integer M" in str(statement)
-    assert "M^{2}" in statement.latex()
-    assert "for an odd integer N" in str(kovacic.conditions("x^2 - E/x^2 + 1", var="x").regions[-1].statement)
+    statement = kovacic.conditions("n*x^3 + N*n^2/x^2", var="x").regions[-1].statement
+    assert "m^2" in str(statement)
+    assert "for an integer m = 5 mod 10" in str(statement)
+    assert "m^{2}" in statement.latex()
+    assert "for an integer n" in str(kovacic.conditions("x^2 - E/x^2 + 1", var="x").regions[-1].statement)
     latex = kovacic.conditions("mu/x^2 + 1/x", var="x").regions[-1].statement.latex()
     assert latex.startswith(r"\mu = ")
 
@@ -411,8 +411,8 @@ def test_an_integer_is_not_called_like_a_parameter() -> None:
     [
         # The anharmonic oscillator: P of degree 1 exists on a curve of genus 1 that no parameter can be eliminated from.
         ("x^4 + a*x^2 + 4*x + c", "a^4 - 8*a^2*c + 32*a + 16*c^2 = 0", [(0, 0), (8, "16 + 4*I"), (2, 1), (0, 1)]),
-        ("(n^2-2)*x^3 + m", "n^2 - 2 = 0", [("sqrt(2)", 1), ("-sqrt(2)", 0), (1, 1), (1, 0)]),
-        ("(n^2-2)*x^4 + m*x", "n^2 - 2 = 0", [("sqrt(2)", 1), ("sqrt(2)", 0), (1, 1), (1, 2)]),
+        ("(n^2-2)*x^3 + m", "n^2 = 2", [("sqrt(2)", 1), ("-sqrt(2)", 0), (1, 1), (1, 0)]),
+        ("(n^2-2)*x^4 + m*x", "n^2 = 2", [("sqrt(2)", 1), ("sqrt(2)", 0), (1, 1), (1, 2)]),
         ("(n^2-m^3-1)*x^4 + n*x + m", "n^2 - m^3 - 1 = 0", [(1, 0), (3, 2), (8, 4)]),
     ],
 )
@@ -497,7 +497,7 @@ def test_views(answers: dict[str, Conditions]) -> None:
     assert data["regions"][0]["complete"] is True
     assert "otherwise: no Liouvillian solution" in str(answer)
     assert r"\mathbb{Z}" in answer.latex()
-    assert r"\mu \sqrt{2} \equiv 1" in kovacic.conditions("x^2 + sqrt(2)*mu", var="x").latex()
+    assert r"\mu \sqrt{2} \text{ is an odd integer}" in kovacic.conditions("x^2 + sqrt(2)*mu", var="x").latex()
     assert pickle.loads(pickle.dumps(answer)) == answer
 
 
@@ -677,10 +677,10 @@ def test_a_name_alone_is_the_variable() -> None:
 
 def test_assumptions_refute_single_values() -> None:
     S = "(b+2)*x^4 + x^2 + b*x"
-    assert any(str(region.statement) == "b + 2 = 0" for region in kovacic.conditions(S, var="x", max_degree=1).regions)
+    assert any(str(region.statement) == "b = -2" for region in kovacic.conditions(S, var="x", max_degree=1).regions)
     for what in ("noninteger", "positive", "irrational", "odd", "half-integer"):
         answer = kovacic.conditions(S, var="x", assume={"b": what}, max_degree=1)
-        assert not any(str(region.statement) == "b + 2 = 0" for region in answer.regions)
+        assert not any(str(region.statement) == "b = -2" for region in answer.regions)
 
 
 def test_a_proven_answer_under_assumptions_has_no_further_conditions() -> None:
@@ -705,16 +705,16 @@ def test_families_of_integers_are_merged_and_covered_ones_left_out() -> None:
         assert answer.check(60)
         return [str(region.statement) for region in answer.regions]
 
-    assert yoshida(-1) == ["L = (-N^2 - N + 2)/2 for an integer N"]
-    assert yoshida(2) == ["L = N^2 for an integer N"]
-    assert yoshida(1) == ["L = (N^2 + N)/2 for an integer N"]
+    assert yoshida(-1) == ["L = -n*(n + 3)/2 for an integer n"]
+    assert yoshida(2) == ["L = n^2 for an integer n"]
+    assert yoshida(1) == ["L = (n^2 + n)/2 for an integer n"]
 
 
 def test_a_region_inside_an_earlier_one_is_left_out() -> None:
     answer = kovacic.conditions("(A + B*x + C*x^2)/(x^2 - 1) - 3/(8*(x^2 - 1)^2)", var="x", max_degree=1)
     statements = [str(region.statement) for region in answer.regions]
     assert any(text.startswith("C = 0, and B = 0") for text in statements)
-    assert not any(text.startswith("B^2 - 4*C = 0, and B = 0") for text in statements)
+    assert not any(text.startswith("B^2 = 4*C, and B = 0") for text in statements)
     assert answer.check(40)
 
 
@@ -768,7 +768,7 @@ def test_a_curve_with_a_cusp_is_parametrised() -> None:
     """g2 = 12 t^2, g3 = -8 t^3 on the discriminant, where Lame's equation has three singular points."""
     answer = kovacic.conditions(LITERATURE["lame 1 on every curve"], var="x")
     statements = [str(region.statement) for region in answer.regions]
-    assert "g2^3 - 27*g3^2 = 0, and B = -(3*N^2 - 2)*g2^2/(18*g3) for an integer N" in statements
+    assert "g2^3 = 27*g3^2, and B = -(3*n^2 - 2)*g2^2/(18*g3) for an integer n" in statements
     assert "4*B^3 - B*g2 - g3 = 0" in statements
     for g2, g3, B in (
         (12, -8, 5),
@@ -811,7 +811,7 @@ def test_natural_numbers_at_a_point() -> None:
     assert statement.numbers_at(answer.point({"a": 0, "b": 6, "c": 1})) == [2]
     assert statement.numbers_at(answer.point({"a": 0, "b": 5, "c": 1})) == []
     assert statement.numbers_at(answer.point({"a": 0, "b": "sqrt(2)", "c": 1})) == []
-    assert statement.latex().startswith(r"b = -2 d - 2 \text{ or } b = 2 d + 2")
+    assert statement.latex().startswith(r"b = \pm (2 d + 2)")
     assert pickle.loads(pickle.dumps(answer)) == answer
     data = json.loads(answer.to_json())
     assert data["regions"][0]["determinants"][0] == "Delta_0 = a^2 - 4*c"

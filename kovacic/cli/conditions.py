@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
 @click.option("--assume", metavar="NAME=WHAT", multiple=True, help="What is known about a parameter: n=integer.")
 @click.option("--max-degree", default=2, show_default=True, help="The determinants Delta_d are shown up to this d.")
+@click.option("--all", "everything", is_flag=True, help="All regions, however many.")
 @click.option("--check", "samples", metavar="N", type=int, help="Solve at N exact points, and compare.")
 @click.option("--limit", "limits", metavar="NAME=VALUE", multiple=True, help="Change a limit, such as seconds.")
 def command(
@@ -30,6 +31,7 @@ def command(
     var: str | None,
     assume: tuple[str, ...],
     max_degree: int,
+    everything: bool,
     samples: int | None,
     limits: tuple[str, ...],
 ) -> int:
@@ -50,7 +52,7 @@ def command(
     except (InputError, LimitExceeded) as error:
         print(f"kovacic: {error}", file=sys.stderr)
         return BAD_INPUT if isinstance(error, InputError) else UNDECIDED
-    print(answer.to_json() if as_json else answer.latex() if as_latex else answer)
+    print(answer.to_json() if as_json else answer.latex() if as_latex else answer.text(all=everything))
     if report is not None:
         print(
             f"  checked at {report.inside} points inside and {report.outside} outside: {_agreement(report)}",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import count, islice
 from random import Random
@@ -18,13 +18,16 @@ from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, Limits
 from kovacic.parametric import sampling
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.parametric.functions import as_latex, shown
+from kovacic.parametric.formulas import as_latex, shown
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
 from kovacic.parametric.restriction import NO_CONSTANT, UndefinedError, at_point
-from kovacic.parametric.statements import Point, Statement, both
+from kovacic.parametric.statements import Both, Either, Point, Statement, both, either
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
+
+#: Regions that are written unless all are asked for, and characters up to which statements share a line.
+_SCREEN, _LINE = 24, 100
 
 
 @dataclass(frozen=True)
@@ -91,6 +94,11 @@ class Condition:
     @property
     def group(self) -> str:
         return self.verdict.group if self.defined else "S isn't defined"
+
+    @property
+    def plain(self) -> bool:
+        """Is there nothing to say beside the statement and the case?"""
+        return self.defined and self.complete is True and self.verdict.known and not self.determinants
 
     def to_dict(self) -> dict[str, Any]:
         """The region's part of the JSON object."""
@@ -312,15 +320,48 @@ class Conditions:
             **options,
         )
 
-    def __str__(self) -> str:
+    def text(self, *, all: bool = False) -> str:
+        """The partition in lines: regions in a row with the same case are written together, and at most a screen of them.
+
+        With `all=True` every region is written.
+        """
         known = f" ({self.assumptions})" if self.assumptions else ""
         lines = [f"y'' = ({shown(self.S, self.variable)}) y, parameters {', '.join(self.parameters)}{known}"]
         lines += [f"  note: {notice}" for notice in self.notices]
-        lines += [f"  {region}" for region in self.regions]
+        regions = _together(self.regions)
+        number = len(regions) if all or len(regions) <= _SCREEN + 1 else _SCREEN
+        lines += [f"  {region}" for region in regions[:number]]
+        if number < len(regions):
+            lines.append(f"  ... and {len(regions) - number} more regions: text(all=True), or --all")
         lines.append(f"  {self._where_generic}: {self.generic}")
         complete = "proven to be complete" if self.complete is True else f"complete {self.complete}"
         lines.append(f"  ({complete}; {self.theory})")
         return "\n".join(lines)
+
+    def __str__(self) -> str:
+        return self.text()
+
+
+def _together(regions: Sequence[Condition]) -> list[Condition]:
+    """The regions, with those in a row that have the same case in one, where that is short."""
+    found: list[Condition] = []
+    for region in regions:
+        last = found[-1] if found else None
+        if last is not None and last.plain and region.plain and last.case == region.case:
+            together = last.statement.merged(region.statement)
+            parts = [*_alternatives(last.statement), *_alternatives(region.statement)]
+            if together is None and len({type(part) for part in parts}) == 1 and not isinstance(parts[0], Both):
+                together = either(parts)
+                together = together if len(together.text()) <= _LINE else None
+            if together is not None:
+                found[-1] = replace(last, statement=together)
+                continue
+        found.append(region)
+    return found
+
+
+def _alternatives(statement: Statement) -> Sequence[Statement]:
+    return statement.parts if isinstance(statement, Either) else (statement,)
 
 
 def _point(names: tuple[str, ...], values: list[Any], constant: Point, limits: Limits) -> Point:

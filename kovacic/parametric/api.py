@@ -78,8 +78,9 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     with budget.watched():
         result = partition(lifted, Settings(budget, parsed.variable, only_theorems=max_degree is None))
     different: dict[str, Condition] = {}
+    names = (parsed.variable, *parameters_of(lifted.field))
     for region in result.regions:
-        statement = reduced(region.statement, constant).avoiding((parsed.variable, *parameters_of(lifted.field)))
+        statement = reduced(region.statement, constant).avoiding(names, constant.names)
         region = replace(region, statement=statement)
         different.setdefault(region.statement.text(), region)
     distinct = [*different.values()]
@@ -93,6 +94,8 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
         complete = next((region.complete for region in regions if region.complete is not True), complete)
         if not generic.known:
             generic = Verdict.of(decide(parsed.S, budget, certify=False))
+    while complete is True and regions and regions[-1].plain and regions[-1].verdict == generic == Verdict(None):
+        regions.pop()
     if max_degree is not None:
         with budget.watched():
             regions = [_with_determinants(region, max_degree) for region in regions]

@@ -23,7 +23,8 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem
-from kovacic.parametric.functions import over_parameters, shown, shown_root
+from kovacic.parametric.formulas import root_written, shown
+from kovacic.parametric.functions import over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.statements import Statement
 
@@ -49,13 +50,13 @@ def omega(form: Confluent) -> str:
     n = form.n
     simple = form.coordinate.isidentifier()
     z, where = (form.coordinate, "") if simple else ("s", f", s = {form.coordinate}")
-    difference = shown_root(1 + 4 * form.b)
+    difference = root_written(1 + 4 * form.b)
     if not form.q:
         return f"omega of degree 2, rational in {z} and sqrt({z}){where}"
-    root = shown_root(form.q)
+    root = root_written(form.q)
     root = root if root.startswith("sqrt(") else f"({root})"
     power = "" if n == 1 else f" {z}" if n == 2 else f" {z}^{n - 1}"
-    beta = shown_root(form.r * form.r / form.q)
+    beta = root_written(form.r * form.r / form.q)
     natural = "a natural number" if n == 1 else f"a natural multiple of {n}"
     return (
         f"omega = +-{root}{power} + (1 +- ({difference}))/(2 {z}) + P'/P{where}, with signs for which "

@@ -18,7 +18,8 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.limits import Budget
-from kovacic.parametric.functions import denominators, element, irreducible_factors, over_parameters, shown, union
+from kovacic.parametric.formulas import shown
+from kovacic.parametric.functions import denominators, element, irreducible_factors, over_parameters, union
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution

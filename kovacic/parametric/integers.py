@@ -15,19 +15,11 @@ from typing import Literal
 from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.parametric.assumptions import Assumptions, Coset, common_multiple
-from kovacic.parametric.functions import (
-    as_latex,
-    degrees,
-    factored,
-    numerator,
-    over_parameters,
-    powers_of,
-    shown,
-    symbol,
-)
+from kovacic.parametric.formulas import written
+from kovacic.parametric.functions import over_parameters
+from kovacic.parametric.spectra import LETTERS, classes_text, integer_condition
 from kovacic.parametric.statements import Point, Statement
 
 
@@ -38,6 +30,7 @@ class Classes(Statement):
     form: FunctionPoly
     residues: tuple[Fraction, ...]
     modulus: Fraction
+    letter: str = field(default="n", compare=False)
 
     @classmethod
     def make(cls, form: FunctionPoly, residues: Iterable[Fraction], modulus: Fraction) -> Classes:
@@ -83,31 +76,50 @@ class Classes(Statement):
             return self.form * self.modulus.denominator, Fraction(0)
         return None
 
+    def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
+        return replace(self, letter=free_letter(names))
+
     def text(self) -> str:
-        if self._in_integers:
-            return f"{_shifted(*self._in_integers, shown)} in Z"
-        if self.modulus == 2 and len(self.residues) == 1 and self.residues[0].denominator == 1:
-            return f"{shown(self.form)} is an {'odd' if self.residues[0] else 'even'} integer"
-        return f"{shown(self.form)} = {', '.join(map(str, self.residues))} mod {self.modulus}"
+        return self._written(False)
 
     def latex(self) -> str:
+        return self._written(True)
+
+    def _written(self, latex: bool) -> str:
         if self._in_integers:
-            return rf"{_shifted(*self._in_integers, as_latex)} \in \mathbb{{Z}}"
+            form, residue = self._in_integers
+            text = written(form, latex=latex) + (f" - {residue}" if residue else "")
+            return rf"{text} \in \mathbb{{Z}}" if latex else f"{text} in Z"
+        several = sum(1 for k in (self.form.num * self.form.den).degrees() if k) > 1
+        first, single = self.residues[0], len(self.residues) == 1
+        if several and single and self.modulus != 1 and (self.modulus != 2 or first.denominator > 1):
+            scale = lcm(first.denominator, self.modulus.denominator)
+            equation = over_parameters(self.form * scale - self.form.field.poly([0, 1]))
+            return integer_condition(
+                equation, [int(first * scale)], int(self.modulus * scale), self.letter, latex=latex
+            )
+        text = written(self.form, latex=latex)
+        if self.modulus == 2 and single and first.denominator == 1:
+            kind = classes_text(self.residues, self.modulus)
+            return rf"{text} \text{{ is {kind}}}" if latex else f"{text} is {kind}"
         classes = ", ".join(map(str, self.residues))
-        return rf"{as_latex(self.form)} \equiv {classes} \pmod{{{self.modulus}}}"
+        return (
+            rf"{text} \equiv {classes} \pmod{{{self.modulus}}}" if latex else f"{text} = {classes} mod {self.modulus}"
+        )
 
 
 @dataclass(frozen=True)
 class IntegerRoot(Statement):
     """`equation`, a polynomial in N over Q(t), has an integer root N congruent to one of `residues` modulo `modulus`.
 
-    `letter` is what N is called.
+    `letter` is what N is called; the `fixed` parameters are constants, for which it isn't solved.
     """
 
     equation: FunctionPoly
     residues: tuple[int, ...]
     modulus: int
-    letter: str = field(default="N", compare=False)
+    letter: str = field(default="n", compare=False)
+    fixed: tuple[str, ...] = field(default=(), compare=False)
 
     @classmethod
     def make(cls, equation: FunctionPoly, residues: Iterable[int], modulus: int) -> IntegerRoot:
@@ -125,21 +137,35 @@ class IntegerRoot(Statement):
         return cls(equation, tuple(sorted(map(int, reduced))), int(smallest))
 
     def merged(self, other: Statement) -> IntegerRoot | None:
-        if not isinstance(other, IntegerRoot) or other.equation != self.equation:
+        if not isinstance(other, IntegerRoot):
             return None
+        relation = self._relation(other)
+        if relation is None:
+            return None
+        sign, shift = relation
         common = lcm(self.modulus, other.modulus)
-        both = (
-            (r + k * part.modulus)
-            for part in (self, other)
-            for r in part.residues
-            for k in range(common // part.modulus)
-        )
-        return IntegerRoot.make(self.equation, both, common)
+        own = [r + k * self.modulus for r in self.residues for k in range(common // self.modulus)]
+        own += [sign * r + shift for m in other.residues for r in range(m, common, other.modulus)]
+        return IntegerRoot.make(self.equation, own, common)
 
-    def avoiding(self, names: Collection[str]) -> Statement:
-        return replace(
-            self, letter=next(name for name in chain("NMKJ", map("N{}".format, count())) if name not in names)
-        )
+    def _relation(self, other: IntegerRoot) -> tuple[int, int] | None:
+        """`(sign, shift)` where each root N of the other equation is one, sign N + shift, of this one."""
+        if other.equation == self.equation:
+            return 1, 0
+        N, k, f = self.equation.field.poly([0, 1]), self.equation.degree, self.equation.field
+        if other.equation.degree != k or other.equation.field != f:
+            return None
+        own, others = (e[k - 1] / (e.lc * -k) for e in (self.equation, other.equation))
+        for sign in (1, -1):
+            shift = f.rational_value(own - sign * others)
+            if shift is not None and shift.denominator == 1:
+                moved = self.equation(sign * N + int(shift))
+                if moved * other.equation.lc == other.equation * moved.lc:
+                    return sign, int(shift)
+        return None
+
+    def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
+        return replace(self, letter=free_letter(names), fixed=tuple(fixed))
 
     def _holds(self, point: Point) -> bool:
         roots = rational_roots(point.at(self.equation))
@@ -152,44 +178,16 @@ class IntegerRoot(Statement):
         N = random.choice(self.residues) + random.randint(-3, 3) * self.modulus
         return [over_parameters(self.equation(N))]
 
-    def _classes(self) -> str:
-        if self.modulus == 1:
-            return f"an integer {self.letter}"
-        if self.modulus == 2:
-            return f"an {'odd' if self.residues == (1,) else 'even'} integer {self.letter}"
-        return f"an integer {self.letter} = {', '.join(map(str, self.residues))} mod {self.modulus}"
-
     def text(self) -> str:
-        return f"{equation_text(self.equation, self.letter)} for {self._classes()}"
+        return integer_condition(self.equation, self.residues, self.modulus, self.letter, self.fixed)
 
     def latex(self) -> str:
-        return rf"{equation_text(self.equation, self.letter, latex=True)} \text{{ for {self._classes()}}}"
-
-    @property
-    def solved(self) -> tuple[str, RatFunc] | None:
-        """`(name, f)` where the equation says that a parameter is the rational function f(N)."""
-        return solved(self.equation)
+        return integer_condition(self.equation, self.residues, self.modulus, self.letter, self.fixed, latex=True)
 
 
-def solved(equation: FunctionPoly) -> tuple[str, RatFunc] | None:
-    """`(name, f)` where a polynomial in N over Q(t) vanishes exactly if a parameter is the rational function f(N)."""
-    linear = [i for i, k in enumerate(degrees(equation)) if k == 1]
-    if not linear:
-        return None
-    parts = powers_of(equation, linear[0])
-    return equation.field.names[linear[0]], -RatFunc(parts.get(0, 0 * parts[1]), parts[1])
-
-
-def equation_text(equation: FunctionPoly, letter: str, *, latex: bool = False) -> str:
-    """`equation = 0`, solved for a parameter where one occurs linearly."""
-    written = as_latex if latex else shown
-    if not any(degrees(equation)) and equation.degree == 1:
-        return f"{letter} = {written(-equation[0] / equation[1])}"
-    family = solved(equation)
-    if family is None:
-        return f"{written(numerator(equation), letter)} = 0"
-    name, f = family
-    return f"{symbol(name)} = {as_latex(f, letter)}" if latex else f"{name} = {factored(f, letter)}"
+def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:
+    """A name for an integer that isn't one of the names."""
+    return next(letter for letter in chain(preferred, map("n{}".format, count())) if letter not in names)
 
 
 def integer_roots(equation: FunctionPoly, residues: Sequence[int], modulus: int) -> Literal[True] | list[Statement]:
@@ -237,11 +235,6 @@ def rational_roots(polynomial: Poly) -> list[Fraction]:
 def rational(constant: Poly) -> Fraction | None:
     """A constant as a rational number, or None."""
     return constant.field.rational_value(constant)
-
-
-def _shifted(form: FunctionPoly, residue: Fraction, written: Callable[[FunctionPoly], str]) -> str:
-    """`form - residue`, in symbols."""
-    return f"{written(form)} - {residue}" if residue else written(form)
 
 
 def _reduced(residues: set[Fraction], modulus: Fraction) -> tuple[set[Fraction], Fraction]:

@@ -14,7 +14,6 @@ from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache
-from itertools import chain, count
 from random import Random
 
 from kovacic.algebra.function_field import FunctionPoly
@@ -26,11 +25,13 @@ from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.assumptions import Assumptions, Coset
-from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters, shown
-from kovacic.parametric.integers import equation_text, rational_roots
+from kovacic.parametric.formulas import equation_written, shown, written
+from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
+from kovacic.parametric.integers import free_letter, rational_roots
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import UndefinedError, at_point, on_hypersurface, rational_curve
 from kovacic.parametric.search import NaturalNumber, form_conditions, with_degree
+from kovacic.parametric.spectra import LETTERS, alternatives
 from kovacic.parametric.statements import Point, Statement
 
 #: The largest number that is tried for an example.
@@ -77,10 +78,10 @@ class Natural(Statement):
     S: RatFunc
     number: NaturalNumber
     letter: str = field(default="d", compare=False)
+    fixed: tuple[str, ...] = field(default=(), compare=False)
 
-    def avoiding(self, names: Collection[str]) -> Statement:
-        letters = chain("dNMKJ" if self.number.m == 1 else "NMKJ", map("N{}".format, count()))
-        return replace(self, letter=next(name for name in letters if name not in names))
+    def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
+        return replace(self, letter=free_letter(names, f"d{LETTERS}"), fixed=tuple(fixed))
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         S = RatFunc(change(over_parameters(self.S.num)), change(over_parameters(self.S.den)))
@@ -134,10 +135,15 @@ class Natural(Statement):
 
     def shown_determinant(self, number: int) -> str:
         """In one line: one polynomial where it is the same for all exponents that give the number."""
-        found = [(str(determinant), shown(determinant.exponents)) for determinant in self.determinants(number)]
-        same = len({text for text, _ in found}) == 1
-        values = found[0][0] if same else ", ".join(f"{text} where {where} = 0" for text, where in found)
-        return f"Delta_{number} = {values}"
+        found: dict[str, list[str]] = {}
+        for determinant in self.determinants(number):
+            texts = found.setdefault(equation_written(determinant.exponents), [])
+            texts += [] if str(determinant) in texts else [str(determinant)]
+        values = [" or ".join(texts) for texts in found.values()]
+        if len(set(values)) > 1:
+            values = [f"{value} where {where}" for where, value in zip(found, values, strict=True)]
+        text = ", ".join(dict.fromkeys(values))
+        return f"Delta_{number} = {text if len(text) <= _WRITTEN_OUT else text[:_WRITTEN_OUT] + '...'}"
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         factor = random.choice(self.number.factors)
@@ -158,21 +164,27 @@ class Natural(Statement):
         )
         return False if never else None
 
-    def _written(self, latex: bool) -> str | None:
-        """The equations for d; None where that would be too long."""
-        parts = [equation_text(f, self.letter, latex=latex) for f in self.number.factors]
-        return (r" \text{ or } " if latex else " or ").join(parts) if sum(map(len, parts)) <= _WRITTEN_OUT else None
-
     def text(self) -> str:
-        what = "" if self.number.m == 1 else f" for an invariant of degree {self.number.m}"
-        written = self._written(False) or f"the exponents allow a natural number {self.letter} of zeros"
-        return f"{written}, {self.letter} in N, and Delta_{self.letter} = 0{what}"
+        return self._written(False)
 
     def latex(self) -> str:
-        d = self.letter
-        what = "" if self.number.m == 1 else rf"\text{{ for an invariant of degree {self.number.m}}}"
-        written = self._written(True) or rf"\text{{the exponents allow a natural number {d} of zeros}}"
-        return rf"{written},\ {d} \in \mathbb{{N}},\ \Delta_{{{d}}} = 0{what}"
+        return self._written(True)
+
+    def _written(self, latex: bool) -> str:
+        d, m, factors = self.letter, self.number.m, self.number.factors
+        if not any(k for factor in factors for k in degrees(factor)):
+            numbers = " or ".join(written(-f[0] / f[1]) for f in factors)
+            what = "a solution" if m == 1 else f"an invariant of degree {m}"
+            text = f"{what} with {numbers} zero{'s' * (numbers != '1')} exists"
+            return rf"\text{{{text}}}" if latex else text
+        which = alternatives(factors, d, self.fixed, latex=latex)
+        if len(which) > _WRITTEN_OUT:
+            which = f"the exponents allow a natural number {d} of zeros"
+            which = rf"\text{{{which}}}" if latex else which
+        what = "" if m == 1 else f" for an invariant of degree {m}"
+        if latex:
+            return rf"{which},\ {d} \in \mathbb{{N}},\ \Delta_{{{d}}} = 0" + (rf"\text{{{what}}}" if what else "")
+        return f"{which}, {d} in N, and Delta_{d} = 0{what}"
 
 
 @lru_cache(maxsize=64)

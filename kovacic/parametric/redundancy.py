@@ -16,6 +16,7 @@ from kovacic.parametric.answer import Condition
 from kovacic.parametric.functions import irreducible_factors, over_parameters, powers_of
 from kovacic.parametric.integers import IntegerRoot
 from kovacic.parametric.restriction import parametrised
+from kovacic.parametric.spectra import families
 from kovacic.parametric.statements import Statement, Vanishes, both
 
 Chart = tuple[Field, Mapping[str, Poly]]
@@ -88,8 +89,8 @@ def _at(function: FunctionPoly, values: Mapping[str, Poly], field: Field) -> Pol
 
 def _implies(family: IntegerRoot, other: IntegerRoot) -> bool:
     """Does `other` hold wherever `family` does, which says that a parameter is f(N)?"""
-    names, solved = family.equation.field.names, family.solved
-    if solved is None or other.equation.field.names != names:
+    names, spectra = family.equation.field.names, families(family.equation)
+    if not spectra or other.equation.field.names != names:
         return False
     k = next(name for name in map("k{}".format, count()) if name not in names)
     field = FunctionField((*names, k))
@@ -97,8 +98,8 @@ def _implies(family: IntegerRoot, other: IntegerRoot) -> bool:
     for residue in family.residues:
         check_time()
         N = field.generator(k) * family.modulus + residue
-        above, below = (_at(over_parameters(part), known, field)(N) for part in (solved[1].num, solved[1].den))
-        equation = _at(other.equation, {**known, solved[0]: above / below}, field)
+        above, below = (_at(over_parameters(part), known, field)(N) for part in (spectra[0][1].num, spectra[0][1].den))
+        equation = _at(other.equation, {**known, spectra[0][0]: above / below}, field)
         if not any(f.degree == 1 and _is_in_classes(over_parameters(-f[0]), other) for f, _ in field.factor(equation)):
             return False
     return True

@@ -17,11 +17,13 @@ Reference: T. Kimura, Funkcial. Ekvac. 12 (1969) 269-281.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, reduce
 from itertools import product
+from math import gcd, lcm
 from random import Random
 from typing import Literal
 
@@ -31,8 +33,10 @@ from kovacic.algebra.rationals import QQ
 from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem
-from kovacic.parametric.functions import over_parameters, shown, shown_root
-from kovacic.parametric.integers import integer_roots, rational
+from kovacic.parametric.assumptions import common_multiple
+from kovacic.parametric.formulas import root_written, shown
+from kovacic.parametric.functions import degrees, element, over_parameters, powers_of
+from kovacic.parametric.integers import Classes, integer_roots, rational
 from kovacic.parametric.statements import Point, Statement
 
 _F = Fraction
@@ -86,10 +90,10 @@ def _table() -> dict[tuple[int, ...], Structure]:
 
 @dataclass(frozen=True)
 class Schwarz(Statement):
-    """The exponent differences, whose squares are the roots of `cubic`, belong to this structure in Schwarz's table."""
+    """The exponent differences, whose squares are the roots of `cubic`, belong to these structures in Schwarz's table."""
 
     cubic: FunctionPoly
-    structure: Structure
+    structures: tuple[Structure, ...]
 
     def _holds(self, point: Point) -> bool:
         value = point.at(self.cubic)
@@ -99,7 +103,7 @@ class Schwarz(Statement):
             difference = None if square is None else _square_root(square)
             differences += [difference] * (multiplicity * factor.degree)
         first, second, third = differences
-        return kimura((first, second, third)) is self.structure
+        return kimura((first, second, third)) in self.structures
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         return replace(self, cubic=change(self.cubic))
@@ -108,31 +112,56 @@ class Schwarz(Statement):
         """Equations that give the exponent differences values from a row of the table; [] where they aren't rational in t."""
         field = self.cubic.field
         roots = [field.sqrt(-factor[0]) for factor, k in field.factor(self.cubic) if factor.degree == 1 and k == 1]
-        rows = [[_F(k, 60) for k in key] for key, structure in _table().items() if structure is self.structure]
+        rows = [[_F(k, 60) for k in key] for key, structure in _table().items() if structure in self.structures]
         values = random.choice(rows) if rows else [_F(1, 2), _F(3, 2), _F(random.randint(1, 9), random.randint(2, 9))]
         random.shuffle(values)
         known = [over_parameters(root) for root in roots if root is not None]
         return [root - value for root, value in zip(known, values, strict=True)] if len(known) == 3 else []
 
     def text(self) -> str:
-        rows = [str(k) for k, row in _SCHWARZ.items() if row[0] is self.structure]
-        which = "1 (two half-integers)" if not rows else f"{rows[0]}-{rows[-1]}"
-        return (
-            f"the exponent differences {_shown_differences(self.cubic)} are in Schwarz's row{'s' * bool(rows)} {which}"
-        )
+        return self._in_rows()
 
     def latex(self) -> str:
         return rf"\text{{{self.text().replace('^', chr(92) + '^{}')}}}"
 
+    def merged(self, other: Statement) -> Schwarz | None:
+        same = isinstance(other, Schwarz) and other.cubic == self.cubic
+        return Schwarz(self.cubic, (*self.structures, *other.structures)) if same else None  # type: ignore[attr-defined]
+
+    def _in_rows(self) -> str:
+        names = _names_of_differences(self.cubic)
+        if self.structures == (Structure.IMPRIMITIVE,) and names is not None:
+            return _two_half_integers(names)
+        rows = [k for k, row in _SCHWARZ.items() if row[0] in self.structures]
+        which = f"rows {rows[0]}-{rows[-1]}" if rows else "row 1 (two half-integers)"
+        return f"the exponent differences {_shown_differences(self.cubic)} are in Schwarz's {which}"
+
+
+def _two_half_integers(names: list[str]) -> str:
+    """That two of the exponent differences are half-integers."""
+    constants = [name for name in names if re.fullmatch(r"[\d/]+", name)]
+    free = [name for name in names if name not in constants]
+    missing = 2 - sum(1 for name in constants if name.endswith("/2"))
+    twice = next((name for name in free if free.count(name) > 1), None)
+    if missing == 2 and twice is not None:
+        return f"{twice} is a half-integer"
+    different = list(dict.fromkeys(free))
+    if missing == 1:
+        return f"{'one of ' * (len(different) > 1)}{', '.join(different)} is a half-integer"
+    return f"{'two of ' * (len(different) > 2)}{(' and ' if len(different) == 2 else ', ').join(different)} are half-integers"
+
 
 def _shown_differences(cubic: FunctionPoly) -> str:
-    field = cubic.field
-    names = []
-    for factor, k in field.factor(cubic):
-        if factor.degree > 1:
-            return f"(the square roots of the roots of {shown(cubic, 'Z')})"
-        names += [shown_root(-factor[0])] * k
-    return ", ".join(names)
+    names = _names_of_differences(cubic)
+    return f"(the square roots of the roots of {shown(cubic, 'Z')})" if names is None else ", ".join(names)
+
+
+def _names_of_differences(cubic: FunctionPoly) -> list[str] | None:
+    """The exponent differences, as far as they are square roots over Q(t)."""
+    factors = cubic.field.factor(cubic)
+    if any(factor.degree > 1 for factor, _ in factors):
+        return None
+    return [root_written(-factor[0]) for factor, k in factors for _ in range(k)]
 
 
 def applies(problem: Problem) -> bool:
@@ -195,7 +224,7 @@ def group(problem: Problem, structure: Structure) -> str | None:
     if len(constants) >= 2 and rest:
         return "the infinite dihedral group" if rest[0] is None else "dicyclic"
     if len(constants) == 2 and variable is not None:
-        return f"dicyclic where {shown_root(variable)} is rational, else the infinite dihedral group"
+        return f"dicyclic where {root_written(variable)} is rational, else the infinite dihedral group"
     return "dicyclic where the third exponent difference is rational, else the infinite dihedral group"
 
 
@@ -210,32 +239,113 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Literal[True] | li
     reducible = integer_roots(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z, [1], 2)
     if reducible:
         yield Structure.REDUCIBLE, reducible
-    constants, variable = _split(cubic)
+    constants, _ = _split(cubic)
     always = _only_structure(constants)
     if always is not None:
         yield always, True
     if always is not None or len(constants) == 3:
         return
+    single = _one_function(cubic)
     for structure in (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL):
-        statements: list[Statement] = []
-        if variable is None and (structure is Structure.IMPRIMITIVE or _in_some_row(constants, structure)):
-            statements.append(Schwarz(cubic, structure))
-        for denominator in (2, 3, 4, 5):
-            if variable is None or len(constants) < 2:
-                continue
-            values = [_F(a, denominator) for a in range(2 * denominator)]
-            residues = [
-                int(denominator * v)
-                for v in values
-                if v.denominator == denominator and kimura((constants[0], constants[1], v)) is structure
-            ]
-            equation = over_parameters(problem.field.poly([-(denominator**2) * variable, 0, 1]))
-            found = integer_roots(equation, residues, 2 * denominator) if residues else []
-            if found is True:
-                raise AssertionError("an exponent difference that depends on a parameter isn't constant")
-            statements += found
+        if single is not None:
+            statements = _classes(single, structure)
+        elif structure is Structure.IMPRIMITIVE or _in_some_row(constants, structure):
+            statements = [Schwarz(cubic, (structure,))]
+        else:
+            statements = []
         if statements:
             yield structure, statements
+
+
+@dataclass(frozen=True)
+class _OneFunction:
+    """The exponent differences are a w + b with rational (a, b), `lines`, where w^2 = square; None is irrational."""
+
+    square: FunctionPoly
+    root: FunctionPoly | None
+    lines: tuple[tuple[Fraction, Fraction] | None, ...]
+
+    def at(self, w: Fraction) -> tuple[Fraction | None, Fraction | None, Fraction | None]:
+        first, second, third = (None if line is None else line[0] * w + line[1] for line in self.lines)
+        return first, second, third
+
+
+def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
+    """The exponent differences by one function of the parameters, where they are."""
+    field = cubic.field
+    factors = [(-factor[0], k) for factor, k in field.factor(cubic) if factor.degree == 1]
+    free = [over_parameters(square) for square, _ in factors if field.rational_value(square) is None]
+    if not free or sum(k for _, k in factors) < 3:
+        return None
+    first = free[0]
+    root = field.sqrt(first)
+    lines: list[tuple[Fraction, Fraction] | None] = []
+    for square, k in factors:
+        number = field.rational_value(square)
+        if number is not None:
+            constant = _square_root(number)
+            lines += [None if constant is None else (_F(0), constant)] * k
+            continue
+        line = _line(square, first, root)
+        if line is None:
+            return None
+        lines += [line] * k
+    return _OneFunction(first, None if root is None else over_parameters(root), tuple(lines))
+
+
+def _line(square: Poly, first: FunctionPoly, root: Poly | None) -> tuple[Fraction, Fraction] | None:
+    """`(a, b)` with sqrt(square) = +-(a w + b), w^2 = first; b is 0 where w isn't rational (`root` is None)."""
+    field = first.field
+    if root is None:
+        ratio = field.rational_value(square / first)
+        a = None if ratio is None else _square_root(ratio)
+        return None if a is None else (a, _F(0))
+    own = field.sqrt(square)
+    if own is None:
+        return None
+    name = next(i for i, k in enumerate(degrees(over_parameters(root))) if k)
+    slopes = [powers_of(over_parameters(form), name).get(1, field.poly([])) for form in (own, root)]
+    if not slopes[1]:
+        return None
+    above, below = (element(field, over_parameters(form).den) for form in (root, own))
+    a = field.rational_value(slopes[0] * above / (slopes[1] * below))
+    b = None if a is None else field.rational_value(own - a * root)
+    return None if a is None or b is None else (a, b)
+
+
+def _classes(single: _OneFunction, structure: Structure) -> list[Statement]:
+    """Where w gives the exponent differences this structure, and the equation isn't reducible."""
+    slopes = [line[0] for line in single.lines if line is not None and line[0]]
+    period = reduce(common_multiple, (2 / abs(a) for a in slopes))
+    found: set[Fraction] = set()
+    for a, b in {line for line in single.lines if line is not None and line[0]}:
+        for value in (_F(k, d) for d in (2, 3, 4, 5) for k in range(2 * d) if gcd(k, d) == 1):
+            step = abs(2 / a)
+            found |= {((value - b) / a + j * step) % period for j in range(int(period / step))}
+    # w and -w are the same where only w^2 is known.
+    admitted = [w for w in sorted(found) if kimura(single.at(w)) is structure and not _reducible(single.at(w))]
+    if not admitted:
+        return []
+    if single.root is not None:
+        return [Classes.make(single.root, admitted, period)]
+    statements: list[Statement] = []
+    for denominator in sorted({w.denominator for w in admitted}):
+        D = lcm(denominator, period.denominator)
+        residues = [int(D * w) for w in admitted if w.denominator == denominator]
+        equation = over_parameters(single.square.field.poly([-(D**2) * single.square, 0, 1]))
+        found_here = integer_roots(equation, residues, int(D * period))
+        if found_here is True:
+            raise AssertionError("an exponent difference that depends on a parameter isn't constant")
+        statements += found_here
+    return statements
+
+
+def _reducible(differences: tuple[Fraction | None, Fraction | None, Fraction | None]) -> bool:
+    """Kimura's first condition."""
+    l, m, n = differences  # noqa: E741
+    if l is None or m is None or n is None:
+        return False
+    return any((l + s * m + t * n - 1) % 2 == 0 or (-l + s * m + t * n - 1) % 2 == 0 for s in (1, -1) for t in (1, -1))
 
 
 def _only_structure(constants: Sequence[Fraction | None]) -> Structure | None:

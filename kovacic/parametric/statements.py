@@ -15,11 +15,8 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.functions import (
-    as_latex,
-    numerator,
-    shown,
-)
+from kovacic.parametric.formulas import equation_written
+from kovacic.parametric.functions import numerator
 
 
 @dataclass(frozen=True)
@@ -76,8 +73,8 @@ class Statement(ABC):
         """Functions, chosen at random, at whose common zeros the statement holds."""
         return []
 
-    def avoiding(self, names: Collection[str]) -> Statement:
-        """The same statement, in which no integer is called like one of the names."""
+    def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
+        """The same statement, in which no integer is called like one of the names; the `fixed` ones are constants."""
         return self
 
     def __str__(self) -> str:
@@ -103,10 +100,10 @@ class Vanishes(Statement):
         return assumptions.vanishes(self.function)
 
     def text(self) -> str:
-        return f"{shown(self.function)} = 0"
+        return equation_written(self.function)
 
     def latex(self) -> str:
-        return f"{as_latex(self.function)} = 0"
+        return equation_written(self.function, latex=True)
 
 
 @dataclass(frozen=True)
@@ -118,8 +115,8 @@ class _Several(Statement):
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         return replace(self, parts=tuple(part.rewritten(change) for part in self.parts))
 
-    def avoiding(self, names: Collection[str]) -> Statement:
-        return replace(self, parts=tuple(part.avoiding(names) for part in self.parts))
+    def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
+        return replace(self, parts=tuple(part.avoiding(names, fixed) for part in self.parts))
 
 
 class Either(_Several):
@@ -136,14 +133,20 @@ class Either(_Several):
         return True if True in decisions else None if None in decisions else False
 
     def text(self) -> str:
-        return " or ".join(part.text() for part in self.parts)
+        return joined([part.text() for part in self.parts], " or ", " for ")
 
     def latex(self) -> str:
-        return r" \text{ or } ".join(part.latex() for part in self.parts)
+        return joined([part.latex() for part in self.parts], r" \text{ or } ", r" \text{ for ")
 
 
 class Both(_Several):
     """All of the statements hold."""
+
+    def merged(self, other: Statement) -> Statement | None:
+        if not isinstance(other, Both) or other.parts[:-1] != self.parts[:-1]:
+            return None
+        last = self.parts[-1].merged(other.parts[-1])
+        return None if last is None else replace(self, parts=(*self.parts[:-1], last))
 
     def _holds(self, point: Point) -> bool:
         return all(part.holds(point) for part in self.parts)
@@ -160,6 +163,17 @@ class Both(_Several):
 
     def latex(self) -> str:
         return r" \text{ and } ".join(part.latex() for part in self.parts)
+
+
+def joined(texts: list[str], word: str, before: str) -> str:
+    """The texts with a word between them; a common start "E = f(n), " and a common end, from `before` on, are written once."""
+    heads, separators, ends = zip(*(text.rpartition(before) for text in texts), strict=True)
+    if len(set(ends)) == 1 and all(separators):
+        return f"{word.join(heads)}{before}{ends[0]}"
+    starts = {text.partition(", ")[0] for text in texts}
+    if len(starts) == 1 and all(", " in text for text in texts):
+        return f"{starts.pop()}, {word.join(text.partition(', ')[2] for text in texts)}"
+    return word.join(texts)
 
 
 def both(*statements: Statement) -> Both:
