@@ -10,6 +10,7 @@ import resource
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -44,10 +45,73 @@ def test_a_solution_in_words() -> None:
     assert done.stdout.splitlines() == [
         "y'' = (x^2 + 3) y",
         "  Liouvillian solutions exist: case 1, omega = y'/y is rational",
+        "  y1 = x*exp(x^2/2)",
+        "  y2 = sqrt(pi)*x*exp(x^2/2)*erf(x) + exp(-x^2/2)",
+        "  omega = (x^2 + 1)/x",
+        "  verified: omega' + omega^2 = S holds exactly",
+    ]
+    done = run("solve", "x^2+3", "--no-solutions")
+    assert done.returncode == 0
+    assert done.stdout.splitlines() == [
+        "y'' = (x^2 + 3) y",
+        "  Liouvillian solutions exist: case 1, omega = y'/y is rational",
         "  omega = (x^2 + 1)/x",
         "  y = exp(integral of omega dx)",
         "  verified: omega' + omega^2 = S holds exactly",
     ]
+
+
+def test_the_solution_of_a_right_hand_side_and_of_initial_values(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main.run(["solve", "y'' + y = x"]) == 0
+    assert "  y(x) = C1*cos(x) + C2*sin(x) + x" in capsys.readouterr().out.splitlines()
+    assert main.run(["solve", "y'' + y = x", "--ics", "y(0)=1, y'(0)=0"]) == 0
+    assert "  y(x) = x - sin(x) + cos(x)" in capsys.readouterr().out.splitlines()
+    assert main.run(["solve", "-4", "--ics", "y(0)=0", "--ics", "y'(0)=1"]) == 0
+    assert "  y(x) = sin(2*x)/2" in capsys.readouterr().out.splitlines()
+    assert main.run(["solve", "2/x^2", "--ics", "y(0)=0"]) == 2
+    assert "0 is a singular point" in capsys.readouterr().err
+
+
+def test_the_verdict_does_not_wait_for_the_solutions(capsys: pytest.CaptureFixture[str]) -> None:
+    """Where the closed forms are beyond the limits, the verdict has been printed, and stays."""
+    from kovacic.errors import LimitExceeded
+    from kovacic.views.text import render
+
+    def late() -> Iterator[str]:
+        raise LimitExceeded("the time limit is used up", limit="seconds")
+        yield
+
+    lines = render(kovacic.solve("x^2 + 3"), solutions=late())
+    assert next(lines) == "y'' = (x^2 + 3) y"
+    assert next(lines).startswith("  Liouvillian solutions exist: case 1")
+    with pytest.raises(LimitExceeded):
+        next(lines)
+
+
+def test_dsolve_prints_the_general_solution(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main.run(["dsolve", "y'' - 3*y' + 2*y = 0"]) == 0
+    assert capsys.readouterr().out == "y(x) = C1*exp(2*x) + C2*exp(x)\n"
+    assert main.run(["dsolve", "y'' - 2*x*y' + 2*y = 0", "--ics", "y(0)=0, y'(0)=5"]) == 0
+    assert capsys.readouterr().out == "y(x) = 5*x\n"
+    assert main.run(["dsolve", "y'' + y = 0", "--latex", "--ics", "y(0)=1, y'(0)=0"]) == 0
+    assert capsys.readouterr().out == "y{\\left(x \\right)} = \\cos{\\left(x \\right)}\n"
+
+
+def test_evaluate_prints_values_with_bounds(capsys: pytest.CaptureFixture[str]) -> None:
+    """cosh, whose equation is y'' = y, at points in the given order."""
+    assert main.run(["evaluate", "1", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1,1/2", "--at", "-0.25"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.partition(" = ")[0] for line in lines] == [
+        "y(1)",
+        "y'(1)",
+        "y(1/2)",
+        "y'(1/2)",
+        "y(-0.25)",
+        "y'(-0.25)",
+    ]
+    for line, value in zip(lines, ("1.543080634815243", "1.175201193643801", "1.127625965206380"), strict=False):
+        assert line.partition(" = ")[2].startswith(value)
+    assert "± " in lines[0]
 
 
 def test_a_no_in_words() -> None:
@@ -62,15 +126,17 @@ def test_a_no_in_words() -> None:
 def test_a_polynomial_of_omega_in_words(capsys: pytest.CaptureFixture[str]) -> None:
     assert main.run(["solve", "1/t - 3/(16*t^2)"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert lines[:6] == [
+    assert lines[:8] == [
         "y'' = ((16*t - 3)/(16*t^2)) y",
         "  Liouvillian solutions exist: case 2, omega = y'/y is algebraic of degree 2",
+        "  y1 = t^(1/4)*exp(2*sqrt(t))",
+        "  y2 = t^(1/4)*exp(-2*sqrt(t))",
         "  omega is a root w of",
         "      w^2",
         "      - (1/(2*t)) w",
         "      - ((16*t - 1)/(16*t^2)) = 0",
     ]
-    assert lines[6].startswith("  not case 1: an irregular singular point is ramified")
+    assert lines[8].startswith("  not case 1: an irregular singular point is ramified")
 
 
 @pytest.mark.parametrize(
@@ -138,6 +204,21 @@ def test_bad_input_does_not_stop_the_others() -> None:
         (["solve", "--var", "y", "y^2"], 0),
         (["solve", "x^2-7", "--limit", "degree=5", "--limit", "bits=50"], 0),
         (["solve", "--", "-x"], 0),
+        (["solve", "x^2", "--ics", "y(0)=1"], 0),
+        (["solve", "x^2", "--ics", "y(0)"], 2),
+        (["solve", "x^2", "--ics", "y(0)=1, y(0)=2"], 2),
+        (["solve", "x^2", "--ics", "y(0)=1", "--json"], 2),
+        (["dsolve", "y'' = x*y"], 0),
+        (["dsolve", "x^2"], 2),
+        (["dsolve", "y'' + y = 0", "--ics", "y(0)=__import__('os')"], 2),
+        (["dsolve", "x^2*y'' = 2*y", "--ics", "y(0)=1"], 2),
+        (["dsolve", "y'' = (x^2-100001)*y", "--limit", "unknown_degree=100"], 3),
+        (["evaluate", "x", "--x0", "0", "--y0", "1", "--at", "1"], 2),
+        (["evaluate", "x", "--x0", "0", "--y0", "1", "--dy0", "nan", "--at", "1"], 2),
+        (["evaluate", "1/x", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"], 2),
+        (["evaluate", "x", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1,,2"], 2),
+        (["evaluate", "x", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1", "--digits", "0"], 2),
+        (["evaluate", "-x", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "-1"], 0),
         (["--version"], 0),
         (["--help"], 0),
         (["solve", "--help"], 0),
@@ -188,7 +269,16 @@ def test_a_closed_pipe_is_quiet() -> None:
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full device")
 @pytest.mark.parametrize(
     "arguments",
-    [["solve", "x"], ["--help"], ["conditions", "n/x^2"], ["explain", "2"], ["batch", "-"], ["scan", "x+n", "n=1:3"]],
+    [
+        ["solve", "x"],
+        ["--help"],
+        ["conditions", "n/x^2"],
+        ["explain", "2"],
+        ["dsolve", "y'' = y"],
+        ["evaluate", "x", "--x0=0", "--y0=1", "--dy0=0", "--at=1"],
+        ["batch", "-"],
+        ["scan", "x+n", "n=1:3"],
+    ],
     ids=str,
 )
 def test_a_full_disk_is_told(arguments: list[str]) -> None:
@@ -286,7 +376,7 @@ def test_the_whole_process_starts_quickly(tmp_path: Path) -> None:
 
     def seconds() -> float:
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        subprocess.run([*COMMAND, "solve", "x^2+3"], env=env, stdout=subprocess.DEVNULL, check=True)
+        subprocess.run([*COMMAND, "solve", "2/x^2 - 1"], env=env, stdout=subprocess.DEVNULL, check=True)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
@@ -315,7 +405,10 @@ def test_h_is_help_everywhere(command: list[str], capsys: pytest.CaptureFixture[
     assert short.startswith("Usage: kovacic " + "".join(command))
 
 
-@pytest.mark.parametrize(("words", "offered"), [("s", {"solve", "scan", "schema"}), ("solve --la", {"--latex"})])
+@pytest.mark.parametrize(
+    ("words", "offered"),
+    [("s", {"solve", "scan", "schema"}), ("solve --la", {"--latex"}), ("ds", {"dsolve"})],
+)
 def test_the_shell_completes(words: str, offered: set[str]) -> None:
     """As the README says, by click's own mechanism."""
     env = {

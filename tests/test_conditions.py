@@ -686,7 +686,7 @@ def test_assumptions_refute_single_values() -> None:
 def test_a_proven_answer_under_assumptions_has_no_further_conditions() -> None:
     answer = kovacic.solve("(4*n^2-1)/(4*x^2) - 1", assume={"n": "integer"})
     assert not answer.generic_conditions
-    assert "isn't rational" not in render(answer)
+    assert "isn't rational" not in "\n".join(render(answer))
     assert kovacic.solve("(4*n^2-1)/(4*x^2) - 1", var="x").generic_conditions
 
 

@@ -51,7 +51,17 @@ def test_solving_text_imports_nothing_heavy() -> None:
     assert loaded_after(code) & (HEAVY | {"click"}) == set()
 
 
-@pytest.mark.parametrize("arguments", [["solve", "x^2+3"], ["solve", "--json", "x"], ["--help"], ["solve", "--help"]])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["solve", "x^2*y'' + x*y' + (x^2 - 9/4)*y = 0"],
+        ["solve", "--no-solutions", "x^2+3"],
+        ["solve", "--json", "x"],
+        ["--help"],
+        ["solve", "--help"],
+    ],
+    ids=str,
+)
 def test_the_command_imports_nothing_heavy(arguments: list[str]) -> None:
     assert loaded_after(f"from kovacic.cli.main import run; run({arguments!r})") & HEAVY == set()
 

@@ -41,10 +41,10 @@ def command(
     kovacic explain --format html "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0" > bessel.html
     """
 
-    def show(answer: Solution) -> str:
+    def show(answer: Solution) -> tuple[str]:
         if cite:
-            return answer.citation(style="bibtex")
+            return (answer.citation(style="bibtex"),)
         text = answer.explain(format=form, solutions=not no_solutions).rstrip("\n")
-        return fitted(text) if form == "text" else text
+        return (fitted(text) if form == "text" else text,)
 
     return answer_each(equations, show, var=var, limits=limits, gap="\n")

@@ -20,7 +20,9 @@ DECIDED, BAD_INPUT, UNDECIDED, CHECK_FAILED, NOT_WRITTEN, INTERRUPTED, PIPE_CLOS
 
 # Name: what it does.  The module kovacic.cli.<name> has the click command as `command`.
 COMMANDS = {
-    "solve": "Decide equations y'' = S(x) y: omega and its polynomial, or a proof that there is none.",
+    "solve": "Decide equations y'' = S(x) y: two solutions, or a proof that there is none.",
+    "dsolve": "The general solution of an equation, or that with given initial values.",
+    "evaluate": "Values of a solution with proven error bounds, to any number of digits.",
     "explain": "The derivation, step by step, as a reader of Kovacic's paper follows it.",
     "conditions": "For which values of the parameters do Liouvillian solutions exist?",
     "batch": "Decide many equations from a file, in parallel, with a result for every line.",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +26,9 @@ var_option = click.option(
 )
 assume_option = click.option(
     "--assume", metavar="NAME=WHAT", multiple=True, help="What is known about a parameter: n=integer."
+)
+ics_option = click.option(
+    "--ics", metavar="VALUES", multiple=True, help='Initial values at one point: "y(0)=1, y\'(0)=0".'
 )
 limit_option = click.option(
     "--limit",
@@ -93,16 +96,43 @@ def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
     return found or None
 
 
+def parse_initial_values(settings: Sequence[str]) -> dict[str, str] | None:
+    """`y(0)=1, y'(0)=0` as `kovacic.dsolve` takes them; None without any.  Raises `click.UsageError`."""
+    found: dict[str, str] = {}
+    for setting in settings:
+        for part in listed(setting):
+            place, separator, value = (piece.strip() for piece in part.partition("="))
+            if not (separator and place and value) or place in found:
+                raise click.UsageError(f'--ics {setting}: write "y(0)=1, y\'(0)=0", every value once')
+            found[place] = value
+    return found or None
+
+
+def listed(text: str) -> list[str]:
+    """The parts between commas, those within parentheses apart."""
+    parts, depth = [""], 0
+    for character in text:
+        depth += {"(": 1, ")": -1}.get(character, 0)
+        if character == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += character
+    return [part.strip() for part in parts]
+
+
 def answer_each(
     equations: Sequence[str],
-    show: Callable[[Solution], str],
+    show: Callable[[Solution], Iterable[str]],
     *,
     var: str | None,
     limits: Sequence[str],
     assume: Sequence[str] = (),
     gap: str = "",
 ) -> int:
-    """Solve every equation and print what `show` makes of it; the status is that of the most serious outcome."""
+    """Solve every equation and print the lines that `show` makes of it, each when it is there.
+
+    The status is that of the most serious outcome.
+    """
     from kovacic.decision import Status
     from kovacic.errors import KovacicError
     from kovacic.solution import solve
@@ -114,12 +144,13 @@ def answer_each(
     for text in _expressions(equations):
         try:
             answer = solve(text, var=var, assume=assumptions, limits=chosen)
+            outcomes.append(UNDECIDED if answer.status is Status.UNDECIDED else DECIDED)
+            for line in show(answer):
+                print(between + line, flush=True)
+                between = ""
+            between = gap
         except KovacicError as error:
             outcomes.append(reported(error))
-            continue
-        outcomes.append(UNDECIDED if answer.status is Status.UNDECIDED else DECIDED)
-        print(between + show(answer), flush=True)
-        between = gap
     return max(outcomes, key=(DECIDED, UNDECIDED, BAD_INPUT, CHECK_FAILED).index)
 
 

@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import click
 
-from kovacic.cli.options import EQUATIONS, answer_each, assume_option, fitted, limit_option, styled, var_option
+from kovacic.cli.options import (
+    EQUATIONS,
+    answer_each,
+    assume_option,
+    fitted,
+    ics_option,
+    limit_option,
+    parse_initial_values,
+    styled,
+    var_option,
+)
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
@@ -18,6 +29,8 @@ if TYPE_CHECKING:
 @click.option("--full", is_flag=True, help="With --json: the group and two solutions in closed form as well.")
 @click.option("--latex", is_flag=True, help="The equation and its solutions in LaTeX.")
 @click.option("--explain", is_flag=True, help="The derivation, step by step (see `kovacic explain`).")
+@click.option("--no-solutions", is_flag=True, help="Only the verdict and omega: faster.")
+@ics_option
 @var_option
 @assume_option
 @limit_option
@@ -27,25 +40,58 @@ def command(
     full: bool,
     latex: bool,
     explain: bool,
+    no_solutions: bool,
+    ics: tuple[str, ...],
     var: str | None,
     assume: tuple[str, ...],
     limits: tuple[str, ...],
 ) -> int:
     """Decide y'' = S(x) y for every S, or an equation with y'' in it; "-" reads one a line from standard input.
 
+    Two solutions are printed where there are Liouvillian ones; the general solution for an equation with a right-hand side,
+    and the only one where initial values are given.
+
     \b
     kovacic solve "x^2 + 3"
     kovacic solve "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"
+    kovacic solve "y'' + 4*y = sin(x)" --ics "y(0)=1, y'(0)=0"
     kovacic solve --json "x" "1/x - 3/(16*x^2)"
     """
-    from kovacic.views.text import render
+    from kovacic.views.text import render, solution_lines
 
-    def show(answer: Solution) -> str:
+    values = parse_initial_values(ics)
+    if values and (as_json or latex or explain or no_solutions):
+        raise click.UsageError("--ics belongs to the solutions as text (kovacic dsolve --latex has the others)")
+
+    def show(answer: Solution) -> Iterable[str]:
         if as_json:
-            return answer.to_json(full=full)
+            return (answer.to_json(full=full),)
         if latex:
-            return answer._repr_latex_()
-        return fitted(answer.explain().rstrip("\n") if explain else render(answer, style=styled))
+            return (answer._repr_latex_(),)
+        if explain:
+            return (fitted(answer.explain().rstrip("\n")),)
+        homogeneous = answer.equation is None or answer.equation.is_homogeneous
+        solutions = solution_lines(answer) if homogeneous and not values else general_lines(answer, values)
+        return map(fitted, render(answer, style=styled, solutions=None if no_solutions else solutions))
 
     gap = "" if as_json or latex else "\n"
     return answer_each(equations, show, var=var, limits=limits, assume=assume, gap=gap)
+
+
+def general_lines(answer: Solution, values: dict[str, str] | None) -> Iterator[str]:
+    """The general solution, or that with the initial values; no line without a Liouvillian solution."""
+    if answer.case is None:
+        return
+    from kovacic.general_solution import dsolve
+    from kovacic.reading.given import Equation
+    from kovacic.views.formula import caret
+    from kovacic.views.text import shortened
+
+    zero = answer.S * 0
+    equation = answer.equation or Equation(zero + 1, zero, -answer.S, zero, variable=answer.variable)
+    try:
+        found = dsolve(equation, ics=values, limits=answer.limits)
+    except NotImplementedError as reason:
+        yield f"the solution wasn't written out: {reason}"
+    else:
+        yield f"{found.lhs} = {shortened(caret(str(found.rhs)))}"

@@ -7,14 +7,11 @@ from fractions import Fraction
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpq
-from sympy import Dummy
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
-from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.curve import CurveIntegral
-from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import (
     CurvePrimitive,
     ExponentialPrimitive,
@@ -125,6 +122,8 @@ def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
 
 def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: Any) -> Any:
     """|y'' - 2 g y' + (g^2 - g' - S) y| relative to its terms, g the logarithmic derivative of the gauge factor: a ball."""
+    from kovacic.closed_form.jets import jet  # SymPy, which the exact check does without
+
     y, first, second = jet(expression, variable, point)
     coefficient, g0 = -value_at(S, point), acb(0)
     if gauge:
@@ -154,6 +153,11 @@ def value_at(r: RatFunc, point: Any) -> Any:
 def _value(polynomial: Poly, point: Any) -> Any:
     if isinstance(polynomial, RationalPoly):
         return acb_poly(polynomial.rep)(point)
+    from sympy import Dummy
+
+    from kovacic.closed_form.atoms import Atoms
+    from kovacic.closed_form.jets import jet
+
     # The constants as in what is shown.
     variable = Dummy()
     constants = (jet(c, variable, acb(0))[0] for c in Atoms(variable).coefficients(polynomial))

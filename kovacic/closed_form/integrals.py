@@ -21,6 +21,7 @@ from kovacic.closed_form.primitive import (
     OpenPrimitive,
     PowerPrimitive,
     RationalPrimitive,
+    normalised_constant,
 )
 from kovacic.closed_form.product import Power, Product
 from kovacic.closed_form.product_display import display, factors
@@ -67,7 +68,7 @@ def _scaled(scale: Expr, parts: list[Expr]) -> Scaled:
 def _rational(form: Triangular, primitive: RationalPrimitive, first: Factors, atoms: Atoms) -> Expr:
     exact, residues = primitive.parts.exact, primitive.parts.residues
     if not residues:
-        exact = _normalised_constant(exact)
+        exact = normalised_constant(exact)
     terms = []
     if exact:
         terms.append(_scaled(*factors(form.first, atoms, exact)))
@@ -95,18 +96,6 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
             bottom = -bottom
         terms.append(atoms.constant(first.value) * sympy.log(top / bottom, evaluate=False))
     return terms[::-1]
-
-
-def _normalised_constant(exact: RatFunc) -> RatFunc:
-    """The antiderivative that vanishes at a multiple zero of the integrand, or has the least degree in the numerator."""
-    slope = exact.derivative()
-    zeros = exact.field.factor(slope.num) if slope.num.degree > 1 else []
-    at_zeros = [(k, exact.num * exact.den.inverse_modulo(p) % p) for p, k in zeros if p.degree == 1 and k > 1]
-    if at_zeros:
-        return exact - max(at_zeros, key=lambda pair: pair[0])[1]
-    if exact.num.degree != exact.den.degree or exact.den.degree <= 0:
-        return exact
-    return exact - exact.num.lc
 
 
 def _exponential(form: Triangular, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> Expr:

@@ -269,3 +269,15 @@ def _reduce_laurent(
             pending = sorted({*pending, target}, key=lambda m: -abs((m + alpha + 1) / n - Fraction(1, 2)))
     terms = tuple(Term(value, m) for m, value in sorted(coefficients.items()) if value)
     return W, terms
+
+
+def normalised_constant(exact: RatFunc) -> RatFunc:
+    """The antiderivative that vanishes at a multiple zero of the integrand, or has the least degree in the numerator."""
+    slope = exact.derivative()
+    zeros = exact.field.factor(slope.num) if slope.num.degree > 1 else []
+    at_zeros = [(k, exact.num * exact.den.inverse_modulo(p) % p) for p, k in zeros if p.degree == 1 and k > 1]
+    if at_zeros:
+        return exact - max(at_zeros, key=lambda pair: pair[0])[1]
+    if exact.num.degree != exact.den.degree or exact.den.degree <= 0:
+        return exact
+    return exact - exact.num.lc

@@ -7,6 +7,7 @@ written form and not from omega.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -84,3 +85,80 @@ def product(logarithmic_derivative: RatFunc, zeros: Poly | None = None) -> Produ
         if rest.degree > 0:
             powers.append(Power(rest, one))
     return Product(tuple(power for power in powers if power.exponent), roots, parts.exact)
+
+
+@dataclass(frozen=True)
+class Factor:
+    """base^exponent; factors with the same fractional `key` share a root."""
+
+    base: Poly
+    exponent: Poly
+    key: Poly
+
+
+def merged(y: Product, extra: RatFunc | None = None, *, like: Product | None = None) -> list[Factor]:
+    """The powers of y * extra, common factors of y and extra merged.
+
+    Bases with the same fractional exponent come under one root.  (p q)^e and p^e q^e differ by a constant that isn't the
+    same everywhere; in a sum, all terms must use the same roots: those of the product `like`, from which the exponents
+    differ by integers.
+    """
+    alone = like is None and extra is None
+    keys = {} if alone else {power.base: power.exponent for power in (like or y).powers}
+    found = []
+    rest = extra
+    for power in y.powers:
+        exponent = power.exponent
+        if rest:
+            num, up = rest.num.remove(power.base)
+            den, down = rest.den.remove(power.base)
+            rest = RatFunc(num, den, reduced=True)
+            exponent = exponent + (up - down)
+        if exponent:
+            found.append(Factor(power.base, exponent, keys.get(power.base, exponent)))
+    if rest is not None:
+        one = y.field.poly([1])
+        found += [Factor(rest.num, one, one), Factor(rest.den, -one, -one)]
+    return found
+
+
+def grouped(found: Sequence[Factor]) -> list[tuple[list[Poly], Poly]]:
+    """(bases, exponent): bases under a common root together, all others alone, and (x - a)(x + a) multiplied out."""
+    fractional: dict[Poly, list[Factor]] = {}
+    integral: dict[Poly, list[Poly]] = {}
+    for factor in found:
+        if _is_integer(factor.exponent):
+            integral.setdefault(factor.exponent, []).append(factor.base)
+        else:
+            fractional.setdefault(factor.key, []).append(factor)
+    powers = []
+    for group in fractional.values():
+        exponent = group[0].exponent
+        for factor in group[1:]:
+            if factor.exponent != exponent:
+                integral.setdefault(factor.exponent - exponent, []).append(factor.base)
+        powers.append((_joined([factor.base for factor in group]), exponent))
+    return powers + [([base], exponent) for exponent, bases in integral.items() for base in _joined(bases)]
+
+
+def _is_integer(exponent: Poly) -> bool:
+    value = exponent.field.rational_value(exponent)
+    return value is not None and value.denominator == 1
+
+
+def _joined(bases: list[Poly]) -> list[Poly]:
+    """With every pair x - a, x + a multiplied out."""
+    pending, result = list(bases), []
+    while pending:
+        base = pending.pop(0)
+        partner = next((other for other in pending if _are_opposite(base, other)), None)
+        if partner is not None:
+            pending.remove(partner)
+            base = base * partner
+        result.append(base)
+    return result
+
+
+def _are_opposite(p: Poly, q: Poly) -> bool:
+    """Are these multiples of x - a and x + a, for a other than 0?"""
+    return p.degree == q.degree == 1 and bool(p[0]) and p[0] * q[1] == -q[0] * p[1]

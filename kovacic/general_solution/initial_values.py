@@ -25,7 +25,7 @@ class Given:
 
 
 def read_values(ics: Mapping[Any, Any], function: Any, equation: Equation) -> tuple[Given, ...]:
-    """The values that are given.  Raises `InputError`, and `ValueError` for a singular point."""
+    """The values that are given.  Raises `InputError`, for a singular point too."""
     found = []
     for key, value in ics.items():
         point, order = _text_key(key, equation) if isinstance(key, str) else _sympy_key(key, function)
@@ -35,7 +35,7 @@ def read_values(ics: Mapping[Any, Any], function: Any, equation: Equation) -> tu
         for coefficient in (equation.b, equation.c):
             quotient = coefficient / equation.a
             if _is_zero(atoms.poly(quotient.den).subs(atoms.x, point)):
-                raise ValueError(f"{point} is a singular point of the equation")
+                raise InputError(f"{point} is a singular point of the equation")
     return tuple(found)
 
 

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, Status
+from kovacic.errors import LimitExceeded, VerificationFailed
+from kovacic.limits import Budget
 from kovacic.reading.given import parameters_of
-from kovacic.views.formula import Formulas
+from kovacic.views.formula import Formulas, caret
+from kovacic.views.products import written
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
 
 #: Gives a piece of text a role ("good", "bad", "unsure", "title", "faint"): colours on a terminal, nothing elsewhere.
 Style = Callable[[str, str], str]
+
+_LONGEST = 2000
+"""Longer formulas are shortened."""
 
 
 def one_line(solution: Solution) -> str:
@@ -29,41 +35,91 @@ def one_line(solution: Solution) -> str:
     return f"{equation}: case {solution.case}{degree}"
 
 
-def render(solution: Solution, *, style: Style = lambda text, role: text) -> str:
-    """The equation, the verdict in words, omega or its polynomial, and how it was verified."""
-    lines = [style(_equation(solution), "title")]
+def render(
+    solution: Solution, *, style: Style = lambda text, role: text, solutions: Iterable[str] | None = None
+) -> Iterator[str]:
+    """The lines: the equation, the verdict in words, the `solutions`, omega or its polynomial, and how it was verified.
+
+    Each is given out as soon as it is known: the verdict doesn't wait for solutions, which may take a while.
+    """
+    yield style(_equation(solution), "title")
     if solution.equation is not None and not solution.equation.is_normal_form:
-        lines.append(f"  normal form: {_normal_form(solution)}, of which the following speaks")
-    lines += [style(f"  note: {notice}", "faint") for notice in solution.notices]
+        yield f"  normal form: {_normal_form(solution)}, of which the following speaks"
+    for notice in solution.notices:
+        yield style(f"  note: {notice}", "faint")
     if solution.status is Status.UNDECIDED:
-        lines.append(f"  {style('undecided', 'unsure')}: {solution.reason}")
+        yield f"  {style('undecided', 'unsure')}: {solution.reason}"
     elif solution.status is Status.NONE_EXISTS:
-        lines.append(f"  {style('no Liouvillian solution exists', 'bad')}: the Galois group is SL2(C)")
+        yield f"  {style('no Liouvillian solution exists', 'bad')}: the Galois group is SL2(C)"
     else:
         assert solution.riccati is not None
         case = f"case {solution.case}, omega = y'/y is {_of_degree(solution.riccati.degree)}"
-        lines.append(f"  {style('Liouvillian solutions exist', 'good')}: {case}")
-        lines += [f"  {line}" for line in omega_lines(solution)]
-    lines += [f"  {line}" for line in _exclusions(solution)]
+        yield f"  {style('Liouvillian solutions exist', 'good')}: {case}"
+    yield from (f"  {line}" for line in solutions or ())
+    yield from (f"  {line}" for line in omega_lines(solution, integral=solutions is None))
+    yield from (f"  {line}" for line in _exclusions(solution))
     if parameters_of(solution.S.field) and solution.status is not Status.UNDECIDED and not solution.assumed:
-        lines.append(f"  for generic parameters: {solution.generic_conditions}")
-        lines.append("  (kovacic conditions tells for which values more is solvable)")
+        yield f"  for generic parameters: {solution.generic_conditions}"
+        yield "  (kovacic conditions tells for which values more is solvable)"
     if solution.verified:
-        lines.append(f"  {style('verified', 'good')}: {_how_verified(solution)}")
+        yield f"  {style('verified', 'good')}: {_how_verified(solution)}"
     elif solution.status is not Status.UNDECIDED:
-        lines.append(f"  {style('not verified', 'bad')}")
-    return "\n".join(lines)
+        yield f"  {style('not verified', 'bad')}"
 
 
-def omega_lines(solution: Solution) -> list[str]:
-    """omega, or its polynomial; without a Liouvillian solution no line."""
+def solution_lines(solution: Solution) -> Iterator[str]:
+    """y1 and y2, of the homogeneous equation as it was given, with notes; why not, where a limit was reached.
+
+    No line without a Liouvillian solution.
+    Products of powers and exponentials are written without SymPy, everything else as `Solution.closed_form` has it.
+    """
+    if solution.case is None:
+        return
+    try:
+        pair, notes = _written(solution)
+    except LimitExceeded as limit:
+        yield f"the solutions weren't written out: {limit}"
+        return
+    name = "y" if solution.equation is None else solution.equation.unknown
+    for k, text in enumerate(pair, start=1):
+        yield f"{name}{k} = {shortened(text)}"
+    yield from (f"note: {note}" for note in notes)
+
+
+def shortened(text: str) -> str:
+    """A formula of at most two screens."""
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]} ... ({len(text)} characters)"
+
+
+def _written(solution: Solution) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    from kovacic.closed_form.check import is_exact_solution
+    from kovacic.closed_form.primitive import OpenPrimitive
+    from kovacic.closed_form.structure import Triangular, build
+
+    with Budget(solution.limits).watched():
+        structure = build(solution.S, solution.decision, solution.gauge)
+        pair = written(structure, solution.variable)
+        if pair is not None and not is_exact_solution(structure, solution.S, solution.gauge):
+            raise VerificationFailed(f"a closed form for S = {solution.S} failed its check; please report the equation")
+    if pair is not None:
+        primitive = structure.primitive if isinstance(structure, Triangular) else None
+        return pair, (f"integral left because {primitive.reason}",) if isinstance(primitive, OpenPrimitive) else ()
+    form = solution.closed_form
+    assert form is not None
+    return tuple(caret(str(y)) for y in form), form.notes
+
+
+def omega_lines(solution: Solution, *, integral: bool = True) -> list[str]:
+    """omega, or its polynomial; without a Liouvillian solution no line.  With `integral` what y is in terms of omega."""
     riccati, formulas = solution.riccati, _formulas(solution)
     if riccati is None:
         return []
     names = formulas.names
     if riccati.degree == 1:
         omega = formulas.text(-riccati.coefficients[0])
-        lines = [f"omega = {omega}", f"y = exp(integral of omega d{solution.variable})"]
+        lines = [f"omega = {omega}"]
+        if integral:
+            lines.append(f"y = exp(integral of omega d{solution.variable})")
     else:
         lines = [f"omega is a root {names.unknown} of", f"    {names.unknown}^{riccati.degree}"]
         for k in range(riccati.degree - 1, -1, -1):

@@ -1,0 +1,58 @@
+"""`kovacic dsolve`: the general solution of an equation, or that with given initial values."""
+
+from __future__ import annotations
+
+import sys
+
+import click
+
+from kovacic.cli.main import DECIDED, UNDECIDED
+from kovacic.cli.options import (
+    EQUATIONS,
+    fitted,
+    ics_option,
+    limit_option,
+    parse_initial_values,
+    parse_limits,
+    refuse_options,
+    var_option,
+)
+
+
+@click.command(context_settings=EQUATIONS)
+@click.argument("equation", metavar="EQUATION")
+@click.option("--latex", is_flag=True, help="The solution in LaTeX.")
+@ics_option
+@var_option
+@limit_option
+def command(equation: str, latex: bool, ics: tuple[str, ...], var: str | None, limits: tuple[str, ...]) -> int:
+    """The general solution of a linear equation of second order; with --ics the one that has these values.
+
+    The right-hand side may contain exp, log, sin, cos and the like.  Where there is no solution in closed form, this is said,
+    with the reason, and the exit status is 0 as well if it is proven.
+
+    \b
+    kovacic dsolve "y'' + 4*y' + 4*y = exp(-2*x)/x^2"
+    kovacic dsolve "y'' - 2*x*y' + 2*y = 0" --ics "y(0)=0, y'(0)=5"
+    """
+    from kovacic.decision import Status
+    from kovacic.general_solution import dsolve
+    from kovacic.solution import decide
+
+    refuse_options((equation,))
+    values, chosen = parse_initial_values(ics), parse_limits(limits)
+    try:
+        found = dsolve(equation, ics=values, var=var, limits=chosen)
+    except NotImplementedError as reason:
+        if decide(equation, var=var, limits=chosen).status is Status.NONE_EXISTS:
+            print(fitted(str(reason)))
+            return DECIDED
+        print(f"kovacic: {reason}", file=sys.stderr)
+        return UNDECIDED
+    if latex:
+        from sympy import latex as formula
+
+        print(formula(found))
+    else:
+        print(fitted(f"{found.lhs} = {str(found.rhs).replace('**', '^')}"))
+    return DECIDED
