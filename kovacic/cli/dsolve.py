@@ -28,8 +28,8 @@ from kovacic.cli.options import (
 def command(equation: str, latex: bool, ics: tuple[str, ...], var: str | None, limits: tuple[str, ...]) -> int:
     """The general solution of a linear equation of second order; with --ics the one that has these values.
 
-    The right-hand side may contain exp, log, sin, cos and the like.  Where there is no solution in closed form, this is said,
-    with the reason, and the exit status is 0 as well if it is proven.
+    The right-hand side may contain exp, log, sin, cos and the like.  Where nothing is Liouvillian, special functions are
+    looked for; where none is found either, this is said, with the reason, and the exit status is 0 as well.
 
     \b
     kovacic dsolve "y'' + 4*y' + 4*y = exp(-2*x)/x^2"
@@ -37,14 +37,15 @@ def command(equation: str, latex: bool, ics: tuple[str, ...], var: str | None, l
     """
     from kovacic.decision import Status
     from kovacic.general_solution import dsolve
-    from kovacic.solution import decide
+    from kovacic.solution import solve
 
     refuse_options((equation,))
     values, chosen = parse_initial_values(ics), parse_limits(limits)
     try:
         found = dsolve(equation, ics=values, var=var, limits=chosen)
     except NotImplementedError as reason:
-        if decide(equation, var=var, limits=chosen).status is Status.NONE_EXISTS:
+        answer = solve(equation, var=var, limits=chosen)
+        if answer.status is Status.NONE_EXISTS and not answer.special:
             print(fitted(str(reason)))
             return DECIDED
         print(f"kovacic: {reason}", file=sys.stderr)

@@ -79,8 +79,8 @@ def command(
 
 
 def general_lines(answer: Solution, values: dict[str, str] | None) -> Iterator[str]:
-    """The general solution, or that with the initial values; no line without a Liouvillian solution."""
-    if answer.case is None:
+    """The general solution, or that with the initial values; why not; no line for an undecided equation."""
+    if answer.status == "undecided":
         return
     from kovacic.general_solution import dsolve
     from kovacic.reading.given import Equation
@@ -92,6 +92,7 @@ def general_lines(answer: Solution, values: dict[str, str] | None) -> Iterator[s
     try:
         found = dsolve(equation, ics=values, limits=answer.limits)
     except NotImplementedError as reason:
-        yield f"the solution wasn't written out: {reason}"
+        nothing = answer.case is None and not answer.special
+        yield str(answer.special) if nothing else f"the solution wasn't written out: {reason}"
     else:
         yield f"{found.lhs} = {shortened(caret(str(found.rhs)))}"

@@ -8,6 +8,7 @@ from itertools import combinations
 from typing import Any
 
 import sympy
+from sympy.functions.special.bessel import BesselBase
 
 from kovacic.closed_form.atoms import Atoms
 from kovacic.errors import InputError
@@ -141,10 +142,8 @@ def value_at(expression: Any, x: Any, point: Any, order: int = 0) -> Any:
         expression = expression.xreplace({jump: sympy.Integer(0) for jump in jumps if jump.args[0].subs(x, point) == 0})
     value = expression.subs(x, point)
     if value.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):
-        if expression.has(sympy.hyper):
-            said = (
-                f"the hypergeometric functions of the closed form are singular at {point}, where the solutions aren't"
-            )
+        if expression.has(sympy.hyper, BesselBase):  # SymPy takes limits of sqrt(x) besselk(1/4, x^2/2) wrong
+            said = f"the special functions of the closed form are singular at {point}, where the solutions aren't"
             raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
         value = sympy.limit(expression, x, point)
     return value.doit() if value.has(sympy.Integral) else value

@@ -6,11 +6,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import Symbol
-
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget
-from kovacic.special.express import Writer
 from kovacic.special.find import find
 from kovacic.special.pullback import Pullback
 
@@ -66,6 +63,10 @@ def special_functions(
     search = find(S, budget)
     if search.pullback is None:
         return SpecialFunctions(None, None, None, search.searched, search.stopped)
+    from sympy import Symbol
+
+    from kovacic.special.express import Writer
+
     with budget.watched():
         y1, y2 = Writer(search.pullback, gauge, Symbol(variable), symbols or {})()
     return SpecialFunctions(y1, y2, search.pullback, search.searched)

@@ -70,19 +70,21 @@ def render(
 def solution_lines(solution: Solution) -> Iterator[str]:
     """y1 and y2, of the homogeneous equation as it was given, with notes; why not, where a limit was reached.
 
-    No line without a Liouvillian solution.
-    Products of powers and exponentials are written without SymPy, everything else as `Solution.closed_form` has it.
+    Where there is no Liouvillian solution, the two in special functions, or which were looked for; nothing for an undecided
+    equation.  Products of powers and exponentials are written without SymPy, everything else as `Solution.closed_form` has it.
     """
-    if solution.case is None:
+    if solution.status is Status.UNDECIDED:
         return
     try:
         pair, notes = _written(solution)
     except LimitExceeded as limit:
         yield f"the solutions weren't written out: {limit}"
         return
+    if solution.case is None:
+        yield "in special functions, verified:" if pair else str(solution.special)
     name = "y" if solution.equation is None else solution.equation.unknown
     for k, text in enumerate(pair, start=1):
-        yield f"{name}{k} = {shortened(text)}"
+        yield f"{'  ' if solution.case is None else ''}{name}{k} = {shortened(text)}"
     yield from (f"note: {note}" for note in notes)
 
 
@@ -92,6 +94,8 @@ def shortened(text: str) -> str:
 
 
 def _written(solution: Solution) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    if solution.case is None:
+        return tuple(caret(str(y)) for y in solution.special), ()
     from kovacic.closed_form.check import is_exact_solution
     from kovacic.closed_form.primitive import OpenPrimitive
     from kovacic.closed_form.structure import Triangular, build
