@@ -28,6 +28,9 @@ POINT = mpmath.mpc("0.31959", "0.14606")
 def function(expression: Any, values: dict[str, Any]) -> Any:
     """A function of x for mpmath, which shares nothing with SymPy's rules for derivatives."""
     named = {symbol: values[symbol.name] for symbol in expression.free_symbols if symbol.name in values}
+    expression = (
+        expression.rewrite(sympy.besselj).rewrite(sympy.bessely) if expression.has(sympy.jn, sympy.yn) else expression
+    )
     return sympy.lambdify(x, expression.xreplace(named), "mpmath")
 
 
@@ -40,7 +43,7 @@ def solves(answer: Any, S: Any, gauge: Any = 0, **values: Any) -> bool:
         jets = [mpmath.taylor(function(y, values), point, 2) for y in answer.solutions]
         for y, slope, half in jets:
             terms = (2 * half, first * slope, zeroth * y)
-            if abs(sum(terms)) > mpmath.mpf(10) ** -30 * sum(map(abs, terms)):
+            if abs(sum(terms)) > mpmath.mpf(10) ** -30 * sum(map(abs, (y, slope, *terms))):
                 return False
         (u, du, _), (v, dv, _) = jets
         return bool(abs(u * dv - du * v) > mpmath.mpf(10) ** -12 * (abs(u * dv) + abs(du * v)))
@@ -164,3 +167,57 @@ def test_dsolve_uses_them() -> None:
     assert abs(start.diff(x).subs(x, 0).evalf(30)) < 1e-28
     with pytest.raises(NotImplementedError, match=r"SL2.*searched"):
         kovacic.dsolve("y'' = (x^3 + x^2)*y")
+
+
+n, m = (sympy.Symbol(name, integer=True, nonnegative=True) for name in "nm")
+#: Equations with their polynomials of symbolic degree (DLMF 18.8, 10.47, 33.2).
+POLYNOMIALS = [
+    ("y'' - 2*x*y' + 2*n*y = 0", "hermite(n, x)"),
+    ("y'' + (2*n + 1 - x^2)*y = 0", "exp(-x**2/2)*hermite(n, x)"),
+    ("y'' + 2*x*y' - 2*n*y = 0", "hermite(n, I*x)"),
+    ("x*y'' + (1 - x)*y' + n*y = 0", "laguerre(n, x)"),
+    ("x*y'' + (a + 1 - x)*y' + n*y = 0", "assoc_laguerre(n, a, x)"),
+    ("x*y'' + (m + 1 - x)*y' + n*y = 0", "assoc_laguerre(n, m, x)"),
+    ("y'' + (-1/4 + (n + m + 1)/x - m*(m + 1)/x^2)*y = 0", "x**(m + 1)*exp(-x/2)*assoc_laguerre(n, 2*m + 1, x)"),
+    ("(1-x^2)*y'' - 2*x*y' + n*(n + 1)*y = 0", "legendre(n, x)"),
+    ("(1-x^2)*y'' - (2*a + 1)*x*y' + n*(n + 2*a)*y = 0", "gegenbauer(n, a, x)"),
+    ("(1-x^2)*y'' + (b - a - (a + b + 2)*x)*y' + n*(n + a + b + 1)*y = 0", "jacobi(n, a, b, x)"),
+    ("(1-x^2)*y'' + (b - m - (m + b + 2)*x)*y' + n*(n + m + b + 1)*y = 0", "jacobi(n, m, b, x)"),
+    ("x^2*y'' + 2*x*y' + (x^2 - n*(n + 1))*y = 0", "jn(n, x)"),
+    ("x^2*y'' + x*y' + (x^2 - (n + 1/2)^2)*y = 0", "sqrt(x)*jn(n, x)"),
+]
+
+
+@pytest.mark.parametrize(("equation", "first"), POLYNOMIALS, ids=[row[0] for row in POLYNOMIALS])
+def test_polynomials_of_symbolic_degree(equation: str, first: str) -> None:
+    answer = kovacic.solve(equation)
+    symbols = {"n": n, "m": m}
+    found = special_functions(answer.S, answer.gauge, "x", Budget(), symbols=symbols)
+    assert str(found.y1) == first
+    assert {n, m} >= found.y2.free_symbols - {x} - set(sympy.symbols("a b"))
+    for degree in (0, 3):
+        assert solves(found, answer.S, answer.gauge, n=degree, m=3, a=mpmath.mpf(2) / 7, b=mpmath.mpf(3) / 11), degree
+
+
+@pytest.mark.parametrize(
+    "equation",
+    [
+        "(1-x^2)*y'' - 2*x*y' + n*(n + 1)*y = 0",
+        "x*y'' + (1 - x)*y' + n*y = 0",
+        "y'' - 2*x*y' + 2*n*y = 0",
+        "x*y'' + (m + 1 - x)*y' + n*y = 0",
+        "(1-x^2)*y'' - 2*x*y' + (n*(n + 1) - m^2/(1 - x^2))*y = 0",
+    ],
+)
+def test_solutions_stay_independent_for_integers_of_either_sign(equation: str) -> None:
+    answer = kovacic.solve(equation)
+    symbols = {name: sympy.Symbol(name, integer=True) for name in "nm"}
+    found = special_functions(answer.S, answer.gauge, "x", Budget(), symbols=symbols)
+    for degree in (-3, 2):
+        assert solves(found, answer.S, answer.gauge, n=degree, m=-2), degree
+
+
+def test_dsolve_gives_polynomials_where_the_degree_is_a_natural_number() -> None:
+    y, t = sympy.Function("y"), sympy.Symbol("t")
+    hermite = kovacic.dsolve(y(t).diff(t, 2) - 2 * t * y(t).diff(t) + 2 * n * y(t), y(t)).rhs
+    assert hermite.coeff(sympy.Symbol("C1")) == sympy.hermite(n, t)

@@ -2,5 +2,5 @@
 
 `answer.special_functions` is the entry, and the module to read first.  `find.find` searches: `confluent` and `gauss` propose
 pull-backs of the standard equations (`pullback`), from the polar parts (`polar`) and the exponents of S, and none is returned
-that doesn't satisfy the identity exactly.  `express` writes the solutions down.
+that doesn't satisfy the identity exactly.  `bessel`, `kummer` and `hypergeometric` write the solutions down (`writer`).
 """

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.special.find import find
 from kovacic.special.pullback import Pullback
@@ -63,10 +64,15 @@ def special_functions(
     search = find(S, budget)
     if search.pullback is None:
         return SpecialFunctions(None, None, None, search.searched, search.stopped)
-    from sympy import Symbol
+    from kovacic.special.express import solutions  # imports SymPy
 
-    from kovacic.special.express import Writer
-
-    with budget.watched():
-        y1, y2 = Writer(search.pullback, gauge, Symbol(variable), symbols or {})()
-    return SpecialFunctions(y1, y2, search.pullback, search.searched)
+    try:
+        with budget.watched():
+            found = solutions(search.pullback, gauge, variable, symbols or {})
+    except LimitExceeded as limit:
+        return SpecialFunctions(None, None, None, search.searched, str(limit))
+    if found is None:
+        return SpecialFunctions(
+            None, None, None, search.searched, "the assumptions don't tell which solutions are independent"
+        )
+    return SpecialFunctions(*found, search.pullback, search.searched)

@@ -1,0 +1,154 @@
+"""Gauss' function 2F1; Legendre, Gegenbauer and Jacobi polynomials where the degree is a symbolic natural number.
+
+With the exponent differences alpha, beta, gamma at 0, 1 and infinity, in any order of these points and with any signs,
+
+    u = z^((1-alpha)/2) (1-z)^((1-beta)/2) 2F1((1-alpha-beta-gamma)/2, (1-alpha-beta+gamma)/2; 1-alpha; z).
+
+The second solution has -alpha; where alpha is an integer, it is the one of this kind at 1.  These are independent if no
+combination (1 +- alpha +- beta +- gamma)/2 is an integer: a common solution would be elementary.  P_N^(a,b)(1 - 2 z) is a
+multiple of 2F1(-N, N + a + b + 1; 1 + a; z); beside it there is one with another exponent at 0 or at infinity, and, for a = b,
+the one of the other parity.
+
+Reference: DLMF 15.10, 18.5, 18.7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+
+import sympy
+
+from kovacic.algebra.extension import adjoined_square_root
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.atoms import Expr
+from kovacic.closed_form.product import Product
+from kovacic.special.pullback import Gauss
+from kovacic.special.writer import HALF, Term, Writer, by_parity, hypergeometric, size
+
+
+@dataclass(frozen=True)
+class Riemann:
+    """f with the exponent differences at its zeros, at its ones and at its poles."""
+
+    writer: Writer
+    f: RatFunc
+    alpha: Poly
+    beta: Poly
+    gamma: Poly
+
+    @property
+    def signs(self) -> Iterator[Riemann]:
+        """The same with all signs of the differences."""
+        for s, t, u in product((1, -1), repeat=3):
+            yield Riemann(self.writer, self.f, s * self.alpha, t * self.beta, u * self.gamma)
+
+    @property
+    def factor(self) -> Product:
+        """The powers, and what belongs to the pull-back."""
+        zeros, ones = self.f.derivative() / self.f, self.f.derivative() / (self.f - 1)
+        return self.writer.elementary(self.f, zeros * ((1 - self.alpha) * HALF) + ones * ((1 - self.beta) * HALF))
+
+    @property
+    def term(self) -> Term:
+        """u, with the sign of beta that leaves fewer factors."""
+        forms = [Riemann(self.writer, self.f, self.alpha, sign * self.beta, self.gamma) for sign in (1, -1)]
+        form = min(forms, key=lambda form: size(form.factor))
+        a, b = ((1 - form.alpha - form.beta + sign * form.gamma) * HALF for sign in (-1, 1))
+        a, b, c = (self.writer.constant(value) for value in (a, b, 1 - form.alpha))
+        return form.factor, hypergeometric((a, b), (c,), self.writer.argument(form.f))
+
+    @property
+    def swapped(self) -> Riemann:
+        """The same with 0 and 1 exchanged."""
+        return Riemann(self.writer, 1 - self.f, self.beta, self.alpha, self.gamma)
+
+    @property
+    def regular(self) -> Riemann:
+        """The sign of alpha for which 1 - alpha isn't an integer <= 0, as far as that is known."""
+        turn = self.writer.is_integer(self.alpha) and not self.writer.is_natural(-self.alpha)
+        return Riemann(self.writer, self.f, -self.alpha, self.beta, self.gamma) if turn else self
+
+    @property
+    def degree(self) -> Poly:
+        """N with a = -N."""
+        return (self.alpha + self.beta + self.gamma - 1) * HALF
+
+    @property
+    def cost(self) -> tuple[bool | int | str, ...]:
+        """What is preferred: polynomials, differences that aren't integers at 0 (unless those at 1 are the same), short f."""
+        f, natural = self.f, self.writer.is_integer(self.alpha)
+        terms = sum(bool(c) for c in (*f.num, *f.den))
+        uneven = natural and self.alpha != self.beta
+        return not f.is_polynomial, uneven, natural, terms, not self.writer.is_negative(f.num.lc), str(f)
+
+
+def gauss(writer: Writer, equation: Gauss, f: RatFunc) -> tuple[Expr, Expr] | None:
+    """Two solutions; None where the assumptions make the equation reducible, and it isn't known which pair is independent."""
+    forms = sorted(_arrangements(writer, equation, f), key=lambda form: form.cost)
+    for form in forms:
+        for one in form.signs:
+            if writer.is_symbolic(one.degree) and writer.is_natural(one.degree) and _are_regular(one):
+                return _jacobi(one)
+    first = forms[0]
+    reducible = any(writer.is_integer(one.degree) for one in first.signs)
+    free = first if not reducible else next((form for form in forms if not writer.is_integer(form.alpha)), None)
+    if free is not None and not writer.is_integer(free.alpha):
+        turned = Riemann(writer, free.f, -free.alpha, free.beta, free.gamma)
+        return writer.pair(free.term, turned.term)
+    if not reducible:
+        return writer.pair(first.regular.term, first.swapped.regular.term)
+    even = next((one for form in forms for one in form.signs if one.alpha == one.beta), None)
+    return None if even is None else writer.pair(*_even_and_odd(even))
+
+
+def _arrangements(writer: Writer, equation: Gauss, f: RatFunc) -> list[Riemann]:
+    """The six functions that are f up to the order of 0, 1, infinity, each with its exponent differences."""
+    A, B, C = equation.A, equation.B, equation.C
+    field, roots = f.field, dict[Poly, Poly]()
+    for value in (A, B, C):
+        if value not in roots:
+            square = value.over(field)
+            roots[value] = adjoined_square_root(field, square) if square else square
+            field = roots[value].field
+    a, b, c = (roots[value].over(field) for value in (A, B, C))
+    orders = [(f, (a, b, c)), (1 - f, (b, a, c)), (1 / f, (c, b, a)), (1 - 1 / f, (b, c, a)), (1 / (1 - f), (c, a, b))]
+    return [Riemann(writer, g, *order) for g, order in [*orders, (f / (f - 1), (a, c, b))]]
+
+
+def _are_regular(form: Riemann) -> bool:
+    """Is neither of -alpha, -beta known to be an integer that may be negative?"""
+    writer = form.writer
+    return all(writer.is_natural(-value) or not writer.is_integer(value) for value in (form.alpha, form.beta))
+
+
+def _jacobi(form: Riemann) -> tuple[Expr, Expr]:
+    """P_N^(a,b)(1 - 2 f) with a = -alpha, b = -beta, and a second solution."""
+    writer, f = form.writer, form.f
+    N, a, b = (writer.constant(value) for value in (form.degree, -form.alpha, -form.beta))
+    t = writer.argument(1 - 2 * f)
+    if form.alpha == form.beta:
+        polynomial = _without_constant(sympy.gegenbauer(N, a + sympy.S.Half, t) if a else sympy.legendre(N, t), writer)
+        even, odd = _even_and_odd(form)
+        return writer.pair((form.factor, polynomial), (form.factor, by_parity(N, odd[1], even[1])))
+    first = form.factor, _without_constant(sympy.jacobi(N, a, b, t), writer)
+    if not writer.is_integer(form.alpha):
+        return writer.pair(first, Riemann(writer, f, -form.alpha, form.beta, form.gamma).term)
+    # At infinity the polynomial has the exponent -N, and this one N + 1 + a + b.
+    return writer.pair(first, Riemann(writer, 1 / f, -form.gamma, form.beta, form.alpha).term)
+
+
+def _without_constant(polynomial: Expr, writer: Writer) -> Expr:
+    """Without the (-1)**N of P_N(-z)."""
+    return polynomial.as_independent(writer.atoms.x, as_Add=False)[1]
+
+
+def _even_and_odd(form: Riemann) -> tuple[Term, Term]:
+    """The even and the odd solution in 1 - 2 f, for alpha = beta."""
+    writer, t = form.writer, form.writer.argument(1 - 2 * form.f)
+    N, index = writer.constant(form.degree), writer.constant(HALF - form.alpha)
+    even = hypergeometric((-N / 2, N / 2 + index), (sympy.S.Half,), t**2)
+    odd = hypergeometric(((1 - N) / 2, (1 + N) / 2 + index), (sympy.Rational(3, 2),), t**2)
+    return (form.factor, even), (form.factor, t * odd)
