@@ -229,7 +229,7 @@ def crossover() -> list[dict[str, Any]]:
             taylor, closed = (best(partial(call, digits=digits, method=m), 0.05)[0] for m in ("taylor", "closed form"))
             (state,) = call(digits=digits)
             rows.append(
-                {"problem": name, "digits": digits, "Taylor": taylor, "closed form": closed, "chosen": state.method}
+                {"problem": name, "digits": digits, "Taylor": taylor, "closed form": closed, "chosen": state.run.method}
             )
     return rows
 

@@ -49,7 +49,7 @@ def agree(S: Any, *, x: Any, x0: Any, path: Any = None, digits: int = 25) -> Non
     assert first.dy.overlaps(second.dy)
     assert first.reached
     assert second.reached
-    assert second.method == "closed form"
+    assert second.run.method == "closed form"
 
 
 def agree_with_the_second_opinion(solution: kovacic.Solution, vertices: list[Any], digits: int) -> None:

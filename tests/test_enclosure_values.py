@@ -271,7 +271,7 @@ def test_the_recessive_solution_gets_the_digits_that_growth_costs() -> None:
             assert mp_close(state.y, mpmath.exp(-(mpmath.mpf(x) ** 2) / 2), 15)
         assert state.y.digits >= 15
         assert state.reached
-    assert states[1].runs > 1
+    assert states[1].run.runs > 1
 
 
 def random_system(rng: random.Random) -> System:
@@ -506,3 +506,108 @@ def test_a_real_problem_has_a_real_ball(equation: str, method: Method | None) ->
     assert around.overlaps(balls[0])
     assert not around.real
     assert float(kovacic.solve("-1").at(1, x0=0, y0=1, dy0=0)) == math.cos(1)
+
+
+@pytest.mark.parametrize(
+    "equation", ["x", "1/(x^2+1)", "(x-1)/(x^2+4)", "y'' - 2*x*y' + 3*y = 0", "x^2*y'' + x*y' + (x^2 - 2)*y = 0"]
+)
+def test_a_crowd_of_points_has_the_balls_of_single_ones(equation: str) -> None:
+    """Sixty points share the polynomials of a few discs, and each is where a call for it alone says."""
+    points = [Fraction(k, 37) + 1 for k in range(1, 240, 4)] + [Fraction(1, k) for k in range(1, 20)]
+    together = evaluate_states(equation, points, x0=1, y0=1, dy0=Fraction(1, 2), digits=20)
+    for x, state in list(zip(points, together, strict=True))[::7]:
+        (alone,) = evaluate_states(equation, [x], x0=1, y0=1, dy0=Fraction(1, 2), digits=30)
+        assert state.y.digits >= 20
+        assert state.y.overlaps(alone.y)
+        assert state.dy.overlaps(alone.dy)
+
+
+def test_arrays_of_any_shape_keep_it_and_holes_stay_holes() -> None:
+    numpy = pytest.importorskip("numpy")
+    x = numpy.array([[0.5, math.nan, 2.0], [1.0, -1.0, 0.0]])
+    values = evaluate(AIRY, x, x0=0, y0=1, dy0=0)
+    assert values.shape == (2, 3)
+    assert math.isnan(values[0, 1])
+    assert values[0, 2] == evaluate(AIRY, 2.0, x0=0, y0=1, dy0=0) or values[0, 2].overlaps(
+        evaluate(AIRY, 2, x0=0, y0=1, dy0=0)
+    )
+    pair = evaluate(AIRY, numpy.float64(1), x0=0, y0=1, dy0=0, derivative=True)
+    assert [part.real for part in pair] == [True, True]
+
+
+def test_numbers_may_be_constants_and_balls_of_every_library() -> None:
+    import sympy
+
+    with flint.ctx.workprec(300):
+        root = flint.acb(2).sqrt()
+        for x in ("sqrt(2)", sympy.sqrt(2)):
+            assert ball_to_flint(evaluate("1", x, x0=0, y0=1, dy0=0, digits=50)).overlaps(root.cosh())
+        assert evaluate("1", "sqrt(2)", x0="pi", y0="sin(1)", dy0="1 + 2*I", digits=50).digits >= 50
+        wide = flint.arb(2, 0.001)
+        with pytest.warns(AccuracyWarning):
+            ball = evaluate("1", wide, x0=0, y0=1, dy0=0)
+        for end in (1.999, 2.001, 2):
+            assert ball_to_flint(ball).contains(flint.acb(end).cosh())
+        assert ball.radius < 0.02
+        interval = mpmath.iv.mpf(["-2.001", "-1.999"])
+        with pytest.warns(AccuracyWarning):
+            other = evaluate("1", interval, x0=0, y0=1, dy0=0)
+        assert other.overlaps(ball)
+        assert other.radius < 0.02
+        plane = evaluate("1", "1 + 2*I", x0=0, y0=1, dy0=0)
+        assert ball_to_flint(plane).overlaps(flint.acb(1, 2).cosh())
+        # the start may be a ball, too: exp(x - pi)
+        start = evaluate("1", 0, x0="pi", y0=1, dy0=1, digits=40)
+        assert ball_to_flint(start).overlaps((-flint.acb.pi()).exp())
+
+
+@given(st.fractions(), st.fractions(), st.fractions(min_value=0, max_value=1), st.fractions(min_value=0, max_value=1))
+def test_the_arithmetic_of_balls_contains_that_of_their_numbers(
+    a: Fraction, b: Fraction, r: Fraction, s: Fraction
+) -> None:
+    """x in X and y in Y: x op y in X op Y, and comparisons say what holds for all of them."""
+    X, Y = (Ball.of(f"{v.numerator}/{v.denominator}") for v in (a, b))
+    X, Y = X + Ball((0, 0), rad=(int(r * 2**20), -20)), Y + Ball((0, 0), rad=(int(s * 2**20), -20))
+    r, s = (Fraction(int(v * 2**20), 2**20) for v in (r, s))
+    pairs = [(a + i * r, b + j * s) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    for x, y in pairs:
+        assert (X + Y).contains(x + y)
+        assert (X - Y).contains(x - y)
+        assert (X * Y).contains(x * y)
+        assert (X**3).contains(x**3)
+        assert abs(X).contains(abs(x))
+        assert (2 - X).contains(2 - x)
+        if not Y.contains_zero():
+            assert (X / Y).contains(x / y)
+            assert (1 / Y).contains(1 / y)
+        assert X.lower <= x <= X.upper
+        assert (X < Y) in (x < y, None)
+        assert (X >= Y) in (x >= y, None)
+        assert (X <= Y) in (x <= y, None)
+        assert (X > Y) in (x > y, None)
+        assert X.equals(Y) in (x == y, None)
+    if X.upper < Y.lower:
+        assert X < Y
+
+
+def test_balls_go_to_other_libraries_and_back() -> None:
+    ball = evaluate(AIRY, 1, x0=0, y0=1, dy0=0, digits=40)
+    plane = evaluate(AIRY, 1j, x0=0, y0=1, dy0=0, digits=40)
+    for one in (ball, plane):
+        for way in (one.to_flint(), one.to_interval()):
+            again = Ball.of(way)
+            assert again.contains(one)
+            assert again.digits >= 38
+    assert isinstance(ball.to_flint(), flint.arb)
+    assert f"{ball:.25f}" == mpmath.nstr(ball.to_mpmath(), 26)
+    assert f"{Ball.exact(-3, -2):.3f}" == "-0.750"
+    assert f"{plane:.5f}" == f"({plane.mid.real:.5f} - {-plane.mid.imag:.5f}j)"
+    assert (ball * 2 - ball - ball).contains_zero()
+    assert Ball.of("pi").digits > 100
+    with pytest.raises(ZeroDivisionError):
+        1 / (ball - ball)
+    with pytest.raises(TypeError):
+        plane < 1  # noqa: B015
+    with pytest.raises(TypeError):
+        ball + "x"
+    assert float(sum([ball, ball])) == 2 * float(ball)

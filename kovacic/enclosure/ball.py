@@ -14,17 +14,24 @@ F. Johansson, "Arb: efficient arbitrary-precision midpoint-radius interval arith
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
 from flint import acb, arb
 
+from kovacic.enclosure.constants import as_number, to_ball
 from kovacic.enclosure.points import Point, as_point
 from kovacic.enclosure.working import working_precision
+from kovacic.errors import InputError
 
 Dyadic = tuple[int, int]
 """A dyadic rational (m, e), the number m 2^e; m is odd, or (0, 0) stands for zero."""
+
+_DECIMAL_BITS = 10_000
+"""Largest |exponent| that is written out in decimals."""
 
 _FRACTION_BITS = 10_000_000
 """Largest |exponent| that is written out as a fraction: 2^(10^12) would fill the memory."""
@@ -84,6 +91,17 @@ class Ball:
     def exact(cls, mantissa: int, exponent: int = 0) -> Ball:
         """The exact real number mantissa * 2^exponent."""
         return cls(dyadic(mantissa, exponent))
+
+    @classmethod
+    def of(cls, value: object) -> Ball:
+        """The ball of a number or a ball of any kind that `evaluate` takes; constants such as "pi" to 100 digits."""
+        number = as_number(value, "the number")
+        parts = (number.re, number.im) if isinstance(number, Point) else ()
+        with working_precision(400 + max((part.numerator.bit_length() for part in parts), default=0)):
+            found = ball_from_flint(to_ball(number))
+        if found is None:
+            raise InputError(f"{value} isn't finite")
+        return found
 
     @property
     def radius(self) -> float:
@@ -153,6 +171,115 @@ class Ball:
         parts = [mpmath.mp.make_mpf(mpmath.libmp.from_man_exp(m, e)) for m, e in (self.re, self.im)]
         return parts[0] if self.real else mpmath.mpc(*parts)
 
+    def to_interval(self) -> Any:
+        """An mpmath interval, real or complex, that contains the ball."""
+        import mpmath
+
+        parts = [_ends(part, self.rad) for part in ((self.re,) if self.real else (self.re, self.im))]
+        made = [mpmath.iv.make_mpf(tuple(mpmath.libmp.from_man_exp(m, e) for m, e in ends)) for ends in parts]
+        return made[0] if self.real else mpmath.iv.mpc(*made)
+
+    def to_flint(self) -> arb | acb:
+        """The ball as python-flint's: arb where `real`, else an acb that contains it."""
+        value = ball_to_flint(self)
+        return value.real if self.real else value
+
+    @property
+    def lower(self) -> float:
+        """The largest double that isn't above any number of a real ball."""
+        return -(-self).upper
+
+    @property
+    def upper(self) -> float:
+        """The smallest double that isn't below any number of a real ball."""
+        self._demand_real()
+        end = arb(_ends(self.re, self.rad)[1])
+        value = float(end)
+        return value if end <= arb(value) else math.nextafter(value, math.inf)
+
+    def _demand_real(self) -> None:
+        if not self.real:
+            raise TypeError("the ball isn't known to be real, and complex numbers have no order")
+
+    def _combined(self, other: object, compute: Callable[[acb, acb], acb]) -> Ball:
+        """The ball of `compute(self, other)`, with as many bits as the operands have, and 32 more."""
+        try:
+            second = other if isinstance(other, Ball) else Ball.of(other)
+        except InputError:
+            return NotImplemented  # type: ignore[no-any-return]
+        bits = max(part[0].bit_length() for ball in (self, second) for part in (ball.re, ball.im))
+        with working_precision(max(64, bits) + 32):
+            found = ball_from_flint(compute(ball_to_flint(self), ball_to_flint(second)))
+        if found is None:
+            raise ZeroDivisionError("nothing is known of the result: is an operand zero, as far as is known?")
+        return found
+
+    def __neg__(self) -> Ball:
+        return Ball((-self.re[0], self.re[1]), (-self.im[0], self.im[1]), self.rad, self.real)
+
+    def __abs__(self) -> Ball:
+        return self._combined(0, lambda z, _: acb(abs(z)))
+
+    def __add__(self, other: object) -> Ball:
+        return self._combined(other, lambda x, y: x + y)
+
+    def __sub__(self, other: object) -> Ball:
+        return self._combined(other, lambda x, y: x - y)
+
+    def __rsub__(self, other: object) -> Ball:
+        return self._combined(other, lambda x, y: y - x)
+
+    def __mul__(self, other: object) -> Ball:
+        return self._combined(other, lambda x, y: x * y)
+
+    def __truediv__(self, other: object) -> Ball:
+        return self._combined(other, lambda x, y: x / y)
+
+    def __rtruediv__(self, other: object) -> Ball:
+        return self._combined(other, lambda x, y: y / x)
+
+    def __pow__(self, other: object) -> Ball:
+        """Principal powers; whole ones of anything."""
+        return self._combined(other, lambda x, y: x ** (other if isinstance(other, int) else y))
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __lt__(self, other: object) -> bool | None:
+        """True or False where that is certain for all numbers of the balls, else None; so for <=, > and >=."""
+        return self._order(other, strict=True)
+
+    def __ge__(self, other: object) -> bool | None:
+        found = self._order(other, strict=True)
+        return None if found is None else not found
+
+    def __le__(self, other: object) -> bool | None:
+        return self._order(other, strict=False)
+
+    def __gt__(self, other: object) -> bool | None:
+        found = self._order(other, strict=False)
+        return None if found is None else not found
+
+    def _order(self, other: object, *, strict: bool) -> bool | None:
+        second = other if isinstance(other, Ball) else Ball.of(other)
+        self._demand_real()
+        second._demand_real()
+        (low, high), (other_low, other_high) = _ends(self.re, self.rad), _ends(second.re, second.rad)
+        if _less(high, other_low) or (not strict and high == other_low):
+            return True
+        return False if _less(other_high, low) or (strict and other_high == low) else None
+
+    def equals(self, other: object) -> bool | None:
+        """Is the exact value that number?  False if the balls are apart, True if both are exact and the same, else None."""
+        second = other if isinstance(other, Ball) else Ball.of(other)
+        return (self.is_exact() and second.is_exact()) or None if self.overlaps(second) else False
+
+    def __format__(self, spec: str) -> str:
+        """The midpoint in the format of a Decimal (".30f"), real and imaginary part; without a format as `str`."""
+        if not spec:
+            return str(self)
+        re, im = (format(_decimal(part), spec) for part in (self.re, self.im))
+        return re if self.real else f"({re} {'-' if im.startswith('-') else '+'} {im.lstrip('-')}j)"
+
     def __str__(self) -> str:
         shown = 3 if self.digits == -math.inf else max(3, min(int(min(self.digits, 1e6)) + 2, 40))
         with working_precision(int(shown * 3.33) + 40):
@@ -164,6 +291,28 @@ class Ball:
 
     def __repr__(self) -> str:
         return f"<Ball {self}>"
+
+
+def _ends(middle: Dyadic, rad: Dyadic) -> tuple[Dyadic, Dyadic]:
+    """middle - rad and middle + rad, exactly."""
+    e = min(middle[1], rad[1])
+    if max(middle[1], rad[1]) - e > _FRACTION_BITS:
+        raise OverflowError("midpoint and radius are too far apart to be added")
+    m, r = middle[0] << (middle[1] - e), rad[0] << (rad[1] - e)
+    return dyadic(m - r, e), dyadic(m + r, e)
+
+
+def _less(a: Dyadic, b: Dyadic) -> bool:
+    return bool(arb(a) < arb(b))
+
+
+def _decimal(number: Dyadic) -> Decimal:
+    """The exact decimal number."""
+    mantissa, exponent = number
+    if abs(exponent) > _DECIMAL_BITS:
+        raise OverflowError(f"a number near 2^{exponent} isn't written out in decimals")
+    scaled = abs(mantissa) * (5**-exponent if exponent < 0 else 2**exponent)
+    return Decimal((int(mantissa < 0), tuple(map(int, str(scaled))), min(exponent, 0)))
 
 
 def _reaches(a: Ball, b: Ball, sign: int) -> bool:
@@ -185,20 +334,20 @@ def _reaches(a: Ball, b: Ball, sign: int) -> bool:
 
 def ball_from_flint(value: acb | arb) -> Ball | None:
     """The ball around a flint ball (a disc around the rectangle of an acb); None where nothing is known (not finite)."""
-    value = acb(value)
     if not value.is_finite():
         return None
-    real_part, imag_part = value.real, value.imag
-    real = imag_part.is_zero()
+    re, im = (value.real, value.imag) if isinstance(value, acb) else (value, None)
+    if im is None or im.is_zero():
+        return Ball(_man_exp(re.mid()), (0, 0), _man_exp(re.rad()), True)
     with working_precision(60):
-        a, b = real_part.rad(), imag_part.rad()
+        a, b = re.rad(), im.rad()
         rad = (a + b if a.is_zero() or b.is_zero() else (a * a + b * b).sqrt()).upper()
-    return Ball(_man_exp(real_part.mid()), _man_exp(imag_part.mid()), _man_exp(rad), bool(real))
+    return Ball(_man_exp(re.mid()), _man_exp(im.mid()), _man_exp(rad), False)
 
 
 def _man_exp(value: arb) -> Dyadic:
-    mantissa, exponent = value.man_exp()
-    return dyadic(int(mantissa), int(exponent))
+    mantissa, exponent = value.man_exp()  # odd, or (0, 0)
+    return int(mantissa), int(exponent)
 
 
 def ball_to_flint(ball: Ball) -> acb:

@@ -13,7 +13,6 @@ from typing import Any
 
 from flint import acb, arb, fmpq
 
-from kovacic.enclosure.ball import Ball, ball_to_flint
 from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.errors import InputError
 
@@ -67,7 +66,7 @@ class Constant:
 Number = Point | Constant
 
 
-def as_number(value: object, name: str) -> Number:
+def as_number(value: Any, name: str) -> Number:
     """The exact point, or the number known by balls, that `value` stands for.
 
     Beside what `as_point` accepts: balls (ours, python-flint's arb and acb, mpmath's intervals), SymPy constants and text
@@ -76,12 +75,14 @@ def as_number(value: object, name: str) -> Number:
     >>> print(as_number("1 + 2*I", "x"), as_number("sqrt(2)", "x"))
     1 + 2i sqrt(2)
     """
-    if isinstance(value, Ball) and not value.is_exact():
-        ball = value
-        return Constant(str(ball), lambda: ball_to_flint(ball), True)
+    if isinstance(value, int | float | complex | Fraction):
+        return as_point(value, name)
+    if hasattr(value, "to_flint") and not value.is_exact():  # our own, without importing them
+        fixed = acb(value.to_flint())
+        return Constant(str(value), lambda: fixed, True)
     if isinstance(value, arb | acb):
-        fixed = acb(value)
-        return Constant(str(fixed), lambda: fixed, True)
+        given = acb(value)
+        return Constant(str(value), lambda: given, True)
     if hasattr(value, "_mpi_") or hasattr(value, "_mpci_"):
         interval = _interval(value)
         return Constant(str(value), lambda: interval, True)
@@ -109,14 +110,21 @@ def to_ball(number: Number) -> acb:
 
 def _interval(value: Any) -> acb:
     """The ball of an mpmath interval, real or complex."""
-    import mpmath
-
     pairs = value._mpci_ if hasattr(value, "_mpci_") else (value._mpi_,)
-    return acb(*(_between(*(mpmath.libmp.to_man_exp(end, signed=True) for end in pair)) for pair in pairs))
+    return acb(*(_between(*map(_mpf, pair)) for pair in pairs))
 
 
 def _between(low: tuple[int, int], high: tuple[int, int]) -> arb:
-    return arb(low).union(arb(high))
+    e = min(low[1], high[1])
+    a, b = (m << (k - e) for m, k in (low, high))
+    return arb((a + b, e - 1), (b - a, e - 1))
+
+
+def _mpf(parts: tuple[int, int, int, int]) -> tuple[int, int]:
+    sign, mantissa, exponent, _ = parts
+    if not mantissa and exponent:
+        raise InputError("an interval isn't finite")
+    return (-int(mantissa) if sign else int(mantissa)), int(exponent)
 
 
 def in_balls(expression: Any, values: Mapping[Any, acb], *, analytic: bool = False) -> acb:

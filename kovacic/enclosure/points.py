@@ -148,4 +148,6 @@ def _mpf(parts: tuple[int, int, int, int], name: str) -> Fraction:
 
 def to_acb(point: Point) -> acb:
     """A ball around the point at the working precision in force (exact where the precision allows)."""
+    if point.im == 0:
+        return acb(arb(to_fmpq(point.re)))
     return acb(*(arb(to_fmpq(part)) for part in (point.re, point.im)))

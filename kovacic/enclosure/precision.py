@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import repeat
 from typing import Literal
 
 from flint import acb, arb
@@ -25,22 +26,49 @@ METHODS: tuple[Method, ...] = ("taylor", "closed form")
 
 
 @dataclass(frozen=True)
-class Evaluation:
-    """The solution at one point: enclosures of y and y', and how they were obtained.
+class Run:
+    """What the values of one run have in common: `digits` asked for, the route, the working precision, and how many runs
+    it took (the precision was raised runs - 1 times)."""
 
-    `reached` says whether the relative radius of y is at most 10^-digits; if not, `note` says why.  `bits` is the working
-    precision of the run that gave the enclosures, `runs` the number of runs (the precision was raised runs - 1 times).
-    """
-
-    x: Number
-    y: Ball
-    dy: Ball
     digits: int
-    reached: bool
-    note: str | None
     method: Method
     bits: int
     runs: int
+
+
+@dataclass(frozen=True, eq=False)
+class Evaluation:
+    """The solution at one point: enclosures of y and y' (`state`, finite), and how they were obtained.
+
+    `missing` are the bits of y that are missing for the digits asked for; if there are any, `note` says why.
+    """
+
+    x: Number
+    state: State
+    missing: int
+    run: Run
+    note: str | None = None
+
+    @property
+    def reached(self) -> bool:
+        """Is the relative radius of y at most 10^-digits?"""
+        return self.missing == 0
+
+    @property
+    def y(self) -> Ball:
+        """y(x)."""
+        return _ball(self.state[0])
+
+    @property
+    def dy(self) -> Ball:
+        """y'(x)."""
+        return _ball(self.state[1])
+
+
+def _ball(value: acb) -> Ball:
+    ball = ball_from_flint(value)
+    assert ball is not None
+    return ball
 
 
 Route = Callable[[int, Budget], list[State]]
@@ -74,9 +102,11 @@ def raise_precision(
         runs += 1
         try:
             with working_precision(prec + 40):
-                states = route(prec, budget)
-                missing = max((_missing_bits(y, digits, prec) for y, _ in states), default=0)
-                found = _as_evaluations(states, targets, digits, method, prec, runs)
+                states, run = route(prec, budget), Run(digits, method, prec, runs)
+                lacking = [_missing_bits(y, digits, prec) for y, _ in states]
+                finite = all(y.is_finite() and dy.is_finite() for y, dy in states)
+                found = tuple(map(Evaluation, targets, states, lacking, repeat(run))) if finite else None
+                missing = max(lacking, default=0)
         except LimitExceeded as limit:
             if previous is None:
                 raise
@@ -112,24 +142,11 @@ def _stalled(previous: tuple[Evaluation, ...], found: tuple[Evaluation, ...]) ->
 def _reason(result: Evaluation) -> str:
     if result.y.contains_zero():
         known = arb(result.y.rad).mid().str(2, radius=False)
-        growth = result.y.rad[0].bit_length() + result.y.rad[1] + result.bits
+        growth = result.y.rad[0].bit_length() + result.y.rad[1] + result.run.bits
         lost = f": other solutions grow to about 10^{growth * math.log10(2):.0f} on the way, so that as many digits are lost"
         return (
             f"the value can't be told from zero (|y| is at most about {known}): no relative accuracy was reached"
-            f" with {result.bits} bits{lost if growth > 200 else ''}"
+            f" with {result.run.bits} bits{lost if growth > 200 else ''}"
         )
     known = f"{max(0.0, result.y.digits):.1f}"
-    return f"only {known} of {result.digits} digits: the initial values or the limits allow no more"
-
-
-def _as_evaluations(
-    states: list[State], targets: tuple[Number, ...], digits: int, method: Method, prec: int, runs: int
-) -> tuple[Evaluation, ...] | None:
-    results = []
-    for target, (y, dy) in zip(targets, states, strict=True):
-        value, slope = ball_from_flint(y), ball_from_flint(dy)
-        if value is None or slope is None:
-            return None
-        reached = _missing_bits(y, digits, prec) == 0
-        results.append(Evaluation(target, value, slope, digits, reached, None, method, prec, runs))
-    return tuple(results)
+    return f"only {known} of {result.run.digits} digits: the initial values or the limits allow no more"

@@ -198,16 +198,16 @@ def transition(expansion: Expansion, target: Point, bound: RayBound) -> Matrix:
 def states_at(expansion: Expansion, bound: RayBound, state: State, targets: list[Point]) -> list[State]:
     """The states at `targets`, on the rays to which `bound` belongs, from the state at the centre."""
     frame = expansion.frame
-    with working_precision(expansion.w + 10):
-        unit, h = arb((1, -expansion.w)), arb((1, frame.e))
+    distant = max((log2(abs(to_acb(target)).upper()) for target in (frame.centre, targets[-1])), default=0.0) - frame.e
+    with working_precision(expansion.w + 10 + (int(distant) if distant > 0 else 0)):
+        unit, h, centre = arb((1, -expansion.w)), arb((1, frame.e)), to_acb(frame.centre)
         factors, total = (state[0] * unit, state[1] * h * unit), acb_poly([])
         radii = [arb(0), arb(0)]
         for (re, im), factor, defect in zip(expansion.columns, factors, expansion.defect, strict=True):
             total += factor * (acb_poly(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im))
             errors = error_radii(arb((defect + 1, -expansion.w)), expansion.q_0, bound)
             radii = [r + abs(factor / unit).upper() * error for r, error in zip(radii, errors, strict=True)]
-        inverse = 1 / frame.scale
-        us = [to_acb((target - frame.centre).scaled(inverse)) for target in targets]
+        us = [(to_acb(target) - centre) / h for target in targets]
         if any(abs(u) > 1 for u in us):
             raise ArithmeticError("a target lies outside of its disc")
         real = all(v.imag.is_zero() for v in (*state, *us)) and all(im is None for _, im in expansion.columns)

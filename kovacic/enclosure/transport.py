@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
 from kovacic.enclosure.frame import Frame, RayBound, fitting, least_growth, log2
@@ -36,6 +36,10 @@ _RATIO = 0.625
 
 _GROWTH = 0.2
 """Growth of the solutions in one disc, as a share of the working precision."""
+
+_MANY = 50
+_FEWER_BITS = 12.0
+"""For so many targets on one way the growth in a disc may be less: shorter polynomials at every target, more discs."""
 
 _MAX_DISCS = 200_000
 
@@ -85,17 +89,15 @@ class Leg:
 
 
 def walk(system: System, a: Point, stops: Sequence[Point], prec: int, budget: Budget) -> Iterator[Leg]:
-    """The discs of the straight way from a to the last of `stops`, which lie on it one after the other."""
+    """The discs of the straight way from a to the last of `stops`; several must lie on the real axis, as a does, in order."""
     begun, number, split = budget.seconds_left, 0, is_split(system, prec)
+    growth = max(_FEWER_BITS, prec * _GROWTH) if len(stops) >= _MANY else None
     for part in [[stop] for stop in stops] if split else [list(stops)]:
         b, queue = part[-1], deque(part)
-        step = b - a
-        parameters = deque(_parameter(stop - a, step) for stop in part)
-        for disc in cover(system, a, b, prec, budget):
+        for disc in cover(system, a, b, prec, budget, growth):
             frame, served = disc.frame, []
-            while parameters and parameters[0] <= disc.stop:
+            while queue and (disc.leave == b or (len(queue) > 1 and _is_between(queue[0], disc.leave, b))):
                 served.append(queue.popleft())
-                parameters.popleft()
             expansion: Expansion | None = None
             if split:
                 worst = disc.bounds[0].worst(disc.bounds[1])
@@ -117,9 +119,9 @@ def walk(system: System, a: Point, stops: Sequence[Point], prec: int, budget: Bu
         a = b
 
 
-def _parameter(offset: Point, step: Point) -> Fraction:
-    """t for the point t step of the way (offset = t step)."""
-    return offset.re / step.re if step.re else offset.im / step.im if step.im else Fraction(0)
+def _is_between(stop: Point, leave: Point, end: Point) -> bool:
+    """Does the stop come before the end of the disc, on the way along the axis to `end`?"""
+    return stop.re <= leave.re if leave.re < end.re else stop.re >= leave.re
 
 
 def _refuse(system: System, a: Point, b: Point, prec: int, used: float, budget: Budget) -> None:
@@ -142,7 +144,7 @@ def _allowed_growth(prec: int) -> float:
     return max(100.0, prec * _GROWTH)
 
 
-def cover(system: System, a: Point, b: Point, prec: int, budget: Budget) -> Iterator[Disc]:
+def cover(system: System, a: Point, b: Point, prec: int, budget: Budget, growth: float | None = None) -> Iterator[Disc]:
     """The discs that cover the straight piece from a to b, in order: O(log(far/near)) of them for each singular point at a
     distance between near and far."""
     if a == b:
@@ -150,12 +152,13 @@ def cover(system: System, a: Point, b: Point, prec: int, budget: Budget) -> Iter
     check_segment(system, a, b)
     piece = Piece(a, b)
     t, enter = Fraction(0), a
+    allowed = _allowed_growth(prec) if growth is None else growth
     guess: int | None = None
     while t < 1:
         budget.check()
-        disc = _next_disc(system, piece, t, enter, prec, guess)
+        disc = _next_disc(system, piece, t, enter, allowed, guess)
         if disc is None:  # the junction beside the path is too far from it for a disc that fits: back to the path
-            yield from (replace(short, stop=t) for short in cover(system, enter, piece.at(t), prec, budget))
+            yield from cover(system, enter, piece.at(t), prec, budget)
             enter = piece.at(t)
         else:
             yield disc
@@ -184,7 +187,9 @@ class Piece:
         return self.b if t == 1 else self.a + self.step.scaled(t)
 
 
-def _next_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int, guess: int | None) -> Disc | None:
+def _next_disc(
+    system: System, piece: Piece, t: Fraction, enter: Point, growth: float, guess: int | None
+) -> Disc | None:
     """The disc that is entered at the parameter t: as large as the singular points and the growth of the solutions allow.
 
     None if the junction `enter` lies off the path and no disc down to an eighth of the last one contains both.
@@ -197,7 +202,7 @@ def _next_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: in
     if near is not None:  # H <= 5/8 (distance here + H), so H <= 5/3 of the distance here
         e = min(e, math.ceil(log2(near)) + 1)
     for _ in range(20_000):
-        disc = _try_disc(system, piece, t, enter, prec, e)
+        disc = _try_disc(system, piece, t, enter, growth, e)
         if disc is not None:
             return disc
         e -= 1
@@ -206,7 +211,7 @@ def _next_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: in
     raise LimitExceeded("no disc of positive size was found for the next step", limit="unknown_degree")
 
 
-def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int, e: int) -> Disc | None:
+def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, growth: float, e: int) -> Disc | None:
     """The disc of scale 2^e entered at t, its centre ahead by one scale (half way to the end if that's within reach);
     None if it doesn't fit."""
     step, unit, grain = piece.step, Fraction(2) ** e, Fraction(2) ** (e - 4)
@@ -226,7 +231,7 @@ def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, prec: int
     corners = (piece.at(t), piece.at(stop), enter, leave)
     if stop <= t or stop > 1 or any((p - centre).norm_squared() > unit * unit for p in corners):
         return None
-    found = fitting(system, centre, e, _RATIO, _allowed_growth(prec), (enter, leave))
+    found = fitting(system, centre, e, _RATIO, growth, (enter, leave))
     return None if found is None else Disc(found[0], enter, leave, stop, found[1])
 
 
