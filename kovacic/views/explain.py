@@ -65,9 +65,9 @@ _EQUATIONS = {
              r"P_{i-1} = -D P_i' + \left((n-i) D' - D \theta\right) P_i - (n-i)(i+1) D^{2} S P_{i+1}")],
 }  # fmt: skip
 _CONDITIONS = {
-    1: "every pole has order 1 or an even order; the order at infinity is even or greater than 2",
-    2: "at least one pole has order 2 or an odd order greater than 2",
-    3: "no pole has an order greater than 2, the order at infinity is at least 2, and every Delta is rational",
+    1: "every pole has order 1 or an even order; at infinity the order is even or > 2",
+    2: "some pole has order 2 or an odd order > 2",
+    3: "no pole has an order > 2, at infinity the order is >= 2; every Delta is rational",
 }
 #: So many families are shown.
 _MOST_SHOWN = 24

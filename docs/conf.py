@@ -1,0 +1,72 @@
+"""The documentation: `pip install -e ".[docs]"`, then `sphinx-build -W -n -b html docs build/html`.
+
+Formulas become MathML, pictures are drawn by `pictures.py`, and both at build: the pages load nothing from anywhere.  The
+examples are run by `tests/test_documentation.py`.
+"""
+
+from __future__ import annotations
+
+import re
+import runpy
+import sys
+from pathlib import Path
+from typing import Any
+
+from docutils import nodes
+from latex2mathml.converter import convert
+
+import kovacic
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE))
+
+project = "kovacic"
+author = "The kovacic developers"
+version = release = kovacic.__version__
+copyright = author
+
+extensions = ["myst_parser", "sphinx.ext.autodoc"]
+myst_enable_extensions = ["dollarmath", "deflist"]
+myst_heading_anchors = 3
+exclude_patterns = ["build", "_build"]
+suppress_warnings = ["myst.strikethrough"]
+
+default_role = "code"
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
+autoclass_content = "class"
+
+html_theme = "furo"
+html_title = f"kovacic {version}"
+html_static_path = ["_static"]
+html_css_files = ["formulas.css"]
+html_show_sourcelink = False
+html_copy_source = False
+html_math_renderer = "mathml"
+
+
+def _mathml(formula: str, display: str) -> str:
+    written = convert(formula, display=display)
+    return re.sub(
+        r"<msup>(<mi>[^<]*</mi>)<mi>(&#x0?203\d;)</mi></msup>", r"\1<mo lspace='0' rspace='0'>\2</mo>", written
+    )
+
+
+def _inline(writer: Any, node: nodes.math) -> None:
+    writer.body.append(_mathml(node.astext(), "inline"))
+    raise nodes.SkipNode
+
+
+def _display(writer: Any, node: nodes.math_block) -> None:
+    writer.body.append(f'<div class="formula">{_mathml(node.astext(), "block")}</div>')
+    raise nodes.SkipNode
+
+
+def _draw(app: Any) -> None:
+    runpy.run_path(str(HERE / "pictures.py"))["draw_all"](HERE / "_static" / "pictures")
+
+
+def setup(app: Any) -> None:
+    """Sphinx calls this."""
+    app.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_display, None))
+    app.connect("builder-inited", _draw)
