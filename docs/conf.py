@@ -33,6 +33,7 @@ suppress_warnings = ["myst.strikethrough"]
 
 default_role = "code"
 autodoc_typehints = "none"
+autodoc_preserve_defaults = True
 autodoc_member_order = "bysource"
 autoclass_content = "class"
 

@@ -153,6 +153,7 @@ def test_a_no_names_what_excludes_every_case() -> None:
     assert "Not case 1" in text
     assert "Not case 2" in text
     assert "this is a proof" in text
+    assert "y1 = airyai(x)" in text
 
 
 def test_an_undecided_answer_says_why() -> None:

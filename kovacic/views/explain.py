@@ -101,8 +101,8 @@ def document(solution: Solution, *, solutions: bool = True) -> list[Block]:
     blocks = [*writer.equation(), *writer.local_data(), *writer.necessary(), *writer.steps(), *writer.cases()]
     if solution.status is Status.LIOUVILLIAN:
         blocks += [*writer.certificate(), *writer.omega()]
-        if solutions:
-            blocks += writer.closed_form()
+    if solutions and solution.status is not Status.UNDECIDED:
+        blocks += writer.closed_form()
     return [*blocks, *writer.group(), *writer.check(), *writer.bibliography()]
 
 
@@ -385,22 +385,22 @@ class _Writer:
 
     def closed_form(self) -> Iterator[Block]:
         try:
-            form = self.solution.closed_form
+            form, special = self.solution.closed_form, None if self.solution.case else self.solution.special
         except LimitExceeded as limit:
             yield _say(f"The solutions were not written out: {limit}.")
             return
-        if form is None:
-            return
+        found = special or () if form is None else (form.y1, form.y2)
+        if found:
+            yield Heading("Solutions in special functions" if special else "Solutions")
         unknown = "y" if self.solution.equation is None else self.solution.equation.unknown
-        yield Heading("Solutions")
-        for k, y in enumerate((form.y1, form.y2), start=1):
+        for k, y in enumerate(found, start=1):
             text = str(y)
             if len(text) < 2000:
                 shown = of_sympy(y)
             else:
                 shown = Math(f"{text[:1000]} ... ({len(text)} characters)", r"\text{(too long to print)}")
             yield Formula(Math(f"{unknown}{k} = {shown.text}", f"{unknown}_{{{k}}} = {shown.latex}"))
-        yield from (_say(f"Note: {note}.") for note in form.notes)
+        yield from (_say(f"Note: {note}.") for note in (form.notes if form else ()))
 
     def group(self) -> Iterator[Block]:
         group = self.solution.group

@@ -1,0 +1,59 @@
+"""What the README and the pages of `docs/` show: their code blocks, and sessions in the shell with their outputs."""
+
+from __future__ import annotations
+
+import doctest
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+import kovacic
+from kovacic.cli import main
+
+ROOT = Path(kovacic.__file__).parent.parent
+README = ROOT / "README.md"
+PAGES = sorted((ROOT / "docs").rglob("*.md"))
+
+
+def blocks(language: str, page: Path = README) -> list[str]:
+    text = page.read_text(encoding="utf-8")
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+
+
+def sessions(*pages: Path) -> list[tuple[str, str, str]]:
+    """Page, command, and the output that is shown under it, of the console blocks."""
+    found = []
+    for page in pages:
+        for block in blocks("console", page):
+            for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
+                command, _, output = part.partition("\n")
+                found.append((page.name, command, output))
+    return found
+
+
+def check_command(command: str, output: str, capsys: pytest.CaptureFixture[str]) -> None:
+    program, *arguments = shlex.split(command)
+    assert program == "kovacic"
+    main.run(arguments)
+    shown = capsys.readouterr()
+    assert shown.out + shown.err == output
+
+
+def check_python(page: Path) -> None:
+    text = "\n".join(block for block in blocks("python", page) if block.startswith(">>>"))
+    test = doctest.DocTestParser().get_doctest(text, {}, page.name, str(page), 0)
+    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
+    runner.run(test)
+    assert runner.failures == 0
+
+
+def check_links(page: Path) -> None:
+    """Relative links and names of files in the repository lead somewhere."""
+    text = page.read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", text):
+        if not target.startswith(("http", "mailto")) and "_static/pictures/" not in target:
+            assert (page.parent / target).exists(), target
+    for name in re.findall(r"`((?:examples|benchmarks|kovacic|tests|docs)/[\w/.-]+)`", text):
+        assert (ROOT / name).exists(), name

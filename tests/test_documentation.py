@@ -1,0 +1,53 @@
+"""The pages of `docs/` show what really happens, their figures are those of their files, and their links lead somewhere."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from documents import PAGES, ROOT, check_command, check_links, check_python, sessions
+
+SESSIONS = sessions(*PAGES)
+each_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+
+
+@pytest.mark.parametrize(("page", "command", "output"), SESSIONS, ids=[f"{p}: {command}" for p, command, _ in SESSIONS])
+def test_shell_sessions(page: str, command: str, output: str, capsys: pytest.CaptureFixture[str]) -> None:
+    check_command(command, output, capsys)
+
+
+@each_page
+def test_python_sessions(page: Path) -> None:
+    check_python(page)
+
+
+@each_page
+def test_links_lead_somewhere(page: Path) -> None:
+    check_links(page)
+
+
+@each_page
+def test_a_guide_starts_with_something_that_runs(page: Path) -> None:
+    first = re.search(r"^```(\S+)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    if page.name not in ("gallery.md", "first-uses.md", "json.md", "batches.md"):
+        assert first is not None
+        assert first[1] in ("console", "python")
+
+
+def test_the_comparison_has_the_figures_of_its_file() -> None:
+    """Each row of the table, counted anew from the benchmark's results."""
+    rows = json.loads((ROOT / "benchmarks" / "results" / "peers.json").read_text(encoding="utf-8"))["rows"]
+    solvable = {(r["corpus"], r["name"]) for r in rows if r["system"] == "kovacic" and r["outcome"] == "solved"}
+    names = ["kovacic", "Maxima kovacicODE", "FriCAS solve", "giac kovacicsols", "SymPy dsolve", "SymPy solve_riccati"]
+    expected = []
+    for name in names:
+        mine = [r for r in rows if r["system"] == name and (r["corpus"], r["name"]) in solvable]
+        solved = [r["check"] for r in mine if r["outcome"] == "solved"]
+        wrong_none = sum(r["outcome"] == "none" and r["check"] == "wrong" for r in mine)
+        right, wrong = solved.count("right"), solved.count("wrong")
+        unclear = len(solved) - right - wrong
+        expected.append([right, unclear, wrong, wrong_none, len(mine) - len(solved) - wrong_none])
+    table = re.findall(r"^\|.*?((?: \d+ \|){5})$", (ROOT / "docs" / "comparison.md").read_text("utf-8"), re.MULTILINE)
+    assert [list(map(int, re.findall(r"\d+", row))) for row in table] == expected
