@@ -116,6 +116,12 @@ def test_evaluate_prints_values_with_bounds(capsys: pytest.CaptureFixture[str]) 
     for line, value in zip(lines, ("1.543080634815243", "1.175201193643801", "1.127625965206380"), strict=False):
         assert line.partition(" = ")[2].startswith(value)
     assert "± " in lines[0]
+    bessel = ["evaluate", "x^2*y'' + x*y' + x^2*y = 0", "--x0", "0", "--at", "1+I, 10", "--digits", "25"]
+    assert main.run([*bessel, "--regular"]) == 0
+    regular = capsys.readouterr().out
+    assert regular.splitlines()[2].startswith("y(10) = -0.2459357644513483351977608")  # J0, DLMF 10.2
+    assert main.run([*bessel, "--frobenius", "0,1"]) == 0
+    assert capsys.readouterr().out == regular
 
 
 def test_a_no_in_words() -> None:
@@ -226,6 +232,9 @@ def test_bad_input_does_not_stop_the_others() -> None:
         (["dsolve", "x^2*y'' = 2*y", "--ics", "y(0)=1"], 2),
         (["dsolve", "y'' = (x^2-100001)*y", "--limit", "seconds=0.000001"], 3),
         (["evaluate", "x", "--x0", "0", "--y0", "1", "--at", "1"], 2),
+        (["evaluate", "1/x", *["--x0", "1", "--y0", "1", "--dy0", "0", "--at", "-1"]], 2),
+        (["evaluate", "1/x", *["--x0", "1", "--y0", "1", "--dy0", "0", "--at", "-1", "--path", "above"]], 0),
+        (["evaluate", "x", *["--x0", "1", "--y0", "1", "--dy0", "0", "--at", "2", "--limit", "seconds=0.000001"]], 3),
         (["evaluate", "x", "--x0", "0", "--y0", "1", "--dy0", "nan", "--at", "1"], 2),
         (["evaluate", "1/x", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"], 2),
         (["evaluate", "x", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1,,2"], 2),
@@ -260,6 +269,41 @@ def test_ctrl_c_is_status_130() -> None:
         _, errors = process.communicate(timeout=30)
     assert process.returncode == 130
     assert "Traceback" not in errors
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments"),
+    [
+        ("kovacic.general_solution.dsolve", ["dsolve", "y'' = y"]),
+        ("kovacic.general_solution.dsolve", ["solve", "y'' = y + x"]),
+        ("kovacic.views.text.written", ["solve", "1"]),
+        (
+            "kovacic.enclosure.evaluate.evaluate_states",
+            ["evaluate", "x", "--x0=0", "--y0=1", "--dy0=0", "--at=1"],
+        ),
+    ],
+)
+def test_ctrl_c_while_solutions_are_computed(
+    name: str, arguments: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupted(*_: object, **options: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(name, interrupted)
+    assert main.run(arguments) == 130
+    shown = capsys.readouterr()
+    assert shown.err == "kovacic: interrupted\n"
+    assert ("Liouvillian solutions exist" in shown.out) == (arguments[0] == "solve")  # what was known has been told
+
+
+@pytest.mark.parametrize(
+    "command", ["solve --no-solutions x x", "evaluate x --x0 0 --y0 1 --dy0 0 --at 1,2,3,4", "dsolve y\\'\\'=y"]
+)
+def test_a_reader_that_goes_away_at_once(command: str) -> None:
+    program = f"{sys.executable} -m kovacic {command} | true; echo ${{PIPESTATUS[0]}}"
+    done = subprocess.run(["/bin/bash", "-c", program], capture_output=True, text=True, check=True, timeout=60)
+    assert done.stdout == "141\n"
+    assert done.stderr == ""
 
 
 def test_a_closed_pipe_is_quiet() -> None:

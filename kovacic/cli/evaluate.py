@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from typing import Any
 
 import click
 
@@ -11,29 +12,33 @@ from kovacic.cli.options import EQUATIONS, limit_option, listed, parse_limits, r
 
 @click.command(context_settings=EQUATIONS)
 @click.argument("equation", metavar="S")
-@click.option("--x0", required=True, metavar="NUMBER", help="Where the initial values are given.")
-@click.option("--y0", required=True, metavar="NUMBER", help="y(x0).")
-@click.option("--dy0", required=True, metavar="NUMBER", help="y'(x0).")
-@click.option("--at", "points", required=True, multiple=True, metavar="NUMBERS", help="Where, for example 1,5/2,0.1.")
+@click.option("--x0", required=True, metavar="NUMBER", help="Where the solution is given.")
+@click.option("--y0", metavar="NUMBER", help="y(x0).")
+@click.option("--dy0", metavar="NUMBER", help="y'(x0).")
+@click.option("--frobenius", metavar="C1,C2", help="c1 y1 + c2 y2 of the Frobenius basis at x0, instead of y0 and dy0.")
+@click.option("--regular", "which", flag_value="regular", help="The solution that is smaller than all others at x0.")
+@click.option("--at", "points", required=True, multiple=True, metavar="NUMBERS", help='Where: 1,5/2,0.1,"1+2*I".')
 @click.option("--digits", default=15, show_default=True, type=click.IntRange(min=1), help="Proven digits.")
+@click.option("--path", type=click.Choice(["above", "below"]), help="The side on which singular points are passed.")
 @limit_option
 def command(
-    equation: str, x0: str, y0: str, dy0: str, points: tuple[str, ...], digits: int, limits: tuple[str, ...]
+    equation: str, points: tuple[str, ...], frobenius: str | None, limits: tuple[str, ...], **options: Any
 ) -> None:
-    """Values of the solution of y'' = S(x) y, or of an equation with y'' in it, with y(x0) = y0 and y'(x0) = dy0.
+    """Values of one solution of y'' = S(x) y, or of an equation with y'' in it, and of its derivative.
 
     The exact value differs from what is printed by at most the bound after it; that is proven.  Numbers are exact: integers,
-    fractions, decimals.  The path is the straight line from x0.
+    fractions, decimals, constants such as sqrt(2), complex ones.  The path is the straight line from x0.
 
     \b
     kovacic evaluate "x" --x0 0 --y0 1 --dy0 0 --at 1,2,3 --digits 30
-    kovacic evaluate "x^2*y'' + x*y' + x^2*y = 0" --x0 1 --y0 1 --dy0 0 --at 1/2 --at 10
+    kovacic evaluate "x^2*y'' + x*y' + x^2*y = 0" --x0 0 --regular --at 1/2 --at 10
     """
     from kovacic.enclosure.evaluate import evaluate_states
 
     refuse_options((equation,))
     places = [place for text in points for place in listed(text)]
-    found = evaluate_states(equation, places, x0=x0, y0=y0, dy0=dy0, digits=digits, limits=parse_limits(limits))
+    basis = None if frobenius is None else listed(frobenius)
+    found = evaluate_states(equation, places, frobenius=basis, limits=parse_limits(limits), **options)
     for place, state in zip(places, found, strict=True):
         print(f"y({place}) = {state.y}", flush=True)
         print(f"y'({place}) = {state.dy}", flush=True)

@@ -15,8 +15,9 @@ import math
 import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from decimal import Decimal
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Any, Literal, Required, TypedDict, Unpack, overload
 
 from flint import acb, acb_poly, arb
 
@@ -47,6 +48,40 @@ class AccuracyWarning(UserWarning):
     """An enclosure is wider than asked for; the message says why."""
 
 
+class Options(TypedDict, total=False):
+    """The keywords of `evaluate` but `derivative`, for its types."""
+
+    x0: Required[object]
+    y0: object
+    dy0: object
+    frobenius: Sequence[object] | None
+    which: Literal["regular"] | None
+    digits: int
+    method: Method | None
+    path: Path
+    limits: Limits | None
+
+
+_One = str | complex | Fraction | Decimal | Ball
+_Many = list[Any] | tuple[Any, ...] | range
+
+
+@overload
+def evaluate(equation: object, x: _One, *, derivative: Literal[False] = ..., **options: Unpack[Options]) -> Ball: ...
+@overload
+def evaluate(
+    equation: object, x: _One, *, derivative: Literal[True], **options: Unpack[Options]
+) -> tuple[Ball, Ball]: ...
+@overload
+def evaluate(
+    equation: object, x: _Many, *, derivative: Literal[False] = ..., **options: Unpack[Options]
+) -> tuple[Ball, ...]: ...
+@overload
+def evaluate(
+    equation: object, x: _Many, *, derivative: Literal[True], **options: Unpack[Options]
+) -> tuple[tuple[Ball, Ball], ...]: ...
+@overload
+def evaluate(equation: object, x: object, *, derivative: bool = ..., **options: Unpack[Options]) -> Any: ...
 def evaluate(
     equation: object,
     x: object,
