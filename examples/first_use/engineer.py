@@ -1,6 +1,6 @@
 """An engineer: a column under its own weight, and how high it may be.
 
-    pip install kovacic && python examples/first_use/engineer.py
+    pip install . && python examples/first_use/engineer.py
 
 The slope of a thin column that begins to buckle under its own weight satisfies y'' = -x y, x measured from the top in units of
 (E I/q)^(1/3), with y' = 0 at the top and y = 0 at the base: the first zero of y is the critical height [Greenhill 1881: 1.986].

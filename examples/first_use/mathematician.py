@@ -1,6 +1,6 @@
 """A mathematician: Kovacic's first example, compared with the paper line by line, and an answer proven by other code.
 
-pip install kovacic && python examples/first_use/mathematician.py
+pip install . && python examples/first_use/mathematician.py
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """A student: the harmonic oscillator of quantum mechanics, solved.
 
-    pip install kovacic && python examples/first_use/student.py
+    pip install . && python examples/first_use/student.py
 
 Schroedinger's equation y'' = (x^2 - E) y: for which energies E can it be solved, and what do the solutions look like?
 """

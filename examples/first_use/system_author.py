@@ -1,6 +1,6 @@
 """The author of another system: answers as JSON, read without this package, and compared with the other system's.
 
-    pip install kovacic && python examples/first_use/system_author.py
+    pip install . && python examples/first_use/system_author.py
 
 Here the other system is SymPy: every function that it finds is substituted into the equation, and the verdicts are compared.
 """
