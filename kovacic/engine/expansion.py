@@ -22,12 +22,13 @@ from fractions import Fraction
 from math import lcm
 from typing import Any
 
-from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_poly
+from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly_ctx, fmpz_poly
 
 from kovacic.algebra.modular import ordinary_point
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.algebra.recurrence import RationalSeries
+from kovacic.algebra.sparse import constant_term
 from kovacic.engine.places import Kind, Place, Problem
 
 #: Coefficients beyond the degree that must vanish, besides one for each unknown.
@@ -128,37 +129,23 @@ class _Recurrence:
 
 
 def _recurrence(m: int, D: Any, R: Any, T: Any) -> _Recurrence:
-    """The operator L_(m+1) of equation (1), by its action on t^i: polynomials in i for the powers t^(i+j)."""
-    i = fmpz_poly([0, 1])
-    lowest = 0 if D[0] == 0 else -1
-    # operators[k][h] = l_(k, h + lowest * k)
-    previous: list[Any] = []
-    current: list[Any] = [fmpz_poly([1])]
+    """The operator L_(m+1) of equation (1), by its action on t^i: polynomials in i for the powers t^(i+j), j >= j0.
+
+    M_k = t^k L_k t^i/t^i is a polynomial in t and i, since t d/dt (M t^i) = (i M + t M') t^i.
+    """
+    ring = fmpz_mpoly_ctx.get(("t", "i"), Ordering.lex)
+    t, i = ring.gens()
+    D, R, T = (ring.from_dict({(k, 0): c for k, c in enumerate(f.coeffs())}) for f in (D, R, T))
+    slope, previous, current = D.derivative(0), ring.constant(0), ring.constant(1)
     for k in range(m + 1):
-        base = lowest * k
-        following = [fmpz_poly([])] * (len(current) + max(D.degree(), R.degree() + 1, 0) + 2)
-        for h, action in enumerate(current):
-            if action:
-                j = h + base
-                for a in range(D.degree() + 1):
-                    if D[a]:
-                        following[h + a - 1 - lowest] += action * (i + (j - k * a)) * D[a]
-                for a in range(R.degree() + 1):
-                    if R[a]:
-                        following[h + a - lowest] += action * R[a]
-        coupling = k * (m - k + 1)
-        for h, action in enumerate(previous):
-            if action and coupling:
-                for a in range(T.degree() + 1):
-                    if T[a]:
-                        position = h + a - 2 * lowest
-                        if position >= len(following):
-                            following += [fmpz_poly([])] * (position + 1 - len(following))
-                        following[position] -= action * T[a] * coupling
-        while following and not following[-1]:
-            following.pop()
-        previous, current = current, following
-    return _Recurrence(current)
+        following = D * ((i - k) * current + t * current.derivative(0)) + t * (R - k * slope) * current
+        previous, current = current, following - k * (m - k + 1) * t * t * T * previous
+    columns: dict[int, dict[int, int]] = {}
+    for (j, power), coefficient in current.to_dict().items():
+        columns.setdefault(int(j), {})[int(power)] = int(coefficient)
+    lowest = 0 if constant_term(D) else m + 1
+    polynomials = [columns.get(j, {0: 0}) for j in range(lowest, max(columns) + 1)]
+    return _Recurrence([fmpz_poly([terms.get(k, 0) for k in range(max(terms) + 1)]) for terms in polynomials])
 
 
 def _null_vector(rows: list[list[Any]], columns: int) -> list[Any] | None:
