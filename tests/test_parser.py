@@ -138,8 +138,8 @@ class Shapes:
     def negate(self, value: str) -> str:
         return f"(-{value})"
 
-    def add(self, left: str, right: str, *, subtract: bool = False) -> str:
-        return f"({left}{'-' if subtract else '+'}{right})"
+    def sum(self, terms: list[str]) -> str:
+        return f"({'+'.join(terms)})"
 
     def multiply(self, left: str, right: str) -> str:
         return f"({left}*{right})"
@@ -171,18 +171,18 @@ def shape(text: str) -> str:
 @pytest.mark.parametrize(
     ("text", "structure"),
     [
-        ("a-b-c+d", "(((a-b)-c)+d)"),
+        ("a-b-c+d", "(a+(-b)+(-c)+d)"),
         ("a/b/c*d", "(((a/b)/c)*d)"),
         ("a^b^c", "(a^(b^c))"),
-        ("a-b*c^d", "(a-(b*(c^d)))"),
-        ("a^b*c-d", "(((a^b)*c)-d)"),
+        ("a-b*c^d", "(a+(-(b*(c^d))))"),
+        ("a^b*c-d", "(((a^b)*c)+(-d))"),
         ("-a^b", "(-(a^b))"),
         ("(-a)^b", "((-a)^b)"),
         ("-a*b", "((-a)*b)"),
         ("-2a", "(-(2*a))"),
         ("-a+b", "((-a)+b)"),
         ("a*-b", "(a*(-b))"),
-        ("a--b", "(a-(-b))"),
+        ("a--b", "(a+(-(-b)))"),
         ("+a^+b", "(a^b)"),
         ("a^-b^c", "(a^(-(b^c)))"),
         ("a^-b*c", "((a^(-b))*c)"),
@@ -200,7 +200,7 @@ def shape(text: str) -> str:
         ("a = -b", "a = (-b)"),
         ("f(a)^b", "(f[a]^b)"),
         ("2f(a)(b)", "((2*f[a])*b)"),
-        ("f(a+b, (c, d-e), (g))", "f[(a+b),<c,(d-e)>,g]"),
+        ("f(a+b, (c, d-e), (g))", "f[(a+b),<c,(d+(-e))>,g]"),
         ("f(x, (y, 2)) = -y''(x)/3 + diff(y', x)", "f[x,<y,2>] = (((-y''[x])/3)+diff[y',x])"),
         ("f(g(a, b), ((c)))", "f[g[a,b],c]"),
         ("a y^b", "(a*(y^b))"),

@@ -1,21 +1,22 @@
 """Exact arithmetic on what a user wrote, with every size predicted and checked before it is computed.
 
-Values are terms c*x^n with a small rational c, polynomials, and rational functions in lowest terms.  A sum stays open while
-terms are added to it: monomials are collected by their powers, and everything else is merged in pairs of about equal size,
-so that a sum of n fractions takes n mergers of which most are small, instead of n additions to a growing total.
+Values are terms c*x^n with a small rational c, polynomials, and rational functions in lowest terms.  In a sum monomials are
+collected by their powers, and everything else is added by halves: most of the n additions of fractions are small ones.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import Any
+from typing import TypeVar
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+
+T = TypeVar("T")
 
 # A polynomial may have at most this many times `Limits.bits` bits in all its coefficients together.
 _TOTAL_FACTOR = 100
@@ -39,18 +40,7 @@ class Term:
 VARIABLE = Term(1, 1)
 
 
-class OpenSum:
-    """A sum whose terms are still being collected: coefficients by power; polynomials and fractions by size class."""
-
-    __slots__ = ("coefficients", "fractions", "polynomials")
-
-    def __init__(self) -> None:
-        self.coefficients: dict[int, int | Fraction] = {}
-        self.polynomials: list[tuple[int, Poly]] = []
-        self.fractions: list[tuple[int, RatFunc]] = []
-
-
-Value = Term | Poly | RatFunc | OpenSum
+Value = Term | Poly | RatFunc
 
 
 class NotAnInteger(ValueError):
@@ -106,15 +96,35 @@ class Arithmetic:
     def negate(self, value: Value) -> Value:
         return Term(-value.coefficient, value.power) if isinstance(value, Term) else -self.closed(value)
 
-    def add(self, left: Value, right: Value, *, subtract: bool = False) -> Value:
-        """`left + right` or `left - right`; an open sum on the left is used up."""
-        if isinstance(left, OpenSum):
-            total = left
-        else:
-            total = OpenSum()
-            self._append(total, left)
-        self._append(total, self.negate(right) if subtract else right)
-        return total
+    def sum(self, terms: Sequence[Value]) -> Value:
+        """The sum of at least one term."""
+        if len(terms) == 1:
+            return terms[0]
+        coefficients: dict[int, int | Fraction] = {}
+        polynomials, fractions = list[Poly](), list[RatFunc]()
+        for term in terms:
+            if isinstance(term, Term):
+                known = coefficients.get(term.power)
+                if known is None or _bits(known) <= _SMALL_BITS:
+                    coefficients[term.power] = term.coefficient if known is None else known + term.coefficient
+                    continue
+            part = self.closed(term)
+            (fractions if isinstance(part, RatFunc) else polynomials).append(part)  # type: ignore[arg-type]
+        if coefficients:
+            polynomials.insert(0, QQ.poly([coefficients.get(k, 0) for k in range(max(coefficients) + 1)]))
+        if not fractions:
+            return self._total(polynomials, self._poly_sum)
+        fraction = self._total(fractions, self._ratfunc_sum)
+        polynomial = self._total(polynomials, self._poly_sum) if polynomials else None
+        if polynomial:
+            num = self._poly_sum(fraction.num, self._product(polynomial, fraction.den))
+            fraction = RatFunc(num, fraction.den.over(num.field), reduced=True)
+        return fraction.num if fraction.is_polynomial else fraction
+
+    def _total(self, parts: Sequence[T], add: Callable[[T, T], T]) -> T:
+        """The sum of at least one part, by halves."""
+        half = len(parts) // 2
+        return add(self._total(parts[:half], add), self._total(parts[half:], add)) if half else parts[0]
 
     def multiply(self, left: Value, right: Value) -> Value:
         if isinstance(left, Term) and isinstance(right, Term):
@@ -174,49 +184,8 @@ class Arithmetic:
         return RatFunc(num * leading, den * leading, reduced=True)
 
     def closed(self, value: Value) -> Poly | RatFunc:
-        """The value as a polynomial or rational function, with an open sum added up."""
-        if isinstance(value, Term):
-            return _monomial(value.coefficient, value.power)
-        if not isinstance(value, OpenSum):
-            return value
-        fraction: RatFunc | None = self._total(value.fractions)
-        polynomials = list(value.polynomials)
-        if value.coefficients:
-            dense: list[int | Fraction] = [0] * (max(value.coefficients) + 1)
-            for power, coefficient in value.coefficients.items():
-                dense[power] = coefficient
-            polynomials.insert(0, (0, QQ.poly(dense)))
-        polynomial: Poly | None = self._total(polynomials)
-        if fraction is None:
-            assert polynomial is not None
-            return polynomial
-        if polynomial:
-            num = self._poly_sum(fraction.num, self._product(polynomial, fraction.den))
-            fraction = RatFunc(num, fraction.den.over(num.field), reduced=True)
-        return fraction.num if fraction.is_polynomial else fraction
-
-    def _total(self, parts: Sequence[tuple[int, Any]]) -> Any:
-        """The sum of fractions, or of polynomials, from the smallest on; None if there are none."""
-        total = None
-        for _, part in reversed(parts):
-            total = part if total is None else self._sum(part, total)
-        return total
-
-    def _append(self, total: OpenSum, term: Value) -> None:
-        if isinstance(term, Term):
-            known = total.coefficients.get(term.power)
-            if known is None or _bits(known) <= _SMALL_BITS:
-                total.coefficients[term.power] = term.coefficient if known is None else known + term.coefficient
-                return
-        part: Any = self.closed(term)
-        parts: list[Any] = total.fractions if isinstance(part, RatFunc) else total.polynomials
-        rank = 0
-        while parts and parts[-1][0] == rank:
-            part, rank = self._sum(parts.pop()[1], part), rank + 1
-        parts.append((rank, part))
-
-    def _sum(self, left: Any, right: Any) -> Any:
-        return self._ratfunc_sum(left, right) if isinstance(left, RatFunc) else self._poly_sum(left, right)
+        """The value as a polynomial or rational function."""
+        return _monomial(value.coefficient, value.power) if isinstance(value, Term) else value
 
     def _poly_sum(self, left: Poly, right: Poly) -> Poly:
         self._check(max(left.degree, right.degree), left.height_bits() + right.height_bits() + 1)

@@ -135,7 +135,7 @@ class EquationReader(RationalReader):
     def equation(self, left: Any, right: Any) -> Any:
         if not self.arithmetic.form(left).coefficients:  # f = a y'' + b y' + c y
             left, right = right, left
-        return self.arithmetic.add(left, right, subtract=True)
+        return self.arithmetic.sum([left, self.arithmetic.negate(right)])
 
     def follows_without_sign(self, name: str) -> bool:
         """A coefficient may stand before the unknown function without a sign."""

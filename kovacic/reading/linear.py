@@ -6,7 +6,7 @@ expression that isn't rational: the right-hand sides of equations contain expone
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -82,17 +82,17 @@ class LinearArithmetic(Arithmetic):
         parts = {k: super(LinearArithmetic, self).negate(c) for k, c in value.parts.items()}
         return LinearForm(parts, None if value.other is None else -value.other)
 
-    def add(self, left: Any, right: Any, *, subtract: bool = False) -> Any:
-        if not isinstance(left, LinearForm) and not isinstance(right, LinearForm):
-            return super().add(left, right, subtract=subtract)
-        first, second = self.form(left), self.form(right)
-        if subtract:
-            second = self.negate(second)
-        parts = dict(first.parts)
-        for k, c in second.parts.items():
-            parts[k] = super().add(parts[k], c) if k in parts else c
-        others = [h for h in (first.other, second.other) if h is not None]
-        return LinearForm(parts, sum(others[1:], others[0]) if others else None)
+    def sum(self, terms: Sequence[Any]) -> Any:
+        if not any(isinstance(term, LinearForm) for term in terms):
+            return super().sum(terms)
+        parts: dict[int, list[Value]] = {}
+        others: list[Any] = []
+        for form in map(self.form, terms):
+            for k, c in form.parts.items():
+                parts.setdefault(k, []).append(c)
+            others += [] if form.other is None else [form.other]
+        other = sum(others[1:], others[0]) if others else None
+        return LinearForm({k: super(LinearArithmetic, self).sum(c) for k, c in parts.items()}, other)
 
     def multiply(self, left: Any, right: Any) -> Any:
         if not isinstance(left, LinearForm) and not isinstance(right, LinearForm):
@@ -164,13 +164,12 @@ class LinearArithmetic(Arithmetic):
     def derivative(self, value: Any) -> Any:
         """The derivative with respect to the variable."""
         form = self.form(value)
-        parts: dict[int, Value] = {}
+        terms: list[Any] = []
         for k, c in form.parts.items():
             closed = self.closed(c)
             slopes = {k: closed.derivative()} if k == REST else {k: closed.derivative(), k + 1: closed}
-            for order, slope in slopes.items():
-                if slope:
-                    parts[order] = super().add(parts[order], slope) if order in parts else slope
+            terms += [LinearForm({order: slope}) for order, slope in slopes.items() if slope]
+        parts = self.sum(terms).parts if terms else {}
         if form.other is not None:
             from sympy import Symbol
 

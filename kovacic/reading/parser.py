@@ -66,7 +66,7 @@ class Operations(Protocol):
     def signed_integer(self, text: str) -> int: ...
     def constant(self, value: int) -> Any: ...
     def negate(self, value: Any) -> Any: ...
-    def add(self, left: Any, right: Any, *, subtract: bool = False) -> Any: ...
+    def sum(self, terms: Sequence[Any]) -> Any: ...
     def multiply(self, left: Any, right: Any) -> Any: ...
     def divide(self, left: Any, right: Any) -> Any: ...
 
@@ -113,8 +113,19 @@ def _evaluated(tokens: Tokens, reader: Reader, site: Site) -> Any:
     arguments: list[list[Any]] = []  # of the calls and pairs that are being read
     left_side: list[Any] = []
 
+    def add(end: int) -> None:
+        """Carries out the pending additions, which are one sum: its terms are all known now."""
+        count = 1
+        while pending[-1][0] == _SUM:
+            if kinds[pending.pop()[1]] == "MINUS":
+                values[-count] = arithmetic.negate(values[-count])
+            count += 1
+        site.right, site.end, site.begin = begins[-1], end, begins[-count]
+        values[-count:] = [arithmetic.sum(values[-count:])]
+        del begins[1 - count :], splits[1 - count :]
+
     def reduce(strength: int, end: int) -> None:
-        """Carries out the pending operations that bind at least so strongly."""
+        """Carries out the pending operations that bind at least so strongly: as products do, or stronger."""
         while pending[-1][0] >= strength:
             level, k = pending.pop()
             kind = kinds[k]
@@ -127,9 +138,7 @@ def _evaluated(tokens: Tokens, reader: Reader, site: Site) -> Any:
             right, split = values.pop(), splits.pop()
             del begins[-1]
             left, site.begin = values[-1], begins[-1]
-            if level == _SUM:
-                values[-1] = arithmetic.add(left, right, subtract=kind == "MINUS")
-            elif level == _IMPLICIT:
+            if level == _IMPLICIT:
                 _check_neighbours(tokens, reader, site.right)
                 values[-1] = arithmetic.multiply(left, right)
                 splits[-1] = splits[-1] or site.right
@@ -148,7 +157,7 @@ def _evaluated(tokens: Tokens, reader: Reader, site: Site) -> Any:
     for k, kind in enumerate(kinds):
         if not operand:
             if kind in _BINARY:
-                reduce(_BINARY[kind], k)
+                reduce(_PRODUCT, k)
                 pending.append((_BINARY[kind], k))
                 operand = True
                 continue
@@ -162,7 +171,9 @@ def _evaluated(tokens: Tokens, reader: Reader, site: Site) -> Any:
                     values[-1] = reader.power(values[-1], arithmetic.constant(exponent), site)
                 continue
             if kind not in _OPERANDS:
-                reduce(_SUM, k)
+                reduce(_PRODUCT, k)
+                if pending[-1][0] == _SUM:
+                    add(k)
                 level, opened = pending[-1]
                 call = opened >= 0 and kinds[opened] == "HEAD"
                 if kind == "RPAR" and opened >= 0:

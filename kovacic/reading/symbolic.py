@@ -8,9 +8,10 @@ n*exp(2) + 2*sqrt(2)
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import reduce
 from typing import Any
 
 import sympy
@@ -94,8 +95,8 @@ class SymbolicArithmetic(Arithmetic):
     def negate(self, value: Any) -> Any:
         return -value
 
-    def add(self, left: Any, right: Any, *, subtract: bool = False) -> Any:
-        return self._checked(left - right if subtract else left + right)
+    def sum(self, terms: Sequence[Any]) -> Any:
+        return reduce(lambda total, term: self._checked(total + term), terms)
 
     def multiply(self, left: Any, right: Any) -> Any:
         return self._checked(left * right)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import reduce
 from operator import index
 from typing import Any
 
@@ -56,15 +57,11 @@ class Walker:
         try:
             if node.is_Pow:
                 return self.reader.power(arguments[0], arguments[1], self)
-            combine = arithmetic.add if node.is_Add else arithmetic.multiply
-            result = arguments[0]
-            for argument in arguments[1:]:
-                result = combine(result, argument)
+            return arithmetic.sum(arguments) if node.is_Add else reduce(arithmetic.multiply, arguments)
         except ZeroDivisionError:
             raise NotRational(f"division by zero in {shown(node, 60)}") from None
         except LimitExceeded as error:
             raise LimitExceeded(f"{shown(node, 60)} would have {error}", limit=error.limit) from None
-        return result
 
     def _leaf(self, node: Any) -> Any:
         reader = self.reader
