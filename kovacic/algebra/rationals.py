@@ -12,10 +12,10 @@ from typing import Any
 from flint import fmpq, fmpq_poly, fmpz_poly, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
+from kovacic.algebra.apart import last_of
 from kovacic.algebra.lifting import Lifter, Residues, primes
 from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
-from kovacic.apart import last_of
 from kovacic.limits import check_time, watched_seconds
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.

@@ -1,7 +1,7 @@
 """General solutions as SymPy gives them: an equation goes in, `Eq(y(x), ...)` with constants comes out, or all w(x).
 
 `dsolve.dsolve` is the entry, and the module to read first.  A particular solution comes from `undetermined` (coefficients) or
-`variation` (of parameters), whose integrals SymPy does in a process `kovacic.apart`; `initial_values` determine the constants.
+`variation` (of parameters), whose integrals SymPy does in a process of its own; `initial_values` determine the constants.
 `riccati` has the solutions of Riccati equations.
 """
 

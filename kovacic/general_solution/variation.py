@@ -11,7 +11,7 @@ from typing import Any
 import sympy
 from sympy import cos, cot, csc, expand, powsimp, sec, sin, tan
 
-from kovacic.apart import last_of
+from kovacic.algebra.apart import last_of
 
 #: The largest expression (in operations) that is handed to SymPy's general simplification.
 _SIMPLIFIED = 150

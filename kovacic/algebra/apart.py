@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import json
-import pickle
-import signal
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from io import BytesIO
@@ -13,7 +10,7 @@ from typing import Any
 
 _LONGEST = 1e8
 # The interpreter looks for modules where this one does, and not in the current directory.
-_START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.apart import main; main()"
+_START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.algebra.apart import main; main()"
 
 
 def last_of(function: Callable[..., Iterator[Any]], *arguments: Any, seconds: float) -> Any:
@@ -22,6 +19,9 @@ def last_of(function: Callable[..., Iterator[Any]], *arguments: Any, seconds: fl
     A separate interpreter is started instead of a fork, which works in programs with threads, and on every system.
     Arguments and values must be picklable.  An exception of the function ends it.
     """
+    import pickle  # a start without these takes a tenth less time
+    import subprocess
+
     if seconds <= 0:
         return None
     seconds = min(seconds, _LONGEST)
@@ -45,6 +45,9 @@ def last_of(function: Callable[..., Iterator[Any]], *arguments: Any, seconds: fl
 
 def main() -> None:
     """The other end: each value is written at once.  The system ends it, if the process that waits for it was killed."""
+    import pickle
+    import signal
+
     function, arguments, seconds = pickle.load(sys.stdin.buffer)
     if hasattr(signal, "setitimer"):
         signal.setitimer(signal.ITIMER_REAL, seconds + 1)
