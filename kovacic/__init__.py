@@ -17,7 +17,10 @@ __version__ = "0.1.0"
 _NAMES = {
     "batch": ("solve_many",),
     "decision": ("Status", "Structure"),
-    "enclosure.evaluate": ("evaluate",),
+    "doubles.tabulate": ("tabulate",),
+    "enclosure.ball": ("Ball",),
+    "enclosure.evaluate": ("AccuracyWarning", "connection_matrix", "evaluate"),
+    "enclosure.monodromy": ("monodromy",),
     "errors": (
         "InputError",
         "KovacicError",

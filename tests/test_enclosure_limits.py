@@ -9,12 +9,13 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
+import flint
 import pytest
 
 import kovacic
 from kovacic.doubles.lambdify import lambdify
 from kovacic.doubles.tabulate import tabulate
-from kovacic.enclosure.ball import Ball
+from kovacic.enclosure.ball import Ball, ball_to_flint
 from kovacic.enclosure.evaluate import AccuracyWarning, connection_matrix, evaluate
 from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.monodromy import monodromy
@@ -71,11 +72,18 @@ def test_the_growth_is_the_integral_of_the_root() -> None:
     assert least_growth(System.make((), (1,)), Point(Fraction(2)), Point(Fraction(1))) == 0
 
 
-def test_digits_lost_by_a_recessive_start_are_counted() -> None:
-    with pytest.warns(AccuracyWarning, match=r"other solutions grow to about 10\^21\d\d on the way"):  # exp(5000)
-        evaluate("1", 5000, x0=0, y0=1, dy0=-1)
-    with pytest.warns(AccuracyWarning, match=r"10\^43429448\d\d on"):  # exp(10^10)
+def test_digits_lost_by_a_recessive_start_are_had_or_the_reason_is_said_at_once() -> None:
+    value = evaluate("1", 5000, x0=0, y0=1, dy0=-1)  # others grow by exp(5000): twice 2171 digits are lost
+    with flint.ctx.workprec(200):
+        assert ball_to_flint(value).overlaps(flint.acb(-5000).exp())
+    assert value.digits >= 15
+    with pytest.warns(
+        AccuracyWarning, match=r"other solutions grow to about 10\^43429448\d\d on the way"
+    ):  # exp(10^10)
         assert kovacic.solve("10^20").at(1, x0=0, y0=1, dy0=-(10**10)).contains_zero()
+    with pytest.warns(AccuracyWarning, match=r"other solutions grow to about 10\^173\d\d\d on the way"):
+        (state,) = [evaluate("1", 4 * 10**5, x0=0, y0=1, dy0=-1)]
+    assert state.contains_zero()
 
 
 CALLS: dict[str, Callable[[Limits], object]] = {

@@ -270,3 +270,60 @@ def test_the_tail_is_below_its_bound(seed: int, monkeypatch: pytest.MonkeyPatch)
             float((a - b).abs_upper()) < 2.0**-20 * max(1.0, float(b.abs_upper()))
             for a, b in zip(few, many, strict=True)
         )
+
+
+@pytest.mark.parametrize("x", [2, -3, Fraction(1, 3), 30, 1 + 1j])
+@pytest.mark.parametrize("digits", [10, 40])
+def test_decaying_solutions(x: Any, digits: int) -> None:
+    """Ai, K_nu, the complementary error function, and Whittaker's W: each over its value at 1."""
+
+    def whittaker(z: acb) -> acb:
+        k, m = acb(1) / 3, acb(1) / 7
+        return (-z / 2).exp() * z ** (m + acb(1) / 2) * z.hypgeom_u(m - k + acb(1) / 2, 1 + 2 * m)
+
+    functions: list[tuple[str, Value]] = [
+        ("x", lambda z: z.airy_ai()),
+        ("y'' - 2*x*y' - 2*y = 0", lambda z: (z * z).exp() * z.erfc()),
+        ("x^2*y'' + x*y' - (x^2 + 1/9)*y = 0", lambda z: z.bessel_k(acb(1) / 3)),
+        ("1/4 - 1/(3*x) + (1/49 - 1/4)/x^2", whittaker),
+    ]
+    for equation, function in functions if x != -3 else functions[:2]:
+        value = evaluate(equation, x, x0=1, y0=1, which="decaying", digits=digits)
+        with ctx.workprec(int(digits * 3.33) + 300):
+            assert ball_to_flint(value).overlaps(function(number(x)) / function(acb(1)))
+        assert value.digits >= digits
+
+
+def test_there_is_no_decaying_solution_where_solutions_oscillate() -> None:
+    for equation in ("-1", "-x", "2/x^2", "0"):
+        with pytest.raises(InputError, match="no solution decays"):
+            evaluate(equation, 2, x0=1, y0=1, which="decaying")
+    with pytest.raises(InputError, match="y0 alone"):
+        evaluate("x", 2, x0=1, y0=1, dy0=0, which="decaying")
+    with pytest.raises(InputError, match="singular point 1"):
+        evaluate("1 + 1/(x-1)^2", 0, x0=0, y0=1, which="decaying")
+
+
+def test_parameters_take_values() -> None:
+    whittaker = "1/4 - k/x + (mu^2 - 1/4)/x^2"
+    with_values = evaluate(whittaker, 3, x0=0, which="regular", params={"k": "1/3", "mu": Fraction(2, 7)}, digits=30)
+    assert with_values == evaluate("1/4 - (1/3)/x + (4/49 - 1/4)/x^2", 3, x0=0, which="regular", digits=30)
+    legendre = "(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0"
+    for n in (3, Fraction(5, 2)):
+        value = evaluate(legendre, Fraction(1, 3), x0=1, which="regular", params={"n": n}, digits=30)
+        with ctx.workprec(200):
+            assert ball_to_flint(value).overlaps((acb(1) / 3).legendre_p(number(n)))
+        assert kovacic.solve(legendre).at(Fraction(1, 3), x0=1, which="regular", params={"n": n}, digits=30) == value
+    assert len(kovacic.monodromy("n*(n+1)/(x^2*(1-x)^2)", params={"n": 2})) == 2
+    for params, words in [
+        ({}, "values are needed"),
+        ({"n": 1, "m": 2}, "values are needed"),
+        ({"n": 1j}, "isn't real"),
+        (None, "are needed"),
+    ]:
+        with pytest.raises(InputError, match=words):
+            evaluate(legendre, 0, x0=1, which="regular", params=params)
+    with pytest.raises(InputError, match="isn't defined"):
+        evaluate("1/((n-1)*x^2 + (n-1))", 1, x0=0, y0=1, dy0=0, params={"n": 1})
+    with pytest.raises(InputError, match="no parameter"):
+        evaluate("x", 1, x0=0, y0=1, dy0=0, params={"n": 1})

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -22,6 +22,7 @@ from typing import Any, Literal, Required, TypedDict, Unpack, overload
 from flint import acb, acb_poly, arb
 
 from kovacic.enclosure.ball import Ball, ball_from_flint
+from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
 from kovacic.enclosure.frobenius import Basis, junction
 from kovacic.enclosure.journey import Itinerary, Traveller, carry
@@ -29,6 +30,7 @@ from kovacic.enclosure.matrices import Matrix, State, adjugate, multiply
 from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.precision import METHODS, Evaluation, Method, Route, check_digits, raise_precision, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem, equation_of
+from kovacic.enclosure.recessive import logarithmic_derivative
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
@@ -90,7 +92,8 @@ def evaluate(
     y0: object = None,
     dy0: object = None,
     frobenius: Sequence[object] | None = None,
-    which: Literal["regular"] | None = None,
+    which: Literal["regular", "decaying"] | None = None,
+    params: Mapping[str, object] | None = None,
     digits: int = 15,
     derivative: bool = False,
     method: Method | None = None,
@@ -108,7 +111,9 @@ def evaluate(
       infinity, "oo").  y1 is the dominant one: the leading terms are t^lambda log(t)^k, t = x - x0 (1/x at infinity), by
       the real part of lambda upwards, and the logarithm first.  Either has the coefficient 1 at its own leading term and 0
       at the other's;
-    - `which="regular"`: frobenius=(0, 1), the solution that is smaller than all others at x0.
+    - `which="regular"`: frobenius=(0, 1), the solution that is smaller than all others at x0;
+    - `which="decaying"` and `y0`: y(x0), and y is the solution that becomes smaller than all others as x goes to +infinity.
+    S or the equation may have parameters, which get rational values: `params={"n": 3}`.
 
     Numbers are exact: int, Fraction, float and complex (their binary values), Decimal and decimal text, mpmath and SymPy
     numbers; or constants such as "sqrt(2)" and "1 + 2*I"; or balls (ours, python-flint's, mpmath's), and then the result
@@ -144,6 +149,7 @@ def evaluate(
         dy0=dy0,
         frobenius=frobenius,
         which=which,
+        params=params,
         digits=digits,
         method=method,
         path=path,
@@ -173,6 +179,7 @@ def evaluate_states(
     dy0: object = None,
     frobenius: Sequence[object] | None = None,
     which: str | None = None,
+    params: Mapping[str, object] | None = None,
     digits: int = 15,
     method: Method | None = None,
     path: Path = None,
@@ -184,7 +191,7 @@ def evaluate_states(
     if method is not None and method not in METHODS:
         raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
     budget = Budget(limits)
-    problem = as_problem(equation)
+    problem = as_problem(equation, params)
     targets = tuple(as_number(p, "x") for p in points)
     side: str | None = None
     chain, vertices = path == "chain", tuple[Number, ...]()
@@ -197,7 +204,7 @@ def evaluate_states(
     elif path is not None:
         vertices = tuple(as_number(p, "a vertex of the path") for p in path)
     origin, start = _start(problem, x0, y0, dy0, frobenius, which)
-    trip = Trip(problem, origin, vertices, targets, start, chain, side)
+    trip = Trip(problem, origin, vertices, targets, start, which == "decaying", chain, side)
     with budget.watched():
         route, used = _route(trip, method)
         return raise_precision(route, used, targets, digits, budget, trip.exact)
@@ -212,8 +219,19 @@ class Trip:
     vertices: tuple[Number, ...]
     targets: tuple[Number, ...]
     start: Start
+    decaying: bool
     chain: bool
     side: str | None
+
+    def state(self, place: Point | Singular, prec: int, budget: Budget) -> State:
+        """The start at the working precision in force."""
+        y, dy = map(to_ball, self.start)
+        if self.decaying:
+            assert isinstance(place, Point)
+            slope, x = logarithmic_derivative(self.problem.system, place, prec, budget), to_acb(place)
+            gauge = self.problem.gauge
+            dy = y * (slope if gauge is None else slope + value(gauge, None, x))
+        return _spread(self.problem, self.origin, place, (y, dy))
 
     @property
     def exact(self) -> bool:
@@ -241,8 +259,12 @@ def _start(
     which: str | None,
 ) -> tuple[Number | Singular, Start]:
     """The place and the data of the start, from the arguments of `evaluate`."""
-    if which not in (None, "regular"):
-        raise InputError(f"which = {which!r} isn't known", hint="which='regular'")
+    if which not in (None, "regular", "decaying"):
+        raise InputError(f"which = {which!r} isn't known", hint="which='regular' or which='decaying'")
+    if which == "decaying":
+        if dy0 is not None or frobenius is not None:
+            raise InputError("the decaying solution is given by y0 alone")
+        return as_number(x0, "x0"), (as_number(1 if y0 is None else y0, "y0"), Point(Fraction(0)))
     if sum((y0 is not None or dy0 is not None, frobenius is not None, which is not None)) != 1:
         raise InputError("one start is expected", hint="y0= and dy0=, or frobenius=(c1, c2), or which='regular'")
     if frobenius is None and which is None:
@@ -293,9 +315,7 @@ def _route(trip: Trip, method: Method | None) -> tuple[Route, Method]:
 
     def route(prec: int, budget: Budget) -> list[State]:
         plan = trip.itinerary()
-        first, second = map(to_ball, trip.start)
-        start = _spread(problem, trip.origin, plan.start, (first, second))
-        states = carry(problem, plan, start, closed, prec, budget)
+        states = carry(problem, plan, trip.state(plan.start, prec, budget), closed, prec, budget)
         places = zip(trip.targets, plan.targets, states, strict=True)
         return [_spread(problem, number, middle, state) for number, middle, state in places]
 
@@ -317,7 +337,12 @@ def _spread(problem: NumericProblem, number: Number | Singular, middle: Point | 
 
 
 def connection_matrix(
-    equation: object, path: Sequence[object], *, digits: int = 15, limits: Limits | None = None
+    equation: object,
+    path: Sequence[object],
+    *,
+    params: Mapping[str, object] | None = None,
+    digits: int = 15,
+    limits: Limits | None = None,
 ) -> tuple[tuple[Ball, Ball], tuple[Ball, Ball]]:
     """Balls around the matrix that turns coordinates at the first point of `path` into those at the last one, of the same
     solution continued along this polygon.
@@ -337,7 +362,7 @@ def connection_matrix(
     """
     limits = limits or DEFAULT_LIMITS
     check_digits(digits, limits)
-    problem = as_problem(equation)
+    problem = as_problem(equation, params)
     if len(path) < 2:
         raise InputError("a path needs at least two vertices")
     ends = [_end(problem, value) for value in (path[0], path[-1])]

@@ -13,6 +13,7 @@ Reference: M. van der Put and M. F. Singer, "Galois Theory of Linear Differentia
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -66,7 +67,13 @@ class LocalMonodromy:
             return bool((m * now - one * before).contains(one))
 
 
-def monodromy(equation: object, *, digits: int = 15, limits: Limits | None = None) -> tuple[LocalMonodromy, ...]:
+def monodromy(
+    equation: object,
+    *,
+    params: Mapping[str, object] | None = None,
+    digits: int = 15,
+    limits: Limits | None = None,
+) -> tuple[LocalMonodromy, ...]:
     """The local monodromy of y'' = S y at every finite singular point, for one base point above all of them.
 
     The loops go straight to the points and around them; they generate the fundamental group, and come in the order, seen
@@ -78,7 +85,7 @@ def monodromy(equation: object, *, digits: int = 15, limits: Limits | None = Non
     (['0.666667', '0.333333'], '-1.000000', True)
     """
     limits = limits or DEFAULT_LIMITS
-    system = as_problem(equation).system
+    system = as_problem(equation, params).system
     budget = Budget(limits)
     result = []
     for loop, z in _loops(_places(system)):

@@ -16,6 +16,7 @@ from flint import acb, arb
 
 from kovacic.enclosure.ball import Ball, ball_from_flint
 from kovacic.enclosure.constants import Number
+from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError, LimitExceeded
@@ -95,7 +96,8 @@ def raise_precision(
 ) -> tuple[Evaluation, ...]:
     """Run the route at rising precision until every relative radius is small enough."""
     prec = start_bits(digits)
-    highest = 6 * prec + 4000  # a value below 2^-highest isn't told from zero
+    highest = 6 * prec + 4000  # a value below 2^-highest isn't told from zero, unless others are as large
+    most = int(max(highest, budget.limits.digits * math.log2(10)))
     runs = 0
     previous: tuple[Evaluation, ...] | None = None
     while True:
@@ -114,7 +116,9 @@ def raise_precision(
         if missing == 0 and found is not None:
             return found
         stalled = not exact and previous is not None and found is not None and _stalled(previous, found)
-        if prec >= highest or stalled:
+        if exact and found is not None:  # a recessive solution is as small as the others are large
+            highest = max(highest, 2 * max(map(_growth, found)) + 2 * start_bits(digits))
+        if prec >= highest or stalled or highest > most:
             if found is None:
                 raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
             return tuple(result if result.reached else replace(result, note=_reason(result)) for result in found)
@@ -128,10 +132,19 @@ def _missing_bits(y: acb, digits: int, prec: int) -> int:
         return prec
     if y.is_exact():
         return 0
-    if y.contains(0):
-        return prec
     goal = int(digits * 3.3219280948873626) + 2
+    if y.contains(0):  # if the solution is the recessive one, twice the growth of the others is lost
+        return max(prec, 2 * _lost(y, prec) + goal - prec)
     return max(0, goal - int(y.rel_accuracy_bits()))
+
+
+def _lost(y: acb, prec: int) -> int:
+    """By how many bits other solutions grow, seen by an enclosure that contains zero."""
+    return max(0, math.ceil(log2(y.abs_upper())) + prec)
+
+
+def _growth(result: Evaluation) -> int:
+    return _lost(result.state[0], result.run.bits) if result.y.contains_zero() else 0
 
 
 def _stalled(previous: tuple[Evaluation, ...], found: tuple[Evaluation, ...]) -> bool:
@@ -142,7 +155,7 @@ def _stalled(previous: tuple[Evaluation, ...], found: tuple[Evaluation, ...]) ->
 def _reason(result: Evaluation) -> str:
     if result.y.contains_zero():
         known = arb(result.y.rad).mid().str(2, radius=False)
-        growth = result.y.rad[0].bit_length() + result.y.rad[1] + result.run.bits
+        growth = _growth(result)
         lost = f": other solutions grow to about 10^{growth * math.log10(2):.0f} on the way, so that as many digits are lost"
         return (
             f"the value can't be told from zero (|y| is at most about {known}): no relative accuracy was reached"

@@ -10,19 +10,22 @@ isolation of the common factor of two polynomials over Q.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
 from flint import acb, arb, fmpq_poly, fmpz_poly
 
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import RationalPoly, to_fmpq
+from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.decision import Decision
-from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 from kovacic.limits import check_duration
+from kovacic.reading.given import parameters_of
 
 _NUMERATOR_ROOTS = 128
 """Above this degree the zeros of the numerator aren't isolated (its size is then bounded by its coefficients)."""
@@ -114,8 +117,9 @@ class NumericProblem:
         return System((), tuple(int(c) for c in both.coeffs())).singular_points(prec)
 
 
-def as_problem(equation: object) -> NumericProblem:
-    """The numerical problem that `equation` stands for; see `kovacic.enclosure.evaluate.evaluate` for what is accepted."""
+def as_problem(equation: object, params: Mapping[str, object] | None = None) -> NumericProblem:
+    """The numerical problem that `equation` stands for, with these values of its parameters; see
+    `kovacic.enclosure.evaluate.evaluate` for what is accepted."""
     if isinstance(equation, NumericProblem):
         return equation
     if isinstance(equation, System):
@@ -127,12 +131,43 @@ def as_problem(equation: object) -> NumericProblem:
 
         decision, found = None, read_input(equation)
     S, given = found.S, found.equation  # type: ignore[attr-defined]
+    names = parameters_of(S.field) if given is None else parameters_of((given.a + given.b + given.c).field)
+    if params is not None or names:
+        values = _values(names, params or {})
+        decision, S = None, _specialised(S, values)  # the decision is that for generic values
     system = System.of(S)
     if given is None:
         return NumericProblem(system, S, decision)
     if not given.is_homogeneous:
         raise InputError("numerical evaluation needs a homogeneous equation (right-hand side 0)")
-    return NumericProblem(system, S, decision, given.gauge or None)
+    gauge = given.gauge if not names else _specialised(given.gauge, values)
+    return NumericProblem(system, S, decision, gauge or None)
+
+
+def _values(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, Fraction]:
+    """The values of the parameters; raises InputError unless there is a rational one for each."""
+    given = {str(name): as_point(value, f"the parameter {name}") for name, value in params.items()}
+    if set(given) != set(names):
+        wanted = ", ".join(names) or "no parameter"
+        raise InputError(
+            f"values are needed for {wanted}; given are {', '.join(given) or 'none'}",
+            hint="params={'n': 3}, for instance",
+        )
+    for name, value in given.items():
+        if not value.is_real():
+            raise InputError(f"the parameter {name} = {value} isn't real")
+    return {name: given[name].re for name in names}
+
+
+def _specialised(function: RatFunc, values: dict[str, Fraction]) -> RatFunc:
+    """A rational function at these values of its parameters."""
+    num, den = function.num, function.den
+    if not isinstance(num, FunctionPoly) or not isinstance(den, FunctionPoly):
+        return function
+    try:
+        return RatFunc(*(part.value_at([values[name] for name in num.field.names], QQ) for part in (num, den)))
+    except ZeroDivisionError:
+        raise InputError("the equation isn't defined at these values of the parameters") from None
 
 
 def equation_of(problem: NumericProblem) -> tuple[fmpq_poly, fmpq_poly, fmpq_poly]:
