@@ -65,8 +65,9 @@ def dsolve(
 def _solved(eq: Any, func: Any, ics: Mapping[Any, Any] | None, var: str | None, budget: Budget) -> Any:
     equation, function = _read(eq, func, var, budget.limits)
     known = read_assumptions(None, eq, parameters_of(equation.S.field))
-    assume = known.to_dict() if known.concerns_exponents else None
-    solution = solve(equation, assume=assume, limits=budget.share(1).limits)
+    solution = solve(equation, limits=budget.share(1).limits)
+    if solution.status is Status.NONE_EXISTS and known.concerns_exponents:
+        solution = solve(equation, assume=known.to_dict(), limits=budget.share(1).limits)
     try:
         if solution.case is None:
             y1, y2 = _special(solution, eq, known, budget)
