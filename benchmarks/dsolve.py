@@ -1,6 +1,7 @@
 """kovacic.dsolve, sympy.dsolve and Maxima (ode2, contrib_ode) side by side on 150 textbook problems.
 
-    python benchmarks/dsolve.py            # writes results/dsolve.json and results/dsolve.md
+    python benchmarks/dsolve.py                   # writes results/dsolve.json and results/dsolve.md
+    python benchmarks/dsolve.py --sympy-tests     # SymPy's own test equations: results/dsolve_sympy.*
 
 Each system is one process that answers one problem after the other, within `LIMIT` seconds.  Python packages get the same
 SymPy equation, symbols with the assumptions that the book makes.  An answer is checked by SymPy's differentiation and
@@ -25,7 +26,7 @@ from pathlib import Path
 from typing import Any
 
 import sympy
-from dsolve_problems import Problem, problems
+from dsolve_problems import Problem, problems, sympy_equations
 from peer_systems.process import Answer, System
 from sympy.parsing.sympy_parser import parse_expr
 
@@ -40,8 +41,9 @@ _POINTS = [sympy.Rational(p) for p in ("37/100", "61/40", "-7/9", "41/13", "17/4
 def symbols(problem: Problem) -> dict[str, Any]:
     """The parameters with the book's assumptions: positive, natural numbers where it says so."""
     natural = problem.assume.split(" ")[0]
-    names = set(re.findall(r"\b[a-z]\b", problem.equation)) - {"x", "y"}
-    return {name: sympy.Symbol(name, positive=True, integer=True if name == natural else None) for name in names}
+    names = set(re.findall(r"\b[A-Za-z_]\w*\b(?!\()", problem.equation)) - {"x", "y", "I", "pi"}
+    positive = None if problem.assume == "plain" else True
+    return {name: sympy.Symbol(name, positive=positive, integer=True if name == natural else None) for name in names}
 
 
 def expression(text: str, names: dict[str, Any]) -> Any:
@@ -129,15 +131,8 @@ def _for_maxima(text: str) -> str:
 
 def read_maxima(text: str, names: dict[str, Any]) -> Any:
     """An answer of Maxima's in SymPy's functions."""
-    for old, new in (
-        ("%e", "E_"),
-        ("%i", "I_"),
-        ("%pi", "pi"),
-        ("%k", "C"),
-        ("%c", "C"),
-        ("%r", "K"),
-        ("'integrate", "Integral_"),
-    ):
+    own = {"%e": "E_", "%i": "I_", "%pi": "pi", "%k": "C", "%c": "C", "%r": "K", "'integrate": "Integral_"}
+    for old, new in own.items():
         text = text.replace(old, new)
     functions: dict[str, Any] = {
         "E_": sympy.E, "I_": sympy.I, "C1": sympy.Symbol("C1"), "C2": sympy.Symbol("C2"),
@@ -195,7 +190,8 @@ def _checked(problem: Problem, solution: Any) -> str:
         s: sympy.Rational(23 + 4 * k, 17) for k, s in enumerate(sorted(own.values(), key=str)) if not s.is_integer
     }
     values |= {s: sympy.Integer(3) for s in own.values() if s.is_integer}
-    constants = sorted((s for s in solution.free_symbols if re.fullmatch(r"C\d+|K\d+", s.name)), key=str)
+    found_symbols = solution.free_symbols - {*own.values()}
+    constants = sorted((s for s in found_symbols if re.fullmatch(r"[CK]\d+", s.name)), key=str)
     if not given and len(constants) != 2:
         return "wrong"
     solution = sympy.sympify(solution).subs(values)
@@ -230,11 +226,9 @@ def _holds(left: Any, solution: Any, point: Any) -> bool | None:
 
 
 def _number(e: Any, point: Any) -> Any:
-    """The value at a point; an indefinite integral is taken from 1 on."""
-    e = e.replace(
-        lambda i: isinstance(i, sympy.Integral) and len(i.limits[0]) == 1,
-        lambda i: sympy.Integral(i.function, (X, 1, X)),
-    )
+    """The value at a point; indefinite integrals have any."""
+    integrals = (i for i in e.atoms(sympy.Integral) if len(i.limits[0]) == 1)
+    e = e.xreplace({i: sympy.Rational(7 + k, 9) for k, i in enumerate(sorted(integrals, key=str))})
     value = sympy.N(e.subs(X, point), 40, maxn=300)
     if not value.is_number or value.has(sympy.nan, sympy.zoo, sympy.Integral) or not value.is_finite:
         raise ValueError(str(value)[:80])
@@ -290,14 +284,17 @@ def run(system: System, problem: Problem) -> dict[str, Any]:
 
 
 def main() -> None:
-    wanted = set(sys.argv[1:])
+    wanted = set(sys.argv[1:]) - {"--sympy-tests"}
+    chosen, name = problems(), "dsolve"
+    if "--sympy-tests" in sys.argv:
+        chosen, name = sympy_equations(), "dsolve_sympy"
     systems: list[System] = [Python("kovacic"), Python("sympy")]
     if Maxima.command and subprocess.run(["which", "maxima"], capture_output=True, check=False).returncode == 0:
         systems.append(Maxima())
     systems = [system for system in systems if not wanted or system.name.split(".")[0].split()[0] in wanted]
     rows = []
     start = time.perf_counter()
-    for problem in problems():
+    for problem in chosen:
         row: dict[str, Any] = vars(problem) | {"answers": {system.name: run(system, problem) for system in systems}}
         rows.append(row)
         shown = ", ".join(f"{a['verdict']} {a['seconds']:.2f}" for a in row["answers"].values())
@@ -308,8 +305,8 @@ def main() -> None:
     versions = {"python": platform.python_version(), "sympy": sympy.__version__}
     if not wanted:
         data = {"versions": versions, "seconds": seconds, "limit": LIMIT, "problems": rows}
-        (RESULTS / "dsolve.json").write_text(json.dumps(data, indent=1) + "\n")
-        (RESULTS / "dsolve.md").write_text(table(rows, [system.name for system in systems], seconds))
+        (RESULTS / f"{name}.json").write_text(json.dumps(data, indent=1) + "\n")
+        (RESULTS / f"{name}.md").write_text(table(rows, [system.name for system in systems], seconds))
     print(table(rows, [system.name for system in systems], seconds))
 
 
@@ -318,7 +315,7 @@ def table(rows: list[dict[str, Any]], names: list[str], seconds: int) -> str:
     good = ("right", "right with integrals")
     common = [row for row in rows if all(row["answers"][name]["verdict"] in good for name in names)]
     lines = [
-        f"# {len(rows)} textbook problems: `python benchmarks/dsolve.py`, {seconds} s, {LIMIT:.0f} s a problem at most",
+        f"# {len(rows)} problems: `python benchmarks/dsolve.py`, {seconds} s, {LIMIT:.0f} s a problem at most",
         "",
         "| | " + " | ".join(names) + " |",
         "| --- |" + " --- |" * len(names),

@@ -8,11 +8,15 @@ DLMF: https://dlmf.nist.gov; SymPy: its tests of dsolve; Kovacic: J. Symb. Comp.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 
 @dataclass(frozen=True)
 class Problem:
-    """An equation in y(x); `given` as "y(0)=1, y'(0)=2"; `assume`, by symbol; `expected` "none": no solution exists."""
+    """An equation in y(x); `given` as "y(0)=1, y'(0)=2"; `expected` "none": no solution exists.
+
+    Parameters are positive; with `assume` "n natural" n is a natural number; with "plain" nothing is assumed.
+    """
 
     group: str
     source: str
@@ -113,5 +117,16 @@ def problems() -> list[Problem]:
     return found
 
 
+def sympy_equations() -> list[Problem]:
+    """Those linear equations of second order with rational coefficients that occur in SymPy 1.14's tests of its ODE module."""
+    found, source = [], ""
+    for line in (Path(__file__).parent / "sympy_equations.txt").read_text().splitlines():
+        if line.startswith("#"):
+            source = line[2:]
+        else:
+            found.append(Problem("SymPy's tests", source, line, assume="plain"))
+    return found
+
+
 if __name__ == "__main__":
-    print(len(problems()), "problems")
+    print(len(problems()), "problems,", len(sympy_equations()), "equations of SymPy's tests")

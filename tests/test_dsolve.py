@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import time
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import mpmath
@@ -21,6 +23,7 @@ from kovacic.reading.symbolic import read_expression
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
 y = sympy.Function("y")
+EQUATIONS_OF_SYMPY = Path(__file__).parent.parent / "benchmarks" / "sympy_equations.txt"
 
 
 def residual(left: sympy.Expr, solution: sympy.Eq, point: str = "0.37") -> float:
@@ -472,3 +475,39 @@ def test_one_exponential() -> None:
     checked("y'' + 2*b*y' + w^2*y = 0", solution, b="3/2", w="5/4")
     for product in solution.rhs.atoms(sympy.Mul):
         assert sum(isinstance(factor, exp) for factor in product.args) < 2
+
+
+def test_roots_of_parameters_and_common_factors() -> None:
+    """A root of a linear expression in a parameter is taken for the parameter; what isn't rational is divided out."""
+    k = sympy.Symbol("k")
+    left = y(x).diff(x, 2) - sqrt(k - 1) * y(x) - x
+    found = dsolve(left)
+    assert residual(left.subs(k, 3), found.subs(k, 3)) < 1e-20
+    started = dsolve(left, ics={y(0): k, y(x).diff(x).subs(x, 0): 0}).rhs.subs(k, 3)
+    assert abs(sympy.N(started.subs(x, 0) - 3, 30)) < 1e-25
+    left = y(x).diff(x, 2) - y(x) - sqrt(x + k)  # the variable under the root
+    assert dsolve(left).rhs.has(sympy.Integral, sympy.erf)
+    left = exp(x) * (y(x).diff(x, 2) - y(x)) - exp(2 * x)
+    assert residual(left, dsolve(left)) < 1e-20
+
+
+def problems_of_sympy() -> list[str]:
+    return [line for line in EQUATIONS_OF_SYMPY.read_text().splitlines() if not line.startswith("#")]
+
+
+@pytest.mark.slow
+def test_sympy_s_own_equations() -> None:
+    """The linear equations of second order with rational coefficients in SymPy's tests of its ODE module."""
+    for text in problems_of_sympy():
+        names = set(re.findall(r"\b[A-Za-z_]\w*\b(?!\()", text)) - {"x", "y", "I", "pi"}
+        local = {name: sympy.Symbol(name) for name in names} | {"D2": y(x).diff(x, 2), "D1": y(x).diff(x), "D0": y(x)}
+        plain = re.sub(r"\by\b", "D0", text.removesuffix("=0").replace("y''", "D2").replace("y'", "D1"))
+        left = sympy.sympify(plain.replace("^", "**"), locals=local)
+        value = dsolve(left).rhs
+        constants = sorted(value.free_symbols - left.free_symbols, key=str)
+        assert len(constants) == 2
+        assert not value.has(sympy.Integral)
+        numbers = {local[name]: Rational(23 + 4 * k, 17) for k, name in enumerate(sorted(names))}
+        numbers |= dict(zip(constants, (Rational(7, 5), Rational(-3, 4)), strict=True))
+        rest = left.subs(y(x), value).doit().subs(numbers)
+        assert abs(sympy.N(rest.subs(x, Rational(37, 100)), 30)) < 1e-15, text

@@ -14,7 +14,7 @@ from kovacic.closed_form.form import solutions
 from kovacic.closed_form.product import product
 from kovacic.closed_form.product_display import display
 from kovacic.decision import Status
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.general_solution.impulses import response
 from kovacic.general_solution.initial_values import Given, constants, read_values
 from kovacic.general_solution.real_basis import real_basis
@@ -59,7 +59,15 @@ def dsolve(
     """
     budget = Budget(limits)
     with budget.watched():
-        return _solved(eq, func, ics, var, budget)
+        radical = _radical(eq)
+        if radical is None:
+            return _solved(eq, func, ics, var, budget)
+        root, symbol, value, new = radical
+        own_ics = {
+            key: value_.subs(symbol, value) if hasattr(value_, "subs") else value_
+            for key, value_ in (ics or {}).items()
+        }
+        return _solved(eq.subs(symbol, value), func, own_ics, var, budget).subs(new, root)
 
 
 def _solved(eq: Any, func: Any, ics: Mapping[Any, Any] | None, var: str | None, budget: Budget) -> Any:
@@ -90,7 +98,7 @@ def _solved(eq: Any, func: Any, ics: Mapping[Any, Any] | None, var: str | None, 
         general = general.xreplace(constants(given, y1, y2, particular, x, (C1, C2)))
         general = sympy.expand_mul(general, deep=False)
     general = general.xreplace({sympy.Symbol(name): symbol for name, symbol in own.items()})
-    return sympy.Eq(function, general.subs(x, function.args[0]))
+    return sympy.Eq(function, general.subs(x, function.args[0]), evaluate=False)
 
 
 def _new_constants(taken: set[str], expressions: Sequence[Any]) -> list[Any]:
@@ -154,8 +162,41 @@ def _read(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equation
         if not whole:
             raise InputError(f"{func} isn't a function in the equation")
         applied = whole[0]
-    equation, _, function = parse_sympy_equation(eq, variable=var, unknown=applied, limits=limits)
+    try:
+        equation, _, function = parse_sympy_equation(eq, variable=var, unknown=applied, limits=limits)
+    except NotRational:
+        divided = _divided(eq)
+        if divided is None:
+            raise
+        equation, _, function = parse_sympy_equation(divided, variable=var, unknown=applied, limits=limits)
     return equation, function
+
+
+def _divided(eq: Any) -> Any:
+    """An equation divided by the coefficient of its second derivative, where a common factor isn't rational; None without."""
+    expression = eq.lhs - eq.rhs if isinstance(eq, sympy.Equality) else eq
+    second = [d for d in expression.atoms(sympy.Derivative) if d.derivative_count == 2]
+    leading = sympy.expand(expression).coeff(second[0]) if second else sympy.Integer(0)
+    if not leading.has(sympy.Function):
+        return None
+    return sympy.Add(*(sympy.cancel(term / leading) for term in sympy.Add.make_args(sympy.expand(expression))))
+
+
+def _radical(eq: Any) -> tuple[Any, Any, Any, Any] | None:
+    """A square root r of an expression that is linear in a parameter p, p, p in terms of r, and the symbol r; None without."""
+    if not isinstance(eq, sympy.Basic):
+        return None
+    variables = {symbol for f in eq.atoms(sympy.core.function.AppliedUndef) for symbol in f.free_symbols}
+    for power in sorted(eq.atoms(sympy.Pow), key=str):
+        base = power.base
+        if power.exp.is_Rational and power.exp.q == 2 and not base.free_symbols & variables:
+            for symbol in sorted(base.free_symbols, key=str):
+                slope = base.diff(symbol)
+                if slope.is_Rational:
+                    new = sympy.Symbol(f"sqrt_{symbol.name}", positive=True)
+                    rest = (base - slope * symbol).expand()
+                    return sympy.sqrt(base), symbol, (new**2 - rest) / slope, new
+    return None
 
 
 def _particular(

@@ -117,7 +117,9 @@ def constants(
 
 def _tidy(value: Any) -> Any:
     """Simplified, but for special functions, which SymPy takes long for."""
-    return value if value.is_Rational or value.has(sympy.hyper, sympy.RootSum) else simplified(value)
+    if value.is_Rational or value.has(sympy.hyper, sympy.RootSum):
+        return value
+    return simplified(value) if value.has(sympy.Function) else sympy.radsimp(sympy.cancel(value))
 
 
 def _is_zero(value: Any) -> bool:
