@@ -125,9 +125,19 @@ def test_equations_outside_of_the_classes() -> None:
         assert answer.special.solutions == ()
         assert "searched" in str(answer.special)
         assert "Whittaker" in str(answer.special)
+    assert not kovacic.solve(
+        "y'' + (A*x^2 + B*x + C)/((x-a)*(x-b)*(x-c))*y' + (D*x + E)/((x-a)*(x-b)*(x-c))*y = 0"
+    ).special
     heun = kovacic.solve("5/(7*x^2) + 3/(11*(x-1)^2) + 2/(x-3)^2 + 1/(x*(x-1)*(x-3))")
     assert not heun.special
     assert "Gauss" in str(heun.special)
+
+
+def test_parameters_and_the_imaginary_unit() -> None:
+    """SymPy's own constructor of hyper doesn't end here where evaluation is switched off."""
+    answer = kovacic.solve("x*y'' + y' + (x + a)*y = 0")
+    assert solves(answer.special, answer.S, answer.gauge, a=mpmath.mpf(2) / 7)
+    assert answer.special.y1.args[1] == sympy.hyper(((1 + sympy.I * sympy.Symbol("a")) / 2,), (1,), 2 * sympy.I * x)
 
 
 def test_an_exhausted_budget_is_a_value() -> None:

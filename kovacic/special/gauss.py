@@ -15,9 +15,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, lcm
 
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.engine.places import Kind, Place, Problem, rational_square_root
+from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
 from kovacic.special.pullback import Gauss, Pullback
 
 #: The largest degree of f, the most places that are distributed, and up to which number apparent ones are among them.
@@ -46,7 +47,10 @@ def candidates(problem: Problem) -> Iterator[Pullback]:
     """Pull-backs that are possible, those of small degree first; each of them has to be verified."""
     regular = [place for place in problem.places if place.kind is Kind.REGULAR]
     places = [place for place in regular if not place.is_apparent]
-    if len(places) > _PLACES or any(place.delta_squared is None for place in places):
+    different = [place for place in places if place.delta_squared is None]
+    if different:
+        yield from _apart(problem, different[0])
+    if len(places) > _PLACES or different:
         return
     fibres = sorted(_fibres(regular if len(regular) <= _WITH_APPARENT else places), key=lambda fibre: fibre.degree)
     tried = set()
@@ -57,10 +61,22 @@ def candidates(problem: Problem) -> Iterator[Pullback]:
                 continue
             used = [place for place, _ in (*zeros.places, *poles.places)]
             rest = [place for place in places if not any(place is one for one in used)]
+            # f has at most 2 n - 2 ramification points, so that there are n + 2 points or more over 0, 1 and infinity.
+            visible, third = (sum(place.degree for place in some) for some in (used, rest))
+            if visible + third + (zeros.degree - third) // 2 < zeros.degree + 2:
+                continue
             for f in _scaled(zeros.polynomial, poles.polynomial, rest):
                 if f not in tried:
                     tried.add(f)
                     yield from _with_third(f, zeros, poles, regular)
+
+
+def _apart(problem: Problem, place: Place) -> Iterator[Pullback]:
+    """Two conjugate places with different exponents are separated, over the field with the root of their polynomial."""
+    if place.degree == 2:
+        field = AlgebraicField(problem.field, place.factor)
+        S = RatFunc(problem.S.num.over(field), problem.S.den.over(field), reduced=True)
+        yield from candidates(analyse(S, problem.budget))
 
 
 def _fibres(places: list[Place]) -> Iterator[_Fibre]:

@@ -20,13 +20,10 @@ from itertools import product
 
 import sympy
 
-from kovacic.algebra.extension import adjoined_square_root
-from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Expr
-from kovacic.closed_form.product import Product
 from kovacic.special.pullback import Gauss
-from kovacic.special.writer import HALF, Term, Writer, by_parity, hypergeometric, size
+from kovacic.special.writer import HALF, Factor, Number, Term, Writer, by_parity, hypergeometric
 
 
 @dataclass(frozen=True)
@@ -35,9 +32,9 @@ class Riemann:
 
     writer: Writer
     f: RatFunc
-    alpha: Poly
-    beta: Poly
-    gamma: Poly
+    alpha: Number
+    beta: Number
+    gamma: Number
 
     @property
     def signs(self) -> Iterator[Riemann]:
@@ -46,16 +43,16 @@ class Riemann:
             yield Riemann(self.writer, self.f, s * self.alpha, t * self.beta, u * self.gamma)
 
     @property
-    def factor(self) -> Product:
+    def factor(self) -> Factor:
         """The powers, and what belongs to the pull-back."""
-        zeros, ones = self.f.derivative() / self.f, self.f.derivative() / (self.f - 1)
-        return self.writer.elementary(self.f, zeros * ((1 - self.alpha) * HALF) + ones * ((1 - self.beta) * HALF))
+        powers = [((1 - self.alpha) * HALF, self.f), ((1 - self.beta) * HALF, self.f - 1)]
+        return self.writer.factor(self.f, powers)
 
     @property
     def term(self) -> Term:
         """u, with the sign of beta that leaves fewer factors."""
         forms = [Riemann(self.writer, self.f, self.alpha, sign * self.beta, self.gamma) for sign in (1, -1)]
-        form = min(forms, key=lambda form: size(form.factor))
+        form = min(forms, key=lambda form: form.factor.size)
         a, b = ((1 - form.alpha - form.beta + sign * form.gamma) * HALF for sign in (-1, 1))
         a, b, c = (self.writer.constant(value) for value in (a, b, 1 - form.alpha))
         return form.factor, hypergeometric((a, b), (c,), self.writer.argument(form.f))
@@ -72,7 +69,7 @@ class Riemann:
         return Riemann(self.writer, self.f, -self.alpha, self.beta, self.gamma) if turn else self
 
     @property
-    def degree(self) -> Poly:
+    def degree(self) -> Number:
         """N with a = -N."""
         return (self.alpha + self.beta + self.gamma - 1) * HALF
 
@@ -90,7 +87,7 @@ def gauss(writer: Writer, equation: Gauss, f: RatFunc) -> tuple[Expr, Expr] | No
     forms = sorted(_arrangements(writer, equation, f), key=lambda form: form.cost)
     for form in forms:
         for one in form.signs:
-            if writer.is_symbolic(one.degree) and writer.is_natural(one.degree) and _are_regular(one):
+            if writer.is_degree(one.degree) and _are_regular(one):
                 return _jacobi(one)
     first = forms[0]
     reducible = any(writer.is_integer(one.degree) for one in first.signs)
@@ -106,14 +103,7 @@ def gauss(writer: Writer, equation: Gauss, f: RatFunc) -> tuple[Expr, Expr] | No
 
 def _arrangements(writer: Writer, equation: Gauss, f: RatFunc) -> list[Riemann]:
     """The six functions that are f up to the order of 0, 1, infinity, each with its exponent differences."""
-    A, B, C = equation.A, equation.B, equation.C
-    field, roots = f.field, dict[Poly, Poly]()
-    for value in (A, B, C):
-        if value not in roots:
-            square = value.over(field)
-            roots[value] = adjoined_square_root(field, square) if square else square
-            field = roots[value].field
-    a, b, c = (roots[value].over(field) for value in (A, B, C))
+    a, b, c = (writer.square_root(value) for value in (equation.A, equation.B, equation.C))
     orders = [(f, (a, b, c)), (1 - f, (b, a, c)), (1 / f, (c, b, a)), (1 - 1 / f, (b, c, a)), (1 / (1 - f), (c, a, b))]
     return [Riemann(writer, g, *order) for g, order in [*orders, (f / (f - 1), (a, c, b))]]
 

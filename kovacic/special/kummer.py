@@ -19,39 +19,37 @@ from fractions import Fraction
 
 import sympy
 
-from kovacic.algebra.extension import adjoined_square_root
-from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Expr
-from kovacic.closed_form.product import Product, product
+from kovacic.closed_form.product import product
 from kovacic.special.pullback import Confluent
-from kovacic.special.writer import HALF, Term, Writer, by_parity, hypergeometric, multiplicities
+from kovacic.special.writer import HALF, Factor, Number, Term, Writer, by_parity, hypergeometric, multiplicities
 
 
 @dataclass(frozen=True)
 class Whittaker:
-    """The parameters, and sqrt(q) f = z/2."""
+    """The parameters, and sqrt(q)."""
 
     writer: Writer
-    half: RatFunc
-    kappa: Poly
-    mu: Poly
+    f: RatFunc
+    q: Number
+    kappa: Number
+    mu: Number
 
     @property
     def turned(self) -> Whittaker:
         """The same with -z and -kappa."""
-        return replace(self, half=-self.half, kappa=-self.kappa)
+        return replace(self, q=-self.q, kappa=-self.kappa)
 
     @property
     def z(self) -> Expr:
-        return self.writer.argument(self.half * 2)
+        return self.writer.multiple(self.q * 2, self.f)
 
-    def factor(self, power: Poly) -> Product:
+    def factor(self, power: Number) -> Factor:
         """exp(-z/2) z^power, and what belongs to the pull-back."""
-        slope = self.half.derivative()
-        return self.writer.elementary(self.half, power * slope / self.half - slope)
+        return self.writer.factor(self.f, [(power, self.f)], (-self.q, self.f))
 
-    def kummer(self, mu: Poly) -> Term:
+    def kummer(self, mu: Number) -> Term:
         """M_mu."""
         a, b = self.writer.constant(mu - self.kappa + HALF), self.writer.constant(2 * mu + 1)
         return self.factor(mu + HALF), hypergeometric((a,), (b,), self.z)
@@ -79,27 +77,19 @@ def whittaker(writer: Writer, equation: Confluent, f: RatFunc) -> tuple[Expr, Ex
 
 def _parameters(writer: Writer, equation: Confluent, f: RatFunc) -> Whittaker:
     """The sign of sqrt(q) makes the exponential vanish where it can, or z positive."""
-    q = adjoined_square_root(equation.q.field, equation.q)
-    square = equation.M.over(q.field) + Fraction(1, 4)
-    mu = adjoined_square_root(q.field, square) if square else square
-    if writer.is_negative(mu):
-        mu = -mu
-    half = f * q.over(mu.field)
-    given, slope = product(writer.gauge).exponential.derivative(), half.derivative()
-    if given == -slope or (given != slope and writer.is_negative(half.num.lc)):
-        q, half = -q, -half
-    return Whittaker(writer, half, equation.r / (2 * q.over(mu.field)), mu)
+    q, mu = writer.square_root(equation.q), writer.square_root(equation.M + Fraction(1, 4))
+    given, slope = product(writer.gauge).exponential.derivative(), f.derivative() * q.part
+    if given == -slope if given in (slope, -slope) and given else writer.is_negative(f.num.lc):
+        q = -q
+    return Whittaker(writer, f, q, q * (equation.r / (2 * equation.q)), mu)
 
 
 def _hermite(form: Whittaker) -> tuple[Expr, Expr] | None:
-    writer, degree, w = form.writer, 2 * form.kappa - HALF, form.half * 2
-    if (
-        not _is_degree(writer, degree)
-        or form.mu * form.mu != Fraction(1, 16)
-        or any(k % 2 for _, k in multiplicities(w))
-    ):
+    writer, degree, quarter = form.writer, 2 * form.kappa - HALF, Fraction(1, 4)
+    even_powers = all(k % 2 == 0 for _, k in multiplicities(form.f))
+    if not writer.is_degree(degree) or form.mu.roots or form.mu.part != quarter or form.q.roots or not even_powers:
         return None
-    N, before, root = writer.constant(degree), form.factor(form.mu * 0 + Fraction(1, 4)), writer.square_root(w)
+    N, before, root = writer.constant(degree), form.factor(form.mu), writer.root_of(form.f * form.q.part * 2)
     even = hypergeometric((-N / 2,), (sympy.S.Half,), form.z)
     odd = root * hypergeometric(((1 - N) / 2,), (sympy.Rational(3, 2),), form.z)
     return writer.pair((before, sympy.hermite(N, root)), (before, by_parity(N, odd, even)))
@@ -109,13 +99,9 @@ def _laguerre(form: Whittaker) -> tuple[Expr, Expr] | None:
     writer = form.writer
     for mu in (form.mu, -form.mu):
         degree, integer = form.kappa - mu - HALF, writer.is_integer(2 * mu)
-        if _is_degree(writer, degree) and (writer.is_natural(2 * mu) or not integer):
+        if writer.is_degree(degree) and (writer.is_natural(2 * mu) or not integer):
             N, a = writer.constant(degree), writer.constant(2 * mu)
             polynomial = sympy.assoc_laguerre(N, a, form.z) if a else sympy.laguerre(N, form.z)
             second = form.turned.tricomi if integer else form.kummer(-mu)
             return writer.pair((form.factor(mu + HALF), polynomial), second)
     return None
-
-
-def _is_degree(writer: Writer, value: Poly) -> bool:
-    return writer.is_symbolic(value) and writer.is_natural(value)

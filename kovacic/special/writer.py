@@ -1,20 +1,22 @@
 """Parts of the solutions as SymPy expressions: y = G u(f)/sqrt(f'), G the gauge factor, u a solution of the standard equation.
 
-The powers and exponentials of u, of G and of 1/sqrt(f') are gathered in one product, with the logarithmic derivative
-gauge + (that of the elementary factor of u)(f) f' - f''/(2 f').
+Parameters of the functions are linear in square roots of constants of the field (`Number`).  Powers and exponentials with
+exponents in the field are gathered in one product; the others stand beside it (`Factor`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 import sympy
-from sympy import Mul
+from sympy import Mul, exp
 
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Poly, Scalar
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr
 from kovacic.closed_form.product import Power, Product, product
 from kovacic.closed_form.product_display import display, factors
@@ -22,8 +24,54 @@ from kovacic.special.polar import root
 
 HALF = Fraction(1, 2)
 
+
+@dataclass(frozen=True)
+class Number:
+    """part + sum of coefficient * sqrt(square) over `roots`, pairs (square, coefficient) of constants of one field."""
+
+    part: Poly
+    roots: tuple[tuple[Poly, Poly], ...] = ()
+
+    def __add__(self, other: Number | Poly | Scalar) -> Number:
+        if not isinstance(other, Number):
+            return Number(self.part + other, self.roots)
+        total = dict(self.roots)
+        for square, coefficient in other.roots:
+            total[square] = total[square] + coefficient if square in total else coefficient
+        return Number(self.part + other.part, tuple((square, c) for square, c in total.items() if c))
+
+    __radd__ = __add__
+
+    def __mul__(self, factor: Poly | Scalar) -> Number:
+        return Number(self.part * factor, tuple((square, c * factor) for square, c in self.roots))
+
+    __rmul__ = __mul__
+
+    def __neg__(self) -> Number:
+        return self * -1
+
+    def __sub__(self, other: Number | Poly | Scalar) -> Number:
+        return self + -other
+
+    def __rsub__(self, other: Poly | Scalar) -> Number:
+        return -self + other
+
+
+@dataclass(frozen=True)
+class Factor:
+    """What stands before the special function: a product over the field, and what has irrational exponents."""
+
+    product: Product
+    others: tuple[Expr, ...]
+
+    @property
+    def size(self) -> int:
+        """The number of factors."""
+        return len(self.product.powers) + len(self.product.roots) + bool(self.product.exponential) + len(self.others)
+
+
 #: Powers and exponentials, and the special function that they are multiplied with.
-Term = tuple[Product, Expr]
+Term = tuple[Factor, Expr]
 
 
 class Writer:
@@ -32,40 +80,71 @@ class Writer:
     def __init__(self, gauge: RatFunc, x: Any, symbols: Mapping[str, Any]) -> None:
         self.gauge, self.atoms = gauge, Atoms(x)
         self.symbols = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
+        self._squares: list[Poly] = []
 
-    def elementary(self, f: RatFunc, rate: RatFunc) -> Product:
-        """The powers and exponentials before the special function; `rate` is the logarithmic derivative of those in u(f)."""
+    def factor(
+        self, f: RatFunc, powers: Sequence[tuple[Number, RatFunc]], exponent: tuple[Number, RatFunc] | None = None
+    ) -> Factor:
+        """G/sqrt(f') times the powers of rational functions, times the exponential of a multiple of one."""
         slope = f.derivative()
-        return product(self.gauge + rate - slope.derivative() / slope * HALF)
+        rate = self.gauge - slope.derivative() / slope * HALF
+        others: list[Expr] = []
+        for number, base in powers:
+            rate = rate + base.derivative() / base * number.part
+            if number.roots:
+                e = self.constant(Number(number.part * 0, number.roots))
+                others += [self.atoms.primitive(p)[1] ** (k * e) for p, k in multiplicities(base)]
+        if exponent is not None:
+            number, function = exponent
+            rate = rate + function.derivative() * number.part
+            if number.roots:
+                others.append(exp(self.constant(Number(number.part * 0, number.roots)) * self.argument(function)))
+        return Factor(product(rate), tuple(others))
 
     def pair(self, first: Term, second: Term) -> tuple[Expr, Expr]:
         """The two solutions in the user's symbols, the one with fewer factors first."""
-        if size(second[0]) < size(first[0]):
+        if second[0].size < first[0].size:
             first, second = second, first
-        y1, y2 = (
-            Mul(display(before, self.atoms), function).xreplace(self.symbols) for before, function in (first, second)
-        )
-        return y1, y2
+        y1, y2 = (Mul(display(f.product, self.atoms), *f.others, function) for f, function in (first, second))
+        return y1.xreplace(self.symbols), y2.xreplace(self.symbols)
 
     # ------------------------------------------------------------------------------------- constants
 
-    def constant(self, value: Poly) -> Expr:
-        return self.atoms.constant(value)
+    def square_root(self, square: Poly) -> Number:
+        """A square root, in the field or as a multiple of an earlier one where that is possible; never with a minus sign."""
+        zero = square * 0
+        inside = square.field.sqrt(square) if square else square
+        if inside is not None:
+            return Number(-inside if self.is_negative(inside) else inside)
+        for known in self._squares:
+            ratio = square.field.sqrt(square / known)
+            if ratio is not None:
+                return Number(zero, ((known, -ratio if self.is_negative(ratio) else ratio),))
+        self._squares.append(square)
+        return Number(zero, ((square, zero + 1),))
 
-    def is_integer(self, value: Poly) -> bool:
+    def constant(self, value: Number | Poly) -> Expr:
+        if isinstance(value, Number):
+            return sympy.Add(
+                self.constant(value.part), *(self.constant(c) * sympy.sqrt(self.constant(s)) for s, c in value.roots)
+            )
+        shown = self.atoms.constant(value)
+        return sympy.cancel(shown) if value.field.height and value.field.ground != QQ else shown
+
+    def is_integer(self, value: Number) -> bool:
         """Is it known to be an integer?"""
         return bool(self.constant(value).xreplace(self.symbols).is_integer)
 
-    def is_natural(self, value: Poly) -> bool:
+    def is_natural(self, value: Number) -> bool:
         """Is it known to be an integer that isn't negative?"""
-        shown = sympy.expand(self.constant(value).xreplace(self.symbols))
-        return bool(shown.is_integer and shown.is_nonnegative)
+        shown = self.constant(value).xreplace(self.symbols)
+        return bool(shown.is_integer and sympy.expand(shown).is_nonnegative)
 
-    def is_symbolic(self, value: Poly) -> bool:
-        """Does it depend on a parameter?"""
-        return bool(self.constant(value).free_symbols)
+    def is_degree(self, value: Number) -> bool:
+        """Is it known to be natural, and does it depend on a parameter?"""
+        return bool(self.constant(value).free_symbols) and self.is_natural(value)
 
-    def is_negative(self, value: Poly) -> bool:
+    def is_negative(self, value: Number | Poly) -> bool:
         """Would it be written with a minus sign?"""
         return bool(self.constant(value).could_extract_minus_sign())
 
@@ -84,7 +163,11 @@ class Writer:
         """A rational function: a polynomial in full, else a fraction of products."""
         return self.atoms.poly(f.num) if f.is_polynomial else self.atoms.factored(f)
 
-    def square_root(self, f: RatFunc) -> Expr:
+    def multiple(self, number: Number, f: RatFunc) -> Expr:
+        """A constant times a rational function."""
+        return self.constant(number) * self.argument(f) if number.roots else self.argument(f * number.part)
+
+    def root_of(self, f: RatFunc) -> Expr:
         """A square root of a rational function, by factors."""
         powers = [Power(p, p.field.poly([Fraction(k, 2)])) for p, k in multiplicities(f)]
         scale, shown = factors(Product(tuple(powers), (), f * 0), self.atoms, around_zero=False)
@@ -98,16 +181,11 @@ def multiplicities(f: RatFunc) -> list[tuple[Poly, int]]:
 
 
 def hypergeometric(top: tuple[Expr, ...], bottom: tuple[Expr, ...], z: Expr) -> Expr:
-    """SymPy's `hyper`."""
-    with sympy.evaluate(False):  # else SymPy asks whether the argument is polar, which takes milliseconds
-        return sympy.hyper(top, bottom, z)
+    """SymPy's `hyper`, made without asking whether |z| <= 1, which takes milliseconds."""
+    ordered = sympy.hyper(top, bottom, 0)
+    return sympy.Function.__new__(sympy.hyper, *ordered.args[:2], z, evaluate=False)
 
 
 def by_parity(N: Expr, odd: Expr, even: Expr) -> Expr:
     """For a polynomial of degree N that is even or odd as N is: the solution of the other parity."""
     return sympy.cos(sympy.pi * N / 2) * odd + sympy.sin(sympy.pi * N / 2) * even
-
-
-def size(before: Product) -> int:
-    """The number of factors."""
-    return len(before.powers) + len(before.roots) + bool(before.exponential)
