@@ -68,17 +68,24 @@ def decompose(r: RatFunc) -> Decomposition:
 def reduce_poles(r: RatFunc, slope: RatFunc, apart: Poly | None = None) -> tuple[RatFunc, RatFunc, tuple[Residue, ...]]:
     """(W, rest, residues) with r = W' + W slope + rest, where rest has simple poles only, with these residues.
 
-    The pole at the irreducible `apart` stays as it is; no other is a pole of the slope.  For the slope k'/k, W k is the part
+    The poles at the zeros of `apart` stay as they are; no other is a pole of the slope.  For the slope k'/k, W k is the part
     of int r k dx that Hermite's reduction finds; the slope 0 is that of int r dx.
     """
     W = RatFunc(r.field.poly([]))
-    den = r.den if apart is None else r.den.remove(apart)[0]
+    den = r.den if apart is None else prime_part(r.den, apart)
     for p, multiplicity in squarefree_factors(den) if den.degree > 0 else []:
         if multiplicity > 1:
             part, r = _reduce_at(r, p, multiplicity, slope)
             W = W + part
-    left = r.den if apart is None else r.den.remove(apart)[0]
+    left = r.den if apart is None else prime_part(r.den, apart)
     return W, r, tuple(Residue(p, residue(r, p)) for p, _ in (r.field.factor(left) if left.degree > 0 else []))
+
+
+def prime_part(polynomial: Poly, other: Poly) -> Poly:
+    """The largest divisor of a polynomial that is prime to another."""
+    while (common := polynomial.gcd(other)).degree > 0:
+        polynomial = polynomial // common
+    return polynomial
 
 
 def residue(r: RatFunc, p: Poly) -> Poly:

@@ -12,6 +12,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.curve import CurveIntegral
+from kovacic.closed_form.exponential import CompositePrimitive
 from kovacic.closed_form.primitive import (
     CurvePrimitive,
     ExponentialPrimitive,
@@ -113,7 +114,7 @@ def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
         r, g = primitive.integral.integrand, RatFunc(primitive.integral.g)
         rate = target + g.derivative() / (2 * g)
         return _has_logarithmic_derivative(r, rate) and _is_complete(primitive.integral)
-    if isinstance(primitive, ExponentialPrimitive):
+    if isinstance(primitive, ExponentialPrimitive | CompositePrimitive):
         return _has_logarithmic_derivative(primitive.integrand, target - primitive.kernel_derivative)
     if isinstance(primitive, PowerPrimitive):
         return primitive.logarithmic_derivative == target

@@ -15,6 +15,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr, rational
 from kovacic.closed_form.curve_display import curve_integral
+from kovacic.closed_form.exponential import CompositePrimitive
 from kovacic.closed_form.primitive import (
     CurvePrimitive,
     ExponentialPrimitive,
@@ -45,6 +46,8 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
         return first, _rational(form, primitive, parts, atoms), ()
     if isinstance(primitive, PowerPrimitive):
         return first, _power(form, primitive, parts, atoms), ()
+    if isinstance(primitive, CompositePrimitive):
+        return first, _composite(form, primitive, parts, atoms), ()
     return first, _exponential(form, primitive, parts, atoms), ()
 
 
@@ -121,6 +124,24 @@ def _exponential(form: Triangular, primitive: ExponentialPrimitive, first: Facto
             body = atoms.poly(rho, a) * exp(beta * (a - centre)) * Ei(beta * (atoms.x - a))
             value = atoms.root_sum(atoms.poly(p, a), body)
             terms.append(_scaled(scale, [*parts, shift, value]))
+    return _sum(terms)
+
+
+def _composite(form: Triangular, primitive: CompositePrimitive, first: Factors, atoms: Atoms) -> Expr:
+    """first * (W exp(E) + the terms with Ei and with error functions)."""
+    terms, y, E = [], form.first, primitive.E
+    if primitive.W:
+        merged = Product(y.powers, y.roots, y.exponential + E)
+        terms.append(_scaled(*factors(merged, atoms, primitive.W, like=y)))
+    scale, parts = first
+    for c, e in primitive.logarithmic:
+        value = [exp(atoms.constant(e)), Ei(atoms.sum(E - e))]
+        terms.append(_scaled(scale * atoms.constant(c), [*parts, *value]))
+    for error in primitive.errors:
+        grows = not atoms.is_negative(error.b)
+        root = atoms.sqrt(error.b if grows else -error.b)
+        value = [exp(atoms.constant(error.e)), sqrt(pi) * (erfi if grows else erf)(root * atoms.sum(error.q))]
+        terms.append(_scaled(scale * atoms.constant(error.coefficient) / (2 * root), [*parts, *value]))
     return _sum(terms)
 
 

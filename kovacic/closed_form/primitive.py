@@ -2,7 +2,7 @@
 
 With h = y^-2 = r k, r rational and k the part that isn't, the integral is W k plus what no W k can express: logarithms for
 k = 1, the integrals (2) of `kovacic.closed_form.curve` for k = 1/sqrt(g), and for k = x^alpha exp(beta x^n), n any
-integer but 0, combinations of
+integer but 0, combinations of (1) (for exp(E) with another rational function E see `kovacic.closed_form.exponential`):
 
     G_m = int x^(m + alpha) exp(beta x^n) dx,      s = (m + alpha + 1)/n,  0 <= s < 1,                                     (1)
 
@@ -21,6 +21,7 @@ from kovacic.algebra.partial_fractions import Decomposition, decompose, reduce_p
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
+from kovacic.closed_form.exponential import CompositePrimitive, integrate_composite
 from kovacic.closed_form.product import Product
 from kovacic.closed_form.torsion import completed
 
@@ -116,7 +117,9 @@ class OpenPrimitive:
     reason: str
 
 
-Primitive = RationalPrimitive | CurvePrimitive | ExponentialPrimitive | PowerPrimitive | OpenPrimitive
+Primitive = (
+    RationalPrimitive | CurvePrimitive | ExponentialPrimitive | CompositePrimitive | PowerPrimitive | OpenPrimitive
+)
 
 
 def integrate_inverse_square(y: Product) -> Primitive:
@@ -191,6 +194,8 @@ def _with_power(r: RatFunc, alpha: Fraction, t: RatFunc) -> PowerPrimitive:
 
 def _with_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fraction]], E: RatFunc) -> Primitive:
     field = rational.field
+    if not fractional and _monomial_exponent(E, None) is None:
+        return _composite(rational, E)
     if len(fractional) > 1 or any(p.degree > 1 for p, _ in fractional):
         return OpenPrimitive("the integrand has an exponential and fractional powers of several factors")
     centre = -fractional[0][0][0] if fractional else None
@@ -202,13 +207,20 @@ def _with_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fraction]]
     shifted = rational(field.poly([centre, 1])) if centre else rational
     W, laurent, poles = _reduce(shifted, alpha, beta, n)
     if poles.residues and (n != 1 or alpha):
-        return OpenPrimitive("a pole with a residue remains beside the exponential")
+        return (
+            OpenPrimitive("a pole with a residue remains beside the exponential") if alpha else _composite(rational, E)
+        )
     W, terms = _reduce_laurent(W, laurent, alpha, beta, n)
     if centre:
         back = field.poly([-centre, 1])
         W = W(RatFunc(back))
         poles = decompose(poles.derivative(RatFunc(back)))
     return ExponentialPrimitive(centre, alpha, beta, n, constant, W, terms, poles)
+
+
+def _composite(r: RatFunc, E: RatFunc) -> Primitive:
+    found = integrate_composite(r, E)
+    return OpenPrimitive(found) if isinstance(found, str) else found
 
 
 def _monomial_exponent(E: RatFunc, centre: Poly | None) -> tuple[Poly, Poly, int, Poly] | None:

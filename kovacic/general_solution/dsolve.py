@@ -8,6 +8,7 @@ from typing import Any
 
 import sympy
 
+from kovacic.algebra.combination import combination
 from kovacic.algebra.poly import Poly
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.form import solutions
@@ -264,22 +265,9 @@ def _polynomial_solution(equation: Equation) -> Poly | None:
     """A polynomial that solves the equation with a rational right-hand side, of a degree at most two above it, or None."""
     denominators = equation.a.den * equation.b.den * equation.c.den * equation.f.den
     a, b, c, f = ((value * denominators).num for value in (equation.a, equation.b, equation.c, equation.f))
-    field = f.field
-    height = max(f.degree - min(p.degree for p in (a, b, c) if p), 0) + 2
-    basis: list[tuple[Poly, Poly]] = []  # pairs (L[p], p), of different degrees of L[p]
-    for k in range(height + 1):
-        p: Any = field.poly([0] * k + [1])
-        slope = p.derivative()
-        image = a * slope.derivative() + b * slope + c * p
-        for other, q in sorted(basis, key=lambda pair: -pair[0].degree):
-            if image.degree == other.degree:
-                ratio = image.lc / other.lc
-                image, p = image - ratio * other, p - ratio * q
-        if image:
-            basis.append((image, p))
-    result = field.poly([])
-    for image, p in sorted(basis, key=lambda pair: -pair[0].degree):
-        if f.degree == image.degree:
-            ratio = f.lc / image.lc
-            f, result = f - ratio * image, result + ratio * p
-    return None if f else result
+    x, height = f.field.poly([0, 1]), max(f.degree - min(p.degree for p in (a, b, c) if p), 0) + 2
+    powers: list[Any] = [x**k for k in range(height + 1)]
+    slopes = [p.derivative() for p in powers]
+    images = [a * q.derivative() + b * q + c * p for p, q in zip(powers, slopes, strict=True)]
+    found = combination(f, images)
+    return None if found is None else sum((p * k for p, k in zip(powers, found, strict=True)), f * 0)
