@@ -8,6 +8,7 @@ import random
 from concurrent.futures import ThreadPoolExecutor
 from decimal import Decimal
 from fractions import Fraction
+from typing import Any
 
 import flint
 import mpmath
@@ -611,3 +612,60 @@ def test_balls_go_to_other_libraries_and_back() -> None:
     with pytest.raises(TypeError):
         ball + "x"
     assert float(sum([ball, ball])) == 2 * float(ball)
+
+
+RIGHT_HAND_SIDES: list[tuple[str, str, Any, Any]] = [
+    ("y'' + y", "x + sin(x)", 0, 3),
+    ("y'' + y", "cos(x) - x*cos(x)/2", 0, [3, -2]),
+    ("y'' - y", "exp(x)/x - exp(-x)", 1, [3, Fraction(1, 2)]),
+    ("x^2*y'' + x*y' - y", "x - log(x)", 1, [3, Fraction(1, 5)]),
+    ("y'' - 2*x*y' - 2*y", "exp(x^2) + sin(x)", 0, 1),
+    ("y'' + 2*x*y'", "x + 2", 0, [3, -1, 1 + 1j]),
+    ("(x^2+1)*y'' + y", "x^2", 0, [5, -5]),
+]
+
+
+@pytest.mark.parametrize(("equation", "solution", "x0", "x"), RIGHT_HAND_SIDES)
+def test_equations_with_a_right_hand_side(equation: str, solution: str, x0: Any, x: Any) -> None:
+    """The answer first: y is known, and f is what makes it a solution."""
+    import sympy
+
+    from kovacic.enclosure.constants import in_balls
+    from kovacic.reading.symbolic import read_expression
+
+    t = sympy.Symbol("x")
+    y = read_expression(solution, names={"x": t})
+    coefficients = []
+    for unit in ((0, 0, 1), (0, 1, 0), (1, 0, 0)):  # what is left of the equation for y'' = 1, y' = 1, y = 1
+        text = equation
+        for name, number in zip(("y''", "y'", "y"), unit[::-1], strict=True):
+            text = text.replace(name, str(number))
+        coefficients.append(read_expression(text, names={"x": t}))
+    f = sympy.expand(sum(p * y.diff(t, k) for p, k in zip(coefficients, (2, 1, 0), strict=True)))
+    given = f"{equation} = {f}".replace("**", "^")
+    start = [y.subs(t, x0), y.diff(t).subs(t, x0)]
+    points = x if isinstance(x, list) else [x]
+    for point, state in zip(
+        points, evaluate_states(given, points, x0=x0, y0=start[0], dy0=start[1], digits=25), strict=True
+    ):
+        with flint.ctx.workprec(200):
+            at = {
+                t: flint.acb(point)
+                if not isinstance(point, Fraction)
+                else flint.acb(point.numerator) / point.denominator
+            }
+            assert ball_to_flint(state.y).overlaps(in_balls(y, at))
+            assert ball_to_flint(state.dy).overlaps(in_balls(y.diff(t), at))
+        assert state.y.digits >= 25
+
+
+def test_a_right_hand_side_that_cannot_be_is_refused() -> None:
+    for equation, options, words in [
+        ("y'' + y = 1/(x-1)", {"x0": 0, "y0": 1, "dy0": 0}, "singular point 1"),
+        ("x*y'' + y = 1", {"x0": 0, "which": "regular"}, "right-hand side needs"),
+        ("y'' + y = x", {"x0": 0, "y0": 1, "dy0": 0, "method": "closed form"}, "without a right-hand side"),
+    ]:
+        with pytest.raises(InputError, match=words):
+            evaluate(equation, 2, **options)
+    with pytest.raises(InputError, match="without a right-hand side"):
+        connection_matrix("y'' + y = x", [0, 1])

@@ -103,7 +103,7 @@ def evaluate(
     """A ball that contains y(x) for one solution y of the equation, given by its start at x0.
 
     `equation` is S of y'' = S y (text, SymPy expression, rational function, or a pair of coefficient lists from low to high),
-    an equation a y'' + b y' + c y = 0, or a solution of this package.
+    an equation a y'' + b y' + c y = f, or a solution of this package; f is rational, or has exp, log, sin, cos, ... in it.
 
     The start is one of
     - `y0`, `dy0`: y(x0) and y'(x0);
@@ -191,7 +191,7 @@ def evaluate_states(
     if method is not None and method not in METHODS:
         raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
     budget = Budget(limits)
-    problem = as_problem(equation, params)
+    problem = as_problem(equation, params, forced=True)
     targets = tuple(as_number(p, "x") for p in points)
     side: str | None = None
     chain, vertices = path == "chain", tuple[Number, ...]()
@@ -261,6 +261,8 @@ def _start(
     """The place and the data of the start, from the arguments of `evaluate`."""
     if which not in (None, "regular", "decaying"):
         raise InputError(f"which = {which!r} isn't known", hint="which='regular' or which='decaying'")
+    if problem.right is not None and (which is not None or frobenius is not None):
+        raise InputError("an equation with a right-hand side needs y0 and dy0 at a regular point")
     if which == "decaying":
         if dy0 is not None or frobenius is not None:
             raise InputError("the decaying solution is given by y0 alone")
@@ -300,8 +302,10 @@ def _route(trip: Trip, method: Method | None) -> tuple[Route, Method]:
     its polynomial has a moderate degree: less than the Taylor steps to a few points.
     """
     closed, problem = None, trip.problem
-    automatic = problem.decision is not None and problem.decision.case == 1 and len(trip.targets) <= _FEW
-    if method == "closed form" or (method is None and automatic):
+    decided = problem.decision is not None and problem.decision.case == 1 and problem.right is None
+    if method == "closed form" and problem.right is not None:
+        raise InputError("the method 'closed form' is for equations without a right-hand side", hint="method='taylor'")
+    if method == "closed form" or (method is None and decided and len(trip.targets) <= _FEW):
         from kovacic.enclosure.closed_form import closed_form_of
 
         closed = closed_form_of(problem)

@@ -14,13 +14,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from flint import acb
 
 from kovacic.enclosure.closed_form import ClosedForm
 from kovacic.enclosure.exponential import LogDerivative
+from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.frobenius import Basis, junction
 from kovacic.enclosure.matrices import Product, State, apply, real_part
 from kovacic.enclosure.points import Point, to_acb
@@ -80,8 +81,10 @@ def carry(
 
 @dataclass
 class Traveller:
-    """Where we are, and the map from the start's coordinates to (y, y') here; `growth` is g here over g at the first point
-    where there is a state."""
+    """Where we are, and the map from the start's coordinates to (y, y') here: `product`, and `particular` is added.
+
+    `growth` is g here over g at the first point where there is a state.
+    """
 
     problem: NumericProblem
     closed: ClosedForm | None
@@ -91,6 +94,8 @@ class Traveller:
     here: Point | Singular
     product: Product
     growth: acb
+    forcing: Forcing | None = None
+    particular: State = (acb(0), acb(0))
 
     @classmethod
     def at(
@@ -98,15 +103,14 @@ class Traveller:
     ) -> Traveller:
         """At the start of a journey."""
         gauge = None if problem.gauge is None else LogDerivative.make(problem.gauge, None)
-        found = cls(problem, closed, gauge, prec, budget, x0, Product(), acb(1))
+        found = cls(problem, closed, gauge, prec, budget, x0, Product(), acb(1), forcing_of(problem))
         if isinstance(x0, Point):
             found._begin(x0)
         return found
 
     def copy(self) -> Traveller:
         """Another one at the same place."""
-        gauge, product = self.gauge, self.product.copy()
-        return Traveller(self.problem, self.closed, gauge, self.prec, self.budget, self.here, product, self.growth)
+        return replace(self, product=self.product.copy())
 
     def _begin(self, x: Point) -> None:
         """From (z, z') to (y, y') at x."""
@@ -136,6 +140,8 @@ class Traveller:
                     way.push(real_part(matrix) if here.is_real() and stop.is_real() else matrix)
                 result.append(self._given(way.apply(start), stop))
             self.product = way
+        elif rest and self.forcing is not None:
+            self._forced(self.forcing, here, rest, start, result)
         elif rest:
             for leg in walk(self.problem.system, here, rest, self.prec, self.budget):
                 if leg.stops:
@@ -145,6 +151,24 @@ class Traveller:
         self.growth *= self._growth(stops[-1])
         self.here = stops[-1]
         return result
+
+    def _forced(self, forcing: Forcing, here: Point, stops: list[Point], start: State, result: list[State]) -> None:
+        """As the end of `go`, with a right-hand side."""
+        forcing.check(here, stops[-1])
+        for stop in stops:
+            for leg in walk(self.problem.system, here, [stop], self.prec, self.budget, expanded=True):
+
+                def inverse(x: acb, analytic: bool) -> acb:
+                    if self.gauge is None or not isinstance(self.here, Point):
+                        return acb(1)
+                    return (-self.gauge.exponent(to_acb(self.here), x, analytic=analytic)).exp() / self.growth
+
+                change = forcing.step(leg, inverse, self.budget)
+                moved = (self.particular[0] + change[0], self.particular[1] + change[1])
+                self.particular = apply(leg.matrix, moved)
+                self.product.push(leg.matrix)
+            here = stop
+            result.append(self._given(self.product.apply(start), stop))
 
     def state(self, start: State) -> State:
         """The user's (z, z') here."""
@@ -205,6 +229,7 @@ class Traveller:
 
     def _given(self, state: State, x: Point) -> State:
         """The user's (z, z') at x."""
+        state = state[0] + self.particular[0], state[1] + self.particular[1]
         if self.gauge is None:
             return state
         factor = self.growth * self._growth(x)

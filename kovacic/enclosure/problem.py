@@ -25,7 +25,7 @@ from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 from kovacic.limits import check_duration
-from kovacic.reading.given import parameters_of
+from kovacic.reading.given import Equation, parameters_of
 
 _NUMERATOR_ROOTS = 128
 """Above this degree the zeros of the numerator aren't isolated (its size is then bounded by its coefficients)."""
@@ -101,12 +101,14 @@ class NumericProblem:
     """y'' = S y as `system`; S and the decision on it where the problem was read from a solution.
 
     `gauge` is g'/g = -b/(2a) where the user's equation is a z'' + b z' + c z = 0 with z = g y; None for a normal form.
+    `right` is that equation where its right-hand side isn't zero.
     """
 
     system: System
     S: RatFunc | None = None
     decision: Decision | None = None
     gauge: RatFunc | None = None
+    right: Equation | None = None
 
     def singular_points(self, prec: int) -> list[Point]:
         """Those of the system and the poles of the gauge, as `System.singular_points` gives them."""
@@ -117,9 +119,9 @@ class NumericProblem:
         return System((), tuple(int(c) for c in both.coeffs())).singular_points(prec)
 
 
-def as_problem(equation: object, params: Mapping[str, object] | None = None) -> NumericProblem:
+def as_problem(equation: object, params: Mapping[str, object] | None = None, *, forced: bool = False) -> NumericProblem:
     """The numerical problem that `equation` stands for, with these values of its parameters; see
-    `kovacic.enclosure.evaluate.evaluate` for what is accepted."""
+    `kovacic.enclosure.evaluate.evaluate` for what is accepted.  Only with `forced` may it have a right-hand side."""
     if isinstance(equation, NumericProblem):
         return equation
     if isinstance(equation, System):
@@ -138,10 +140,15 @@ def as_problem(equation: object, params: Mapping[str, object] | None = None) -> 
     system = System.of(S)
     if given is None:
         return NumericProblem(system, S, decision)
+    right = None
     if not given.is_homogeneous:
-        raise InputError("numerical evaluation needs a homogeneous equation (right-hand side 0)")
+        if names or not forced:
+            raise InputError(
+                f"an equation without {'parameters beside ' if forced else ''}a right-hand side is needed here"
+            )
+        right = given
     gauge = given.gauge if not names else _specialised(given.gauge, values)
-    return NumericProblem(system, S, decision, gauge or None)
+    return NumericProblem(system, S, decision, gauge or None, right)
 
 
 def _values(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, Fraction]:

@@ -88,9 +88,14 @@ class Leg:
         return states_at(self.expansion, self.disc.bounds[0].worst(self.disc.bounds[1]), here, self.stops)
 
 
-def walk(system: System, a: Point, stops: Sequence[Point], prec: int, budget: Budget) -> Iterator[Leg]:
-    """The discs of the straight way from a to the last of `stops`; several must lie on the real axis, as a does, in order."""
-    begun, number, split = budget.seconds_left, 0, is_split(system, prec)
+def walk(
+    system: System, a: Point, stops: Sequence[Point], prec: int, budget: Budget, *, expanded: bool = False
+) -> Iterator[Leg]:
+    """The discs of the straight way from a to the last of `stops`; several must lie on the real axis, as a does, in order.
+
+    With `expanded` every leg has its expansion.
+    """
+    begun, number, split = budget.seconds_left, 0, is_split(system, prec) and not expanded
     growth = max(_FEWER_BITS, prec * _GROWTH) if len(stops) >= _MANY else None
     for part in [[stop] for stop in stops] if split else [list(stops)]:
         b, queue = part[-1], deque(part)
@@ -110,7 +115,8 @@ def walk(system: System, a: Point, stops: Sequence[Point], prec: int, budget: Bu
                 )
             back = adjugate(product(start)) if start else None
             matrix = product(stop) if back is None else multiply(product(stop), back)
-            yield Leg(disc, matrix, served, None if all(stop == disc.leave for stop in served) else expansion, back)
+            needed = expanded or any(stop != disc.leave for stop in served)
+            yield Leg(disc, matrix, served, expansion if needed else None, back)
             number += 1
             if number == _TRIED:
                 _refuse(system, a, b, prec, begun - budget.seconds_left, budget)

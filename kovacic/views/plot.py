@@ -60,7 +60,7 @@ def sample(
         raise InputError(f"the interval from {a} to {b} is empty", hint="give real numbers, the smaller one first")
     if points < 2:
         raise InputError("at least 2 points are needed")
-    problem = as_problem(equation)
+    problem = as_problem(equation, forced=True)
     singular = problem.singular_points(128)
     cuts = sorted({z.re for z in singular if z.is_real() and a.re <= z.re <= b.re})
     intervals = _regular_intervals(a.re, b.re, cuts)

@@ -1,0 +1,96 @@
+"""Right-hand sides: a y'' + b y' + c y = f by variation of constants, disc by disc.
+
+The guarantee: `Forcing.step` returns balls that contain the coordinates that the right-hand side adds along one disc.
+
+The mathematics.  With z = g y the normal form is y'' = S y + F, F = f/(a g).  In a disc with the solutions y1, y2 that have the
+states (1, 0) and (0, 1) at its centre (Wronskian 1), a solution's coordinates change on the way from s to t by
+
+    int_s^t (-y2 F, y1 F) dx.
+
+y1 and y2 are polynomials up to a proven bound delta_k on the way; those are integrated, by FLINT's rigorous quadrature, and
+delta_k int |F| is added.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from flint import acb, acb_poly, arb
+
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.enclosure.closed_form import integral, value
+from kovacic.enclosure.constants import in_balls
+from kovacic.enclosure.matrices import State
+from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.problem import NumericProblem, System, check_segment
+from kovacic.enclosure.taylor import error_radii
+from kovacic.enclosure.transport import Leg
+from kovacic.limits import Budget
+
+_PIECES = 16
+"""Pieces of a way on which |F| is bounded."""
+
+
+@dataclass(frozen=True)
+class Forcing:
+    """(f + h)/a of the user's equation: `rational` is f/a, `function` h, a SymPy expression in `symbol` or None, `over` 1/a."""
+
+    rational: RatFunc
+    function: Any
+    over: RatFunc
+    symbol: str
+
+    def value(self, x: acb, analytic: bool = False) -> acb:
+        """f/a + h/a on a ball; not finite where h isn't analytic, with `analytic`."""
+        total = value(self.rational, None, x)
+        if self.function is None:
+            return total
+        values = {s: x for s in self.function.free_symbols if s.name == self.symbol}
+        return total + in_balls(self.function, values, analytic=analytic) * value(self.over, None, x)
+
+    def check(self, a: Point, b: Point) -> None:
+        """Raise InputError where the rational part, or 1/a, has a pole on the way."""
+        for function in (self.rational, self.over):
+            check_segment(System.of(function), a, b)
+
+    def step(self, leg: Leg, growth: Callable[[acb, bool], acb], budget: Budget) -> State:
+        """What the right-hand side adds to the state where the disc is entered; `growth` is 1/g on a ball."""
+        frame, expansion = leg.disc.frame, leg.expansion
+        assert expansion is not None
+        centre, h, unit = to_acb(frame.centre), acb(arb((1, frame.e))), acb(arb((1, -expansion.w)))
+        polys = [
+            acb_poly(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im) for re, im in expansion.columns
+        ]
+        start, stop = to_acb(leg.disc.enter), to_acb(leg.disc.leave)
+        real = start.imag.is_zero() and stop.imag.is_zero()
+
+        def source(x: acb, analytic: bool) -> acb:
+            return self.value(x, analytic) * growth(x, analytic)
+
+        step, half = (stop - start) / _PIECES, arb(0, 0.5)
+        pieces = (start + step * acb(arb(2 * k + 1) / 2 + half) for k in range(_PIECES))
+        size = sum((abs(source(x, False)) for x in pieces), arb(0)) * abs(step)
+        bound, found = leg.disc.bounds[0].worst(leg.disc.bounds[1]), []
+        for poly, defect in zip(polys, expansion.defect, strict=True):
+
+            def integrand(x: acb, analytic: bool, poly: acb_poly = poly) -> acb:
+                return poly((x - centre) / h) * source(x, analytic)
+
+            area = integral(integrand, start, stop, budget) * unit
+            error = (size * error_radii(arb((defect + 1, -expansion.w)), expansion.q_0, bound)[0]).upper()
+            found.append(acb(area.real + arb(0, error), 0 if real else area.imag + arb(0, error)))
+        here = (-found[1] * h, found[0])
+        if leg.to_centre is None:
+            return here
+        d, b, c, a = leg.to_centre  # the adjugate, of determinant 1
+        return a * here[0] - b * here[1], -c * here[0] + d * here[1]
+
+
+def forcing_of(problem: NumericProblem) -> Forcing | None:
+    """The right-hand side; None where it is zero."""
+    given = problem.right
+    if given is None:
+        return None
+    return Forcing(given.f / given.a, given.h, 1 / given.a, given.variable)
