@@ -437,8 +437,6 @@ def test_both_routes_for_an_equation_with_a_first_derivative() -> None:
 def test_poles_of_the_first_coefficient_are_singular_even_where_the_normal_form_is_regular() -> None:
     with pytest.raises(InputError, match="through the singular point 0 "):
         evaluate("x*y'' + 2*y' - x*y = 0", 1, x0=-1, y0=1, dy0=0)
-    with pytest.raises(InputError, match="homogeneous"):
-        evaluate("y'' - y = x", 1, x0=0, y0=1, dy0=0)
 
 
 # --- numbers of discs --------------------------------------------------------------------------------------------------
@@ -622,6 +620,7 @@ RIGHT_HAND_SIDES: list[tuple[str, str, Any, Any]] = [
     ("y'' - 2*x*y' - 2*y", "exp(x^2) + sin(x)", 0, 1),
     ("y'' + 2*x*y'", "x + 2", 0, [3, -1, 1 + 1j]),
     ("(x^2+1)*y'' + y", "x^2", 0, [5, -5]),
+    ("x^2*y'' + x*y' - 3*y", "x - log(x)", 1, [1 + 1j, 3, 2 + 1j]),
 ]
 
 
@@ -644,9 +643,10 @@ def test_equations_with_a_right_hand_side(equation: str, solution: str, x0: Any,
     f = sympy.expand(sum(p * y.diff(t, k) for p, k in zip(coefficients, (2, 1, 0), strict=True)))
     given = f"{equation} = {f}".replace("**", "^")
     start = [y.subs(t, x0), y.diff(t).subs(t, x0)]
+    path = [x0, Fraction(3, 2) + x0] if "3*y" in equation else None
     points = x if isinstance(x, list) else [x]
     for point, state in zip(
-        points, evaluate_states(given, points, x0=x0, y0=start[0], dy0=start[1], digits=25), strict=True
+        points, evaluate_states(given, points, x0=x0, y0=start[0], dy0=start[1], path=path, digits=25), strict=True
     ):
         with flint.ctx.workprec(200):
             at = {

@@ -188,8 +188,7 @@ class Traveller:
     def _stretches(self, stops: list[Point]) -> list[tuple[list[Point], list[Point]]]:
         """The stops before each singular point of the axis, and the way around it through the upper half-plane."""
         here = self.here.near if isinstance(self.here, Singular) else self.here
-        systems = [self.problem.system, *([] if self.problem.gauge is None else [System.of(self.problem.gauge)])]
-        singular = [point for system in systems for point in system.singular_points(256)]
+        singular = self.problem.singular_points(256)
         if not (here.is_real() and stops[-1].is_real()):
             raise InputError("a side of the real axis needs a start and points on it", hint="path=[v1, v2, ...]")
         sign = 1 if stops[-1].re > here.re else -1

@@ -11,7 +11,7 @@ and neither the backend nor the state of pyplot is touched.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -22,7 +22,7 @@ from kovacic.enclosure.points import Point, as_point
 from kovacic.enclosure.precision import Evaluation
 from kovacic.enclosure.problem import as_problem
 from kovacic.errors import InputError
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.limits import Limits
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -47,11 +47,14 @@ def sample(
     x0: object | None = None,
     y0: object = 1,
     dy0: object = 0,
+    which: str | None = None,
+    frobenius: Sequence[object] | None = None,
     points: int = 400,
     digits: int = 8,
     limits: Limits | None = None,
 ) -> Samples:
-    """Enclosures at about `points` points of [start, stop]; x0 is the middle of the longest regular interval by default.
+    """Enclosures at about `points` points of [start, stop]; x0 is the middle of the longest regular interval by default,
+    and real.  `which` and `frobenius` as for `evaluate`.
 
     Raises InputError if start isn't below stop, and what `evaluate` raises.
     """
@@ -65,21 +68,26 @@ def sample(
     cuts = sorted({z.re for z in singular if z.is_real() and a.re <= z.re <= b.re})
     intervals = _regular_intervals(a.re, b.re, cuts)
     longest = max(intervals, key=lambda i: i[1] - i[0])
-    origin = Point((longest[0] + longest[1]) / 2) if x0 is None else as_point(x0, "x0")
-    height, budget = _height(singular, b.re - a.re), Budget(limits or DEFAULT_LIMITS)
-    runs = []
+    grids = []
     for left, right in intervals:
         count = max(2, round(points * (right - left) / (b.re - a.re)))
-        grid = [left + (right - left) * Fraction(k, count - 1) for k in range(count)]
-        direct = origin.is_real() and not any(min(origin.re, left) < cut < max(origin.re, right) for cut in cuts)
-        middle = Point((left + right) / 2)
-        lift = Point(Fraction(0), height)
-        path = None if direct else [origin + lift, middle + lift, middle]
-        states = evaluate_states(
-            problem, grid, x0=origin, y0=y0, dy0=dy0, digits=digits, path=path, limits=budget.share(1).limits
+        grids.append([left + (right - left) * Fraction(k, count - 1) for k in range(count)])
+    initial = (y0, dy0) if which is None and frobenius is None else (None, None)
+    states = iter(
+        evaluate_states(
+            problem,
+            list(itertools.chain(*grids)),
+            x0=(longest[0] + longest[1]) / 2 if x0 is None else x0,
+            y0=initial[0],
+            dy0=initial[1],
+            which=which,
+            frobenius=frobenius,
+            digits=digits,
+            path="above",
+            limits=limits,
         )
-        runs.append(states)
-    return Samples(tuple(runs), tuple(map(complex, singular)))
+    )
+    return Samples(tuple(tuple(itertools.islice(states, len(grid))) for grid in grids), tuple(map(complex, singular)))
 
 
 def _regular_intervals(a: Fraction, b: Fraction, cuts: list[Fraction]) -> list[tuple[Fraction, Fraction]]:
@@ -93,12 +101,6 @@ def _regular_intervals(a: Fraction, b: Fraction, cuts: list[Fraction]) -> list[t
     return result
 
 
-def _height(singular: list[Point], width: Fraction) -> Fraction:
-    """How far above the axis the way around its singular points leads: below every other singular point."""
-    height = min([width / 8, *(z.im / 2 for z in singular if z.im > 0)])
-    return Fraction(height).limit_denominator(10**6) or height
-
-
 def plot(
     equation: object,
     start: object,
@@ -107,6 +109,8 @@ def plot(
     x0: object | None = None,
     y0: object = 1,
     dy0: object = 0,
+    which: str | None = None,
+    frobenius: Sequence[object] | None = None,
     points: int = 400,
     digits: int = 8,
     title: str | None = None,
@@ -122,7 +126,19 @@ def plot(
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as NewFigure
 
-    samples = sample(equation, start, stop, x0=x0, y0=y0, dy0=dy0, points=points, digits=digits, limits=limits)
+    samples = sample(
+        equation,
+        start,
+        stop,
+        x0=x0,
+        y0=y0,
+        dy0=dy0,
+        which=which,
+        frobenius=frobenius,
+        points=points,
+        digits=digits,
+        limits=limits,
+    )
     figure = NewFigure(figsize=(8, 4.8), layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
