@@ -21,7 +21,7 @@ from typing import Any
 
 from kovacic.batch.pool import Pool
 from kovacic.batch.records import Item, Job, Record
-from kovacic.errors import InputError, KovacicError
+from kovacic.errors import InputError, KovacicError, needs
 
 BACKENDS = ("loky", "dask", "ray")
 
@@ -174,7 +174,8 @@ def _chunks(items: Iterable[Item]) -> Iterator[list[Item]]:
 @contextmanager
 def _configured(backend: str, jobs: int | None, scheduler: str | None) -> Iterator[None]:
     """joblib's configuration for this backend; connections that are made here are closed here."""
-    from joblib import parallel_config
+    with needs("dask", f"the backend {backend}"):
+        from joblib import parallel_config
 
     with ExitStack() as stack:
         options = {"n_jobs": -1 if jobs is None else jobs}

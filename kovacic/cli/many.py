@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, ExitStack
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
+#: Seconds between two states of the line that shows progress.
+_REFRESH = 0.2
 _OPTIONS = [
     click.option("-j", "--jobs", type=click.IntRange(min=1), help="Worker processes; by default one for each core."),
     click.option(
@@ -68,7 +70,7 @@ def answer_all(
     progress: bool | None,
     quiet: bool,
 ) -> Summary:
-    """Write every record, with a progress bar where it is wanted, and at the end, be it an interruption, the summary.
+    """Write every record, with a line of progress where it is wanted, and at the end, be it an interruption, the summary.
 
     `total` counts the equations where that is possible, `answered` those that needn't be answered again.
     """
@@ -80,42 +82,31 @@ def answer_all(
             stack.callback(lambda: _print_summary(summary, answered, time.monotonic() - start))
         if progress is None:
             progress = sys.stderr.isatty() and not sys.stdout.isatty()
-        advance = stack.enter_context(_Meter(total())).advance if progress else None
+        size, shown = total() if progress else None, -_REFRESH
+        if progress:
+            stack.callback(sys.stderr.write, "\n")
+            stack.callback(lambda: _show_progress(summary, size, time.monotonic() - start))
         for record in records:
             write(record)
             summary.add(record)
-            if advance is not None:
-                advance(summary)
+            now = time.monotonic() - start
+            if progress and now > shown + _REFRESH:
+                _show_progress(summary, size, now)
+                shown = now
     return summary
 
 
-class _Meter(AbstractContextManager["_Meter"]):
-    """A bar with the number done, the rate, the remaining time and the counts by case; a context manager."""
+def _show_progress(summary: Summary, total: int | None, seconds: float) -> None:
+    """The number done, the rate, the remaining time and the counts by case, in one line of standard error."""
+    from shutil import get_terminal_size
 
-    def __init__(self, total: int | None) -> None:
-        from rich.console import Console
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-        self._progress = Progress(
-            BarColumn(bar_width=24),
-            MofNCompleteColumn(),
-            TextColumn("{task.fields[rate]}"),
-            TimeRemainingColumn(elapsed_when_finished=True),
-            TextColumn("{task.fields[counts]}", style="dim"),
-            console=Console(stderr=True),
-        )
-        self._task = self._progress.add_task("", total=total, counts="", rate="")
-        self._progress.start()
-
-    def __exit__(self, *error: object) -> None:
-        self._progress.stop()
-
-    def advance(self, summary: Summary) -> None:
-        """One more record, which is in the summary already."""
-        counts = "  ".join(f"{label} {count}" for label, count in summary.rows())
-        speed = self._progress.tasks[0].finished_speed or self._progress.tasks[0].speed or 0.0
-        rate = f"{speed:.0f}/s" if speed >= 10 else f"{speed:.2g}/s"
-        self._progress.update(self._task, completed=summary.total, counts=counts, rate=rate)
+    rate = summary.total / max(seconds, 1e-9)
+    left = "" if total is None else f"  {max(total - summary.total, 0) / max(rate, 1e-9):.0f} s left"
+    counts = "  ".join(f"{label} {count}" for label, count in summary.rows())
+    line = f"{summary.total}/{'?' if total is None else total}  {rate:.3g}/s{left}  {counts}"
+    width = get_terminal_size().columns - 1
+    sys.stderr.write("\r" + line[:width].ljust(width))
+    sys.stderr.flush()
 
 
 def _print_summary(summary: Summary, answered: int, seconds: float) -> None:
