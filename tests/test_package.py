@@ -57,3 +57,13 @@ def test_what_is_imported_is_declared() -> None:
 )
 def test_the_typed_snippet_runs(text: str, said: str) -> None:
     assert said in typed_user.verdict(text)
+
+
+def test_the_conda_recipe_has_the_same_requirements() -> None:
+    recipe = (ROOT / ".ci" / "conda" / "meta.yaml").read_text(encoding="utf-8")
+    run = re.search(r"^  run:\n((?:    - .*\n)+)", recipe, re.MULTILINE)
+    assert run is not None
+    assert {line.replace(" ", "") for line in re.findall(r"- (.*)", run[1])} == {
+        f"python{PROJECT['requires-python']}",
+        *PROJECT["dependencies"],
+    }
