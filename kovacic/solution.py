@@ -15,7 +15,7 @@ from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvaria
 from kovacic.engine.decide import decide as decide_structure
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed, needs
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
-from kovacic.reading.given import Equation, parameters_of
+from kovacic.reading.given import Change, Equation, parameters_of
 from kovacic.verify import Verification, verify
 
 if TYPE_CHECKING:
@@ -61,6 +61,11 @@ class Solution:
     def gauge(self) -> RatFunc:
         """-b/(2a) for an equation a y'' + b y' + c y = f: its solutions are those of y'' = S y times exp(int gauge dx)."""
         return RatFunc(self.S.field.poly([])) if self.equation is None else self.equation.gauge
+
+    @property
+    def change(self) -> Change | None:
+        """Which function of the user's variable, that of `solutions`, `variable` is; None where they are the same."""
+        return None if self.equation is None else self.equation.change
 
     @property
     def status(self) -> Status:
@@ -149,7 +154,19 @@ class Solution:
         """
         from kovacic.closed_form.form import solutions
 
-        return None if self.case is None else solutions(self.S, self.decision, self.gauge, self.variable)
+        if self.case is None:
+            return None
+        form = solutions(self.S, self.decision, self.gauge, self.variable)
+        return self._in_given_variable(form)  # type: ignore[no-any-return]
+
+    def _in_given_variable(self, found: Any) -> Any:
+        """The same with y1 and y2 in the user's variable."""
+        if self.change is None or found.y1 is None:
+            return found
+        from kovacic.reading.exponential import solution_in_terms_of
+
+        y1, y2 = (solution_in_terms_of(self.change, y, self.variable) for y in (found.y1, found.y2))
+        return replace(found, y1=y1, y2=y2)
 
     @cached_property
     def special(self) -> SpecialFunctions:
@@ -159,7 +176,8 @@ class Solution:
         """
         from kovacic.special.answer import special_functions
 
-        return special_functions(self.S, self.gauge, self.variable, Budget(self.limits))
+        found = special_functions(self.S, self.gauge, self.variable, Budget(self.limits))
+        return self._in_given_variable(found)  # type: ignore[no-any-return]
 
     @property
     def solutions(self) -> tuple[Any, ...]:
@@ -172,11 +190,20 @@ class Solution:
         `kovacic.evaluate`."""
         from kovacic.enclosure.evaluate import evaluate
 
+        self._refuse_change("at")
         return evaluate(self, x, x0=x0, **options)
+
+    def _refuse_change(self, what: str) -> None:
+        """Numbers are those in the variable of the equation, which isn't the user's."""
+        if self.change is not None:
+            message = f"{what} would take values of {self.variable} = {self.change.expression}"
+            hint = f"lambdify the solutions with SymPy, or solve {self.equation} in {self.variable}"
+            raise InputError(message, hint=hint)
 
     @limited
     def lambdify(self, **options: Any) -> ProductForm | TabulatedFunction:
         """A solution as a NumPy function, its error measured; see `kovacic.doubles.lambdify.lambdify`."""
+        self._refuse_change("lambdify")
         with needs("numeric", "lambdify"):
             from kovacic.doubles.lambdify import lambdify
 
@@ -185,6 +212,7 @@ class Solution:
     @limited
     def plot(self, start: Any, stop: Any, **options: Any) -> Figure:
         """A matplotlib figure of proven values over [start, stop]; see `kovacic.views.plot.plot`."""
+        self._refuse_change("plot")
         with needs("plot", "a picture"):
             from kovacic.views.plot import plot
 
@@ -338,7 +366,7 @@ def solve(
     from kovacic.reading.read import read_coefficients, read_input
 
     keywords: dict[str, Any] = {"var": var, "limits": limits}
-    parsed = read_coefficients(a, b, c, f, **keywords) if S is None else read_input(S, **keywords)
+    parsed = read_coefficients(a, b, c, f, **keywords) if S is None else read_input(S, **keywords, exponentials=True)
     if isinstance(S, str):
         text = S.strip()
     else:
@@ -377,7 +405,8 @@ def decide(
     """
     from kovacic.reading.read import read_input
 
-    decision, _, _ = _decided(read_input(S, var=var, limits=limits), S, assume, Budget(limits), certify=False)
+    parsed = read_input(S, var=var, limits=limits, exponentials=True)
+    decision, _, _ = _decided(parsed, S, assume, Budget(limits), certify=False)
     return Verdict(decision.status, decision.case, decision.undecided)
 
 

@@ -57,7 +57,9 @@ class LazyGroup(click.Group):
             near = get_close_matches(arguments[0], COMMANDS, n=1, cutoff=0.5)
             hint = f"did you mean {near[0]}?" if near else f"the commands are {', '.join(COMMANDS)}"
             context.fail(f"no such command: {arguments[0]} ({hint})")
-        return super().resolve_command(context, arguments)
+        # A formula such as -2/cosh(x)^2 isn't a row of short options, among them -h; a space in front says so.
+        plain = [f" {text}" if text[:1] == "-" and text[1:2] not in "-joq" and text[2:] else text for text in arguments]
+        return super().resolve_command(context, plain)
 
     def format_commands(self, context: click.Context, formatter: click.HelpFormatter) -> None:
         """The list of commands, without importing them."""

@@ -140,6 +140,8 @@ def as_problem(equation: object, params: Mapping[str, object] | None = None, *, 
     system = System.of(S)
     if given is None:
         return NumericProblem(system, S, decision)
+    if given.change is not None:
+        raise InputError(f"numerical evaluation needs coefficients that are rational in {given.change.variable}")
     right = None
     if not given.is_homogeneous:
         if names or not forced:

@@ -24,6 +24,8 @@ from kovacic.general_solution.variation import particular_solution
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
+from kovacic.reading.exponential import in_exponentials, in_terms_of, solution_in_terms_of
+from kovacic.reading.from_sympy import function_of, parse_sympy_equation
 from kovacic.reading.given import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.solution import Solution, solve
 from kovacic.special.answer import special_functions
@@ -45,7 +47,8 @@ def dsolve(
     exactly, and one that stays is free.  Floats are the decimals that they are written as; values at the place of an
     impulse or a step are those just before it.  An integral that isn't done stays an `Integral`.
 
-    With parameters, the answer holds for generic values; assumptions of their symbols are used.
+    With parameters, the answer holds for generic values; assumptions of their symbols are used.  Coefficients may be rational
+    in exp(k x), or in sines, ... of multiples of k x, as well.
 
     Raises `NotImplementedError` where it is proven that there is no Liouvillian solution, with the reason, or where a limit
     was reached; `InputError` for what isn't such an equation and where no solution has the given values, and `ValueError`
@@ -84,13 +87,16 @@ def _solved(eq: Any, func: Any, ics: Mapping[Any, Any] | None, var: str | None, 
             y1, y2 = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
     except LimitExceeded as limit:
         raise NotImplementedError(f"undecided: {limit}") from None
-    x = sympy.Symbol(equation.variable)
+    change = equation.change
+    x = sympy.Symbol(equation.variable if change is None else change.variable)
+    if change is not None:
+        y1, y2 = (solution_in_terms_of(change, y, equation.variable) for y in (y1, y2))
     given = read_values(ics, function, equation) if ics else ()
-    if given:
+    if given and change is None:
         y1, y2 = real_basis(solution, y1, y2, x, given[0].point)
     numbers = {sympy.Symbol(name): value for name, value in ((PI, sympy.pi), (EULER, sympy.E))}
     y1, y2 = (y.xreplace(numbers) for y in (y1, y2))
-    right = (Atoms(x).sum(equation.f) + (equation.h or 0)).xreplace(numbers)
+    right = (Atoms(sympy.Symbol(equation.variable)).sum(equation.f) + (equation.h or 0)).xreplace(numbers)
     particular = _particular(equation, y1, y2, x, right, given, numbers, budget).xreplace(numbers)
     own = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
     C1, C2 = _new_constants({*own}, (y1, y2, particular, *(part for g in given for part in (g.point, g.value))))
@@ -141,6 +147,19 @@ def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str
 
 
 def _read(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equation, Any]:
+    """The equation and the unknown function as the user writes it."""
+    try:
+        return _rational(eq, func, var, limits)
+    except NotRational:
+        found = in_exponentials(eq, variable=var, limits=limits)
+        if found is None or found.equation is None or found.equation.change is None:
+            raise
+        x = sympy.Symbol(found.equation.change.variable)
+        name = sympy.Function(found.equation.unknown)(x)
+        return found.equation, name if isinstance(eq, str) else function_of(eq)
+
+
+def _rational(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equation, Any]:
     applied = func if isinstance(func, sympy.core.function.AppliedUndef) else None
     name = func if applied is None else applied.func  # y of y(x)
     if func is not None and not isinstance(name, sympy.core.function.UndefinedFunction):
@@ -153,8 +172,6 @@ def _read(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equation
         eq, _ = parse_equation(eq, variable=variable, unknown=unknown, limits=limits)
     if isinstance(eq, Equation):
         return eq, applied or (name or sympy.Function(eq.unknown))(sympy.Symbol(eq.variable))
-    from kovacic.reading.from_sympy import parse_sympy_equation
-
     if not hasattr(eq, "free_symbols"):
         raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
     if func is not None and applied is None:
@@ -213,6 +230,11 @@ def _particular(
     """A particular solution: a polynomial, by undetermined coefficients where these are constants, or by integrals."""
     if right == 0:
         return sympy.Integer(0)
+    if equation.change is not None:  # in x, where y'' = (dt/dx)^2 Y'' + ...
+        t = sympy.Symbol(equation.variable)
+        right = in_terms_of(equation.change, right / Atoms(t).ratio(equation.a).xreplace(numbers), t.name)
+        right = sympy.simplify(right * in_terms_of(equation.change, t, t.name).diff(x) ** 2)
+        return particular_solution(y1, y2, right, x, given[0].point if given else None, budget.seconds_left)
     if equation.h is None and (polynomial := _polynomial_solution(equation)) is not None:
         return Atoms(x).poly(polynomial)
     right = right / Atoms(x).ratio(equation.a).xreplace(numbers)

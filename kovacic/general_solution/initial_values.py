@@ -13,6 +13,7 @@ from sympy.functions.special.bessel import BesselBase
 from kovacic.closed_form.atoms import Atoms
 from kovacic.errors import InputError
 from kovacic.general_solution.variation import simplified
+from kovacic.reading.exponential import in_terms_of
 from kovacic.reading.given import Equation
 
 
@@ -33,9 +34,12 @@ def read_values(ics: Mapping[Any, Any], function: Any, equation: Equation) -> tu
         found.append(Given(point, order, _exact(value)))
     atoms = Atoms(sympy.Symbol(equation.variable))
     for point in {given.point for given in found}:
+        if equation.change is not None:
+            point = in_terms_of(equation.change, atoms.x, equation.variable).subs(equation.change.variable, point)
         for coefficient in (equation.b, equation.c):
             quotient = coefficient / equation.a
-            if _is_zero(atoms.poly(quotient.den).subs(atoms.x, point)):
+            value = atoms.poly(quotient.den).subs(atoms.x, point)
+            if value.is_finite is not False and _is_zero(value):
                 raise InputError(f"{point} is a singular point of the equation")
     return tuple(found)
 

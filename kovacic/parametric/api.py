@@ -58,7 +58,7 @@ def conditions(
     References: T. Kimura, Funkcial. Ekvac. 12 (1969); J. Martinet & J.-P. Ramis (1989); A. Duval & M. Loday-Richaud,
     AAECC 3 (1992).
     """
-    parsed = read_input(S, var=var, limits=limits)
+    parsed = read_input(S, var=var, limits=limits, exponentials=True)
     names = parameters_of(parsed.S.field)
     if not names:
         used = f": {parsed.variable} is taken for the variable" if var is None and parsed.S.degree else ""

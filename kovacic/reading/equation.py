@@ -26,11 +26,11 @@ from kovacic.reading.lexer import PRIMES, Tokens
 from kovacic.reading.linear import REST, LinearArithmetic, LinearForm
 from kovacic.reading.parser import Site, evaluate
 
-_DERIVATIVES = frozenset({"diff", "Diff", "Derivative", "D"})
+DERIVATIVES = frozenset({"diff", "Diff", "Derivative", "D"})
 _LARGEST_ORDER = 100
 
 #: What an equation contains, and S alone doesn't.
-_MARKS = ("=", *PRIMES, *(f"{name}(" for name in _DERIVATIVES))
+_MARKS = ("=", *PRIMES, *(f"{name}(" for name in DERIVATIVES))
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
 _USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
@@ -51,8 +51,7 @@ def parse_equation(
     one; `LimitExceeded`.
     """
     tokens = tokens_of(text, limits, what="equation", hint="for example y'' = (x^2 + 3) y")
-    y = unknown or _unknown_of(tokens)
-    x = variable or _variable_of(tokens, y)
+    x, y = names_in_equation(tokens, variable, unknown)
 
     def read(constants: Constants) -> tuple[Equation, tuple[str, ...]]:
         reader = EquationReader(x, y, LinearArithmetic(limits, x, y), constants)
@@ -139,7 +138,7 @@ class EquationReader(RationalReader):
 
     def follows_without_sign(self, name: str) -> bool:
         """A coefficient may stand before the unknown function without a sign."""
-        return name.rstrip(PRIMES) == self.unknown or name in _DERIVATIVES
+        return name.rstrip(PRIMES) == self.unknown or name in DERIVATIVES
 
     def power(self, base: Any, exponent: Any, place: Place) -> Any:
         try:
@@ -162,7 +161,7 @@ class EquationReader(RationalReader):
             if len(arguments) != 1 or not self._is_variable(arguments[0]):
                 raise NotLinear(f"{self.unknown} is a function of {self.variable} alone")
             return self._derivative_of_unknown(head[len(bare) :])
-        if head in _DERIVATIVES:
+        if head in DERIVATIVES:
             return self._differentiated(arguments)
         if head in self.names:
             hint = f"for a product write {head}*({site.inside()})"
@@ -209,6 +208,12 @@ class EquationReader(RationalReader):
         return number.numerator
 
 
+def names_in_equation(tokens: Tokens, variable: str | None, unknown: str | None = None) -> tuple[str, str]:
+    """The names of the variable and of the unknown function, as far as they aren't given."""
+    y = unknown or _unknown_of(tokens)
+    return variable or _variable_of(tokens, y), y
+
+
 def _unknown_of(tokens: Tokens) -> str:
     """The name that has primes, or that is differentiated; else y."""
     for kind, piece in zip(tokens.kinds, tokens.pieces, strict=True):
@@ -216,9 +221,9 @@ def _unknown_of(tokens: Tokens) -> str:
         if kind in ("PRIMED", "HEAD") and bare != piece:
             return bare
     for k, kind in enumerate(tokens.kinds[:-3]):
-        if kind == "HEAD" and tokens.pieces[k] in _DERIVATIVES:
+        if kind == "HEAD" and tokens.pieces[k] in DERIVATIVES:
             following, after, inner = tokens.kinds[k + 2], tokens.kinds[k + 3], tokens.pieces[k + 2]
-            if following == "HEAD" and inner not in _DERIVATIVES | FUNCTION_NAMES.keys():
+            if following == "HEAD" and inner not in DERIVATIVES | FUNCTION_NAMES.keys():
                 return inner
             if following == "NAME" and after in ("COMMA", "RPAR"):
                 return inner

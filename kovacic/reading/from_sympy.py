@@ -65,7 +65,7 @@ def parse_sympy_equation(
     from sympy import E, Symbol, pi
 
     expression = value.lhs - value.rhs if getattr(value, "is_Equality", False) else value
-    function = _function_of(expression) if unknown is None else unknown
+    function = function_of(expression) if unknown is None else unknown
     if len(function.args) != 1 or not function.args[0].is_Symbol:
         raise NotLinear(f"{function} isn't a function of one variable")
     name = function.args[0].name
@@ -107,7 +107,8 @@ def _functions(value: Any) -> set[Any]:
     return value.atoms(AppliedUndef) if hasattr(value, "atoms") else set()
 
 
-def _function_of(expression: Any) -> Any:
+def function_of(expression: Any) -> Any:
+    """The unknown function, the only one in the expression or the one that is differentiated."""
     from sympy import Derivative
 
     functions = _functions(expression)

@@ -55,8 +55,18 @@ UNKNOWN = "y"
 
 
 @dataclass(frozen=True)
+class Change:
+    """The variable of an equation is a function `expression`, as text, of the `variable` that was given: exp(2*x)."""
+
+    variable: str
+    expression: str
+
+
+@dataclass(frozen=True)
 class Equation:
     """a y'' + b y' + c y = f + h over one field, a not zero; f is rational, and h a SymPy expression or None.
+
+    `change` says which function of the user's variable the variable is, where coefficients in exp(k x) were given.
 
     >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
@@ -74,6 +84,7 @@ class Equation:
     h: Any = None
     variable: str = "x"
     unknown: str = "y"
+    change: Change | None = None
 
     def __post_init__(self) -> None:
         if not self.a:

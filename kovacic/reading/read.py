@@ -19,19 +19,34 @@ from kovacic.reading.given import DEFAULT_VARIABLE, Equation, Parsed
 from kovacic.reading.parser import shown
 
 
-def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:
+def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, exponentials: bool = False) -> Parsed:
     """S as a rational function with the name of its variable, from whatever the user has.
 
     S is a string, a SymPy expression, a pair (numerator, denominator) of coefficient sequences from low to high powers,
     an integer, a fraction, or a `RatFunc`; or it is an equation, as a string with derivatives of an unknown function, as a
     SymPy `Eq` or expression with a function y(x), or as an `Equation`, and then the result has it.  `var` is a name or a
-    SymPy symbol; by default it is the only symbol, else x.  SymPy isn't imported unless S comes from it.  Raises
-    `InputError` and `LimitExceeded`.
+    SymPy symbol; by default it is the only symbol, else x.  SymPy isn't imported unless S comes from it.  With `exponentials`,
+    coefficients may be rational in exp(k x), or sines, ... of multiples of k x: the equation then has a `change` of variable.
+    Raises `InputError` and `LimitExceeded`.
 
     >>> str(read_input("x^2 + 3").S), str(read_input(([3, 0, 1], [1])).S)
     ('x**2 + 3', 'x**2 + 3')
     """
     variable = _variable_name(var)
+    try:
+        return _read(S, variable, limits)
+    except NotRational:
+        if not exponentials or (not isinstance(S, str) and not _is_sympy(S)):
+            raise
+        from kovacic.reading.exponential import in_exponentials
+
+        found = in_exponentials(S, variable=variable, limits=limits)
+        if found is None:
+            raise
+        return found
+
+
+def _read(S: Any, variable: str | None, limits: Limits) -> Parsed:
     if isinstance(S, str):
         if is_equation(S):
             return _with_equation(*parse_equation(S, variable=variable, limits=limits))

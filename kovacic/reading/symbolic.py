@@ -50,7 +50,7 @@ def read_expression(
     tokens = tokenize(text)
     if len(tokens.kinds) == 1:
         raise InputError(f"{what} is empty", text=text, position=0)
-    return evaluate(tokens, _SymbolicReader(names, what, limits))
+    return evaluate(tokens, SymbolicReader(names, what, limits))
 
 
 def expression_of(function: RatFunc, variable: str) -> Any:
@@ -139,7 +139,7 @@ def _bits(value: Any) -> int:
     return max(int(value.p).bit_length(), int(value.q).bit_length()) if value.is_Rational else 1
 
 
-class _SymbolicReader:
+class SymbolicReader:
     """What a text means as a SymPy expression."""
 
     def __init__(self, names: Mapping[str, Any] | None, what: str, limits: Limits) -> None:

@@ -41,7 +41,7 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.expression import parse_with
-from kovacic.reading.given import Equation, parameters_of
+from kovacic.reading.given import Change, Equation, parameters_of
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
 from kovacic.verify import verify
@@ -162,7 +162,8 @@ def from_dict(data: Mapping[str, Any]) -> Solution:
     if equation is not None and equation.S != S:
         raise ValueError("S isn't the normal form of the equation")
     text = _typed(data, "input", str)
-    if read_input(text, var=variable, limits=_LIMITS).S != S:
+    given = variable if equation is None or equation.change is None else equation.change.variable
+    if read_input(text, var=given, limits=_LIMITS, exponentials=given != variable).S != S:
         raise ValueError("S isn't that of the input")
     notices = tuple(_typed({"notice": notice}, "notice", str) for notice in data["notices"])
     return Solution(
@@ -185,6 +186,7 @@ def _equation(equation: Equation) -> dict[str, Any]:
         **{name: getattr(equation, name).to_str(x) for name in ("a", "b", "c", "f")},
         "h": None if equation.h is None else str(equation.h),
         "field": _field(equation.a.field),
+        "change": equation.change and {"variable": equation.change.variable, "expression": equation.change.expression},
     }
 
 
@@ -194,7 +196,10 @@ def _read_equation(data: Mapping[str, Any] | None, variable: str) -> Equation | 
     reader = _base_reader(data["field"], variable)
     a, b, c, f = (reader.over_field(reader.ratfunc(data[name])) for name in ("a", "b", "c", "f"))
     h = None if data["h"] is None else _read_symbolic(data, variable)
-    return Equation(a, b, c, f, h, variable, data["unknown"])
+    change = data.get("change")
+    return Equation(
+        a, b, c, f, h, variable, data["unknown"], change and Change(change["variable"], change["expression"])
+    )
 
 
 def _read_symbolic(data: Mapping[str, Any], variable: str) -> Any:

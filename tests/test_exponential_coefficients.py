@@ -1,0 +1,202 @@
+"""Coefficients rational in exp(k x), sines, hyperbolic functions, ...: brought to rational ones, answers in x."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from typing import Any
+
+import pytest
+import sympy
+
+import kovacic
+from kovacic.reading.read import read_input
+
+F = Fraction
+x = sympy.Symbol("x")
+y = sympy.Function("y")
+
+
+def residual(solution: Any, S: Any, point: Any) -> Any:
+    """How far y'' is from S y at a point, relatively, with 40 digits."""
+    value = (solution.diff(x, 2) - S * solution).subs(x, point).evalf(40)
+    return abs(value) / abs(solution.subs(x, point).evalf(40))
+
+
+#: The superpotentials' spectra: the potential, what is printed, and for integers n and numbers a, b an eigenvalue.
+POTENTIALS = {
+    "Morse": (
+        "A^2*exp(-2*x) - 2*A*b*exp(-x) - E",
+        "E = -n^2, n - b - 1/2 in Z: case 1",
+        lambda n, a, b: {"A": a, "b": b, "E": -((b - n - F(1, 2)) ** 2)},
+    ),
+    "Poeschl-Teller": (
+        "-l*(l+1)*sech(x)^2 - E",
+        "l in Z or E = -n^2, n + l or n - l - 1 in N: case 1",
+        lambda n, a, _: {"l": a, "E": -((a - n) ** 2)},
+    ),
+    "Poeschl-Teller, trigonometric": (
+        "a*(a-1)/sin(x)^2 + b*(b-1)/cos(x)^2 - E",
+        "E = n^2, n + b - a is an odd integer or n + b + a - 1 is an odd integer: case 1",
+        lambda n, a, b: {"a": a, "b": b, "E": (a + b + 2 * n) ** 2},
+    ),
+    "Rosen-Morse": (
+        "b*tanh(x) - l*(l+1)*sech(x)^2 - E",
+        "2*l + 1 +- sqrt(-E + b) +- sqrt(-E - b) is an odd integer, "
+        "that is E = -n^2 - b^2/(4*n^2) (b = 0 where n = 0), n + l or n - l - 1 in N: case 1",
+        lambda n, a, b: {"l": a, "b": b, "E": -((a - n) ** 2) - b * b / (4 * (a - n) ** 2)},
+    ),
+    "Eckart": (
+        "-2*b*coth(x) + a*(a-1)*csch(x)^2 - E",
+        "2*a + 1 +- sqrt(-E + 2*b) +- sqrt(-E - 2*b) is an odd integer, "
+        "that is E = -n^2 - b^2/n^2 (b = 0 where n = 0), n + a or n - a - 1 in N: case 1",
+        lambda n, a, b: {"a": a, "b": b, "E": -((a + n) ** 2) - b * b / (a + n) ** 2},
+    ),
+    "Rosen-Morse, trigonometric": (
+        "l*(l+1)/sin(x)^2 + 2*b*cot(x) - E",
+        "E = n^2 - b^2/n^2 (b = 0 where n = 0), n + l or n - l - 1 in N: case 1",
+        lambda n, a, b: {"l": a, "b": b, "E": (a + n + 1) ** 2 - b * b / (a + n + 1) ** 2},
+    ),
+    "Scarf": (
+        "(A^2 - A + B^2)/cos(x)^2 - B*(2*A-1)*sin(x)/cos(x)^2 - E",
+        "E = n^2, n + A or n - A - 1 in N or n - B - 1/2 in Z: case 1",
+        lambda n, a, b: {"A": a, "B": b, "E": (a + n) ** 2},
+    ),
+    "Scarf, hyperbolic": (
+        "-(A^2 + A - B^2)/cosh(x)^2 + B*(2*A+1)*sinh(x)/cosh(x)^2 - E",
+        "E = -n^2, n + A or n - A - 1 in N or 2*B*I +- 2*sqrt(-E) is an odd integer: case 1",
+        lambda n, a, b: {"A": a, "B": b, "E": -((a - n) ** 2)},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", POTENTIALS)
+def test_shape_invariant_potentials_have_their_spectra(name: str) -> None:
+    """Cooper, Khare & Sukhatme 1995, table 4.1: complete, as printed there, and solvable exactly there."""
+    S, printed, eigenvalue = POTENTIALS[name]
+    answer = kovacic.conditions(S, var="x")
+    assert answer.complete is True
+    assert printed in [line.strip() for line in answer.text().splitlines()]
+    assert answer.check(20)
+    for n, a, b in ((0, F(7, 3), F(1, 5)), (2, F(16, 5), F(3, 7))):
+        assert answer.case_at(eigenvalue(n, a, b)) == 1
+        assert answer.case_at({**eigenvalue(n, a, b), "E": F(22, 7)}) is None
+
+
+def test_mathieu_and_hill() -> None:
+    """No Liouvillian solution but for q = 0; Whittaker-Hill: c = -b^2/(2 (d+1)^2) and a determinant."""
+    mathieu = kovacic.conditions("2*q*cos(2*x) - a", var="x")
+    assert mathieu.complete is True
+    assert [str(region.statement) for region in mathieu.regions] == ["q = 0"]
+    hill = kovacic.conditions("a + b*cos(x) + c*cos(2*x)", var="x")
+    assert hill.complete is True
+    assert hill.case_at({"a": F(1, 2), "b": 1, "c": -F(1, 2)}) == 1
+    assert hill.case_at({"a": F(1, 3), "b": 1, "c": -F(1, 2)}) is None
+
+
+SOLUTIONS = [
+    sympy.cosh(x) ** 3 * sympy.exp(2 * x),
+    sympy.exp(sympy.sin(x)),
+    sympy.sin(x) ** 2 * sympy.exp(sympy.cos(x)),
+    sympy.exp(sympy.exp(2 * x) - x) * (sympy.exp(x) + 3),
+    sympy.tanh(x) * sympy.sqrt(sympy.cosh(x)),
+    sympy.exp(sympy.tan(x) + x),
+    sympy.cos(3 * x) / sympy.sin(x),
+    sympy.exp(x / 2) * sympy.sqrt(2 + sympy.exp(x)),
+]
+
+
+@pytest.mark.parametrize("known", SOLUTIONS, ids=str)
+def test_the_answer_is_found_that_the_equation_was_made_from(known: Any) -> None:
+    """S = y''/y for a chosen y: a solution is found, and both that are returned solve the equation in x."""
+    S = sympy.expand(sympy.simplify((known.diff(x, 2) / known).rewrite(sympy.exp)))
+    answer = kovacic.solve(S, var="x")
+    assert answer.verified
+    assert answer.change is not None
+    assert answer.change.variable == "x"
+    y1, y2 = answer.solutions
+    points = [sympy.Rational(3, 10), sympy.Rational(7, 10)]
+    for solution in (y1, y2):
+        if not solution.has(sympy.Integral):
+            assert all(residual(solution, S, point) < sympy.Float("1e-30") for point in points)
+    if not y2.has(sympy.Integral):
+        rows = [[f.subs(x, p).evalf(30) for f in (known, y1, y2)] for p in (*points, sympy.Rational(11, 10))]
+        assert abs(sympy.Matrix(rows).det()) < sympy.Float("1e-20")  # the chosen one is among their combinations
+
+
+def test_first_derivatives_and_the_general_solution() -> None:
+    solution = kovacic.dsolve("y'' + tan(x)*y' + cos(x)^2*y = 0")
+    C1, C2 = sympy.symbols("C1 C2")
+    assert solution.rhs == C1 * sympy.cos(sympy.sin(x)) + C2 * sympy.sin(sympy.sin(x))
+    given = sympy.Eq(y(x).diff(x, 2) + 2 * sympy.cot(x) * y(x).diff(x) - 3 * y(x), 0)
+    assert sympy.checkodesol(given, kovacic.dsolve(given))[0]
+    started = kovacic.dsolve("y'' + tan(x)*y' + cos(x)^2*y = 0", ics={"y(0)": 2, "y'(0)": 3}).rhs
+    assert started == 2 * sympy.cos(sympy.sin(x)) + 3 * sympy.sin(sympy.sin(x))
+
+
+@pytest.mark.slow
+def test_right_hand_sides() -> None:
+    """The particular solution by variation of constants, its integral in x and done numerically."""
+    C1, C2 = sympy.symbols("C1 C2")
+    forced = kovacic.dsolve("y'' - tanh(x)*y' = exp(x)").rhs.subs({C1: 0, C2: 0})
+    left = (forced.diff(x, 2) - sympy.tanh(x) * forced.diff(x)).doit(deep=False).subs(x, sympy.Rational(2, 5))
+    assert abs(left.evalf(20) - sympy.exp(sympy.Rational(2, 5)).evalf(20)) < 1e-12
+
+
+def test_special_functions_come_back_in_x() -> None:
+    """y'' = (e^(2x) - nu^2) y: Bessel functions of e^x."""
+    found = kovacic.dsolve("y'' = (exp(2*x) + 9)*y").rhs
+    assert found.has(sympy.exp(x))
+    assert found.has(sympy.besseli)
+
+
+def test_rates_are_parameters_and_radicals() -> None:
+    answer = kovacic.solve("y'' = (exp(2*k*x) - k*exp(k*x))*y")
+    assert answer.case == 1
+    assert sympy.simplify(answer.solutions[0] - sympy.exp(-sympy.exp(sympy.Symbol("k") * x) / sympy.Symbol("k"))) == 0
+    assert kovacic.decide("2*exp(2*sqrt(2)*x) + 2*exp(sqrt(2)*x)").case == 1
+
+
+@pytest.mark.parametrize(
+    ("S", "message"),
+    [
+        ("x*exp(x)", "beside exp"),
+        ("exp(x) + exp(sqrt(2)*x)", "no rational quotient"),
+        ("exp(x)*cos(x)", "no rational quotient"),
+        ("exp(x^2)", "multiple of x"),
+        ("sqrt(x) + 1", "sqrt"),
+        ("sin(2^x)", "multiple of x"),
+    ],
+)
+def test_other_coefficients_are_refused(S: str, message: str) -> None:
+    with pytest.raises(kovacic.InputError, match=message):
+        kovacic.solve(S, var="x")
+
+
+def test_numbers_are_never_taken_for_values_of_the_new_variable() -> None:
+    answer = kovacic.solve("2*sech(x)^2*(-1) + 1")
+    assert answer.change is not None
+    for call in (lambda: answer.at(2, x0=1, y0=1, dy0=0), lambda: answer.plot(0, 1), answer.lambdify):
+        with pytest.raises(kovacic.InputError, match="would take values of t"):
+            call()
+    with pytest.raises(kovacic.InputError):
+        kovacic.evaluate("2*sech(x)^2*(-1) + 1", 2, x0=1, y0=1, dy0=0)
+    with pytest.raises(kovacic.InputError):
+        read_input("sin(x)")
+
+
+def test_json_keeps_the_change_of_variable() -> None:
+    answer = kovacic.solve("-2/cosh(x)^2 + 1")
+    text = answer.to_json()
+    assert json.loads(text)["equation"]["change"] == {"variable": "x", "expression": "exp(2*x)"}
+    again = kovacic.Solution.from_json(text)
+    assert again == answer
+    assert again.solutions == answer.solutions
+    assert "t = exp(2*x)" in answer.notices[0]
+
+
+def test_the_command_reads_a_formula_that_begins_with_a_minus_and_has_an_h(capsys: pytest.CaptureFixture[str]) -> None:
+    from kovacic.cli.main import main
+
+    assert main(["solve", "-2/cosh(x)^2 + 1"]) == 0
+    assert "y1 = 1/cosh(x)" in capsys.readouterr().out
