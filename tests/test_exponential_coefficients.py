@@ -198,5 +198,7 @@ def test_json_keeps_the_change_of_variable() -> None:
 def test_the_command_reads_a_formula_that_begins_with_a_minus_and_has_an_h(capsys: pytest.CaptureFixture[str]) -> None:
     from kovacic.cli.main import main
 
-    assert main(["solve", "-2/cosh(x)^2 + 1"]) == 0
+    with pytest.raises(SystemExit) as status:
+        main(["solve", "-2/cosh(x)^2 + 1"])
+    assert status.value.code == 0
     assert "y1 = 1/cosh(x)" in capsys.readouterr().out
