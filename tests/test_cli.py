@@ -191,10 +191,10 @@ def test_standard_input_one_a_line() -> None:
 
 
 def test_bad_input_does_not_stop_the_others() -> None:
-    done = run("solve", "--json", "x", "sin(x)", "x^2+3")
+    done = run("solve", "--json", "x", "log(x)", "x^2+3")
     assert done.returncode == 2
     assert len(done.stdout.splitlines()) == 2
-    assert "sin(x) isn't a rational function of x" in done.stderr
+    assert "log(x) isn't a rational function of x" in done.stderr
     assert "at position 0" in done.stderr
     assert "Traceback" not in done.stderr
 
@@ -255,7 +255,7 @@ def test_a_failed_self_check_is_status_4(monkeypatch: pytest.MonkeyPatch, capsys
         raise VerificationFailed("the answer failed its own check; please report it")
 
     monkeypatch.setattr("kovacic.solution.solve", failing)
-    assert main.run(["solve", "x", "sin(x)"]) == 4
+    assert main.run(["solve", "x", "log(x)"]) == 4
     assert "please report" in capsys.readouterr().err
 
 

@@ -27,7 +27,7 @@ EQUATIONS = [
     "(4*n^2-1)/(4*x^2) - 1",
     "x^2*y'' + x*y' + (x^2 - 1/4)*y = exp(x)",
 ]
-WRONG = ['{"S": "x+", "id": [1, {"a": null}]}', '{"id": 3}', "5", '{"S": 5}', "not json", '{"S": "sin(x)"}', "\x00"]
+WRONG = ['{"S": "x+", "id": [1, {"a": null}]}', '{"id": 3}', "5", '{"S": 5}', "not json", '{"S": "log(x)"}', "\x00"]
 BALL = ["--mass", "1", "--radius", "1", "--sphere", "3"]
 
 
