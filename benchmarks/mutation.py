@@ -41,7 +41,10 @@ PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "verify": (("kovacic/verify/*.py",), ("tests/test_verify.py", *ENGINE_TESTS)),
     "engine": (("kovacic/engine/*.py",), ENGINE_TESTS),
     "galois": (("kovacic/galois/*.py",), ("tests/test_galois.py", "tests/test_verify.py")),
-    "check": (("kovacic/closed_form/check.py", "kovacic/closed_form/real_pair.py"), ("tests/test_closed_form*.py",)),
+    "check": (
+        ("kovacic/closed_form/check.py", "kovacic/closed_form/real_pair.py"),
+        ("tests/test_closed_form_check.py", "tests/test_closed_form*.py"),
+    ),
     "bounds": (
         ("kovacic/enclosure/taylor.py", "kovacic/enclosure/frame.py", "kovacic/enclosure/transport.py"),
         ("tests/test_enclosure*.py",),
