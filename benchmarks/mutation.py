@@ -52,6 +52,22 @@ PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 }
 #: Survivors that change no answer: "file: function: fault", and why.
 EXPLAINED: dict[str, str] = {
+    "kovacic/closed_form/check.py: residual: Sub in abs(y) + abs(first)": "the scale of the terms, of the same size",
+    "kovacic/closed_form/check.py: is_numerical_solution: 15 + 1": "a working precision",
+    "kovacic/closed_form/check.py: is_numerical_solution: Add in 8 * DIGITS": "a working precision",
+    "kovacic/closed_form/check.py: is_numerical_solution: 71 + 1": "another point",
+    "kovacic/closed_form/check.py: is_numerical_solution: "
+    "LtE in residual(expression, variable, S, gauge, point) < arb(10) ** (-DIGITS)": "balls",
+    "kovacic/closed_form/real_pair.py: _half_turns: 0 + 1": "delta isn't zero",
+    "kovacic/closed_form/real_pair.py: _half_turns: 2 + 1": "the whole part of |q| - 1/3 is that of |q| - 1/2 for q in 1/2 + Z",
+    "kovacic/closed_form/real_pair.py: _half_turns: GtE in q > 0": "the sign of 0 turns",
+    "kovacic/galois/gauged.py: module: 1 + 1": "SL(2,5) has no character, and gamma^(N/2) isn't rational",
+    "kovacic/galois/gauged.py: _residues_on_curve.row: Sub in half * e + 2 * r": "up to integers, the form times -1",
+    "kovacic/galois/imprimitive.py: _of_positive_genus: Add in 2 * n": "how much work is done",
+    "kovacic/galois/imprimitive.py: _of_positive_genus: 1 + 1": "how much work is done",
+    "kovacic/galois/imprimitive.py: _small_homomorphisms: GtE in h.p ** genus > 10 ** 7": "10^7 is no power of a prime",
+    "kovacic/galois/imprimitive.py: _order_modulo: Mult in image ** half": "half is 1: e is at most 2",
+    "kovacic/galois/imprimitive.py: _squared_wronskian: Add in g * (4 * S - 2 * slope - phi * phi) % p": "the same modulo p",
     "kovacic/verify/evidence.py: Inspector._at_prime: LtE in h.p < p": "over Q each prime has one homomorphism, tried before",
     "kovacic/verify/evidence.py: _first_terms: 1 + 1": "a double root modulo the prime is met as a pivot zero later",
     "kovacic/verify/group.py: _dicyclic: Sub in k + 1": "k - 1 and k + 1 have the same parity",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
-from math import lcm
+from math import gcd, lcm
 
 import published
 import pytest
@@ -377,3 +377,145 @@ def test_the_order_of_a_twist_by_signs_in_two_ways() -> None:
 def test_a_group_of_an_undecided_equation() -> None:
     answer = kovacic.solve("x^2 + 41", limits=kovacic.Limits(unknown_degree=5))
     assert (answer.group, answer.equation_group, answer.is_algebraic) == (None, None, None)
+
+
+# ------------------------------------------------------------------------------- characters, and curves, in two ways
+
+
+def equation_with(first: RatFunc, second: RatFunc) -> Equation:
+    """The equation z'' + b z' + c z = 0 that two different rational functions z'/z belong to."""
+    images = [w.derivative() + w * w for w in (first, second)]
+    b = -(images[0] - images[1]) / (first - second)
+    return Equation(X * 0 + 1, b, -(images[0] + b * first), X * 0)
+
+
+@settings(max_examples=30)
+@given(st.tuples(*[strategies.fractions(6, (1, 2, 3))] * 2), st.tuples(*[strategies.fractions(5, (1, 2, 3, 4, 6))] * 2))
+def test_two_exponentials_have_the_group_of_their_relation(
+    rates: tuple[Fraction, Fraction], powers: tuple[Fraction, Fraction]
+) -> None:
+    """z1 = x^p exp(a x), z2 = x^q exp(b x): with a v = -b u for coprime integers u, v the relations are the multiples k of
+    (u, v) with k (u p + v q) an integer, so that the group is G_m x mu_n, n the denominator of u p + v q."""
+    (a, b), (p, q) = rates, powers
+    assume((a or b) and (a, p) != (b, q))
+    group = kovacic.solve(equation_with(a + p / X, b + q / X)).equation_group
+    u, v = b, -a
+    d = lcm(u.denominator, v.denominator)
+    scale = Fraction(d, gcd(int(u * d), int(v * d)))
+    n = (scale * (u * p + v * q)).denominator
+    assert group.name == ("G_m" if n == 1 else f"G_m x mu_{n}")
+
+
+@pytest.mark.parametrize(
+    ("third", "part", "order"),
+    [(4, Fraction(1, 2), 48), (4, Fraction(1, 4), 96), (4, Fraction(3, 2), 48), (3, Fraction(1, 3), 72),
+     (3, Fraction(-1, 1), 24), (3, Fraction(2, 3), 72), (5, Fraction(1, 1), 120)],
+)  # fmt: skip
+def test_gauges_that_are_roots_of_semi_invariants(third: int, part: Fraction, order: int) -> None:
+    """gamma = f^(1/m), where G multiplies f by its character epsilon: the pairs (g, c) with c^m = epsilon(g) are m |G| many,
+    and their products c g half as many if (-1, -1) is among them."""
+    S = transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, third))
+    solution = kovacic.solve(S)
+    theta = solution.semi_invariant.theta
+    assert kovacic.solve(with_gauge(S, part * theta)).equation_group.order == order
+
+
+def test_semi_invariants_and_other_gauges_are_told_apart() -> None:
+    """The same orders of gamma, without a relation to G."""
+    for third, N, order in ((4, 4, 96), (3, 9, 216), (3, 3, 72)):
+        S = transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, third))
+        assert kovacic.solve(with_gauge(S, Fraction(1, N) / (X - 2))).equation_group.order == order
+
+
+@pytest.mark.parametrize(
+    "text", ["y'' + a*y' + (a^2/4 - x)*y = 0", "y'' + 2*y' + (1 - n/x^2)*y = 0", "y'' + n/x*y' + y = 0"]
+)
+def test_a_gauge_beside_parameters_has_no_group(text: str) -> None:
+    answer = kovacic.solve(text, var="x")
+    assert answer.group is not None
+    assert answer.equation_group is None
+
+
+def test_a_normal_form_with_parameters_has_its_group() -> None:
+    answer = kovacic.solve("y'' = (x + a)*y", var="x")
+    assert answer.equation_group.name == answer.group.name == "SL2"
+
+
+def test_three_conjugate_semi_invariants() -> None:
+    """Exponent differences 1/2 at the roots of x^3 - 2: each pair of lines of the quaternion group belongs to one root."""
+    answer = kovacic.solve("-27*x/(8*(x^3-2)^2)")
+    assert answer.constants.degree == 3
+    assert answer.group.name == "dicyclic of order 8"
+    assert answer.verify()
+
+
+def test_orders_without_small_primes() -> None:
+    """On a curve of genus 12 no prime is small enough to count in the Jacobian: the invariants decide from below."""
+    for n in (2, 3):
+        S = transform.pull_back(transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, n)), X**13 + X + 1)
+        group = kovacic.solve(S).group
+        assert (group.kind, group.n, group.ground) == (Kind.DICYCLIC, n, Ground.INVARIANT)
+
+
+@pytest.mark.parametrize("shift", range(7))
+@pytest.mark.parametrize("n", [5, 7])
+def test_the_order_doesnt_depend_on_the_coordinate(n: int, shift: int) -> None:
+    """Singular points at the residues that the computation modulo 5, 7, 11 begins with, and an order that 5 or 7 divides."""
+    for f in ((X**2 + 1) / (X - 3), X * (X - 1) * (X + 2), (X**3 + 1) / (X**2 - X)):
+        S = transform.pull_back(transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, n)), f)
+        assert kovacic.solve(transform.moebius(S, 1, shift, 0, 1)).group.n == n
+
+
+def test_residues_on_a_curve_of_genus_0_are_the_exponents() -> None:
+    """A pull-back with simple ramification elsewhere: y+ y- has a pole there, and both have the exponent -1/2."""
+    q = X**2 * (X - 5) - 2 * (X - 1) ** 2 * (X - 7)
+    S = transform.pull_back(
+        transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, 3)), X**2 * (X - 5) / q
+    )
+    solution = kovacic.solve(S)
+    problem = analyse(S, Budget())
+    curve = curve_of(problem, solution.semi_invariant)
+    assert curve.genus == 0
+    ramified = [point for point in curve.points if point.e == -2]
+    assert sum(point.factor.degree for point in ramified) == 2
+    rho = RatFunc(ramified[0].factor.derivative(), ramified[0].factor) / 8
+    rows = _residues_on_curve(curve, rho)
+    exponent = (Fraction(-1, 2) + Fraction(1, 8)) % 1
+    assert any((a % 1, b % 1) == (exponent, exponent) for a, b in rows)
+
+
+@pytest.mark.parametrize(
+    ("third", "gauge", "name", "scalars"),
+    [
+        (4, Fraction(1, 2) / (X - 2), "binary octahedral, twisted by signs", 2),
+        (4, Fraction(1, 4) / (X - 2), "binary octahedral with scalars, order 96", 4),
+        (3, Fraction(1, 3) / (X - 2), "SL(2,3) with scalars, order 72", 3),
+        (5, Fraction(2, 1) / (X - 2), "SL(2,5)", 1),
+        (5, X, "SL(2,5) with the scalars G_m", None),
+    ],
+)
+def test_names_of_primitive_groups_with_scalars(third: int, gauge: RatFunc, name: str, scalars: int | None) -> None:
+    S = transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), Fraction(1, third))
+    group = kovacic.solve(with_gauge(S, gauge)).equation_group
+    assert (group.name, group.scalars) == (name, scalars)
+
+
+@pytest.mark.parametrize(
+    ("n", "name"), [(1, "SL2"), (2, "SL2"), (3, "SL2 with the scalars mu_6"), (4, "SL2 with the scalars mu_4")]
+)
+def test_names_of_sl2_with_scalars(n: int, name: str) -> None:
+    """z = x^(1/n) y with Airy's y: SL2 contains -1."""
+    group = kovacic.solve(with_gauge(X, Fraction(1, n) / X)).equation_group
+    assert (group.name, group.scalars, group.finite, group.order) == (name, n, False, None)
+
+
+def test_an_order_on_a_curve_of_positive_genus_isnt_guessed() -> None:
+    """Even roots of x - 2 beside a dicyclic group on a curve of genus 1: the order isn't determined, and isn't claimed."""
+    S = transform.pull_back(
+        transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, 3)), (X**2 + 1) / (X - 3)
+    )
+    orders = {n: kovacic.solve(with_gauge(S, Fraction(1, n) / (X - 2))).equation_group for n in (2, 3, 4)}
+    assert orders[2].order == orders[2].normal_form.order
+    assert orders[3].order == 3 * orders[3].normal_form.order
+    assert (orders[4].order, orders[4].finite) == (None, True)
+    assert orders[4].name == f"{orders[4].normal_form.name} with scalars"

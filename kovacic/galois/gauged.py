@@ -77,7 +77,7 @@ class EquationGroup:
 
 def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatFunc) -> EquationGroup | None:
     """The group of the equation with the gauge rho; None over a field with parameters if rho isn't zero."""
-    if not _is_number_field(S.field) or not _is_number_field(rho.field):
+    if not _is_number_field(S.field):
         return (
             EquationGroup(normal_form, 1, normal_form.name, normal_form.finite, normal_form.order) if not rho else None
         )
@@ -105,8 +105,8 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
         return EquationGroup(normal_form, N, _infinite_dihedral(N, f, rho), False)
     order = _finite_order(S, normal_form, f, rho, N)
     name = f"{normal_form.name} with scalars" if order is None else f"{normal_form.name} with scalars, order {order}"
-    if order == normal_form.order and N <= 2:
-        name = f"{normal_form.name}, twisted by signs" if order is not None else name
+    if N == 2 and order is not None:  # then it is that of the normal form
+        name = f"{normal_form.name}, twisted by signs"
     return EquationGroup(normal_form, N, name, normal_form.finite, order)
 
 

@@ -208,5 +208,5 @@ class Group:
 def _rotation(n: int | None) -> Any:
     import sympy
 
-    z = {2: sympy.Integer(-1), 4: sympy.I}.get(n or 0, sympy.exp(2 * sympy.pi * sympy.I / n))
+    z = sympy.exp(2 * sympy.pi * sympy.I / n)
     return sympy.diag(z, 1 / z)
