@@ -2,7 +2,7 @@
 
 - Case 1: y = exp(int theta) P; residues are exponents, poles of higher order go into the exponential.
 - Case 2 on a rational curve s^2 = g: y'/y = phi/2 +- kappa r/s with f = y1 y2, phi = f'/f, and
-  r/s = (C s)' + (sum of rho(a)/(x - a) + rest)/s.  In the parameter t of the curve (`kovacic.doubles.product_form`) y'/y dx
+  r/s = (C s)' + (sum of rho(a)/(x - a) + rest)/s.  In the parameter t of the curve (`kovacic.doubles.factors`) y'/y dx
   has simple poles with constant residues, apart from an exact part: a point (a, s_a) has the parameter t_a, its conjugate
   (a, -s_a) has t_a', and x - a is a constant times (t - t_a)(t - t_a')/D(t) with D = 1, t, 1 + t^2 for line, hyperbola and
   ellipse (where a = -M has t_a = infinity: x - a = 2 M/D).  A simple pole a of phi/2 with residue mu contributes
@@ -26,7 +26,8 @@ from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.structure import OnCurve, build
 from kovacic.doubles.double_double import Complex, pair_of
-from kovacic.doubles.product_form import Conic, Factor, ProductForm, RationalFunction, Shape
+from kovacic.doubles.factors import Conic, Factor, RationalFunction, Shape
+from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Region
 from kovacic.enclosure.closed_form import Exponential, certified, exponentials, omega, value
 from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, zeros
@@ -123,7 +124,7 @@ def _whole(power: acb) -> int | None:
 
 @dataclass(frozen=True)
 class ExactConic:
-    """`kovacic.doubles.product_form.Conic` with balls, for the parameters of given points."""
+    """`kovacic.doubles.factors.Conic` with balls, for the parameters of given points."""
 
     shape: Shape
     sigma: int

@@ -6,14 +6,15 @@ distance from c to the nearest singular point and so small that the solutions gr
     y(c + H u) = sum a_n u^n,    |u| <= 1,
 
 with coefficients whose truncation is proven below 2^-110 (`kovacic.enclosure.taylor`), from enclosures of y(c) and y'(c) to 34
-digits.  Coefficients and Horner's scheme are double-doubles, so that the error is some 2^-95 of the largest value on the
-piece: the value itself keeps its digits near zeros, and where it is far smaller than its neighbours.
+digits.  In the careful variant coefficients and Horner's scheme are double-doubles, so that the error is some 2^-95 of the
+largest value on the piece: the value itself keeps its digits near zeros, and where it is far smaller than its neighbours.  In
+plain doubles the growth is at most 2^4 a piece, and the error some 2^-52 of the largest value there.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -23,7 +24,7 @@ from flint import acb, arb
 from kovacic.doubles.arrangement import gauge_form
 from kovacic.doubles.double_double import horner, pair_of, scaled, two_sum
 from kovacic.doubles.product_form import ProductForm
-from kovacic.doubles.region import Region, hull, in_blocks, region_of
+from kovacic.doubles.region import BLOCK, Measured, Region, hull, in_blocks, region_of
 from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
 from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import as_number, to_ball
@@ -45,7 +46,10 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 _PREC = 116
 _DIGITS = 34
 _SHARP = 90
-_GROWTH = 30.0
+_GROWTH = {True: 30.0, False: 4.0}
+_KEPT = {True: _PREC, False: 62}
+"""Bits of growth on a piece, and below the largest coefficient that count: for the careful variant, and the plain one."""
+
 _SHARE = 0.25
 _MAX_PIECES = 5000
 
@@ -65,19 +69,40 @@ class TabulatedFunction:
     exponents: Any
     coefficients: Any
     gauge: ProductForm | None = None
+    careful: bool = True
+    measured: Measured | None = None
 
     def __call__(self, x: Any) -> Any:
         """y(x) as doubles, or complex doubles; raises InputError outside of the interval."""
-        return in_blocks(self._values, self.region.points(x))
+        points = self.region.points(x)
+        result = in_blocks(self._values, points) if self.careful else in_blocks(self._plain_values, points, 16 * BLOCK)
+        base = float(self.base.re) if self.base.is_real() else complex(self.base)
+        return result if self.gauge is None else result * (self.gauge(points) / self.gauge(base))
+
+    def _plain_values(self, points: Any) -> Any:
+        """Piece by piece, so that the coefficients are numbers."""
+        flat = points.reshape(-1)
+        index = np.searchsorted(self.edges, flat, side="right")
+        order = np.argsort(index, kind="stable")
+        flat, ends = flat[order], np.searchsorted(index[order], np.arange(self.centres.size + 1))
+        found = np.zeros((len(self.coefficients), flat.size))
+        for k in np.flatnonzero(np.diff(ends)):
+            run = slice(ends[k], ends[k + 1])
+            u = np.ldexp(flat[run] - self.centres[k], -self.exponents[k])
+            for row, part in zip(found, self.coefficients, strict=True):
+                total = np.zeros(u.shape)
+                for c in part[0, ::-1, k]:
+                    total *= u
+                    total += c
+                row[order[run]] = total
+        return (found[0] if len(found) == 1 else found[0] + 1j * found[1]).reshape(points.shape)
 
     def _values(self, points: Any) -> Any:
         index = np.searchsorted(self.edges, points, side="right")
         u = scaled(two_sum(points, -self.centres[index]), -self.exponents[index])
         rows = [part[:, ::-1, index] for part in self.coefficients]
         parts = [sum(horner(tuple((part[0, n], part[1, n]) for n in range(part.shape[1])), u)) for part in rows]
-        result = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
-        base = float(self.base.re) if self.base.is_real() else complex(self.base)
-        return result if self.gauge is None else result * (self.gauge(points) / self.gauge(base))
+        return parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
 
 
 def tabulate(
@@ -88,12 +113,14 @@ def tabulate(
     x0: object,
     y0: object,
     dy0: object,
+    careful: bool = True,
     limits: Limits | None = None,
 ) -> TabulatedFunction:
     """The solution with y(x0) = y0, y'(x0) = dy0 on [start, stop] in double precision; the interval must be regular.
 
-    Values may be complex.  Raises InputError (an empty interval, a singular point in it or between it and x0) and
-    LimitExceeded (more than 5,000 pieces, or the time).
+    `careful` stands for double-doubles: a unit in the last place, at 20 times the cost of plain ones.  Values may be
+    complex.  Raises InputError (an empty interval, a singular point in it or between it and x0) and LimitExceeded (more than
+    5,000 pieces, or the time).
 
     >>> f = tabulate("-1", 0, 10, x0=0, y0=0, dy0=1)
     >>> print(f"{f(10.0):.15f}")      # sin 10
@@ -116,23 +143,25 @@ def tabulate(
             dy0 = ball_from_flint(to_ball(as_number(dy0, "dy0")) - gamma * to_ball(as_number(y0, "y0")))
             gauge = gauge_form(problem.gauge, hull(region, origin), origin)
     normal = NumericProblem(problem.system)
-    pieces = _pieces(problem.system, region, budget)
+    pieces = _pieces(problem.system, region, _GROWTH[careful], budget)
     centres = [frame.centre for frame, _ in pieces]
     states = evaluate_states(normal, centres, x0=origin, y0=y0, dy0=dy0, digits=_DIGITS, limits=budget.share(1).limits)
     with working_precision(_PREC + 60):
         rows = [
-            _coefficients(problem.system, piece, state, budget) for piece, state in zip(pieces, states, strict=True)
+            _coefficients(problem.system, piece, state, _KEPT[careful], budget)
+            for piece, state in zip(pieces, states, strict=True)
         ]
-    return _assembled(region, origin, [frame for frame, _ in pieces], rows, gauge)
+    gauge = gauge and replace(gauge, careful=careful)
+    return _assembled(region, origin, [frame for frame, _ in pieces], rows, gauge, careful)
 
 
-def _pieces(system: System, region: Region, budget: Budget) -> list[tuple[Frame, RayBound]]:
+def _pieces(system: System, region: Region, growth: float, budget: Budget) -> list[tuple[Frame, RayBound]]:
     """Frames that cover the region from left to right, with bounds for the rays to both ends."""
     low, high = Fraction(region.low.real), Fraction(region.high.real)
     position, e, found = low, math.frexp(float(high - low))[1], []
     while True:
         budget.check()
-        frame, bound = _piece(system, position, e)
+        frame, bound = _piece(system, position, e, growth)
         found.append((frame, bound))
         position, e = frame.centre.re + frame.scale, frame.e + 1
         if position > high:
@@ -141,19 +170,21 @@ def _pieces(system: System, region: Region, budget: Budget) -> list[tuple[Frame,
             raise LimitExceeded(f"the table needs more than {_MAX_PIECES} pieces", limit="unknown_degree")
 
 
-def _piece(system: System, position: Fraction, e: int) -> tuple[Frame, RayBound]:
+def _piece(system: System, position: Fraction, e: int, growth: float) -> tuple[Frame, RayBound]:
     """A piece that contains the position, of scale at most 2^e."""
     for exponent in range(e, e - 2200, -1):
         unit = Fraction(2) ** exponent
         centre = Point((position // unit + 1) * unit)
         ends = (centre - Point(unit), centre + Point(unit))
-        found = fitting(system, centre, exponent, _SHARE, _GROWTH, ends)
+        found = fitting(system, centre, exponent, _SHARE, growth, ends)
         if found is not None:
             return found[0], found[1][0].worst(found[1][1])
     raise LimitExceeded("no piece of positive size was found for the table", limit="unknown_degree")
 
 
-def _coefficients(system: System, piece: tuple[Frame, RayBound], state: Evaluation, budget: Budget) -> list[acb]:
+def _coefficients(
+    system: System, piece: tuple[Frame, RayBound], state: Evaluation, kept: int, budget: Budget
+) -> list[acb]:
     """The Taylor coefficients of the solution with this state at the centre, in the variable of the frame."""
     frame, bound = piece
     expansion = expand(system, frame, _PREC, bound, budget)
@@ -164,14 +195,14 @@ def _coefficients(system: System, piece: tuple[Frame, RayBound], state: Evaluati
     sizes = [abs(v).mid() for v in found]
     if max((v.real.rad() + v.imag.rad() for v in found), key=float) > max(sizes) * arb((1, -_SHARP)):
         raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
-    floor = max(sizes) * arb((1, -_PREC))
+    floor = max(sizes) * arb((1, -kept))
     while len(found) > 1 and sizes[len(found) - 1] < floor:
         found.pop()
     return found
 
 
 def _assembled(
-    region: Region, origin: Point, frames: list[Frame], rows: list[list[acb]], gauge: ProductForm | None
+    region: Region, origin: Point, frames: list[Frame], rows: list[list[acb]], gauge: ProductForm | None, careful: bool
 ) -> TabulatedFunction:
     is_real = all(v.imag.is_zero() for row in rows for v in row)
     table = np.zeros((1 if is_real else 2, 2, max(len(row) for row in rows), len(rows)))
@@ -185,4 +216,4 @@ def _assembled(
     exponents = np.array([frame.e for frame in frames])
     for array in (table, edges, centres, exponents):
         array.flags.writeable = False
-    return TabulatedFunction(region, origin, edges, centres, exponents, table, gauge)
+    return TabulatedFunction(region, origin, edges, centres, exponents, table, gauge, careful)
