@@ -225,8 +225,8 @@ def test_wrong_starts_are_refused() -> None:
             evaluate("1/x^3", 2, **arguments)  # type: ignore[arg-type]
     with pytest.raises(InputError, match="smaller than all others"):  # exponents 1/2 +- i
         evaluate("-5/(4*x^2) + 1", 1, x0=0, which="regular")
-    with pytest.raises(InputError, match="singular point"):
-        evaluate(bessel(1), 0, x0=0, which="regular")
+    with pytest.raises(InputError, match="infinite at the singular point 0"):
+        evaluate(bessel("1/3"), 0, x0=0, which="regular")
 
 
 def test_many_points_from_a_singular_point_agree_with_single_ones() -> None:
@@ -327,3 +327,31 @@ def test_parameters_take_values() -> None:
         evaluate("1/((n-1)*x^2 + (n-1))", 1, x0=0, y0=1, dy0=0, params={"n": 1})
     with pytest.raises(InputError, match="no parameter"):
         evaluate("x", 1, x0=0, y0=1, dy0=0, params={"n": 1})
+
+
+def test_the_start_itself_may_be_asked_for() -> None:
+    """J_n and its slope at 0, where n = 0, 1, 2, 3; (x + log x x^2 ...) has a slope, log x hasn't a value."""
+    for n, (y, dy) in enumerate([(1, 0), (0, 1), (0, 0), (0, 0)]):
+        value, slope = evaluate(bessel(n), [0, 1, -1, 0], x0=0, which="regular", derivative=True)[0]
+        assert value.contains(y)
+        assert slope.contains(dy)
+        assert value.is_exact()
+    kummer = "x*y'' + (2-x)*y' - 1/3*y = 0"
+    value, slope = evaluate(kummer, 0, x0=0, which="regular", derivative=True)
+    assert value.contains(1)
+    assert slope.contains(Fraction(1, 6))
+    for start in ((1, 0), (1, 1)):
+        with pytest.raises(InputError, match="infinite"):
+            evaluate(bessel(0), 0, x0=0, frobenius=start)
+    with pytest.raises(InputError, match="infinite"):  # exponents 0 and 1 with a logarithm: y is finite, y' isn't
+        evaluate("x*y'' + y = 0", 0, x0=0, frobenius=(1, 0))
+
+
+@pytest.mark.parametrize("centre", ["0", "1 + 2*I", "sqrt(2)"])
+def test_logarithms_at_centres_of_every_kind(centre: str) -> None:
+    """b = 2: exponents -1 and 2.  Few digits and many agree."""
+    minimal, b = {"0": ("x", 2), "1 + 2*I": ("x^2 - 2*x + 5", -32), "sqrt(2)": ("x^2 - 2", 16)}[centre]
+    equation = f"({b} + ({minimal})^3)/({minimal})^2"
+    coarse, fine = (evaluate(equation, "3/2", x0=centre, frobenius=(1, 0), digits=digits) for digits in (10, 90))
+    assert coarse.overlaps(fine)
+    assert fine.digits >= 90

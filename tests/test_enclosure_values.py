@@ -669,3 +669,14 @@ def test_a_right_hand_side_that_cannot_be_is_refused() -> None:
             evaluate(equation, 2, **options)
     with pytest.raises(InputError, match="without a right-hand side"):
         connection_matrix("y'' + y = x", [0, 1])
+
+
+@pytest.mark.parametrize("k", range(12))
+def test_a_complex_path_comes_to_its_end(k: int) -> None:
+    """Where the rest of the way is just longer than the disc that was tried, the next one has to be larger."""
+    a, b = Point(Fraction(59, 64), Fraction(47, 64)), Point(Fraction(-63, 64), Fraction(13, 32))
+    ends = [Point(p.re + Fraction(k, 97), p.im).scaled(Fraction(2) ** (k - 3)) for p in (a, b)]
+    system = System.make((0, 1), (1,))
+    assert sum(1 for _ in cover(system, ends[0], ends[1], 223, Budget(Limits(seconds=5)))) < 400
+    if k == 0:
+        assert len(list(cover(system, a, b, 223, Budget(Limits(seconds=5))))) < 10

@@ -39,10 +39,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from flint import acb, acb_poly, arb, fmpq
+from flint import acb, acb_poly, arb, ctx, fmpq
 
 from kovacic.enclosure.frame import log2
-from kovacic.enclosure.matrices import Matrix
+from kovacic.enclosure.matrices import Matrix, State
 from kovacic.enclosure.points import Point
 from kovacic.enclosure.singular import Operator, Singular
 from kovacic.enclosure.working import working_precision
@@ -151,7 +151,7 @@ class Basis:
             start, resonance = (1, 0), N
             if N == 0:
                 start, resonance = (0, 1), None
-            elif N is not None and isinstance(lower, fmpq) and N <= _SOUGHT and not _has_logarithm(op, lower, N):
+            elif N is not None and point.is_rational and N <= _SOUGHT and not _has_logarithm(op, lower, N):
                 resonance = -N
             balls = op.in_balls()
             self.solutions = (
@@ -170,6 +170,22 @@ class Basis:
             # slopes: dy/dx = theta y / t, and -t theta y for t = 1/x
             factor = -t if self.point.inverted else 1 / t
             return first[0], second[0], first[1] * factor, second[1] * factor
+
+
+def limit(point: Singular, start: State, budget: Budget) -> State:
+    """y and y' at the point itself, for coordinates in the basis; raises InputError where one is infinite."""
+    beside = Point(point.near.re + 1, point.near.im)
+    last, bound = junction(point, beside, 64)
+    basis = Basis(point, last, beside, bound, max(64, ctx.prec), budget)
+    total = acb(0), acb(0)
+    for coordinate, solution in zip(start, basis.solutions, strict=True):
+        if coordinate.is_zero():
+            continue
+        powers = [solution.derivative_at_zero(k) for k in (0, 1)]
+        if powers[0] is None or powers[1] is None:
+            raise InputError(f"y or y' is infinite at the singular point {point}", hint="choose a point beside it")
+        total = total[0] + coordinate * powers[0], total[1] + coordinate * powers[1]
+    return total
 
 
 def _apply(op: Operator, j: int, nu: Any, a: Pair) -> Pair:
@@ -212,6 +228,14 @@ class Expansion:
     U: acb_poly
     V: acb_poly
     errors: tuple[arb, arb]
+
+    def derivative_at_zero(self, k: int) -> acb | None:
+        """The limit of the derivative of order k = 0 or 1 for t to 0; None where it is infinite."""
+        exponent = self.exponent
+        if isinstance(exponent, fmpq) and exponent.q == 1 and 0 <= exponent <= k:
+            n = k - int(exponent.p)
+            return None if any(not self.V[m].is_zero() for m in range(n + 1)) else self.U[n]
+        return acb(0) if acb(exponent).real > k else None
 
     def at(self, t: acb, log: acb) -> tuple[acb, acb]:
         """y and theta y at t, with the logarithm of t."""

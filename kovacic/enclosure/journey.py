@@ -22,7 +22,7 @@ from flint import acb
 from kovacic.enclosure.closed_form import ClosedForm
 from kovacic.enclosure.exponential import LogDerivative
 from kovacic.enclosure.forcing import Forcing, forcing_of
-from kovacic.enclosure.frobenius import Basis, junction
+from kovacic.enclosure.frobenius import Basis, junction, limit
 from kovacic.enclosure.matrices import Product, State, apply, real_part
 from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import NumericProblem, System, check_segment
@@ -124,7 +124,10 @@ class Traveller:
         result: list[State] = []
         stops = list(stops)
         if isinstance(self.here, Singular):
-            result = self._leave(self.here, stops, start)
+            result = self._at_once(self.here, stops, start)
+            if len(result) == len(stops):
+                return result
+            result += self._leave(self.here, stops[len(result) :], start)
         here = self.here
         assert isinstance(here, Point)
         if self.problem.gauge is not None and stops[len(result) :]:
@@ -206,6 +209,11 @@ class Traveller:
             result.append((stops[done:count], detour))
             done = count
         return [*result, (stops[done:], [])]
+
+    def _at_once(self, point: Singular, stops: list[Point], start: State) -> list[State]:
+        """The states at the stops that are the singular point itself; nothing moves."""
+        count = 0 if point.inverted or not point.exact else sum(stop == point.near for stop in stops)
+        return [limit(point, start, self.budget)] * count if count else []
 
     def _leave(self, point: Singular, stops: list[Point], start: State) -> list[State]:
         """Out of the disc around a singular point; the states at the stops inside."""

@@ -83,6 +83,11 @@ class Singular:
         return min(roots, key=lambda root: float(abs(root - to_acb(self.near)).mid()))
 
     @property
+    def is_rational(self) -> bool:
+        """True if it is a rational number (or infinity): the operator's coefficients are rational, then."""
+        return self.exact and self.near.is_real()
+
+    @property
     def is_ordinary(self) -> bool:
         """True if the equation is regular here."""
         return self._orders[0] == 0
@@ -151,10 +156,9 @@ class Singular:
     def operator(self) -> Operator:
         """The operator: rational coefficients at a rational point, else balls of the working precision in force."""
         lines: list[list[Any]] = []
-        rational = self.exact and self.near.is_real()
-        here = to_fmpq(self.near.re) if rational else self.value()
+        here = to_fmpq(self.near.re) if self.is_rational else self.value()
         for k, poly in enumerate(self.equation):
-            if rational:
+            if self.is_rational:
                 moved = list(poly(fmpq_poly([here, 1])).coeffs())
             else:  # the first coefficients are exactly zero
                 x, kind = (here.real, arb_poly) if here.imag.is_zero() else (here, acb_poly)

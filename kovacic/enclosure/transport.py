@@ -202,6 +202,8 @@ def _next_disc(
     """
     remaining = (1 - t) ** 2 * piece.step.norm_squared()
     e = _exponent(remaining)
+    if not _reaches_end(remaining, e):  # a scale at which the last disc never comes would be taken again and again
+        e += 1
     if guess is not None:
         e = min(e, guess + 2)
     near = distance_lower(system, enter)
@@ -222,7 +224,7 @@ def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, growth: f
     None if it doesn't fit."""
     step, unit, grain = piece.step, Fraction(2) ** e, Fraction(2) ** (e - 4)
     size = step.norm_squared()
-    if (1 - t) ** 2 * size <= (2 * unit) ** 2 * Fraction(9, 10):
+    if _reaches_end((1 - t) ** 2 * size, e):
         centre, stop, leave = piece.at((1 + t) / 2).rounded(e - 4), Fraction(1), piece.b
     elif piece.real:  # rounded towards the junction behind: a nearest point may lie beyond the scale from there
         sign = 1 if step.re > 0 else -1
@@ -239,6 +241,11 @@ def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, growth: f
         return None
     found = fitting(system, centre, e, _RATIO, growth, (enter, leave))
     return None if found is None else Disc(found[0], enter, leave, stop, found[1])
+
+
+def _reaches_end(square: Fraction, e: int) -> bool:
+    """Does a disc of scale 2^e contain a way whose length has this square, with room to spare?"""
+    return square <= Fraction(4) ** (e + 1) * Fraction(9, 10)
 
 
 def _exponent(square: Fraction) -> int:

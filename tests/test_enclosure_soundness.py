@@ -1,0 +1,149 @@
+"""No true value outside of its ball: random problems against FLINT's special functions, whose balls are proven, too."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+import pytest
+from flint import acb, arb, ctx, fmpq
+
+from kovacic.enclosure.ball import ball_to_flint
+from kovacic.enclosure.evaluate import evaluate_states
+
+Function = Callable[[acb], acb]
+
+
+def exactly(value: Fraction) -> acb:
+    return acb(arb(fmpq(value.numerator, value.denominator)))
+
+
+@dataclass(frozen=True)
+class Family:
+    """An equation, and a solution of it with its derivative (by FLINT, in the right half-plane)."""
+
+    equation: str
+    y: Function
+    dy: Function
+    frobenius: tuple[Function, Function] | None = None
+    inside: Callable[[complex], bool] = lambda z: z.real > 0
+
+
+def airy(rng: random.Random) -> Family:
+    first, second = rng.randint(-9, 9), rng.randint(-9, 9) or 1
+
+    def y(z: acb, k: int = 0) -> acb:
+        return first * z.airy_ai(derivative=k) + second * z.airy_bi(derivative=k)
+
+    return Family("x", y, lambda z: y(z, 1), inside=lambda z: True)
+
+
+def bessel(rng: random.Random) -> Family:
+    nu, sign = Fraction(rng.randint(0, 40), rng.randint(1, 7)), rng.choice([1, -1])
+    v = nu
+
+    def y(z: acb, shift: int = 0) -> acb:
+        order = exactly(v + shift)
+        return z.bessel_j(order) if sign == 1 else z.bessel_i(order)
+
+    def dy(z: acb) -> acb:  # y' = nu/z y -+ y_(nu+1)
+        return exactly(v) / z * y(z) - sign * y(z, 1)
+
+    start = lambda _: acb(0), lambda _: 1 / (acb(2) ** exactly(v) * (exactly(v) + 1).gamma())
+    return Family(f"x^2*y'' + x*y' + ({sign}*x^2 - ({nu})^2)*y = 0", y, dy, start)
+
+
+def second_kind(rng: random.Random) -> Family:
+    nu, sign = Fraction(rng.randint(0, 12), rng.randint(1, 3)), rng.choice([1, -1])
+
+    def y(z: acb, shift: int = 0) -> acb:
+        order = exactly(nu + shift)
+        return z.bessel_y(order) if sign == 1 else z.bessel_k(order)
+
+    return Family(f"x^2*y'' + x*y' + ({sign}*x^2 - ({nu})^2)*y = 0", y, lambda z: exactly(nu) / z * y(z) - y(z, 1))
+
+
+def whittaker(rng: random.Random) -> Family:
+    k, m = Fraction(rng.randint(-9, 9), rng.randint(1, 5)), Fraction(rng.randint(0, 9), rng.randint(1, 5))
+    a, b = m - k + Fraction(1, 2), 2 * m + 1
+
+    def power(z: acb) -> acb:
+        return (-z / 2).exp() * z ** exactly(m + Fraction(1, 2))
+
+    def y(z: acb) -> acb:
+        return power(z) * z.hypgeom_1f1(exactly(a), exactly(b))
+
+    def dy(z: acb) -> acb:
+        inner = exactly(a / b) * z.hypgeom_1f1(exactly(a + 1), exactly(b + 1))
+        return (exactly(m + Fraction(1, 2)) / z - acb(1) / 2) * y(z) + power(z) * inner
+
+    return Family(f"1/4 - ({k})/x + (({m})^2 - 1/4)/x^2", y, dy, (lambda _: acb(0), lambda _: acb(1)))
+
+
+def gauss(rng: random.Random) -> Family:
+    a, b = (Fraction(rng.randint(-12, 12), rng.randint(1, 5)) for _ in "ab")
+    c = Fraction(rng.randint(1, 12), rng.randint(1, 5))
+
+    def y(z: acb, shift: int = 0) -> acb:
+        return z.hypgeom_2f1(exactly(a + shift), exactly(b + shift), exactly(c + shift))
+
+    start = (lambda _: acb(c < 1), lambda _: acb(c >= 1)) if c != 1 else (lambda _: acb(0), lambda _: acb(1))
+    return Family(
+        f"x*(1-x)*y'' + ({c} - ({a}+{b}+1)*x)*y' - ({a})*({b})*y = 0",
+        y,
+        lambda z: exactly(a * b / c) * y(z, 1),
+        start,
+        lambda z: z.imag > 0 or 0 < z.real < 1,
+    )
+
+
+FAMILIES = [airy, bessel, second_kind, whittaker, gauss]
+
+
+def check(seed: int) -> None:
+    rng = random.Random(seed)
+    family, digits = rng.choice(FAMILIES)(rng), rng.choice([5, 10, 15, 20, 30, 60])
+
+    def place(real: bool) -> tuple[Fraction, Fraction]:
+        while True:
+            scale = rng.choice([1, 1, 4, 20])
+            re, im = Fraction(rng.randint(-64 * scale, 64 * scale), 64), Fraction(rng.randint(-64, 64) * scale, 64)
+            point = re, Fraction(0) if real else im
+            if any(point) and point != (1, 0) and family.inside(complex(*point)):
+                return point
+
+    real = rng.random() < 0.5
+    origin, target = place(real), place(real)
+    if not real and (origin[1] < 0) != (target[1] < 0):
+        origin = origin[0], -origin[1]  # both on one side of the cuts
+        if not family.inside(complex(*origin)):
+            return
+    with ctx.workprec(1200):
+        z, x0 = (exactly(p[0]) + acb(0, 1) * exactly(p[1]) for p in (target, origin))
+        x = f"{target[0]} + ({target[1]})*I"
+        if family.frobenius is not None and rng.random() < 0.5:
+            start = {"x0": 0, "frobenius": [part(z) for part in family.frobenius]}
+        else:
+            start = {"x0": f"{origin[0]} + ({origin[1]})*I", "y0": family.y(x0), "dy0": family.dy(x0)}
+        expected, slope = family.y(z), family.dy(z)
+        (state,) = evaluate_states(family.equation, [x], digits=digits, **start)  # type: ignore[arg-type]
+        if not expected.is_finite():  # FLINT can't either
+            return
+        assert ball_to_flint(state.y).overlaps(expected), (seed, family.equation, start, x)
+        assert ball_to_flint(state.dy).overlaps(slope), (seed, family.equation, start, x)
+        assert state.reached or expected.rel_accuracy_bits() < 4 * digits, (seed, state.note)
+
+
+@pytest.mark.parametrize("block", range(6))
+def test_no_true_value_is_outside_of_its_ball(block: int) -> None:
+    for seed in range(50 * block, 50 * (block + 1)):
+        check(seed)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("block", range(40))
+def test_no_true_value_is_outside_of_its_ball_thousands(block: int) -> None:
+    for seed in range(1000 + 100 * block, 1000 + 100 * (block + 1)):
+        check(seed)
