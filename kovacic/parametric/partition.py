@@ -25,7 +25,7 @@ from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget
-from kovacic.parametric import confluent, generic, riemann
+from kovacic.parametric import confluent, generic, quotient, riemann
 from kovacic.parametric.answer import Condition, Verdict
 from kovacic.parametric.functions import degrees, denominators, irreducible_factors, over_parameters, union
 from kovacic.parametric.natural import Natural
@@ -95,6 +95,9 @@ def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
     form = confluent.recognise(problem, settings.variable)
     if form is not None:
         return _confluent(problem, form, expected, settings)
+    symmetric = quotient.recognise(problem, settings.variable)
+    if symmetric is not None:
+        return _symmetric(problem, symmetric, expected, settings)
     if settings.only_theorems:
         return Partition(expected, "for generic values only", "no theorem covers all values")
     return _by_candidates(problem, expected, settings)
@@ -123,6 +126,19 @@ _SEMI_INVARIANTS = {
     Structure.ICOSAHEDRAL: "a rational invariant of degree 12; omega of degree 12",
     Structure.REDUCIBLE: _RATIONAL_OMEGA,
 }
+
+
+def _symmetric(problem: Problem, found: quotient.Quotient, expected: Verdict, settings: Settings) -> Partition:
+    theory = f"at most three regular singular points in {found.coordinate}: Kimura's theorem"
+    regions = _degenerate(problem.S, generic.confluence(problem), settings)
+    always = Verdict(None)
+    for structure, statements, family in quotient.structures(found):
+        verdict = Verdict(structure, family=family)
+        if statements is True:
+            always = verdict
+            break
+        regions.append(Condition(either(statements), verdict, omega=_SEMI_INVARIANTS[structure]))
+    return _closed(regions, always, theory, expected)
 
 
 def _confluent(problem: Problem, form: confluent.Confluent, expected: Verdict, settings: Settings) -> Partition:

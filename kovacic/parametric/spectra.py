@@ -116,7 +116,7 @@ def integer_condition(
         )
     if spectrum is None:
         return sum_of_roots
-    if roots is not None and len(roots[1]) == 2:
+    if roots is not None and len(roots[1]) > 1:
         that_is = r"\text{, that is }" if latex else ", that is "
         short = len(_spectrum(equation, residues, modulus, letter, fixed, False) or "") <= _BESIDE
         return f"{sum_of_roots}{that_is}{spectrum}" if short else sum_of_roots
@@ -237,14 +237,24 @@ def _where_undefined(choice: _Choice, letter: str, latex: bool) -> str:
 
 
 def _roots(equation: FunctionPoly) -> tuple[FunctionPoly, list[Poly]] | None:
-    """`(r, squares)` where the roots are r +- the roots of one or two squares; None where they aren't."""
+    """`(r, squares)` where the roots are r +- the roots of one, two or three squares; None where they aren't."""
     field, k = equation.field, equation.degree
-    if k not in (2, 4):
+    if k not in (2, 4, 8):
         return None
     mean = over_parameters(-equation[k - 1] / (equation.lc * k))
     shifted = equation(field.poly([0, 1]) + mean) / equation.lc
     if k == 2:
         return mean, [-shifted[0]]
+    if k == 8:  # ((z - s1)^2 - 4 s2)^2 - 64 s3 z with z = N^2, s_i the symmetric functions of the three squares
+        e6, e4, e2 = (shifted[i] for i in (6, 4, 2))
+        s1 = -e6 / 4
+        s2 = (6 * s1 * s1 - e4) / 8
+        s3 = (16 * s1 * s2 - 4 * s1**3 - e2) / 64
+        if any(shifted[i] for i in (1, 3, 5, 7)) or shifted[0] != (s1 * s1 - 4 * s2) ** 2:
+            return None
+        factors = field.factor(field.poly([-s3, s2, -s1, 1]))
+        squares = [-factor[0] for factor, multiplicity in factors for _ in range(multiplicity) if factor.degree == 1]
+        return (mean, squares) if len(squares) == 3 else None
     difference = None if shifted[1] else field.sqrt(shifted[0])
     if difference is None:
         return None

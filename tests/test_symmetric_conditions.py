@@ -1,0 +1,88 @@
+"""Symmetric equations: the conditions of the quotient, and the case of the equation itself."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+import kovacic
+
+F = Fraction
+LAME = "((4*n^2 + 4*n - 3)*x^4 + (-4*n^2 - 4*n - 6)*x^2 - 3)/(16*x^6 - 32*x^4 + 16*x^2)"
+EQUIANHARMONIC = "((4*n^2 + 4*n - 3)*x^4 + (-4*n^2 - 4*n - 24)*x)/(16*x^6 - 32*x^3 + 16)"
+
+
+def pulled_back(n: int, p: str, q: str, r: str) -> str:
+    """The equation in x, z = x^n, whose quotient has these exponent differences at z = 0, 1, infinity."""
+    S = f"(-(1-({p})^2)/(4*z^2)-(1-({q})^2)/(4*(z-1)^2)-(({p})^2+({q})^2-({r})^2-1)/(4*z*(z-1)))".replace(
+        "z", f"(x^{n})"
+    )
+    return f"{n}^2*x^{2 * n - 2}*({S}) + ({n}^2-1)/(4*x^2)"
+
+
+def lines(S: str) -> list[str]:
+    answer = kovacic.conditions(S, var="x")
+    assert answer.complete is True
+    return [line.strip() for line in answer.text().splitlines()[1:-2]]
+
+
+def test_lame_on_the_lemniscatic_and_the_equianharmonic_curve() -> None:
+    """B = 0 with g3 = 0 and with g2 = 0; n in 1/2 + N by Brioschi and Halphen, the finite groups by Baldassarri 1981."""
+    assert lines(LAME) == ["n in Z: case 1", "n = 1/2 mod 2: case 2", "n = 1/6, 5/6 mod 2: case 3"]
+    assert lines(EQUIANHARMONIC) == [
+        "n = 0, 2 mod 3: case 1",
+        "n = 1 mod 3: case 2",
+        "n = 1/2, 3/2 mod 3: case 2",
+        "n = 1/10, 1/4, 7/10, 13/10, 7/4, 19/10 mod 3: case 3",
+    ]
+    for n, case in ((F(40), 1), (F(-83, 2), 2), (F(1, 6) + 40, 3), (F(3, 2), None), (F(1, 3), None)):
+        assert kovacic.conditions(LAME, var="x").case_at({"n": n}) == case
+
+
+@pytest.mark.parametrize(
+    ("n", "differences"),
+    [
+        (2, ("p", "q", "r")),
+        (3, ("p", "q", "r")),
+        (4, ("p", "1/2", "r")),
+        (3, ("p", "1/2", "1/3")),
+        (3, ("1/3", "1/3", "r")),
+        (2, ("1/4", "1/3", "r")),
+        (2, ("1/2", "1/2", "r")),
+        (6, ("1/3", "1/2", "r")),
+    ],
+)
+def test_the_case_of_the_equation_itself_agrees_with_the_engine(n: int, differences: tuple[str, str, str]) -> None:
+    answer = kovacic.conditions(pulled_back(n, *differences), var="x")
+    assert answer.complete is True
+    report = answer.check(40)
+    assert report, report.disagreements
+    assert report.open == 0
+
+
+def test_the_groups_over_the_quotient_split() -> None:
+    """Half-integers at 0 and infinity: reducible over C(sqrt z); a tetrahedral group over C(z^(1/3)): the quaternions."""
+    quadratic = kovacic.conditions(pulled_back(2, "p", "q", "r"), var="x")
+    assert quadratic.case_at({"p": F(1, 2), "q": F(1, 7), "r": F(3, 2)}) == 1
+    assert quadratic.case_at({"p": F(1, 2), "q": F(1, 2), "r": F(1, 7)}) == 2
+    cubic = kovacic.conditions(pulled_back(3, "p", "q", "r"), var="x")
+    assert cubic.case_at({"p": F(1, 3), "q": F(1, 2), "r": F(2, 3)}) == 2
+    assert cubic.case_at({"p": F(1, 3), "q": F(2, 3), "r": F(1, 3)}) == 3  # all three are branch points
+    region = cubic.region_at({"p": F(1, 3), "q": F(1, 2), "r": F(2, 3)})
+    assert region is not None
+    assert region.group == "the quaternion group"
+
+
+def test_the_centre_of_symmetry_is_found() -> None:
+    moved = pulled_back(2, "p", "q", "r").replace("x", "(x-3)")
+    answer = kovacic.conditions(moved, var="x")
+    assert answer.complete is True
+    assert "(x - (3))^2" in answer.theory
+    assert answer.check(30)
+
+
+def test_three_square_roots_are_written_as_such() -> None:
+    answer = kovacic.conditions("(a*x^4+b*x^2+c)/(x^2*(x^2-1)^2)", var="x")
+    first = str(answer.regions[0].statement)
+    assert first == "sqrt(4*a + 1)/2 +- sqrt(4*c + 1)/2 +- sqrt(a + b + c + 1) is an odd integer"
