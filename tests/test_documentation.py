@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from documents import PAGES, ROOT, check_command, check_links, check_python, sessions
 
+import kovacic
+
 SESSIONS = sessions(*PAGES)
 each_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 
@@ -34,6 +36,11 @@ def test_a_guide_starts_with_something_that_runs(page: Path) -> None:
     if page.name not in ("gallery.md", "first-uses.md", "json.md", "batches.md"):
         assert first is not None
         assert first[1] in ("console", "python")
+
+
+def test_the_reference_has_every_public_name() -> None:
+    reference = (ROOT / "docs" / "reference" / "api.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"^\.\. auto\w+:: kovacic\.(\w+)$", reference, re.MULTILINE)) == set(kovacic.__all__)
 
 
 def test_the_comparison_has_the_figures_of_its_file() -> None:

@@ -138,6 +138,8 @@ class _Writer:
         if any(char in S.text for char in " /-"):
             S = Math(f"({S.text})", rf"\left({S.latex}\right)")
         yield Heading("The equation", 1)
+        if solution.change is not None:
+            yield _say(f"{solution.text}, which becomes an equation with rational coefficients:")
         if equation is None or equation.is_normal_form:
             yield Formula(Math(f"y'' = {S.text} y", f"y'' = {S.latex} y"))
         else:
