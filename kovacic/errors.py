@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 
 
 class KovacicError(Exception):
@@ -49,13 +50,8 @@ class InputError(KovacicError, ValueError):
         return "\n".join(parts)
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _rebuild_input_error, (type(self), self.message, self.text, self.position, self.length, self.hint)
-
-
-def _rebuild_input_error(
-    cls: type[InputError], message: str, text: str | None, position: int | None, length: int, hint: str | None
-) -> InputError:
-    return cls(message, text=text, position=position, length=length, hint=hint)
+        details = {"text": self.text, "position": self.position, "length": self.length, "hint": self.hint}
+        return partial(type(self), **details), (self.message,)  # type: ignore[arg-type]
 
 
 class ParseError(InputError):
@@ -78,11 +74,7 @@ class LimitExceeded(KovacicError):
         self.limit = limit
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _rebuild_limit_exceeded, (self.args[0], self.limit)
-
-
-def _rebuild_limit_exceeded(message: str, limit: str) -> LimitExceeded:
-    return LimitExceeded(message, limit=limit)
+        return partial(LimitExceeded, limit=self.limit), self.args
 
 
 class VerificationFailed(KovacicError):

@@ -64,7 +64,7 @@ def _images(polynomial: Poly, p: int, root: int) -> Any:
             (_images(part, p, root) * pow(root, k, p) for k, part in enumerate(polynomial.parts)), nmod_poly([], p)
         )
     denominator = polynomial.common_denominator()
-    return nmod_poly((polynomial * denominator).numerator(), p) * pow(denominator, -1, p)  # type: ignore[attr-defined]
+    return nmod_poly((polynomial * denominator).rep.numer(), p) * pow(denominator, -1, p)  # type: ignore[attr-defined]
 
 
 def _roots(field: Any, p: int) -> list[int]:

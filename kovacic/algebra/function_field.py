@@ -19,7 +19,7 @@ from kovacic.algebra.embedding import square_part
 from kovacic.algebra.interpolation import Evaluation, Samples
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
-from kovacic.algebra.sparse import constant_term, factorisation, format_terms, laurent_constant, square_root
+from kovacic.algebra.sparse import by_power, constant_term, factorisation, format_terms, laurent_constant, square_root
 from kovacic.limits import check_time
 
 #: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.
@@ -199,10 +199,8 @@ class FunctionPoly(Poly):
 
     def _columns(self) -> list[Any]:
         """The coefficients of the powers of x in the numerator, as polynomials in the parameters."""
-        columns: list[dict[tuple[int, ...], Any]] = [{} for _ in range(self.degree + 1)]
-        for exponents, coefficient in self.num.to_dict().items():
-            columns[int(exponents[0])][(0, *exponents[1:])] = coefficient
-        return [self._field.context.from_dict(column) for column in columns]
+        columns, zero = by_power(self.num, 0), self._field.context.constant(0)
+        return [columns.get(k, zero) for k in range(self.degree + 1)]
 
     def content(self) -> Any:
         """The greatest common divisor in Z[t] of the coefficients of the numerator."""

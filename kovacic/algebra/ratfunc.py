@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 from kovacic.algebra.poly import Field, Poly, Scalar, quotient_str
@@ -50,7 +51,7 @@ class RatFunc:
         raise AttributeError("rational functions are immutable")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (self.num, self.den)
+        return partial(RatFunc, reduced=True), (self.num, self.den)
 
     @property
     def field(self) -> Field:
@@ -161,10 +162,6 @@ class RatFunc:
 
     def __repr__(self) -> str:
         return f"<RatFunc {self.to_str()}>"
-
-
-def _rebuild(num: Poly, den: Poly) -> RatFunc:
-    return RatFunc(num, den, reduced=True)
 
 
 def _homogenise(polynomial: Poly, point: RatFunc, degree: int) -> Poly:

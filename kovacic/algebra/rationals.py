@@ -49,11 +49,6 @@ class RationalPoly(Poly):
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("polynomials are immutable")
 
-    @classmethod
-    def of(cls, coefficients: Iterable[Scalar]) -> RationalPoly:
-        """From coefficients, low to high."""
-        return cls(fmpq_poly([c if isinstance(c, int) else to_fmpq(c) for c in coefficients]))
-
     def __reduce__(self) -> tuple[Any, ...]:
         return _rational_poly_from_key, self.key()
 
@@ -191,10 +186,6 @@ class RationalPoly(Poly):
 
     def height_bits(self) -> int:
         return max(int(self.rep.numer().height_bits()), int(self.rep.denom()).bit_length())
-
-    def numerator(self) -> Any:
-        """The flint integer polynomial `common_denominator() * self`."""
-        return self.rep.numer()
 
     def coefficient_strings(self) -> list[str]:
         return list(map(str, self.rep.numer().coeffs()))

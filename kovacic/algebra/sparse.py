@@ -33,6 +33,7 @@ def laurent_constant(num: Any, den: Any, variable: int) -> Any:
 
 
 def by_power(polynomial: Any, variable: int) -> dict[int, Any]:
+    """The coefficients of the powers of a variable that occur."""
     columns: dict[int, dict[tuple[int, ...], Any]] = {}
     for exponents, coefficient in polynomial.to_dict().items():
         rest = (*exponents[:variable], 0, *exponents[variable + 1 :])
