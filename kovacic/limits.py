@@ -101,8 +101,11 @@ def limited(call: Callable[_P, _R]) -> Callable[_P, _R]:
     @wraps(call)
     def within(*arguments: _P.args, **keywords: _P.kwargs) -> _R:
         given = keywords.get("limits") or (getattr(arguments[0], "limits", None) if arguments else None)
-        with Budget(given if isinstance(given, Limits) else DEFAULT_LIMITS).watched():
+        token = _WATCHED.set(Budget(given if isinstance(given, Limits) else DEFAULT_LIMITS))
+        try:
             return call(*arguments, **keywords)
+        finally:
+            _WATCHED.reset(token)
 
     return within
 

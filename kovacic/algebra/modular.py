@@ -123,6 +123,9 @@ def rational_function_from_series(series: Any, order: int, top: int) -> tuple[An
     return r1, t1
 
 
+#: So few residues are inverted one by one.
+_FEW = 12
+
 #: Terms of a solution that are computed one by one before their share of all later ones is added.
 _BLOCK = 64
 
@@ -174,9 +177,9 @@ def _extend_one_by_one(
     for j, inverse in enumerate(inverses, first):
         # Scalar products of the coefficients with the last terms, backwards.
         back = start if j < start + reach else j - reach
-        total = shares[j] + sum(map(mul, c, u[:back:-1]))
-        total += sum(map(mul, b, weighted[:back:-1]))
-        total += sum(map(mul, a, twice_weighted[:back:-1]))
+        total = sum(map(mul, c, u[:back:-1]), shares[j])
+        total = sum(map(mul, b, weighted[:back:-1]), total)
+        total = sum(map(mul, a, twice_weighted[:back:-1]), total)
         value = -total * inverse % p
         u.append(value)
         weighted.append(j * value % p)
@@ -184,10 +187,12 @@ def _extend_one_by_one(
 
 
 def inverses_modulo(values: Sequence[int], p: int) -> list[int]:
-    """The inverses, by one of their product [Montgomery].  Raises `BadPrimeError` where p divides a value."""
-    products = list(accumulate(values, lambda product, value: product * value % p, initial=1))
-    if not products[-1]:
+    """The inverses of residues, of many by one of their product [Montgomery].  Raises `BadPrimeError` for a zero."""
+    if not all(values):
         raise BadPrimeError(f"{p} divides a value that is to be inverted")
+    if len(values) <= _FEW:
+        return [pow(value, -1, p) for value in values]
+    products = list(accumulate(values, lambda product, value: product * value % p, initial=1))
     inverse, inverses = pow(products.pop(), -1, p), []
     for value, product in zip(reversed(values), reversed(products), strict=True):
         inverses.append(inverse * product % p)

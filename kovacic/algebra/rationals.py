@@ -20,6 +20,8 @@ from kovacic.limits import check_time, watched_seconds
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
 _EUCLID_DEGREE = 16
+#: Numbers up to this size are printed faster as Python's integers.
+_LONG_BITS = 1000
 #: Above this degree it is tried first whether a polynomial to be factored is a square: gcds with derivatives are slow.
 _ROOT_DEGREE = 50
 #: Above this degree polynomials are factored in a process that can be stopped.
@@ -187,8 +189,14 @@ class RationalPoly(Poly):
     def height_bits(self) -> int:
         return max(int(self.rep.numer().height_bits()), int(self.rep.denom()).bit_length())
 
+    def to_str(self, variable: str = "x") -> str:
+        return self.integer_str(variable) if self.rep.denom() == 1 else super().to_str(variable)
+
     def coefficient_strings(self) -> list[str]:
-        return list(map(str, self.rep.numer().coeffs()))
+        numerator = self.rep.numer()
+        if numerator.height_bits() > _LONG_BITS:  # Python prints integers of at most 4300 digits
+            return list(map(str, numerator.coeffs()))
+        return [str(int(c)) for c in numerator.coeffs()]
 
     def to_sympy(self, variable: Any) -> Any:
         from sympy import Add, Rational

@@ -38,7 +38,7 @@ class Point:
     at_infinity: bool = False
     known: tuple[Poly, Poly] | None = None
 
-    @cached_property
+    @property
     def near(self) -> tuple[Poly, Poly]:
         """N and q modulo p^order, for S = N/(p^order q); for a double pole N and p'^2 q modulo p."""
         if self.known:
