@@ -17,6 +17,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import kovacic
+from kovacic.algebra.modular import rational_function_from_series
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import NoInvariant, NoRationalOmega, SemiInvariant, Structure
@@ -28,7 +29,7 @@ from kovacic.verify import GroupClaim, verify
 from kovacic.verify.evidence import Inspector
 from kovacic.verify.local import zero_counts
 from kovacic.verify.residue import exponent_difference_squared
-from kovacic.verify.series import convolving_recurrence, fraction_of_series
+from kovacic.verify.series import convolving_recurrence
 
 X = RatFunc(QQ.poly([0, 1]))
 PRIMES = [101, 10007, (1 << 61) - 1]
@@ -73,7 +74,7 @@ def test_the_fraction_is_that_of_euclids_algorithm(
     while r1.degree() > top:
         quotient, rest = divmod(r0, r1)
         r0, r1, t0, t1 = r1, rest, t1, t0 - quotient * t1
-    A, B = fraction_of_series(series, order, top)
+    A, B = rational_function_from_series(series, order, top)
     assert A.degree() == r1.degree()
     assert A * t1 == B * r1
     assert A == (B * series).truncate(order)

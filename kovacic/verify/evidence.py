@@ -16,6 +16,7 @@ from kovacic.algebra.modular import (
     null_space,
     ordinary_point,
     power_series,
+    rational_function_from_series,
     simple_roots,
     square_root,
     square_root_series,
@@ -42,7 +43,7 @@ from kovacic.verify.local import (
     points,
     zero_counts,
 )
-from kovacic.verify.series import convolving_recurrence, fraction_of_series
+from kovacic.verify.series import convolving_recurrence
 
 _ORDERS = {
     Structure.TETRAHEDRAL: {1, 2, 3},
@@ -309,6 +310,6 @@ def _is_rational(series: Any, num: Any, den: Any, nu: int, degree: int, growth: 
     """
     top = degree + growth
     order = top + degree + 2
-    A, multiple = fraction_of_series(den.right_shift(nu).mul_low(series, order), order, top)
+    A, multiple = rational_function_from_series(den.right_shift(nu).mul_low(series, order), order, top)
     B = den * multiple
     return multiple.degree() <= degree and bool(den * (A.derivative() * B - A * B.derivative() + A * A) == num * B * B)
