@@ -142,8 +142,9 @@ def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: Rat
         check_time()
         with ctx.workdps(digits):
             point = acb(arb(fmpq(-137, 101)), arb(fmpq(-71, 89)))
-            if residual(expression, variable, S, gauge, point) < arb(10) ** -DIGITS:
-                return True
+            value, bound = residual(expression, variable, S, gauge, point), arb(10) ** -DIGITS
+            if value < bound or value > bound:  # neither holds for a ball that contains the bound
+                return bool(value < bound)
     return False
 
 

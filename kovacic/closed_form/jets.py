@@ -9,12 +9,13 @@ are those of the integrand.  In y1 int y1^-2 and exp(int ...) the constant chang
 from __future__ import annotations
 
 from functools import lru_cache, reduce
-from math import prod
 from operator import add, mul
 from typing import Any
 
 import sympy
 from flint import acb, acb_poly, acb_series, arb, ctx, fmpq, fmpz_poly
+
+from kovacic.closed_form.special_values import derivatives, hypergeometric, rewritten
 
 Number = Any  # flint's acb
 Value = Any  # flint's acb_series, or an acb where the variable doesn't occur
@@ -28,6 +29,9 @@ _UNARY = {
     sympy.erf: "erf",
     sympy.erfi: "erfi",
     sympy.Ei: "ei",
+    sympy.gamma: "gamma",
+    sympy.airyai: "airy_ai",
+    sympy.airybi: "airy_bi",
 }
 
 
@@ -80,7 +84,13 @@ class _Evaluator:
             name = "gamma_upper" if isinstance(e, sympy.uppergamma) else "gamma_lower"
             return getattr(acb_series, name)(self(e.args[0]), self(e.args[1]))
         if isinstance(e, sympy.hyper):
-            return self._hyper(e)
+            z = self(e.argument)
+            return _taylor(z, hypergeometric(e, self, z[0]))
+        if (known := rewritten(e)) is not None:
+            return self(known)
+        if (rule := derivatives(e.func)) is not None:
+            *parameters, z = map(self, e.args)
+            return _taylor(z, [rule(k, parameters, z[0]) for k in range(3)])
         if e.is_Symbol:
             return parameter_value(e.name)
         if not e.free_symbols:
@@ -98,15 +108,11 @@ class _Evaluator:
         integers = polynomial.clear_denoms()[1].all_coeffs()[::-1]
         return [root for root, _ in fmpz_poly([int(c) for c in integers]).complex_roots()]
 
-    def _hyper(self, e: Any) -> Value:
-        """F(z + h) = F(z) + F'(z) h + F''(z) h^2/2 + ..., the derivatives by the parameters raised by one."""
-        top, bottom, z = [self(a) for a in e.ap], [self(b) for b in e.bq], self(e.argument)
-        value, step, factor = acb(0), acb(1), acb(1)
-        for k in range(3):
-            value = value + step * (factor * z[0].hypgeom([a + k for a in top], [b + k for b in bottom]))
-            factor *= prod((a + k for a in top), start=acb(1)) / prod((b + k for b in bottom), start=acb(1)) / (k + 1)
-            step = step * (z - z[0])
-        return value
+
+def _taylor(z: Value, values: list[Number]) -> Value:
+    """g(z) for a series z, from g and its derivatives at the constant term."""
+    step = z - z[0]
+    return values[0] + step * (values[1] + step * (values[2] / 2))
 
 
 def _with_real_roots(polynomial: Any, tolerance: Any) -> list[Number]:

@@ -52,7 +52,7 @@ def special_functions(
 
     `symbols` are SymPy's symbols for the parameters by name; the expressions are in these, and what is assumed about them is
     used: with n a natural number, Hermite's equation has `hermite(n, x)`.  The pull-back is verified exactly, in rational
-    functions; the functions of SymPy are those of the standard equations (DLMF).  Liouvillian solutions aren't looked for, but
+    functions; what is shown is checked at a point, to 50 digits.  Liouvillian solutions aren't looked for, but
     where the group is reducible the two solutions may be dependent for some values of the parameters.
 
     >>> import kovacic
@@ -68,7 +68,7 @@ def special_functions(
 
     try:
         with budget.watched():
-            found = solutions(search.pullback, gauge, variable, symbols or {})
+            found = solutions(search.pullback, S, gauge, variable, symbols or {})
     except LimitExceeded as limit:
         return SpecialFunctions(None, None, None, search.searched, str(limit))
     if found is None:

@@ -81,6 +81,7 @@ class Writer:
         self.gauge, self.atoms = gauge, Atoms(x)
         self.symbols = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
         self._squares: list[Poly] = []
+        self._shown: dict[Number | Poly, Expr] = {}
 
     def factor(
         self, f: RatFunc, powers: Sequence[tuple[Number, RatFunc]], exponent: tuple[Number, RatFunc] | None = None
@@ -102,11 +103,11 @@ class Writer:
         return Factor(product(rate), tuple(others))
 
     def pair(self, first: Term, second: Term) -> tuple[Expr, Expr]:
-        """The two solutions in the user's symbols, the one with fewer factors first."""
+        """The two solutions, the one with fewer factors first."""
         if second[0].size < first[0].size:
             first, second = second, first
         y1, y2 = (Mul(display(f.product, self.atoms), *f.others, function) for f, function in (first, second))
-        return y1.xreplace(self.symbols), y2.xreplace(self.symbols)
+        return y1, y2
 
     # ------------------------------------------------------------------------------------- constants
 
@@ -124,6 +125,11 @@ class Writer:
         return Number(zero, ((square, zero + 1),))
 
     def constant(self, value: Number | Poly) -> Expr:
+        if value not in self._shown:
+            self._shown[value] = self._constant(value)
+        return self._shown[value]
+
+    def _constant(self, value: Number | Poly) -> Expr:
         if isinstance(value, Number):
             return sympy.Add(
                 self.constant(value.part), *(self.constant(c) * sympy.sqrt(self.constant(s)) for s, c in value.roots)
@@ -142,7 +148,8 @@ class Writer:
 
     def is_degree(self, value: Number) -> bool:
         """Is it known to be natural, and does it depend on a parameter?"""
-        return bool(self.constant(value).free_symbols) and self.is_natural(value)
+        assumed = any(symbol.is_integer for symbol in self.symbols.values())
+        return assumed and bool(self.constant(value).free_symbols) and self.is_natural(value)
 
     def is_negative(self, value: Number | Poly) -> bool:
         """Would it be written with a minus sign?"""
