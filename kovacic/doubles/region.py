@@ -65,16 +65,23 @@ class Region:
             raise InputError(
                 "complex arguments need a rectangle of the complex plane", hint="give two opposite corners as interval"
             )
-        points = points.astype(float if self.is_real else complex)
-        inside = (points.real >= self.low.real) & (points.real <= self.high.real)
-        inside &= (points.imag >= self.low.imag) & (points.imag <= self.high.imag)
-        for end, singular in zip((self.low, self.high), self.singular, strict=True):
-            if singular:
-                inside &= points != end
-        if not np.all(inside):
+        points = points.astype(float if self.is_real else complex, copy=False)
+        if points.size and not self._contains(points):
             shown = (self.low.real, self.high.real) if self.is_real else (self.low, self.high)
             raise InputError(f"a point lies outside of the interval {shown} of this function, or on a singular point")
         return points
+
+    def _contains(self, points: Any) -> bool:
+        """By the extremes, which are NaN where a point is."""
+        if not self.is_real:
+            ends = zip((self.low, self.high), self.singular, strict=True)
+            if any(singular and np.any(points == end) for end, singular in ends):
+                return False
+            inside = self.low.imag <= points.imag.min() and points.imag.max() <= self.high.imag
+            return bool(inside and self.low.real <= points.real.min() and points.real.max() <= self.high.real)
+        low, high = points.min(), points.max()
+        left = self.low.real < low if self.singular[0] else self.low.real <= low
+        return bool(left and (high < self.high.real if self.singular[1] else high <= self.high.real))
 
 
 def in_blocks(function: Callable[[Any], Any], points: Any, block: int = BLOCK) -> Any:
