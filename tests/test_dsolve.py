@@ -511,3 +511,55 @@ def test_sympy_s_own_equations() -> None:
         numbers |= dict(zip(constants, (Rational(7, 5), Rational(-3, 4)), strict=True))
         rest = left.subs(y(x), value).doit().subs(numbers)
         assert abs(sympy.N(rest.subs(x, Rational(37, 100)), 30)) < 1e-15, text
+
+
+@pytest.mark.parametrize(
+    ("text", "functions"),
+    [
+        ("x^2*y'' - 2*y = exp(x)", {sympy.Ei(x)}),
+        ("y'' - y = 1/x", {sympy.Ei(x), sympy.Ei(-x)}),
+        ("y'' - w^2*y = 1/x", {sympy.Ei(w * x), sympy.Ei(-w * x)}),
+        ("y'' - y = sqrt(x)", {sympy.erf(sqrt(x)), sympy.erfi(sqrt(x))}),
+        ("y'' - 2*y' + y = exp(x)/(1+x^2)", {sympy.atan(x), sympy.log(x**2 + 1)}),
+        ("x*y'' - (1+x)*y' + y = x^2*exp(2*x)", set()),
+        ("x^2*y'' - 2*y = x^3*exp(x)", set()),
+        ("x^2*y'' + x*y' - (x^2+1/4)*y = x^2*exp(-3*x/2)", {sympy.erf(sqrt(10 * x) / 2), sympy.erf(sqrt(2 * x) / 2)}),
+        ("2*x^2*y'' + 3*x*y' - y = 1/(x-1)", None),
+    ],
+)
+def test_variation_of_products(text: str, functions: set | None) -> None:
+    """Own integrals, without SymPy's; no multiple of a solution of the homogeneous equation is added."""
+    solution = dsolve(text, var="x")
+    checked(text, solution, w="13/7")
+    part = solution.rhs.subs({C1: 0, C2: 0})
+    if functions is not None:
+        assert part.atoms(sympy.Ei, sympy.erf, sympy.erfi, sympy.atan, sympy.log) == functions
+
+
+@pytest.mark.parametrize("right", ["x^2", "x", "log(-x)", "1/x"])
+def test_particular_solutions_are_real_to_the_left(right: str) -> None:
+    for left in ("x^2*y'' - x*y' + y", "4*x^2*y'' + y", "x*y'' + y'"):
+        found = dsolve(f"{left} = {right}", ics={"y(-1)": 1, "y'(-1)": 2})
+        checked(f"{left} = {right}", found, ("-0.37", "-2.55"))
+        assert not found.rhs.has(I)
+        assert abs(sympy.N(found.rhs.diff(x).subs(x, -1) - 2, 30)) < 1e-25
+
+
+@pytest.mark.parametrize("ics", [{"y(2)": 2, "y(5/4)": 1}, {"y(1)": 1, "y'(1)": 0}])
+def test_values_with_integrals_that_are_left(ics: dict) -> None:
+    """SymPy isn't asked for the integrals from one point to another."""
+    start = time.monotonic()
+    found = dsolve("x^2*y'' + x*y' + (4*x^2 - 25/4)*y = cos(3*x)", ics=ics, limits=kovacic.Limits(seconds=3)).rhs
+    assert time.monotonic() - start < 3 + 8
+    assert found.free_symbols == {x}
+
+
+def test_a_singular_point_between() -> None:
+    """No real solution joins the two sides; sqrt(x) changes from real to imaginary."""
+    for text, ics in (
+        ("4*x*y'' + 2*y' - y = 0", {"y(-2)": 1, "y(2)": 1}),
+        ("x*y'' + y' = Heaviside(x-1)", {"y(-1)": 1, "y'(-1)": 1}),
+    ):
+        with pytest.raises(ValueError, match="a singular point of the equation lies between"):
+            dsolve(text, ics=ics)
+    assert dsolve("x^2*y'' - 2*x*y' + 2*y = 0", ics={"y(-1)": 0, "y(1)": 2}).rhs == x**2 + x

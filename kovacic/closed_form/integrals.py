@@ -21,7 +21,9 @@ from kovacic.closed_form.primitive import (
     ExponentialPrimitive,
     OpenPrimitive,
     PowerPrimitive,
+    Primitive,
     RationalPrimitive,
+    integrate,
     normalised_constant,
 )
 from kovacic.closed_form.product import Power, Product
@@ -42,13 +44,31 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
     if isinstance(primitive, CurvePrimitive):
         value, notes = curve_integral(primitive.integral, atoms)
         return first, Add(*(first * term for term in Add.make_args(value))), notes
+    return first, _sum(_terms(form.first, primitive, parts, atoms)), ()
+
+
+def times_integral(y: Product, h: Product, atoms: Atoms) -> Expr | None:
+    """y int h dx with its constant factor, None where the integral would be left.  The branches of roots may not agree."""
+    primitive, parts = integrate(h), factors(y, atoms)
+    if isinstance(primitive, OpenPrimitive):
+        return None
+    if isinstance(primitive, CurvePrimitive):
+        value, notes = curve_integral(primitive.integral, atoms)
+        return None if notes else Add(*(Mul(parts[0], *parts[1], term) for term in Add.make_args(value)))
+    return Add(*(c * e for c, e in _terms(y, primitive, parts, atoms)))
+
+
+def _terms(y: Product, primitive: Primitive, first: Factors, atoms: Atoms) -> list[Scaled]:
+    """y times the integral."""
     if isinstance(primitive, RationalPrimitive):
-        return first, _rational(form, primitive, parts, atoms), ()
+        return _rational(y, primitive, first, atoms)
     if isinstance(primitive, PowerPrimitive):
-        return first, _power(form, primitive, parts, atoms), ()
+        return _power(y, primitive, first, atoms)
     if isinstance(primitive, CompositePrimitive):
-        return first, _composite(form, primitive, parts, atoms), ()
-    return first, _exponential(form, primitive, parts, atoms), ()
+        return _composite(y, primitive, first, atoms)
+    if isinstance(primitive, ExponentialPrimitive):
+        return _exponential(y, primitive, first, atoms)
+    raise TypeError(f"{type(primitive).__name__} has no such terms")
 
 
 def _sum(terms: list[Scaled]) -> Expr:
@@ -68,16 +88,16 @@ def _scaled(scale: Expr, parts: list[Expr]) -> Scaled:
     return scale * coefficient, rest
 
 
-def _rational(form: Triangular, primitive: RationalPrimitive, first: Factors, atoms: Atoms) -> Expr:
+def _rational(y: Product, primitive: RationalPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
     exact, residues = primitive.parts.exact, primitive.parts.residues
     if not residues:
         exact = normalised_constant(exact)
     terms = []
     if exact:
-        terms.append(_scaled(*factors(form.first, atoms, exact)))
+        terms.append(_scaled(*factors(y, atoms, exact)))
     scale, parts = first
     terms += [_scaled(scale, [*parts, term]) for term in logarithms(residues, atoms)]
-    return _sum(terms)
+    return terms
 
 
 def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
@@ -101,11 +121,11 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
     return terms[::-1]
 
 
-def _exponential(form: Triangular, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> Expr:
+def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
     """first * (W k e^constant + the special functions times e^constant)."""
     terms = []
     if primitive.W:
-        terms.append(_algebraic_part(form, primitive, atoms))
+        terms.append(_algebraic_part(y, primitive, atoms))
     shift = exp(atoms.constant(primitive.constant)) if primitive.constant else Integer(1)
     t = atoms.x - atoms.constant(primitive.centre)
     scale, parts = first
@@ -124,12 +144,12 @@ def _exponential(form: Triangular, primitive: ExponentialPrimitive, first: Facto
             body = atoms.poly(rho, a) * exp(beta * (a - centre)) * Ei(beta * (atoms.x - a))
             value = atoms.root_sum(atoms.poly(p, a), body)
             terms.append(_scaled(scale, [*parts, shift, value]))
-    return _sum(terms)
+    return terms
 
 
-def _composite(form: Triangular, primitive: CompositePrimitive, first: Factors, atoms: Atoms) -> Expr:
+def _composite(y: Product, primitive: CompositePrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
     """first * (W exp(E) + the terms with Ei and with error functions)."""
-    terms, y, E = [], form.first, primitive.E
+    terms, E = [], primitive.E
     if primitive.W:
         merged = Product(y.powers, y.roots, y.exponential + E)
         terms.append(_scaled(*factors(merged, atoms, primitive.W, like=y)))
@@ -142,16 +162,16 @@ def _composite(form: Triangular, primitive: CompositePrimitive, first: Factors, 
         root = atoms.sqrt(error.b if grows else -error.b)
         value = [exp(atoms.constant(error.e)), sqrt(pi) * (erfi if grows else erf)(root * atoms.sum(error.q))]
         terms.append(_scaled(scale * atoms.constant(error.coefficient) / (2 * root), [*parts, *value]))
-    return _sum(terms)
+    return terms
 
 
-def _power(form: Triangular, primitive: PowerPrimitive, first: Factors, atoms: Atoms) -> Expr:
+def _power(y: Product, primitive: PowerPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
     """first * (W t^alpha + the logarithms of t^(1/n) - z)."""
     terms = []
     t, alpha = primitive.t, primitive.alpha
     if primitive.W:
-        powers = _with_exponents(form.first, (t.num, alpha), (t.den, -alpha))
-        terms.append(_scaled(*factors(replace(form.first, powers=powers), atoms, primitive.W(t), like=form.first)))
+        powers = _with_exponents(y, (t.num, alpha), (t.den, -alpha))
+        terms.append(_scaled(*factors(replace(y, powers=powers), atoms, primitive.W(t), like=y)))
     scale, parts = first
     n = alpha.denominator
     v = Mul(*(atoms.poly(p) ** e for p, e in ((t.num, rational(Fraction(1, n))), (t.den, rational(Fraction(-1, n))))))
@@ -160,7 +180,7 @@ def _power(form: Triangular, primitive: PowerPrimitive, first: Factors, atoms: A
         body = atoms.poly(residue.value, z**n) * z ** int(alpha * n) * sympy.log(v - z)
         value = atoms.root_sum(atoms.poly(residue.factor, z**n), body)
         terms.append(_scaled(scale, [*parts, value]))
-    return _sum(terms)
+    return terms
 
 
 def _with_exponents(y: Product, *changes: tuple[Poly, Fraction]) -> tuple[Power, ...]:
@@ -172,13 +192,12 @@ def _with_exponents(y: Product, *changes: tuple[Poly, Fraction]) -> tuple[Power,
     return tuple(Power(base, exponent) for base, exponent in powers.items() if exponent)
 
 
-def _algebraic_part(form: Triangular, primitive: ExponentialPrimitive, atoms: Atoms) -> Scaled:
+def _algebraic_part(y: Product, primitive: ExponentialPrimitive, atoms: Atoms) -> Scaled:
     """first * W * k e^constant, as one product."""
-    first, field = form.first, primitive.beta.field
-    t = field.poly([-primitive.centre, 1])
-    inner = first.exponential + RatFunc(t) ** primitive.n * primitive.beta + primitive.constant
-    merged = _with_exponents(first, (t, primitive.alpha))
-    return _scaled(*factors(Product(merged, first.roots, inner), atoms, primitive.W, like=first))
+    t = primitive.beta.field.poly([-primitive.centre, 1])
+    inner = y.exponential + RatFunc(t) ** primitive.n * primitive.beta + primitive.constant
+    merged = _with_exponents(y, (t, primitive.alpha))
+    return _scaled(*factors(Product(merged, y.roots, inner), atoms, primitive.W, like=y))
 
 
 def _special(primitive: ExponentialPrimitive, power: int, t: Expr, atoms: Atoms) -> Scaled:

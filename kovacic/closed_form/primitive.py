@@ -123,32 +123,37 @@ Primitive = (
 
 
 def integrate_inverse_square(y: Product) -> Primitive:
-    """int y^-2 dx.
+    """int y^-2 dx."""
+    return integrate(y.to_power(-2))
+
+
+def integrate(h: Product) -> Primitive:
+    """int h dx.
 
     >>> from kovacic.algebra.rationals import QQ
     >>> from kovacic.closed_form.product import product
     >>> x = RatFunc(QQ.poly([0, 1]))
-    >>> done = integrate_inverse_square(product(-x / 2, QQ.poly([0, -3, 0, 1])))  # (x^3 - 3 x) exp(-x^2/4)
+    >>> y = product(-x / 2, QQ.poly([0, -3, 0, 1]))  # (x^3 - 3 x) exp(-x^2/4)
+    >>> done = integrate(y.to_power(-2))
     >>> print(done.W, [(str(term.coefficient), term.power) for term in done.terms])
     (-x**2 + 2)/(6*x**3 - 18*x) [('1/6', 0)]
     """
-    field = y.field
-    if y.roots:
-        return OpenPrimitive(f"the exponents at the roots of {y.roots[0].factor} are different algebraic numbers")
+    field = h.field
+    if h.roots:
+        return OpenPrimitive(f"the exponents at the roots of {h.roots[0].factor} are different algebraic numbers")
     rational = RatFunc(field.poly([1]))
     fractional: list[tuple[Poly, Fraction]] = []
-    for power in y.powers:
+    for power in h.powers:
         exponent = power.rational_exponent
         if exponent is None:
             return OpenPrimitive(f"the exponent at {power.base} is irrational")
-        exponent = -2 * exponent
         if abs(exponent) > _LARGEST_EXPONENT:
             return OpenPrimitive(f"the factor {power.base} has the power {exponent} in the integrand")
         if exponent.denominator == 1:
             rational = rational * RatFunc(power.base) ** int(exponent)
         else:
             fractional.append((power.base, exponent))
-    E = y.exponential * -2
+    E = h.exponential
     if E.is_polynomial and E.num.degree <= 0:
         return _without_exponential(rational, fractional)
     return _with_exponential(rational, fractional, E)

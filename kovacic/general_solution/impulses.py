@@ -17,8 +17,7 @@ from typing import Any
 import sympy
 from sympy import DiracDelta, Heaviside
 
-from kovacic.general_solution.initial_values import value_at
-from kovacic.general_solution.variation import simplified
+from kovacic.general_solution.initial_values import tidy, value_at
 
 Expr = Any  # SymPy publishes no types
 
@@ -36,31 +35,30 @@ def response(right: Expr, x: Expr, y1: Expr, y2: Expr, solved: Callable[[Expr], 
             plain.append(term)
             continue
         g = term / jumps[0]
-        place = _place(jumps[0], x)
+        place = place_of(jumps[0], x)
         if len(jumps) != 1 or place is None or g.has(DiracDelta, Heaviside):
             return None
         a, slope = place
         u, v, du, dv = (value_at(y, x, a, order) for order in (0, 1) for y in (y1, y2))
-        wronskian = simplified(u * dv - du * v)
+        wronskian = tidy(u * dv - du * v)
         if wronskian.has(sympy.nan, sympy.zoo, sympy.oo) or wronskian == 0:
             return None
 
         def with_values(value: Expr, rate: Expr) -> Expr:
             """The homogeneous solution with these values at a."""
             first, second = (value * dv - rate * v) / wronskian, (rate * u - value * du) / wronskian  # noqa: B023
-            return simplified(first) * y1 + simplified(second) * y2
+            return tidy(first) * y1 + tidy(second) * y2
 
         if jumps[0].func is DiracDelta:
-            total += Heaviside(x - a) * simplified(with_values(0, g.subs(x, a) / abs(slope)))
+            total += Heaviside(x - a) * tidy(with_values(0, g.subs(x, a) / abs(slope)))
         else:
             p = solved(g)
-            after = p - with_values(value_at(p, x, a), value_at(p, x, a, 1))
-            total += Heaviside(x - a) * (simplified(after) if not after.has(sympy.Integral) else after)
+            total += Heaviside(x - a) * tidy(p - with_values(value_at(p, x, a), value_at(p, x, a, 1)))
     rest = sympy.Add(*plain)
     return total + (solved(rest) if rest != 0 else 0)
 
 
-def _place(jump: Expr, x: Expr) -> tuple[Expr, Expr] | None:
+def place_of(jump: Expr, x: Expr) -> tuple[Expr, Expr] | None:
     """(a, s) for a step or an impulse of s (x - a) with numbers s and a; s > 0 for a step."""
     inner = jump.args[0]
     slope = inner.diff(x)

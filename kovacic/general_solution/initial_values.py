@@ -15,6 +15,9 @@ from kovacic.errors import InputError
 from kovacic.general_solution.variation import simplified
 from kovacic.reading.exponential import in_terms_of
 from kovacic.reading.given import Equation
+from kovacic.reading.parser import shown
+
+_ELEMENTARY = {sympy.exp, sympy.log, sympy.sin, sympy.cos, sympy.tan, sympy.sinh, sympy.cosh, sympy.tanh, sympy.atan}
 
 
 @dataclass(frozen=True)
@@ -102,38 +105,48 @@ def constants(
     for (a, b, r), (c, d, s) in combinations(rows, 2):
         determinant = a * d - b * c
         if initial or not _is_zero(determinant):  # that of initial values is the Wronskian at an ordinary point
-            values = [_tidy((r * d - b * s) / determinant), _tidy((a * s - r * c) / determinant)]
+            values, used = [tidy((r * d - b * s) / determinant), tidy((a * s - r * c) / determinant)], 2
             break
     else:
-        values = list(names)
-        for u, v, r in rows:
-            if not _is_zero(v):
-                values[1] = _tidy(r / v) - _tidy(u / v) * names[0]
-            elif not _is_zero(u):
-                values[0] = _tidy(r / u)
-            else:
-                continue
-            break
-    if not initial and any(not _is_zero(u * values[0] + v * values[1] - r) for u, v, r in rows):
+        values, used = list(names), 0
+        pivot = next(((u, v, r) for u, v, r in rows if not (_is_zero(u) and _is_zero(v))), None)
+        if pivot is not None:
+            (u, v, r), used = pivot, 1
+            k = 0 if _is_zero(v) else 1
+            values[k] = tidy(r / (u, v)[k]) - (0 if k == 0 else tidy(u / v) * names[0])
+    if len(rows) > used and any(not _is_zero(u * values[0] + v * values[1] - r) for u, v, r in rows):
         raise InputError("there is no solution with these values: the conditions contradict one another")
     return dict(zip(names, values, strict=True))
 
 
-def _tidy(value: Any) -> Any:
-    """Simplified, but for special functions, which SymPy takes long for."""
-    if value.is_Rational or value.has(sympy.hyper, sympy.RootSum):
+def tidy(value: Any) -> Any:
+    """Simplified, but for special functions and integrals, which SymPy takes long for."""
+    value = sympy.sympify(value, strict=True)
+    irrational = any(not p.exp.is_Rational and not p.base.is_Symbol for p in value.atoms(sympy.Pow))
+    if value.is_Rational or irrational or value.has(sympy.RootSum, sympy.Integral):
         return value
-    return simplified(value) if value.has(sympy.Function) else sympy.radsimp(sympy.cancel(value))
+    functions = {f.func for f in value.atoms(sympy.Function)}
+    if not functions:
+        return sympy.radsimp(sympy.cancel(value))
+    return simplified(value) if functions <= _ELEMENTARY else value
 
 
 def _is_zero(value: Any) -> bool:
-    """Is a constant zero?  By its value where it isn't, else by SymPy's simplification; symbols have generic values."""
+    """Is a constant zero?  By its value where it isn't, else by SymPy's simplification; symbols have generic values.
+
+    Raises `NotImplementedError` where SymPy can't tell.
+    """
     value = sympy.sympify(value, strict=True)
     if value.is_Rational:
         return bool(value == 0)
-    if not value.free_symbols and abs(value.evalf(30, maxn=100)) > sympy.Float("1e-20"):
-        return False
-    return value.equals(0) is not False if not value.free_symbols else sympy.simplify(value) == 0
+    if not value.free_symbols:
+        number = value.evalf(30, maxn=100)
+        if number.is_number and abs(number) > sympy.Float("1e-20"):
+            return False
+    answer = value.equals(0) if not value.free_symbols else sympy.simplify(value) == 0
+    if answer is None:
+        raise NotImplementedError(f"undecided: whether {shown(value, 60)} is zero")
+    return bool(answer)
 
 
 def value_at(expression: Any, x: Any, point: Any, order: int = 0) -> Any:
@@ -152,4 +165,6 @@ def value_at(expression: Any, x: Any, point: Any, order: int = 0) -> Any:
             said = f"the special functions of the closed form are singular at {point}, where the solutions aren't"
             raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
         value = sympy.limit(expression, x, point)
-    return value.doit() if value.has(sympy.Integral) else value
+    return value.xreplace(
+        {i: sympy.Integer(0) for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:]}
+    )

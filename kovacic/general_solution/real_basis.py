@@ -6,11 +6,16 @@ well; otherwise the real and the imaginary part of each solution are solutions, 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import sympy
 
+from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_numerical_solution
+from kovacic.errors import InputError
+from kovacic.general_solution.products import is_solution
+from kovacic.reading.given import Equation
 from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types
@@ -35,6 +40,24 @@ def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> 
         if abs(wronskian.evalf(30)) > 1e-20:
             return found[0], found[k]
     return y1, y2
+
+
+def check_one_side(pair: tuple[Expr, Expr], x: Expr, points: Sequence[Expr]) -> None:
+    """Raises `ValueError` where a singular point lies between two of the points, so that no real solution joins them."""
+    sides = {frozenset(e for y in pair for e in _negative(y, x, p)) for p in points if p.is_real}
+    if len(sides) > 1:
+        said = ", ".join(map(str, points))
+        raise InputError(f"a singular point of the equation lies between {said}: on each side the solutions are others")
+
+
+def real_particular(y: Expr, equation: Equation, x: Expr, point: Expr) -> Expr:
+    """A solution of the inhomogeneous equation that is real at the point, if one is found; else the given one."""
+    negative = _negative(y, x, point) if point.is_real else {}
+    if not negative or y.has(sympy.Integral, sympy.Heaviside):
+        return y
+    right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
+    candidates = [y.xreplace({e: e.func(-u, *e.args[1:]) for e, u in negative.items()}), *_parts(y, negative, x)[:1]]
+    return next((found for found in candidates if is_solution(found, equation, right, x)), y)
 
 
 def _negative(y: Expr, x: Expr, point: Expr) -> dict[Expr, Expr]:

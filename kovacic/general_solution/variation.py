@@ -16,10 +16,10 @@ from kovacic.algebra.apart import last_of
 #: The largest expression (in operations) that is handed to SymPy's general simplification.
 _SIMPLIFIED = 150
 #: Seconds for the integrals of one equation, at most.
-SECONDS = 30.0
+SECONDS = 10.0
 
 
-def particular_solution(y1: Any, y2: Any, right: Any, x: Any, start: Any, seconds: float) -> Any:
+def with_integrals(y1: Any, y2: Any, right: Any, x: Any, start: Any, seconds: float) -> Any:
     """A solution of y'' + ... = right; integrals that aren't done (in time) stay, and begin at `start` unless it is None."""
     stages = last_of(_stages, y1, y2, right, x, start, seconds=min(seconds, SECONDS))
     if stages is not None:
