@@ -14,6 +14,7 @@ Y. Hida, X. Li and D. Bailey, "Algorithms for quad-double precision floating poi
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cache
 from typing import Any
 
@@ -117,7 +118,7 @@ def complex_reciprocal(a: Complex) -> Complex:
     return divide(a[0], norm), negative(divide(a[1], norm))
 
 
-def horner(coefficients: tuple[Pair, ...], x: Pair) -> Pair:
+def horner(coefficients: Iterable[Pair], x: Pair) -> Pair:
     """A real polynomial (coefficients high to low, as pairs) at x."""
     total: Pair = (0.0 * x[0], 0.0 * x[0])
     for c in coefficients:

@@ -75,11 +75,11 @@ class TabulatedFunction:
     def __call__(self, x: Any) -> Any:
         """y(x) as doubles, or complex doubles; raises InputError outside of the interval."""
         points = self.region.points(x)
-        result = in_blocks(self._values, points) if self.careful else in_blocks(self._plain_values, points, 16 * BLOCK)
+        result = in_blocks(self._values, points, 16 * BLOCK)
         base = float(self.base.re) if self.base.is_real() else complex(self.base)
         return result if self.gauge is None else result * (self.gauge(points) / self.gauge(base))
 
-    def _plain_values(self, points: Any) -> Any:
+    def _values(self, points: Any) -> Any:
         """Piece by piece, so that the coefficients are numbers."""
         flat = points.reshape(-1)
         index = np.searchsorted(self.edges, flat, side="right")
@@ -88,21 +88,20 @@ class TabulatedFunction:
         found = np.zeros((len(self.coefficients), flat.size))
         for k in np.flatnonzero(np.diff(ends)):
             run = slice(ends[k], ends[k + 1])
-            u = np.ldexp(flat[run] - self.centres[k], -self.exponents[k])
-            for row, part in zip(found, self.coefficients, strict=True):
-                total = np.zeros(u.shape)
-                for c in part[0, ::-1, k]:
-                    total *= u
-                    total += c
-                row[order[run]] = total
+            u = scaled(two_sum(flat[run], -self.centres[k]), -self.exponents[k])
+            for row, (high, low) in zip(found, self.coefficients[:, :, ::-1, k], strict=True):
+                row[order[run]] = (
+                    sum(horner(zip(high, low, strict=True), u)) if self.careful else _polynomial(high, u[0])
+                )
         return (found[0] if len(found) == 1 else found[0] + 1j * found[1]).reshape(points.shape)
 
-    def _values(self, points: Any) -> Any:
-        index = np.searchsorted(self.edges, points, side="right")
-        u = scaled(two_sum(points, -self.centres[index]), -self.exponents[index])
-        rows = [part[:, ::-1, index] for part in self.coefficients]
-        parts = [sum(horner(tuple((part[0, n], part[1, n]) for n in range(part.shape[1])), u)) for part in rows]
-        return parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
+
+def _polynomial(coefficients: Any, u: Any) -> Any:
+    total = np.zeros(u.shape)
+    for c in coefficients:
+        total *= u
+        total += c
+    return total
 
 
 def tabulate(
