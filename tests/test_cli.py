@@ -420,6 +420,14 @@ def test_lines_keep_to_the_width_of_a_terminal() -> None:
     assert " ".join(" ".join(lines).split()) == " ".join(whole.split())
     coloured = on_terminal({key: value for key, value in env.items() if key != "NO_COLOR"}, "solve", "x")
     assert re.sub(r"\x1b\[\d*m", "", coloured).replace("\r\n", "\n").splitlines() == lines
+    for command in (
+        ["conditions", "n/x^2 + m/(x-1)^2 + 1"],
+        ["dsolve", "y'' + y = x^3*cos(5*x)*exp(x)"],
+        ["explain", "x"],
+    ):
+        shown = on_terminal({**env, "COLUMNS": "60", "NO_COLOR": "1"}, *command).replace("\r\n", "\n").splitlines()
+        tables = [line for line in shown if re.search(r"\S {2,}\S", line)]
+        assert max((len(line) for line in shown if line not in tables), default=0) <= 60
     long = "x^1000 + 12345678901234567890123456789012345678901234567890*x"
     assert long.replace(" ", "") in on_terminal(env, "solve", long, "--var", "x").replace("\r\n", "").replace(" ", "")
     assert len(on_terminal(env, "solve", "--json", "x").splitlines()) == 1

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from kovacic.cli.main import BAD_INPUT, CHECK_FAILED, DECIDED, UNDECIDED
-from kovacic.cli.options import parse_assumptions, parse_limits, refuse_options
+from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
+from kovacic.cli.options import fitted, parse_assumptions, parse_limits, refuse_options
 
 if TYPE_CHECKING:
     from kovacic.parametric.answer import CheckReport
@@ -41,18 +41,13 @@ def command(
     kovacic conditions "(4*n^2 - 1)/(4*x^2) - 1"
     kovacic conditions --check 200 "x^4 + mu*x"
     """
-    from kovacic.errors import InputError, LimitExceeded
     from kovacic.parametric.api import conditions
 
     refuse_options((equation,))
     assumptions = parse_assumptions(assume)
-    try:
-        answer = conditions(equation, var=var, assume=assumptions, max_degree=max_degree, limits=parse_limits(limits))
-        report = None if samples is None else answer.check(samples)
-    except (InputError, LimitExceeded) as error:
-        print(f"kovacic: {error}", file=sys.stderr)
-        return BAD_INPUT if isinstance(error, InputError) else UNDECIDED
-    print(answer.to_json() if as_json else answer.latex() if as_latex else answer.text(all=everything))
+    answer = conditions(equation, var=var, assume=assumptions, max_degree=max_degree, limits=parse_limits(limits))
+    report = None if samples is None else answer.check(samples)
+    print(answer.to_json() if as_json else answer.latex() if as_latex else fitted(answer.text(all=everything)))
     if report is not None:
         print(
             f"  checked at {report.inside} points inside and {report.outside} outside: {_agreement(report)}",
