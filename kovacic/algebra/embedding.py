@@ -125,16 +125,11 @@ def _complex(pair: tuple[Fraction, Fraction] | None) -> Any:
 
 def real_root_index(modulus: Poly, position: tuple[Fraction, Fraction]) -> int | None:
     """How many real roots of a polynomial over Q lie below the real root at `position`; None if that one isn't real."""
-    integral = fmpz_poly([int(c * modulus.common_denominator()) for c in modulus.rational_coefficients()])
     with ctx.workprec(_PRECISION):
-        roots = [root for root, _ in integral.complex_roots()]
-        target = _complex(position)
-        nearest = min(roots, key=lambda root: float(abs(root - target).mid()))
-        if not nearest.imag.contains(0) or any(
-            root is not nearest and abs(root - nearest.conjugate()).contains(0) for root in roots
-        ):
+        nearest, *others = _roots(modulus, _complex(position))
+        if not nearest.imag.contains(0) or any(abs(root - nearest.conjugate()).contains(0) for root in others):
             return None
-        return sum(1 for root in roots if root.imag.contains(0) and root.real < nearest.real)
+        return sum(1 for root in others if root.imag.contains(0) and root.real < nearest.real)
 
 
 def refined_root(minimal: Poly, approximation: Any) -> Any:
@@ -145,11 +140,15 @@ def refined_root(minimal: Poly, approximation: Any) -> Any:
 
 def _nearest_root(modulus: Poly, target: Any) -> tuple[Fraction, Fraction]:
     """The root of a rational polynomial that lies nearest to the target."""
-    integral = fmpz_poly([int(c * modulus.common_denominator()) for c in modulus.rational_coefficients()])
     with ctx.workprec(_PRECISION):
-        roots = [root for root, _ in integral.complex_roots()]
-        nearest = min(roots, key=lambda root: float(abs(root - target).mid()))
+        nearest = _roots(modulus, target)[0]
         return _fraction(nearest.real), _fraction(nearest.imag)
+
+
+def _roots(modulus: Poly, target: Any) -> list[Any]:
+    """Balls around the roots of a polynomial over Q, the nearest one to the target first."""
+    integral = fmpz_poly([int(c * modulus.common_denominator()) for c in modulus.rational_coefficients()])
+    return sorted((root for root, _ in integral.complex_roots()), key=lambda root: float(abs(root - target).mid()))
 
 
 def _fraction(value: Any) -> Fraction:

@@ -25,10 +25,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import count
 from math import lcm
 from typing import Any
 
-from flint import nmod_poly
+from flint import fmpz, nmod_poly
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.modular import BadPrimeError, simple_roots, square_root
@@ -171,7 +172,7 @@ def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
 
 def _homomorphisms(field: Field) -> Iterator[Homomorphism]:
     if isinstance(field, RationalField):
-        yield from (RationalHomomorphism(p) for p in _primes_from(5))
+        yield from (RationalHomomorphism(p) for p in count(5) if fmpz(p).is_prime())
     elif isinstance(field, AlgebraicField):
         for base in _homomorphisms(field.base):
             try:
@@ -179,13 +180,6 @@ def _homomorphisms(field: Field) -> Iterator[Homomorphism]:
             except BadPrimeError:
                 continue
             yield from (ExtensionHomomorphism(base, root) for root in simple_roots(modulus))
-
-
-def _primes_from(p: int) -> Iterator[int]:
-    while True:
-        if all(p % q for q in range(2, int(p**0.5) + 1)):
-            yield p
-        p += 1
 
 
 def _order_modulo(h: Homomorphism, problem: Problem, f: SemiInvariant, curve: Curve, l: int) -> int | None:  # noqa: E741
