@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,7 @@ from kovacic.special.find import find
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 from kovacic.special.writer import Writer
 from tests.special_cases import KINDS, Case, pull_backs
-from tests.transform import pull_back
+from tests.transform import hypergeometric, pull_back
 
 x = sympy.Symbol("x")
 X = RatFunc(QQ.poly([0, 1]))
@@ -269,3 +270,38 @@ def test_dsolve_gives_polynomials_where_the_degree_is_a_natural_number() -> None
     y, t = sympy.Function("y"), sympy.Symbol("t")
     hermite = kovacic.dsolve(y(t).diff(t, 2) - 2 * t * y(t).diff(t) + 2 * n * y(t), y(t)).rhs
     assert hermite.coeff(sympy.Symbol("C1")) == sympy.hermite(n, t)
+
+
+@pytest.mark.parametrize("degree", [9, 20])
+def test_powers_of_high_degree(degree: int) -> None:
+    standard = hypergeometric(Fraction(1, 7), Fraction(2, 5), Fraction(1, 11))
+    for f in (X**degree, 1 / (X**degree + 3), (X**degree + 2) / (X**degree - 1)):
+        assert find(pull_back(standard, f), Budget()).pullback is not None
+
+
+ENCLOSED = [
+    ("y'' = x*y", 0, 2),
+    ("x^2*y'' + x*y' + (x^2 - 1/9)*y = 0", 1, 3),
+    ("y'' = (x^2 + 1/3)*y", 0, 1),
+    ("x*y'' + y' - (x + 2/7)*y = 0", 1, 2),
+]
+
+
+@pytest.mark.parametrize(("equation", "x0", "x1"), ENCLOSED)
+def test_values_agree_with_proven_enclosures(equation: str, x0: int, x1: int) -> None:
+    """Two routes: the functions by mpmath, and the Taylor series of the equation with proven error bounds."""
+    answer = kovacic.solve(equation)
+    for y in answer.special:
+        with mpmath.workdps(40):
+            u = sympy.lambdify(x, y, "mpmath")
+            (start, slope), end = mpmath.taylor(u, x0, 1), u(x1)
+            y0, dy0 = (Fraction(str(v.real)) for v in (start, slope))
+            ball = answer.at(x1, x0=x0, y0=y0, dy0=dy0, digits=25)
+            assert abs(ball.to_mpmath() - end.real) < mpmath.mpf(10) ** -20 * (1 + abs(end))
+
+
+def test_views_show_them() -> None:
+    answer = kovacic.solve("y'' = x*y")
+    assert "Ai" in answer._repr_latex_()
+    assert "<mi>A</mi><mi>i</mi>" in answer._repr_html_()
+    assert "Ai" in answer.explain(format="latex")

@@ -16,9 +16,7 @@ _CONFLUENT = (
     "Whittaker's equation (with Kummer's, Weber's and Bessel's) in f(x), f rational",
     "Bessel's equation in the square root of f(x), f rational",
 )
-_GAUSS = (
-    f"Gauss' hypergeometric equation in f(x), f rational of degree at most {gauss.MOST}, two of its fibres singular",
-)
+_GAUSS = ("Gauss' hypergeometric equation in f(x), f rational, all points singular over two of 0, 1 and infinity",)
 
 
 @dataclass(frozen=True)

@@ -21,8 +21,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
 from kovacic.special.pullback import Gauss, Pullback
 
-#: The largest degree of f, the most places that are distributed, and up to which number apparent ones are among them.
-MOST, _PLACES, _WITH_APPARENT = 12, 14, 7
+#: The most places that are distributed, and up to which number apparent ones are among them.
+_PLACES, _WITH_APPARENT = 14, 7
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,9 @@ def candidates(problem: Problem) -> Iterator[Pullback]:
         yield from _apart(problem, different[0])
     if len(places) > _PLACES or different:
         return
-    fibres = sorted(_fibres(regular if len(regular) <= _WITH_APPARENT else places), key=lambda fibre: fibre.degree)
+    # f of degree n has 2 n - 2 ramification points, so that there are n + 2 points or more over 0, 1 and infinity.
+    among = regular if len(regular) <= _WITH_APPARENT else places
+    fibres = sorted(_fibres(among, 2 * sum(place.degree for place in among) - 4), key=lambda fibre: fibre.degree)
     tried = set()
     for i, zeros in enumerate(fibres):
         for poles in fibres[i + 1 :]:
@@ -61,7 +63,6 @@ def candidates(problem: Problem) -> Iterator[Pullback]:
                 continue
             used = [place for place, _ in (*zeros.places, *poles.places)]
             rest = [place for place in places if not any(place is one for one in used)]
-            # f has at most 2 n - 2 ramification points, so that there are n + 2 points or more over 0, 1 and infinity.
             visible, third = (sum(place.degree for place in some) for some in (used, rest))
             if visible + third + (zeros.degree - third) // 2 < zeros.degree + 2:
                 continue
@@ -79,15 +80,15 @@ def _apart(problem: Problem, place: Place) -> Iterator[Pullback]:
         yield from candidates(analyse(S, problem.budget))
 
 
-def _fibres(places: list[Place]) -> Iterator[_Fibre]:
-    """Every set of places that can be a whole fibre, with every way to choose the multiplicities."""
+def _fibres(places: list[Place], most: int) -> Iterator[_Fibre]:
+    """Every set of places that can be a whole fibre of a function of degree `most` or less, with its multiplicities."""
 
     def extend(index: int, chosen: list[Place], size: int) -> Iterator[list[Place]]:
         if chosen:
             yield chosen
         for k in range(index, len(places)):
             more = size + places[k].degree
-            if more <= MOST and (not chosen or _ratio(places[k], chosen[0]) is not None):
+            if more <= most and (not chosen or _ratio(places[k], chosen[0]) is not None):
                 yield from extend(k + 1, [*chosen, places[k]], more)
 
     for chosen in extend(0, [], 0):
@@ -100,7 +101,7 @@ def _fibres(places: list[Place]) -> Iterator[_Fibre]:
         unit = Fraction(gcd(*(r.numerator for r in known)), lcm(*(r.denominator for r in known)))
         least = [int(ratio / unit) for ratio in known]
         size = sum(m * place.degree for m, place in zip(least, chosen, strict=True))
-        for k in range(1, MOST // size + 1):
+        for k in range(1, most // size + 1):
             square = first * unit * unit * Fraction(1, k * k)
             yield _Fibre(tuple((place, k * m) for place, m in zip(chosen, least, strict=True)), square, k * size)
 

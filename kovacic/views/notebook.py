@@ -18,12 +18,11 @@ _LONGEST = 3000
 def latex_view(solution: Solution) -> str:
     """The equation and, where there are some, two solutions, between dollar signs."""
     lines = [_equation(solution)]
-    if solution.case is not None:
-        lines += [f"{name} = {value}" for name, value, _ in _solutions(solution)]
-    elif solution.status is Status.NONE_EXISTS:
+    if solution.status is Status.NONE_EXISTS:
         lines.append(r"\text{no Liouvillian solution}")
-    else:
+    elif solution.status is Status.UNDECIDED:
         lines.append(r"\text{undecided}")
+    lines += [f"{name} = {value}" for name, value, _ in _solutions(solution)]
     body = r" \\ ".join(lines)
     return rf"$\displaystyle \begin{{array}}{{l}} {body} \end{{array}}$"
 
@@ -44,10 +43,10 @@ def html_view(solution: Solution) -> str:
     group = solution.group
     if group is not None:
         rows.append((["Galois group"], [Math(group.name, group.latex), f", {group.description}"]))
+    for name, latex, text in _solutions(solution):
+        rows.append(([Math("", name)], [Math(text[:_LONGEST], latex if len(latex) <= _LONGEST else "")]))
     form = solution.closed_form
     if form is not None:
-        for name, latex, text in _solutions(solution):
-            rows.append(([Math("", name)], [Math(text[:_LONGEST], latex if len(latex) <= _LONGEST else "")]))
         rows += [(["note"], [note]) for note in form.notes]
         rows.append((["solutions checked"], [form.checked]))
     rows.append((["verified"], ["yes, by independent code" if solution.verified else "no"]))
@@ -56,11 +55,12 @@ def html_view(solution: Solution) -> str:
 
 
 def _solutions(solution: Solution) -> list[tuple[str, str, str]]:
-    """y_1 and y_2: name and expression in LaTeX, and the expression as text."""
+    """y_1 and y_2: name and expression in LaTeX, and the expression as text; special functions where nothing is Liouvillian."""
     from sympy import latex
 
     y = "y" if solution.equation is None else solution.equation.unknown
-    return [(f"{y}_{{{k}}}", latex(value), str(value)) for k, value in enumerate(solution.solutions, start=1)]
+    found = solution.special if solution.status is Status.NONE_EXISTS else solution.solutions
+    return [(f"{y}_{{{k}}}", latex(value), str(value)) for k, value in enumerate(found, start=1)]
 
 
 def _equation(solution: Solution) -> str:
