@@ -265,6 +265,24 @@ def test_a_forged_invariant_fails(text: str, invariant: Any) -> None:
             _ = forged.group
 
 
+@pytest.mark.parametrize("text", ["3/(4*x^2)", "1/x - 3/(16*x^2)", "-3/(16*x^2) - 2/(9*(x-1)^2) + 3/(16*x*(x-1))"])
+def test_an_invariant_that_is_almost_a_power_of_the_semi_invariant_fails(text: str) -> None:
+    """Another P, theta or degree than those of the invariant: y1^2, (y1 y2)^2, or the tetrahedral form of degree 6."""
+    answer = kovacic.solve(text)
+    decision, F = answer.decision, answer.decision.invariant
+    assert F is not None
+    assert verify(answer.S, decision)
+    factor = QQ.poly([7, 1, 1])
+    for wrong in (
+        replace(F, P=F.P * factor),
+        replace(F, P=F.P + factor * X.num),
+        replace(F, theta=F.theta + RatFunc(factor.derivative(), factor)),
+        replace(F, theta=F.theta + 3 / (X - 5)),
+        replace(F, degree=2 * F.degree),
+    ):
+        assert not verify(answer.S, replace(decision, invariant=wrong)), wrong
+
+
 def test_the_zeros_of_the_form_are_ordinary_points() -> None:
     """A factor moved from theta to P leaves the logarithmic derivative as it is, and would change the group's order."""
     answer = kovacic.solve("(-35*x^2 + 35*x - 27)/(144*x^2*(x-1)^2) - 1/(16*x^2)")
