@@ -47,7 +47,7 @@ PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     ),
     "bounds": (
         ("kovacic/enclosure/taylor.py", "kovacic/enclosure/frame.py", "kovacic/enclosure/transport.py"),
-        ("tests/test_enclosure*.py",),
+        ("tests/test_enclosure_defect.py", "tests/test_enclosure_values.py", "tests/test_enclosure*.py"),
     ),
 }
 #: Survivors that change no answer: "file: function: fault", and why.

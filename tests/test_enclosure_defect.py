@@ -1,0 +1,129 @@
+"""The proof constants of Taylor expansions against exact defects: nothing of the error may stay uncounted."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+from flint import arb
+
+from kovacic.enclosure.frame import Parts, make_frame, ray_bound, shift
+from kovacic.enclosure.points import Point
+from kovacic.enclosure.problem import System
+from kovacic.enclosure.taylor import _cut, _proven_defect, _recurrence_complex, _recurrence_real, error_radii, expand
+from kovacic.enclosure.working import working_precision
+from kovacic.limits import Budget
+
+Gauss = tuple[int, int]
+
+
+def gaussian(parts: Parts) -> list[Gauss]:
+    return [(int(a), int(b)) for a, b in zip(parts[0], parts[1] or [0] * len(parts[0]), strict=True)]
+
+
+def exact_defect(p: Parts, q: Parts, re: list[int], im: list[int] | None) -> int:
+    """sum |r_n| for r = q Y'' - p Y, rounded down: the sum of floor |r_n|."""
+    a = [(int(u), int(v)) for u, v in zip(re, im or [0] * len(re), strict=True)]
+    second = [((n + 2) * (n + 1) * u, (n + 2) * (n + 1) * v) for n, (u, v) in enumerate(a[2:])]
+    r = [[0, 0] for _ in range(len(a) + max(len(p[0]), len(q[0])))]
+    for sign, coefficients, values in ((1, gaussian(q), second), (-1, gaussian(p), a)):
+        for j, (c, d) in enumerate(coefficients):
+            for n, (u, v) in enumerate(values):
+                r[n + j][0] += sign * (c * u - d * v)
+                r[n + j][1] += sign * (c * v + d * u)
+    return sum(math.isqrt(u * u + v * v) for u, v in r)
+
+
+@pytest.mark.parametrize("start", [0, 1])
+@pytest.mark.parametrize(
+    ("p", "q_0"), [([1], 1), ([3, 1], 2), ([2, 0, 5], 3), ([10**6], 1), ([1, 1, 1, 1], 10**5)], ids=str
+)
+def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, start: int) -> None:
+    """With positive coefficients all terms are, and rounded down they end in zeros: there is no other error, and it grows
+    like n^3/6."""
+    parts: tuple[Parts, Parts] = (p, None), ([q_0], None)
+    re, im = _recurrence_real(*parts, 1500, start, 1, Budget())
+    assert len(re) > 100
+    bound = _proven_defect(*parts, 0, re, im, 1)
+    exact = exact_defect(*parts, re, im)
+    assert q_0 * len(re) ** 3 // 40 < exact <= bound
+
+
+@pytest.mark.parametrize("start", [0, 1])
+@pytest.mark.parametrize("bits", [0, 20, 60])
+@pytest.mark.parametrize(
+    ("p", "q"),
+    [
+        (([1, -2, 3], None), ([40, 1, -1, 2], None)),
+        (([-7], None), ([9, 0, 0, 0, -5], None)),
+        (([], None), ([3, 1], None)),
+        (([1, 2], [3, -4]), ([5, 1, 1], [0, 2, -2])),
+        (([0, 0, 6], [1, 0, 0]), ([7], [0])),
+    ],
+    ids=str,
+)
+def test_the_last_terms_are_counted(p: Parts, q: Parts, bits: int, start: int) -> None:
+    """The recurrence stops at terms below 2^bits, which the defect then contains, times the coefficients and n^2."""
+    quiet = bits + 6
+    recurrence = _recurrence_real if p[1] is None else _recurrence_complex
+    re, im = recurrence(p, q, 200, start, 1 << quiet, Budget())
+    exact = exact_defect(p, q, re, im)
+    assert exact <= _proven_defect(p, q, 0, re, im, 1 << quiet)
+    if bits and len(q[0]) > 1 and p[0]:
+        assert exact > 2 * len(re) ** 3 * q[0][0]  # the last terms are most of it
+
+
+@pytest.mark.parametrize("start", [0, 1])
+@pytest.mark.parametrize("which", ["p", "q"])
+@pytest.mark.parametrize("is_complex", [False, True])
+def test_bits_that_are_cut_off_are_counted(which: str, is_complex: bool, start: int) -> None:
+    """The terms satisfy the recurrence of the trimmed coefficients; the defect is meant for the whole ones."""
+    excess, ones = 100, (1 << 100) - 1
+    low_p, low_q = (ones, 0) if which == "p" else (0, ones)
+    p: Parts = [(3 << excess) + low_p] * 2, [(1 << excess) + low_p] * 2 if is_complex else None
+    q: Parts = [5 << excess, (1 << excess) + low_q], [0, (2 << excess) + low_q] if is_complex else None
+    trimmed = _cut(p, excess), _cut(q, excess)
+    re, im = (_recurrence_complex if is_complex else _recurrence_real)(*trimmed, 150, start, 1 << 8, Budget())
+    exact = exact_defect(p, q, re, im)
+    assert exact <= _proven_defect(*trimmed, excess, re, im, 1 << 8)
+    assert exact > len(re) ** 3 * q[0][0] << 60  # what was cut off is most of it
+
+
+@pytest.mark.parametrize("prec", [60, 400])
+@pytest.mark.parametrize("centre", [Point(Fraction(1, 2)), Point(Fraction(1, 4), Fraction(3, 8))])
+@pytest.mark.parametrize(
+    "system",
+    [System.make((0, 1), (1,)), System.make((3, 0, -1), (2, 1, 1)), System.make((10**30 + 1, 7), (10**40 + 3, 0, 5))],
+    ids=["Airy", "poles", "long coefficients"],
+)
+def test_expansions_know_their_defect(system: System, centre: Point, prec: int) -> None:
+    frame = make_frame(system, centre, -2)
+    bound = ray_bound(frame, centre + Point(frame.scale))
+    assert bound is not None
+    expansion = expand(system, frame, prec, bound, Budget())
+    p, q = shift(system, centre, Point(frame.scale))
+    assert expansion.q_0 == q[0][0]
+    for (re, im), defect in zip(expansion.columns, expansion.defect, strict=True):
+        size = max(len(re), 0 if im is None else len(im))
+        columns = [None if f is None else [int(f[n]) for n in range(size)] for f in (re, im)]
+        assert columns[0] is not None
+        assert exact_defect(p, q, columns[0], columns[1]) <= defect
+
+
+@pytest.mark.parametrize("k", [Fraction(1, 8), 1, 3])
+@pytest.mark.parametrize("e", [-4, -1, 0, 1])
+def test_the_error_of_values_and_slopes(k: Fraction, e: int) -> None:
+    """e'' = k^2 e + rho, e(0) = e'(0) = 0: e = rho (cosh(k x) - 1)/k^2 and e' = rho sinh(k x)/k are reached."""
+    square = Fraction(k) ** 2
+    system, centre = System.make((square.numerator,), (square.denominator,)), Point(Fraction(0))
+    frame = make_frame(system, centre, e)
+    bound = ray_bound(frame, Point(frame.scale))
+    assert bound is not None
+    q_0 = shift(system, centre, Point(frame.scale))[1][0][0]
+    with working_precision(80):
+        value, slope = error_radii(arb(q_0), q_0, bound)  # the defect's coefficients have the sum q_0: rho = 1
+    k_u = float(k) * 2.0**e  # in the scaled coordinate u, x = 2^e u
+    least_value, least_slope = (math.cosh(k_u) - 1) / k_u**2, math.sinh(k_u) / k_u
+    assert least_value * (1 - 1e-9) <= float(value) <= 1.3 * least_value
+    assert least_slope * (1 - 1e-9) <= float(slope) <= 1.3 * least_slope
