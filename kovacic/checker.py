@@ -1,19 +1,18 @@
-#!/usr/bin/env python3
 """A second opinion on answers of kovacic: reads them as JSON lines and proves them anew, sharing no code with the program.
 
     python checker.py answers.jsonl          (or kovacic check answers.jsonl; "-" reads standard input)
 
-For each line: "checked", "refuted: why", "not checked: why" or "unreadable: why".  Exit status: 0 all checked, 1 one
-refuted, 2 one unreadable, 3 one not checked.  It needs Python 3.11 and python-flint alone.
+For each line: "checked", "refuted: why", "not checked: why" (after a minute, too) or "unreadable: why".  Exit status: 0 all
+checked, 1 one refuted, 2 one unreadable, 3 one not checked.  It needs Python 3.11 and python-flint alone.
 
 What is proven, for y'' = S y over Q(x) with the S of the line (`input`, `equation`, `gauge`, `solutions` and D aren't looked
 at; answers with parameters or with algebraic numbers in S aren't checked):
-- "yes": prod (W - omega), over the conjugates of omega = y'/y, is the polynomial that belongs to a form in the solutions,
-  over Q(c)(x), c a root of an irreducible polynomial; and no smaller degree is possible, by the exclusions below.
-- "no": the group is neither reducible nor imprimitive nor one of the three finite primitive groups.  Each exclusion is a
-  local condition at places of S, or the absence of a rational form in the solutions (of degree 2, 4, 6, 8, 12), by a rank
-  modulo a prime, which can only be smaller than over Q; and for reducible groups the absence of a single rational omega: its
-  expansion at one place, modulo a prime, isn't that of a rational function whose degree the exponents allow.
+- "yes": the product of W - omega over the conjugates of omega = y'/y belongs to a form in the solutions, over Q(c)(x), c a
+  root of an irreducible polynomial; and no smaller degree is possible, by the exclusions below.
+- "no": the group is neither reducible nor imprimitive nor finite and primitive, each excluded by a local condition at places
+  of S, or by the absence of a rational form in the solutions (a rank modulo a prime can only be smaller than over Q) and, if
+  reducible, of a single rational omega (its expansion at a place, modulo a prime, isn't that of a rational function whose
+  degree the exponents allow).
 - the rational form that comes with an answer; and the group, where it is given, but for orders on curves of positive genus.
 
 References: J. Kovacic, J. Symb. Comp. 2 (1986); F. Ulmer & J.-A. Weil, ibid. 22 (1996); M. van Hoeij, ibid. 24 (1997).
@@ -23,12 +22,13 @@ from __future__ import annotations
 
 import fileinput
 import json
+import multiprocessing
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
-from itertools import islice
-from math import isqrt, lcm
+from itertools import chain, islice
+from math import inf, isqrt, lcm
 from operator import add, mul, truediv
 from typing import Any
 
@@ -90,12 +90,9 @@ class Value:
         return Value(self.num * other.den, self.den * other.num)
 
     def __pow__(self, n: int) -> Value:
-        length = len(str(self.num.leading_coefficient()) + str(self.den.leading_coefficient()))
-        affordable(n * max(length, *self.num.degrees(), *self.den.degrees()), "a power")
+        leading = str(self.num.leading_coefficient()) + str(self.den.leading_coefficient())
+        affordable(n * max(len(leading) * (leading != "11"), *self.num.degrees(), *self.den.degrees()), "a power")
         return Value(self.num**n, self.den**n)
-
-    def derivative(self) -> Value:
-        return Value(self.num.derivative(1) * self.den - self.num * self.den.derivative(1), self.den * self.den)
 
     def over_q(self) -> tuple[Any, Any]:
         """Numerator and monic denominator, of a value without c."""
@@ -211,10 +208,10 @@ class Place:
         return any(fmpz(int(reduced(self.leading, q)(r))).jacobi(q) == -1 for q, r in islice(self.roots(), 40))
 
     def least_valuation(self, m: int) -> Any:
-        """The least integer that can be the valuation of a rational form of degree m; None if there is none."""
+        """The least integer that can be the valuation of a rational form of degree m; infinite if there is none."""
         signs, d = [m] if self.logarithm else range(-m, m + 1, 2), self.difference or fmpq(0)
         possible = [fmpq(m * self.k, 4)] if self.k > 2 else [(m + i * d) / 2 for i in signs]
-        return min((int(value.p) for value in possible if value.q == 1), default=None)
+        return min((int(value.p) for value in possible if value.q == 1), default=inf)
 
     def exponents(self) -> Any:
         """A ball around the sum over the roots of p of the real parts of the least exponents (k not odd > 2)."""
@@ -351,36 +348,29 @@ class Answer:
     def dimension(self, m: int, prime: int | None = None, point: int | None = None) -> int:
         """An upper bound for the dimension of the rational forms of degree m, from expansions modulo a prime."""
         valuations = [place.least_valuation(m) for place in self.places]
-        room = (
-            m - sum(v * p.size for v, p in zip(valuations, self.places, strict=True)) if None not in valuations else -1
-        )
+        room = m - sum(v * p.size for v, p in zip(valuations, self.places, strict=True))
         if room < 0:
             return 0
-        count = affordable(room + m + 6, f"the number of zeros of a form of degree {m}")
+        n = affordable(room + m + 6, f"the number of zeros of a form of degree {m}")
         q = prime or PRIMES[0]
-        demand(q > 2 * count and fmpz(q).is_prime(), "the modulus is a large prime")
+        demand(q > 2 * n and fmpz(q).is_prime(), "the modulus is a large prime")
         c = point if point is not None else next(c for c in range(LONGEST + 1) if int(reduced(self.den, q)(c)))
         den, num = reduced(self.den, q, c), reduced(self.num, q, c).left_shift(2)
         demand(int(den[0]), "the point is ordinary")
-        y1, y2 = frobenius(den, num, 0, count, q)[0], frobenius(den, num, 1, count, q)[0].left_shift(1)
+        y1, y2 = frobenius(den, num, 0, n, q)[0], frobenius(den, num, 1, n, q)[0].left_shift(1)
         scale = nmod([1], q)
         for place, v in zip(self.places[:-1], valuations, strict=False):
-            power = reduced(place.p, q, c).truncate(count).pow_trunc(abs(v), count)
-            scale = scale.mul_low(power.inverse_series_trunc(count) if v > 0 else power, count)
-        powers = [(y1.pow_trunc(m - i, count), y2.pow_trunc(i, count)) for i in range(m + 1)]
-        forms = [scale.mul_low(a, count).mul_low(b, count) for a, b in powers]
-        entries = [int(form[j]) for form in forms for j in range(room + 1, count)]
-        return m + 1 - int(nmod_mat(m + 1, count - room - 1, entries, q).rank())
+            power = reduced(place.p, q, c).truncate(n).pow_trunc(abs(v), n)
+            scale = scale.mul_low(power.inverse_series_trunc(n) if v > 0 else power, n)
+        forms = [scale.mul_low(y1.pow_trunc(m - i, n), n).mul_low(y2.pow_trunc(i, n), n) for i in range(m + 1)]
+        entries = [int(form[j]) for form in forms for j in range(room + 1, n)]
+        return m + 1 - int(nmod_mat(m + 1, n - room - 1, entries, q).rank())
 
     def no_unique_omega(self, prime: int | None, name: str) -> None:
-        """No omega in Q(x), where there is no rational form of degree 2 either, so that it would be the only one.
-
-        No solution has an expansion at the place, modulo a prime, with omega = A/(den B), deg B <= the number of zeros.
-        """
-        if any(place.k > 2 and place.k % 2 for place in self.places):
-            return
-        zeros = 1 - sum((place.exponents() for place in self.places if place.k), arb(0))
-        if zeros < 0:
+        """No omega in Q(x), where there is no rational form of degree 2 either, so that it would be the only one: no solution
+        has an expansion at the place, modulo a prime, with omega = A/(den B), deg B <= the number of zeros."""
+        ramified = any(place.k > 2 and place.k % 2 for place in self.places)
+        if ramified or (zeros := 1 - sum((place.exponents() for place in self.places if place.k), arb(0))) < 0:
             return
         degree = affordable(zeros.upper().floor().unique_fmpz(), "the number of zeros of a solution")
         apart = [p for p in self.places if p.k and (p.difference is None or p.difference.q > 1 or p.logarithm)]
@@ -406,7 +396,8 @@ class Answer:
         """
         demand_equal(data["degree"], m, "the degree of a form")
         P = read(data["P"], self.names)
-        slope = read(data["theta"], self.names) + P.derivative() / P
+        demand(P.den.is_constant(), "P is a polynomial")
+        slope = read(data["theta"], self.names) + Value(P.num.derivative(1), P.num)
         G = slope.den * (self.S.den // slope.den.gcd(self.S.den))
         T, N = self.S.num * (G * G // self.S.den), [PLANE.constant(1), slope.num * (G // slope.den)]
         for k in range(1, m + 1):
@@ -480,16 +471,25 @@ def verdict(line: str) -> str:
     return "checked"
 
 
+def verdicts(lines: Iterator[str], seconds: float = 60) -> Iterator[str]:
+    """The verdicts, found by a process that is ended, and replaced, where a line takes longer."""
+    with multiprocessing.Pool(1) as pool:
+        for line in lines:
+            try:
+                yield pool.apply_async(verdict, [line]).get(seconds)
+            except multiprocessing.TimeoutError:
+                pool.terminate()
+                yield from chain([f"not checked: it takes more than {seconds:g} s"], verdicts(lines, seconds))
+
+
 def main(files: list[str]) -> int:
     """Check all lines of the files; the exit status."""
     statuses = {0}
     try:
         with fileinput.input(files, encoding="utf-8") as lines:
-            for line in lines:
-                if line.strip():
-                    said = verdict(line)
-                    statuses.add(STATUSES[said.partition(":")[0]])
-                    print(f"{lines.filename()}:{lines.filelineno()}: {said}")
+            for said in verdicts(filter(str.strip, lines)):
+                statuses.add(STATUSES[said.partition(":")[0]])
+                print(f"{lines.filename()}:{lines.filelineno()}: {said}")
     except (OSError, UnicodeError) as error:
         print(f"checker: {error}", file=sys.stderr)
         return 2

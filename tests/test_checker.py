@@ -105,6 +105,22 @@ def test_a_file_that_is_missing() -> None:
     assert "there_is_no_such_file" in done.stderr
 
 
+def test_a_line_has_its_time() -> None:
+    """(x + 9^2000)^3000 would have numbers of 6 million digits; the lines after it are read all the same."""
+    lines = [kovacic.solve(text).to_json(full=True) for text in ("2", "x", "x^2 + 3")]
+    slow = json.loads(lines[1])
+    slow["S"] = "(x + 9**2000)**3000"
+    said = list(checker.verdicts(iter([lines[0], json.dumps(slow), lines[1], json.dumps(slow), lines[2]]), seconds=1))
+    late = "not checked: it takes more than 1 s"
+    assert said == ["checked", late, "checked", late, "checked"]
+
+
+def test_a_power_of_the_variable_may_be_high() -> None:
+    assert checker.read("x**4913 - 7*x", {"x": checker.Value(checker.X2)}).num.degrees()[1] == 4913
+    with pytest.raises(NotImplementedError):
+        checker.read("(2*x)**4913", {"x": checker.Value(checker.X2)})
+
+
 # ------------------------------------------------------------------------------------------- right answers
 
 

@@ -433,3 +433,28 @@ def test_an_answer_whose_check_is_not_finished_is_undecided(monkeypatch: pytest.
     assert answer.status is kovacic.Status.UNDECIDED
     assert answer.reason == "while the answer was verified: the time limit of 1 s is used up"
     assert (answer.omega, answer.group, answer.proof, answer.verified) == (None, None, (), False)
+
+
+# ------------------------------------------------------------------------------------------- dimensions of forms
+
+
+@pytest.mark.parametrize(
+    ("text", "m", "dimension"),
+    [("0", 2, 3), ("2", 2, 1), ("2", 4, 1), ("x^2 + 3", 2, 0), ("x^2 - 1/x^2", 2, 0), ("3/(4*x^2)", 2, 3), ("-2/(9*x^2)", 2, 1),
+     ("-2/(9*x^2)", 6, 3), ("-3/(16*x^2) + 1/x", 4, 1), ("-3/16/x^2-3/16/(x-1)^2+3/16/x/(x-1)", 4, 2)],
+)  # fmt: skip
+def test_dimensions_of_forms_are_exact(text: str, m: int, dimension: int) -> None:
+    """Monomials of y1, y2 that are rational: all (G trivial), y1 y2 and its powers (G_m), none (Borel), those of mu_3, Q8."""
+    inspector = Inspector(kovacic.solve(text, var="x").S, Budget())
+    assert inspector.dimension_is_at_most(dimension, m)
+    assert dimension == 0 or not inspector.dimension_is_at_most(dimension - 1, m)
+
+
+@pytest.mark.parametrize(
+    ("text", "family", "n"), [("1", "borel", None), ("2/x^2", "additive", 1), ("-2/(9*x^2)", "additive", 3)]
+)
+def test_a_group_isnt_unipotent_because_no_form_is_shown(text: str, family: str, n: int | None) -> None:
+    answer = kovacic.solve(text, var="x")
+    silent = replace(answer.decision, invariant=None)
+    assert not verify(answer.S, silent, GroupClaim(family, n))
+    assert verify(answer.S, silent)
