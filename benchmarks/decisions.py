@@ -30,10 +30,17 @@ def timed(action: Callable[[], Any], repeats: int = 5) -> tuple[float, Any]:
 
 
 def ball(ratio: Fraction) -> Any:
-    """The rolling ball's normal form for R/R1 = ratio; reducible exactly when 2 R/R1 is an integer."""
-    from enclosure_work_precision import ball_normal_form
+    """The rolling ball's normal form for R/R1 = ratio; reducible exactly when 2 R/R1 is an integer.
 
-    return ball_normal_form(str(ratio))
+    y1 y2 = sqrt(D), w^2 = 2 ratio^2: S from phi = D'/(2 D) and w^2 = f^2 (4 S - 2 phi' - phi^2), D = 5 + 2 x + x^2/2.
+    """
+    from kovacic.algebra.ratfunc import RatFunc
+    from kovacic.algebra.rationals import QQ
+
+    D = RatFunc(QQ.poly([5, 2, Fraction(1, 2)]))
+    phi = D.derivative() / (2 * D)
+    w2 = ratio**2 * 2
+    return (RatFunc(QQ.poly([w2])) / D + 2 * phi.derivative() + phi * phi) / 4
 
 
 def decisions() -> list[dict[str, Any]]:

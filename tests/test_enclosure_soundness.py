@@ -12,6 +12,7 @@ from flint import acb, arb, ctx, fmpq
 
 from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.evaluate import evaluate_states
+from kovacic.errors import InputError
 
 Function = Callable[[acb], acb]
 
@@ -128,6 +129,8 @@ def check(seed: int) -> None:
         else:
             start = {"x0": f"{origin[0]} + ({origin[1]})*I", "y0": family.y(x0), "dy0": family.dy(x0)}
         expected, slope = family.y(z), family.dy(z)
+        if "y0" in start and not (start["y0"].is_finite() and start["dy0"].is_finite()):  # type: ignore[attr-defined]
+            return
         (state,) = evaluate_states(family.equation, [x], digits=digits, **start)  # type: ignore[arg-type]
         if not expected.is_finite():  # FLINT can't either
             return
@@ -147,3 +150,29 @@ def test_no_true_value_is_outside_of_its_ball(block: int) -> None:
 def test_no_true_value_is_outside_of_its_ball_thousands(block: int) -> None:
     for seed in range(1000 + 100 * block, 1000 + 100 * (block + 1)):
         check(seed)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_a_frobenius_basis_goes_on_as_taylor_expansions_do(seed: int) -> None:
+    """From c to x2 at once, and through x1: the exponents were put in, with integer differences and double ones among them."""
+    rng = random.Random(seed)
+
+    def few(k: int) -> Fraction:
+        return Fraction(rng.randint(-k, k), rng.randint(1, 3))
+
+    c, l1 = few(3), few(4)
+    l2, t = l1 + rng.choice([0, 0, 1, 2, 3, Fraction(1, 2), few(3)]), f"(x-({c}))"
+    equation = (
+        f"{t}^2*(1+({few(2)})*{t}+({few(2)})*{t}^2)*y'' + {t}*(1-({l1 + l2})+({few(2)})*{t})*y'"
+        f" + (({l1 * l2})+({few(3)})*{t}+({few(3)})*{t}^2)*y = 0"
+    )
+    first, second = c + Fraction(rng.randint(1, 9), 32), c + Fraction(rng.randint(1, 9), 16)
+    ends = [str(first), f"{second} + ({Fraction(rng.randint(-5, 5), 16)})*I"]
+    start = (rng.randint(-3, 3), rng.randint(1, 3))
+    try:
+        there, beyond = evaluate_states(equation, ends, x0=c, frobenius=start, digits=rng.choice([5, 15, 40]))
+        (onward,) = evaluate_states(equation, [ends[1]], x0=ends[0], y0=there.y, dy0=there.dy)
+    except InputError:  # another singular point is in the way
+        return
+    assert beyond.y.overlaps(onward.y)
+    assert beyond.dy.overlaps(onward.dy)

@@ -659,6 +659,13 @@ def test_equations_with_a_right_hand_side(equation: str, solution: str, x0: Any,
         assert state.y.digits >= 25
 
 
+def test_a_ball_that_says_nothing_is_refused() -> None:
+    with pytest.raises(InputError, match="y0 isn't a finite ball"):
+        evaluate(AIRY, 1, x0=0, y0=flint.acb("nan"), dy0=0)
+    with pytest.raises(InputError, match="finite"):
+        evaluate(AIRY, mpmath.iv.mpf(["0", "inf"]), x0=0, y0=1, dy0=0)
+
+
 def test_a_right_hand_side_that_cannot_be_is_refused() -> None:
     for equation, options, words in [
         ("y'' + y = 1/(x-1)", {"x0": 0, "y0": 1, "dy0": 0}, "singular point 1"),

@@ -77,15 +77,11 @@ def as_number(value: Any, name: str) -> Number:
     """
     if isinstance(value, int | float | complex | Fraction):
         return as_point(value, name)
-    if hasattr(value, "to_flint") and not value.is_exact():  # our own, without importing them
-        fixed = acb(value.to_flint())
+    fixed = _given_ball(value)
+    if fixed is not None:
+        if not fixed.is_finite():
+            raise InputError(f"{name} isn't a finite ball: {value}")
         return Constant(str(value), lambda: fixed, True)
-    if isinstance(value, arb | acb):
-        given = acb(value)
-        return Constant(str(value), lambda: given, True)
-    if hasattr(value, "_mpi_") or hasattr(value, "_mpci_"):
-        interval = _interval(value)
-        return Constant(str(value), lambda: interval, True)
     try:
         return as_point(value, name)
     except InputError:
@@ -101,6 +97,15 @@ def as_number(value: Any, name: str) -> Number:
         number = Constant(str(value), lambda: in_balls(expression, {}))
         number.value()
         return number
+
+
+def _given_ball(value: Any) -> acb | None:
+    """The ball that the user has: ours (without importing it), python-flint's or mpmath's; None for anything else."""
+    if hasattr(value, "to_flint") and not value.is_exact():
+        return acb(value.to_flint())
+    if isinstance(value, arb | acb):
+        return acb(value)
+    return _interval(value) if hasattr(value, "_mpi_") or hasattr(value, "_mpci_") else None
 
 
 def to_ball(number: Number) -> acb:

@@ -55,9 +55,6 @@ _STRIDE = 16
 _GROWTH = 0.2
 """Growth of the majorant in bits as a share of the working precision, at most."""
 
-_SMALLER = 4000
-"""Bits for which the disc gets smaller by a factor of 2: terms cost more than steps away from the point."""
-
 _SOUGHT = 400
 """The difference of exponents up to which a logarithm that isn't there is noticed: N terms in exact numbers."""
 
@@ -106,7 +103,6 @@ def radius(point: Singular, prec: int, distance: arb) -> tuple[Fraction, Majoran
     e = math.ceil(log2(distance))
     if near is not None:
         e = min(e, math.floor(log2(near)) - 1)
-    e -= prec // _SMALLER
     lower, upper = (acb(v) for v in point.exponents())
     delta, size = abs(upper - lower).upper(), max(abs(lower).upper(), abs(upper).upper())
     for _ in range(20_000):
