@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 @click.option("--assume", metavar="NAME=WHAT", multiple=True, help="What is known about a parameter: n=integer.")
 @click.option("--max-degree", default=2, show_default=True, help="The determinants Delta_d are shown up to this d.")
 @click.option("--all", "everything", is_flag=True, help="All regions, however many.")
+@click.option("--explain", "explained", is_flag=True, help="What each region follows from, and its solutions.")
 @click.option("--check", "samples", metavar="N", type=int, help="Solve at N exact points, and compare.")
 @click.option("--limit", "limits", metavar="NAME=VALUE", multiple=True, help="Change a limit, such as seconds.")
 def command(
@@ -32,6 +33,7 @@ def command(
     assume: tuple[str, ...],
     max_degree: int,
     everything: bool,
+    explained: bool,
     samples: int | None,
     limits: tuple[str, ...],
 ) -> int:
@@ -47,7 +49,8 @@ def command(
     assumptions = parse_assumptions(assume)
     answer = conditions(equation, var=var, assume=assumptions, max_degree=max_degree, limits=parse_limits(limits))
     report = None if samples is None else answer.check(samples)
-    print(answer.to_json() if as_json else answer.latex() if as_latex else fitted(answer.text(all=everything)))
+    shown = answer.explain() if explained else answer.text(all=everything)
+    print(answer.to_json() if as_json else answer.latex() if as_latex else fitted(shown))
     if report is not None:
         print(
             f"  checked at {report.inside} points inside and {report.outside} outside: {_agreement(report)}",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import count, islice
 from random import Random
@@ -22,6 +22,7 @@ from kovacic.parametric.formulas import as_latex, shown
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
 from kovacic.parametric.restriction import NO_CONSTANT, UndefinedError, at_point
+from kovacic.parametric.solutions import PolynomialSolution
 from kovacic.parametric.statements import Both, Either, Point, Statement, both, either
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
@@ -86,6 +87,19 @@ class Condition:
     defined: bool = True
     omega: str | None = None
     determinants: tuple[str, ...] = ()
+    origin: Callable[[], tuple[PolynomialSolution, ...]] | None = field(default=None, compare=False)
+
+    def solution(self) -> tuple[PolynomialSolution, ...]:
+        """Solutions of y'' = S y for all parameters of the region at once, with the degree d that has to be a natural number.
+
+        They contain Laguerre or Jacobi polynomials of degree d, as SymPy's functions; () where they aren't known.
+
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").regions[0]
+        >>> bessel.solution()[0].degree
+        -n - 1/2
+        """
+        return () if self.origin is None else self.origin()
 
     @property
     def case(self) -> int | None:
@@ -336,6 +350,15 @@ class Conditions:
         lines.append(f"  {self._where_generic}: {self.generic}")
         complete = "proven to be complete" if self.complete is True else f"complete {self.complete}"
         lines.append(f"  ({complete}; {self.theory})")
+        return "\n".join(lines)
+
+    def explain(self) -> str:
+        """The partition, and for each region what it follows from: exponents, degrees, and solutions where they are known."""
+        lines = [self.text(all=True)]
+        for region in self.regions:
+            lines += ["", f"{region.statement.text()}: {region.verdict if region.defined else region.group}"]
+            lines += [f"  {region.omega}"] if region.omega else []
+            lines += [f"  {solution}" for solution in region.solution()]
         return "\n".join(lines)
 
     def __str__(self) -> str:

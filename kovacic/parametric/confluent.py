@@ -31,13 +31,14 @@ from kovacic.parametric.statements import Statement
 
 @dataclass(frozen=True)
 class Confluent:
-    """Equation (1): the coefficients, n, and the coordinate in words."""
+    """Equation (1): the coefficients, n, the coordinate s in words, and is it 1/(x - c) (then v = s y is the unknown)?"""
 
     n: int
     b: Poly
     r: Poly
     q: Poly
     coordinate: str
+    inverted: bool = False
 
     @property
     def degenerate(self) -> Poly:
@@ -53,15 +54,17 @@ def omega(form: Confluent) -> str:
     difference = root_written(1 + 4 * form.b)
     if not form.q:
         return f"omega of degree 2, rational in {z} and sqrt({z}){where}"
-    root = root_written(form.q)
-    root = root if root.startswith("sqrt(") else f"({root})"
     power = "" if n == 1 else f" {z}" if n == 2 else f" {z}^{n - 1}"
     beta = root_written(form.r * form.r / form.q)
     natural = "a natural number" if n == 1 else f"a natural multiple of {n}"
     return (
-        f"omega = +-{root}{power} + (1 +- ({difference}))/(2 {z}) + P'/P{where}, with signs for which "
-        f"deg P = (-{n} +- ({beta}) +- ({difference}))/2 is {natural}"
+        f"omega ={_signed(root_written(form.q))}{power} + (1{_signed(difference)})/(2 {z}) + P'/P{where}, with signs for which "
+        f"deg P = (-{n}{_signed(beta)}{_signed(difference)})/2 is {natural}"
     )
+
+
+def _signed(root: str) -> str:
+    return "" if root == "0" else f" +- ({root})" if " " in root else f" +- {root}"
 
 
 def group(form: Confluent) -> str:
@@ -109,7 +112,7 @@ def recognise(problem: Problem, variable: str) -> Confluent | None:
     q = zero if top % 2 else terms.pop(top)
     n = top + 2 if top % 2 else top // 2 + 1
     r = terms.pop(n - 2, zero)
-    return None if terms else Confluent(n, b, r, q, coordinate)
+    return None if terms else Confluent(n, b, r, q, coordinate, not irregular[0].at_infinity)
 
 
 def _laurent(S: RatFunc) -> dict[int, Poly] | None:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
@@ -38,6 +39,7 @@ from kovacic.parametric.search import (
     number_of_zeros,
     search,
 )
+from kovacic.parametric.solutions import jacobi_solutions, laguerre_solutions
 from kovacic.parametric.statements import Statement, Vanishes, both, either
 from kovacic.solution import Solution
 from kovacic.views.text import omega_lines
@@ -114,7 +116,8 @@ def _riemann(problem: Problem, expected: Verdict, settings: Settings) -> Partiti
             break
         reducible = structure is Structure.REDUCIBLE
         omega = riemann.omega(problem, settings.variable) if reducible else _SEMI_INVARIANTS[structure]
-        regions.append(Condition(either(statements), verdict, omega=omega))
+        origin = partial(jacobi_solutions, problem, settings.variable) if reducible else None
+        regions.append(Condition(either(statements), verdict, omega=omega, origin=origin))
     return _closed(regions, always, theory, expected)
 
 
@@ -152,7 +155,8 @@ def _confluent(problem: Problem, form: confluent.Confluent, expected: Verdict, s
     if statements is True:
         return _closed(regions, verdict, theory, expected)
     if statements:
-        regions.append(Condition(either(statements), verdict, omega=confluent.omega(form)))
+        origin = partial(laguerre_solutions, form, settings.variable)
+        regions.append(Condition(either(statements), verdict, omega=confluent.omega(form), origin=origin))
     return _closed(regions, Verdict(None), theory, expected)
 
 
@@ -316,7 +320,10 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
     special = [region for region in inner.regions if both(region.statement).parts[0].text() not in elsewhere]
     curve = rational_curve(function)
     if curve is not None:
-        special = [replace(region, statement=region.statement.rewritten(curve.back), omega=None) for region in special]
+        special = [
+            replace(region, statement=region.statement.rewritten(curve.back), omega=None, origin=None)
+            for region in special
+        ]
         whole = replace(whole, omega=None)
     while special and special[-1].defined and (special[-1].verdict, special[-1].complete) == (verdict, whole.complete):
         special.pop()
