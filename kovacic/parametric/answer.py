@@ -9,18 +9,20 @@ from random import Random
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Decision, Status, Structure
 from kovacic.engine.decide import decide
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
-from kovacic.limits import Budget, Limits
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric import sampling
-from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
+from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.formulas import as_latex, shown
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
+from kovacic.parametric.record import Reader, statement_data
 from kovacic.parametric.restriction import NO_CONSTANT, UndefinedError, at_point
 from kovacic.parametric.solutions import PolynomialSolution
 from kovacic.parametric.statements import Both, Either, Point, Statement, both, either
@@ -46,6 +48,14 @@ class Verdict:
     def of(cls, decision: Decision) -> Verdict:
         """What the engine's decision says."""
         return cls(decision.structure, decision.status is not Status.UNDECIDED)
+
+    def to_dict(self) -> dict[str, Any]:
+        return {"structure": self.structure and self.structure.value, "known": self.known, "family": self.family}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Verdict:
+        structure = data["structure"]
+        return cls(None if structure is None else Structure(structure), data["known"], data["family"])
 
     @property
     def case(self) -> int | None:
@@ -118,6 +128,7 @@ class Condition:
         """The region's part of the JSON object."""
         names = ("case", "group", "complete", "defined", "omega")
         data = {"condition": self.statement.text()} | {name: getattr(self, name) for name in names}
+        data |= {"statement": statement_data(self.statement), "verdict": self.verdict.to_dict()}
         return data | ({"determinants": list(self.determinants)} if self.determinants else {})
 
     def __str__(self) -> str:
@@ -300,12 +311,54 @@ class Conditions:
             "variable": self.variable,
             "parameters": list(self.parameters),
             "assumptions": self.assumptions.to_dict(),
-            "generic": {"case": self.generic.case, "group": self.generic.group},
+            "generic": {"case": self.generic.case, "group": self.generic.group, "verdict": self.generic.to_dict()},
             "regions": [region.to_dict() for region in self.regions],
             "complete": self.complete,
             "theory": self.theory,
             "notices": list(self.notices),
+            "constant": self.constant.names[0] if self.constant.names else None,
         }
+
+    @classmethod
+    def from_json(cls, text: str | Mapping[str, Any]) -> Conditions:
+        """The conditions that `to_json` wrote, but for `Condition.solution`.
+
+        Raises `InputError` for other data, and where S has an algebraic constant.
+
+        >>> import kovacic
+        >>> answer = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> kovacic.parametric.answer.Conditions.from_json(answer.to_json()) == answer
+        True
+        """
+        import json
+
+        try:
+            return cls._read(json.loads(text) if isinstance(text, str) else text)
+        except (KeyError, TypeError, ValueError, AttributeError) as error:
+            raise InputError(f"this isn't the JSON of conditions: {error}") from None
+
+    @classmethod
+    def _read(cls, data: Mapping[str, Any]) -> Conditions:
+        names, variable = tuple(data["parameters"]), data["variable"]
+        if data["constant"] is not None:
+            raise InputError("conditions with an algebraic constant aren't read back")
+        reader = Reader(FunctionField(names))
+        S = reader.function(data["S"], variable)
+        regions = [
+            Condition(
+                reader.statement(region["statement"]),
+                Verdict.from_dict(region["verdict"]),
+                region["complete"],
+                region["defined"],
+                region["omega"],
+                tuple(region.get("determinants", ())),
+            )
+            for region in data["regions"]
+        ]
+        known = read_assumptions(data["assumptions"], None, names) if data["assumptions"] else NOTHING_ASSUMED
+        generic, notices = Verdict.from_dict(data["generic"]["verdict"]), tuple(data["notices"])
+        complete, theory = data["complete"], data["theory"]
+        return cls(S, variable, names, generic, tuple(regions), complete, theory, DEFAULT_LIMITS, notices, known)
 
     def latex(self) -> str:
         """The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values."""

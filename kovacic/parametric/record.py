@@ -1,0 +1,115 @@
+"""Conditions as data, and back: `{"kind": "lattice", "form": "n - 1/2", "modulus": 1}`.
+
+Functions of the parameters are written in Python's syntax.  The kinds: "zero" (a function vanishes), "lattice" (a form is
+congruent to one of the residues, 0 where there are none), "integer root" and "natural number" (equations in an unknown, which
+has a root among these integers; and an invariant of the degree exists there), "schwarz", "and", "or".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import Structure
+from kovacic.errors import InputError
+from kovacic.limits import Limits
+from kovacic.parametric.functions import over_parameters
+from kovacic.parametric.integers import Classes, IntegerRoot
+from kovacic.parametric.natural import Natural
+from kovacic.parametric.riemann import Schwarz
+from kovacic.parametric.search import NaturalNumber
+from kovacic.parametric.statements import Both, Either, Statement, Vanishes
+from kovacic.reading.arithmetic import VARIABLE, Arithmetic
+from kovacic.reading.expression import parse_with
+
+#: The variable in a restricted S; no parameter has this name.
+_VARIABLE = "_x"
+#: What was written by the package was within its limits.
+_LIMITS = Limits(degree=10**6, bits=10**8, digits=10**7, text_length=10**8, exponent=10**6)
+
+
+def statement_data(statement: Statement) -> dict[str, Any]:
+    """A statement as plain values."""
+    if isinstance(statement, Vanishes):
+        return {"kind": "zero", "function": _text(statement.function)}
+    if isinstance(statement, Classes):
+        form, residues = statement.form, statement.residues
+        if len(residues) == 1:
+            form, residues = over_parameters(form - residues[0]), ()
+        data = {"kind": "lattice", "form": _text(form), "modulus": _number(statement.modulus)}
+        return data | ({"residues": [_number(r) for r in residues]} if residues else {})
+    if isinstance(statement, IntegerRoot):
+        letter, classes = statement.letter, {"residues": list(statement.residues), "modulus": statement.modulus}
+        return {"kind": "integer root", "unknown": letter, "equation": _text(statement.equation, letter), **classes}
+    if isinstance(statement, Natural):
+        letter, number = statement.letter, statement.number
+        equations = [_text(factor, letter) for factor in number.factors]
+        kind = {"kind": "natural number", "unknown": letter, "equations": equations}
+        return kind | {"degree": number.m, "structure": number.structure.value, "S": statement.S.to_str(_VARIABLE)}
+    if isinstance(statement, Schwarz):
+        structures = [structure.value for structure in statement.structures]
+        return {"kind": "schwarz", "unknown": "Z", "squares": _text(statement.cubic, "Z"), "structures": structures}
+    if isinstance(statement, Both | Either):
+        return {
+            "kind": "and" if isinstance(statement, Both) else "or",
+            "parts": [statement_data(part) for part in statement.parts],
+        }
+    raise TypeError(f"{type(statement).__name__} isn't a kind of statement that is written")
+
+
+def _text(function: FunctionPoly, letter: str = "x") -> str:
+    return function.to_str(letter)
+
+
+def _number(value: Fraction) -> int | str:
+    return int(value) if value.denominator == 1 else str(value)
+
+
+@dataclass(frozen=True)
+class Reader:
+    """Functions of the parameters, and statements about them."""
+
+    field: FunctionField
+
+    def function(self, text: str, letter: str = "x") -> RatFunc:
+        """A rational function in `letter` over Q(t)."""
+        arithmetic = Arithmetic(_LIMITS)
+        names: Any = {name: self.field.generator(name) for name in self.field.names} | {letter: VARIABLE}
+        value = arithmetic.rational(parse_with(text, names, arithmetic))
+        return RatFunc(self._embedded(value.num), self._embedded(value.den))
+
+    def polynomial(self, text: str, letter: str = "x") -> FunctionPoly:
+        value = self.function(text, letter)
+        return over_parameters(value.num / value.den.lc if value.den.degree == 0 else value.num // value.den)
+
+    def _embedded(self, part: Poly) -> Poly:
+        return part if part.field == self.field else self.field.embed(part)
+
+    def statement(self, data: Mapping[str, Any]) -> Statement:
+        """The statement that `statement_data` wrote.  Raises `InputError` for any other data."""
+        kind = data.get("kind")
+        if kind == "zero":
+            return Vanishes(self.polynomial(data["function"]))
+        if kind == "lattice":
+            residues = [Fraction(r) for r in data.get("residues", [0])]
+            return Classes.make(self.polynomial(data["form"]), residues, Fraction(data["modulus"]))
+        if kind == "integer root":
+            equation, letter = self.polynomial(data["equation"], data["unknown"]), data["unknown"]
+            return IntegerRoot(equation, tuple(data["residues"]), data["modulus"], letter)
+        if kind == "natural number":
+            letter = data["unknown"]
+            equations = tuple(self.polynomial(text, letter) for text in data["equations"])
+            number = NaturalNumber(data["degree"], equations, Structure(data["structure"]))
+            return Natural(self.function(data["S"], _VARIABLE), number, letter)
+        if kind == "schwarz":
+            structures = tuple(Structure(value) for value in data["structures"])
+            return Schwarz(self.polynomial(data["squares"], data["unknown"]), structures)
+        if kind in ("and", "or"):
+            parts = tuple(self.statement(part) for part in data["parts"])
+            return Both(parts) if kind == "and" else Either(parts)
+        raise InputError(f"{kind!r} isn't a kind of condition")
