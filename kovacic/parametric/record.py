@@ -26,9 +26,8 @@ from kovacic.parametric.search import NaturalNumber
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_with
+from kovacic.reading.given import parameters_of
 
-#: The variable in a restricted S; no parameter has this name.
-_VARIABLE = "_x"
 #: What was written by the package was within its limits.
 _LIMITS = Limits(degree=10**6, bits=10**8, digits=10**7, text_length=10**8, exponent=10**6)
 
@@ -50,7 +49,13 @@ def statement_data(statement: Statement) -> dict[str, Any]:
         letter, number = statement.letter, statement.number
         equations = [_text(factor, letter) for factor in number.factors]
         kind = {"kind": "natural number", "unknown": letter, "equations": equations}
-        return kind | {"degree": number.m, "structure": number.structure.value, "S": statement.S.to_str(_VARIABLE)}
+        x = next(
+            name
+            for name in ("x", "z", "t", *map("x{}".format, range(9)))
+            if name not in parameters_of(statement.S.field)
+        )
+        S = {"variable": x, "S": statement.S.to_str(x)}
+        return kind | {"degree": number.m, "structure": number.structure.value} | S
     if isinstance(statement, Schwarz):
         structures = [structure.value for structure in statement.structures]
         return {"kind": "schwarz", "unknown": "Z", "squares": _text(statement.cubic, "Z"), "structures": structures}
@@ -105,7 +110,7 @@ class Reader:
             letter = data["unknown"]
             equations = tuple(self.polynomial(text, letter) for text in data["equations"])
             number = NaturalNumber(data["degree"], equations, Structure(data["structure"]))
-            return Natural(self.function(data["S"], _VARIABLE), number, letter)
+            return Natural(self.function(data["S"], data["variable"]), number, letter)
         if kind == "schwarz":
             structures = tuple(Structure(value) for value in data["structures"])
             return Schwarz(self.polynomial(data["squares"], data["unknown"]), structures)
