@@ -2,6 +2,7 @@
 
     python benchmarks/conditions.py               # under a minute
     python benchmarks/conditions.py --samples 200 # also the agreement with the engine at exact points
+    python benchmarks/conditions.py --check 100   # only that, for the families of parametric_families.jsonl: 20,000 points
 
 Processor time inside one process, in milliseconds: the first call for conditions (nothing is cached), the median of several
 calls for answers.  Writes benchmarks/results/conditions.json.
@@ -47,10 +48,34 @@ def seconds(call: Any) -> float:
     return time.process_time() - start
 
 
+def check(samples: int, seed: int) -> int:
+    """Agreement of every family with the engine at so many exact points; 1 where one disagrees."""
+    totals, wrong = [0, 0, 0], 0
+    families = [json.loads(line) for line in (HERE / "parametric_families.jsonl").read_text().splitlines()]
+    for family in families:
+        answer = kovacic.conditions(family["S"], var="x", limits=kovacic.Limits(seconds=10))
+        report = answer.check(samples, seed=seed)
+        counts = (report.inside, report.outside, report.open)
+        totals = [a + b for a, b in zip(totals, counts, strict=True)]
+        wrong += len(report.disagreements)
+        print(
+            f"{family['name']:45.45} {counts[0]:5} {counts[1]:5} {counts[2]:5}  {report.disagreements or ''}",
+            flush=True,
+        )
+    print(
+        f"{len(families)} families: {totals[0]} points inside, {totals[1]} outside, {totals[2]} open; {wrong} disagree"
+    )
+    return int(wrong > 0)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--samples", type=int, default=0)
+    parser.add_argument("--check", type=int, metavar="N", help="N points for each of the families, and nothing else")
+    parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
+    if options.check:
+        return check(options.check, options.seed)
     results: dict[str, Any] = {"python": platform.python_version(), "machine": platform.machine()}
     conditions: dict[str, Any] = {}
     print(f"{'conditions':30} {'ms':>8}  complete  samples")
