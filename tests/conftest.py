@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import signal
 
+import pytest
 from hypothesis import HealthCheck, Phase, settings
 
 SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large, HealthCheck.large_base_example]
@@ -20,6 +21,22 @@ settings.register_profile("mutation", settings.get_profile("ci"), phases=[Phase.
 settings.register_profile("dev", deadline=None, suppress_health_check=SLOW)
 settings.register_profile("fuzz", deadline=None, database=None, suppress_health_check=SLOW, print_blob=True)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+#: The modules of `pytest -m quick`: the engine on published equations, the readers, the kernel's arithmetic, the command.
+QUICK = {
+    "test_bad_primes",
+    "test_cases",
+    "test_equation",
+    "test_parser",
+    "test_written_solutions",
+}
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        if item.path.stem in QUICK and item.get_closest_marker("slow") is None:
+            item.add_marker(pytest.mark.quick)
+
 
 # In the background (`pytest &` in a script) an interrupt is ignored, and the processes that tests start and interrupt
 # would inherit that; where this process handles it, they have the system's default.

@@ -166,6 +166,7 @@ def test_a_polynomial_of_omega_in_words(capsys: pytest.CaptureFixture[str]) -> N
         ("-x^2", "y'' = (-x^2) y"),
         ("3x", "y'' = (3*x) y"),
         ("1/(4*c^2)", "where c1 is any root of c1^2 - 2"),
+        ("x^2 - 1001", "the solutions aren't written out here: polynomials of degree 500"),
     ],
 )
 def test_texts_of_other_answers(S: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:

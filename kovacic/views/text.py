@@ -21,6 +21,9 @@ Style = Callable[[str, str], str]
 _LONGEST = 2000
 """Longer formulas are shortened."""
 
+_LARGEST_DEGREE = 300
+"""Solutions with polynomials of a higher degree aren't written out: they would be shortened anyhow."""
+
 
 def one_line(solution: Solution) -> str:
     """The equation and the verdict."""
@@ -74,6 +77,10 @@ def solution_lines(solution: Solution) -> Iterator[str]:
     equation.  Products of powers and exponentials are written without SymPy, everything else as `Solution.closed_form` has it.
     """
     if solution.status is Status.UNDECIDED:
+        return
+    semi = solution.semi_invariant
+    if semi is not None and semi.P.degree > _LARGEST_DEGREE:
+        yield f"the solutions aren't written out here: polynomials of degree {semi.P.degree} (--json --full has them)"
         return
     try:
         pair, notes = _written(solution)
