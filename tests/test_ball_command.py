@@ -144,8 +144,8 @@ _BALL = ("--mass", "1", "--radius", "1", "--sphere", "3")
         (("--mass", "1", "--radius", "1", "--sphere", "-1/2"), "R < |R1| fails"),
         (("--mass", "1", "--radius", "1", "--sphere", "1", "--A3", "2"), "A3 <= 2 A1 fails"),
         (("--mass", "one", "--radius", "1", "--sphere", "1"), "can't contain one"),
-        ((*_BALL, "--plot", "a.gif"), "doesn't end in"),
-        ((*_BALL, "--plot", "/nowhere/a.png"), "can't be written"),
+        ((*_BALL, "--plot", "a.gif"), "isn't one of"),
+        ((*_BALL, "--plot", "/nowhere/a.png"), "there is no directory"),
         (("--ratio", "-3/2"), "R < |R1| fails"),
     ],
 )

@@ -565,8 +565,8 @@ def test_command_says_what_happens(run, tmp_path):
         (("--start", "4", "1", "1", "1"), "between 0 and pi"),
         (("--start", "1", "1e60", "1", "1"), "can start with"),
         (("--potential", "cos(u)", "--gravity", "1"), "either --gravity"),
-        (("--plot", "a.gif"), "doesn't end in"),
-        (("--plot", "/nowhere/a.png"), "can't be written"),
+        (("--plot", "a.gif"), "isn't one of"),
+        (("--plot", "/nowhere/a.png"), "there is no directory"),
     ],
 )
 def test_command_refuses(run, arguments, message):

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from kovacic.cli import ball_motion
+from kovacic.cli.options import PICTURE
 
 if TYPE_CHECKING:
     from kovacic.ball import ClosedForm
-
-_PICTURES = (".png", ".pdf", ".svg")
 
 
 @click.command()
@@ -42,9 +41,7 @@ _PICTURES = (".png", ".pdf", ".svg")
     help="Numbers at time 0: 1, 0.5, sqrt(2)/2, pi/4.",
 )
 @click.option("--time", "end", metavar="T", default="20", show_default=True, help="The motion from 0 to this time.")
-@click.option(
-    "--plot", metavar="FILE", type=click.Path(dir_okay=False, writable=True), help="A picture (png, pdf, svg)."
-)
+@click.option("--plot", metavar="FILE", type=PICTURE, help="A picture (png, pdf, svg).")
 def command(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
     """A ball with an axially symmetric mass distribution that rolls on a sphere.
 
@@ -122,8 +119,6 @@ def _by_parameters(latex: bool, **given: Any) -> dict[str, Any]:
         raise click.UsageError("either --ratio, or --mass, --radius and --sphere")
     if None not in (given["gravity"], given["potential"]):
         raise click.UsageError("either --gravity or --potential")
-    if plot is not None and not plot.lower().endswith(_PICTURES):
-        raise click.BadParameter(f"{plot} doesn't end in one of {', '.join(_PICTURES)}", param_hint="--plot")
     if exact(given["offset"], "a") != 0 and None in (given["a1"], given["a3"]):
         raise click.UsageError("a ball with --offset isn't homogeneous: give its moments too, --A1 and --A3")
     standard = exact(mass, "m") * exact(radius, "R") ** 2 * exact("2/5", "2/5")

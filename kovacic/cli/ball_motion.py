@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from kovacic.ball.ball import BallOnSphere
 
 #: Points in time at which a motion is looked at: so many, and so many more for each oscillation, up to a limit.
@@ -23,7 +25,7 @@ def simulate(
     potential: str | None,
     start: Sequence[str],
     end: str,
-    plot: str | None,
+    plot: Path | None,
 ) -> dict[str, Any]:
     """What `--json` shows of the motion from `start` = (u, u', v', n) up to the time `end`; writes the picture.
 
@@ -68,7 +70,7 @@ def simulate(
         "difference": {name: float(np.abs(error).max()) for name, error in motion.defects(times).items()},
         "approach": motion.approach,
         "energy_drift": float(np.ptp(motion.energy(times))),
-        "plot": plot,
+        "plot": None if plot is None else str(plot),
     }
 
 
