@@ -10,7 +10,6 @@ from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 from kovacic.reading.given import parameters_of
 from kovacic.views.formula import Formulas, caret
-from kovacic.views.products import written
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
@@ -106,6 +105,7 @@ def _written(solution: Solution) -> tuple[tuple[str, ...], tuple[str, ...]]:
     from kovacic.closed_form.check import is_exact_solution
     from kovacic.closed_form.primitive import OpenPrimitive
     from kovacic.closed_form.structure import Triangular, build
+    from kovacic.views.products import written  # not for a verdict, which takes a fifth less time without it
 
     with Budget(solution.limits).watched():
         structure = build(solution.S, solution.decision, solution.gauge)
