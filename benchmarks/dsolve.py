@@ -69,12 +69,13 @@ class Python(System):
         super().__init__()
         self.name = f"{package}.dsolve"
         self.command = (sys.executable, str(Path(__file__)), "--serve", package)
+        self.seconds = 0.0
 
     def request(self, S: str) -> str:
         return S + "\n" if S.startswith("{") else json.dumps(vars(Problem("", "", "y''-y=0"))) + "\n"
 
     def understand(self, text: str) -> Answer:
-        kind, *rest = json.loads(text.splitlines()[-1])
+        self.seconds, kind, *rest = json.loads(text.splitlines()[-1])
         return Answer(kind, "y", "python", tuple(rest))
 
 
@@ -244,6 +245,7 @@ def serve(package: str) -> None:
     module = __import__(package)
     for line in sys.stdin:
         equation, given = sympy_problem(Problem(**json.loads(line)))
+        start = time.perf_counter()
         try:
             found = module.dsolve(equation, Y(X), ics=given or None)
             found = found[0] if isinstance(found, list) else found
@@ -254,7 +256,7 @@ def serve(package: str) -> None:
         except Exception as error:
             none = re.search(r"no solution with these|solve for initial conditions|solve for constants", str(error))
             answer = ["none" if none else "error", f"{type(error).__name__}: {error}"[:300]]
-        print(json.dumps(answer))
+        print(json.dumps([time.perf_counter() - start, *answer]))
         print("<<<end>>>", flush=True)
 
 
@@ -265,6 +267,8 @@ def run(system: System, problem: Problem) -> dict[str, Any]:
         return entry | {"verdict": "no answer in time" if reply.outcome == "time-out" else "asks or dies"}
     answer = system.understand(reply.text)
     entry["verdict"] = "not solved"
+    if isinstance(system, Python):  # without reading the text
+        entry["seconds"] = round(system.seconds, 4)
     if problem.expected == "none":
         entry["verdict"] = "right" if answer.kind == "none" else "wrong" if answer.kind == "solved" else "not solved"
         entry["length"] = 0

@@ -98,12 +98,20 @@ def _solved(eq: Any, func: Any, ics: Mapping[Any, Any] | None, var: str | None, 
         particular = real_particular(particular, equation, x, given[0].point)
     own = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
     C1, C2 = _new_constants({*own}, (y1, y2, particular, *(part for g in given for part in (g.point, g.value))))
-    general = C1 * y1 + C2 * y2 + particular
+    found = constants(given, y1, y2, particular, x, (C1, C2)) if given else {}
+    general = _combined(found.get(C1, C1), found.get(C2, C2), y1, y2) + particular
     if given:
-        general = general.xreplace(constants(given, y1, y2, particular, x, (C1, C2)))
-        general = sympy.expand_mul(general, deep=False)
+        general = min(general, sympy.expand_mul(general, deep=False), key=sympy.count_ops)
     general = general.xreplace({sympy.Symbol(name): symbol for name, symbol in own.items()})
-    return sympy.Eq(function, general.subs(x, function.args[0]), evaluate=False)
+    return sympy.Eq(function, general.xreplace({x: function.args[0]}), evaluate=False)
+
+
+def _combined(c1: Any, c2: Any, y1: Any, y2: Any) -> Any:
+    """c1 y1 + c2 y2 with common factors before it."""
+    factors = [sympy.Mul.make_args(y) for y in (y1, y2)]
+    common = [factor for factor in factors[0] if factor in factors[1]] if c1 != 0 != c2 else []
+    first, second = (sympy.Mul(*(factor for factor in own if factor not in common)) for own in factors)
+    return sympy.Mul(*common, c1 * first + c2 * second)
 
 
 def _new_constants(taken: set[str], expressions: Sequence[Any]) -> list[Any]:

@@ -127,7 +127,9 @@ def tidy(value: Any) -> Any:
         return value
     functions = {f.func for f in value.atoms(sympy.Function)}
     if not functions:
-        return sympy.radsimp(sympy.cancel(value))
+        return sympy.radsimp(sympy.cancel(value) if value.free_symbols or value.has(sympy.E) else sympy.expand(value))
+    if functions == {sympy.exp}:
+        return sympy.cancel(value)
     return simplified(value) if functions <= _ELEMENTARY else value
 
 

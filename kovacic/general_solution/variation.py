@@ -72,6 +72,10 @@ def _integral(integrand: Any, x: Any, start: Any) -> Any:
     """The antiderivative by SymPy's rules for hand calculation, else an `Integral`."""
     parts = []
     for term in sympy.Add.make_args(_prepared(integrand)):
+        done = _by_exponential(term, x)
+        if done is not None:
+            parts.append(done)
+            continue
         for form in (_one_exponential(term), term, _with_secants(term)):
             done = sympy.Integral(form, x).doit(manual=True)
             if not done.has(sympy.Integral):
@@ -80,6 +84,19 @@ def _integral(integrand: Any, x: Any, start: Any) -> Any:
             return _open(integrand, x, start)
         parts.append(done)
     return sympy.Add(*parts)
+
+
+def _by_exponential(term: Any, x: Any) -> Any:
+    """The antiderivative of a function of u = exp(k x) alone, in u; None for another function, or one that isn't done."""
+    rates = {e: e.args[0].diff(x) for e in term.atoms(sympy.exp) if e.args[0].subs(x, 0) == 0}
+    if not rates or not all(rate.is_Rational for rate in rates.values()):
+        return None
+    k, u = sympy.gcd_list([*rates.values()]), sympy.Dummy(positive=True)
+    inner = term.xreplace({e: u ** (rate / k) for e, rate in rates.items()})
+    if inner.has(x):
+        return None
+    done = sympy.Integral(sympy.expand(inner / (k * u)), u).doit(manual=True)
+    return None if done.has(sympy.Integral) else done.subs(u, sympy.exp(k * x))
 
 
 def _prepared(integrand: Any) -> Any:
