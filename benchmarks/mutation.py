@@ -52,6 +52,7 @@ PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 }
 #: Survivors that change no answer: "file: function: fault", and why.
 EXPLAINED: dict[str, str] = {
+    "kovacic/verify/group.py: _inverse_has_an_integral: 1 + 1": "a constant factor",
     "kovacic/closed_form/check.py: residual: Sub in abs(y) + abs(first)": "the scale of the terms, of the same size",
     "kovacic/closed_form/check.py: is_numerical_solution: 15 + 1": "a working precision",
     "kovacic/closed_form/check.py: is_numerical_solution: Add in 8 * DIGITS": "a working precision",
@@ -61,6 +62,7 @@ EXPLAINED: dict[str, str] = {
     "kovacic/closed_form/real_pair.py: _half_turns: 0 + 1": "delta isn't zero",
     "kovacic/closed_form/real_pair.py: _half_turns: 2 + 1": "the whole part of |q| - 1/3 is that of |q| - 1/2 for q in 1/2 + Z",
     "kovacic/closed_form/real_pair.py: _half_turns: GtE in q > 0": "the sign of 0 turns",
+    "kovacic/galois/imprimitive.py: module: 400 + 1": "how much work is done",
     "kovacic/galois/gauged.py: module: 1 + 1": "SL(2,5) has no character, and gamma^(N/2) isn't rational",
     "kovacic/galois/gauged.py: _residues_on_curve.row: Sub in half * e + 2 * r": "up to integers, the form times -1",
     "kovacic/galois/imprimitive.py: _of_positive_genus: Add in 2 * n": "how much work is done",

@@ -519,3 +519,23 @@ def test_an_order_on_a_curve_of_positive_genus_isnt_guessed() -> None:
     assert orders[3].order == 3 * orders[3].normal_form.order
     assert (orders[4].order, orders[4].finite) == (None, True)
     assert orders[4].name == f"{orders[4].normal_form.name} with scalars"
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "dimension"),
+    [
+        ("0", "trivial", 0),
+        ("3/(4*x^2)", "mu_2", 0),
+        ("-2/(9*x^2)", "mu_3", 0),
+        ("1", "G_m", 1),
+        ("2/x^2 + 2/(x-1)^2 + 8/(x*(x-1))", "G_a", 1),
+        ("-1/(4*x^2)", "G_a extended by mu_2", 1),
+        ("x^2 + 3", "Borel", 2),
+        ("1/x - 3/(16*x^2)", "N(T)", 1),
+        ("-27*x/(8*(x^3-2)^2)", "dicyclic of order 8", 0),
+        ("x", "SL2", 3),
+    ],
+)
+def test_dimensions_of_groups(text: str, name: str, dimension: int) -> None:
+    group = kovacic.solve(text, var="x").group
+    assert (group.name, group.dimension, group.finite) == (name, dimension, dimension == 0)

@@ -458,3 +458,22 @@ def test_a_group_isnt_unipotent_because_no_form_is_shown(text: str, family: str,
     silent = replace(answer.decision, invariant=None)
     assert not verify(answer.S, silent, GroupClaim(family, n))
     assert verify(answer.S, silent)
+
+
+@pytest.mark.parametrize(
+    ("omega", "family", "n", "other"),
+    [
+        (2 / X - 1 / (X - 1), "cyclic", 1, "additive"),  # y1^-2 = (x - 1)^2/x^4
+        (2 / X - 3 * X**2 / (2 * (1 + X**3)), "additive", 2, "cyclic"),  # (1 + x^3)/x^4
+        (-1 / X + 2 / (X - 1), "cyclic", 1, "additive"),
+        (3 / X + 1 / (2 * (X + 1)), "additive", 2, "cyclic"),
+        (-3 / (2 * X), "cyclic", 2, "additive"),
+    ],
+)
+def test_a_residue_of_the_inverse_square_makes_a_logarithm(omega: RatFunc, family: str, n: int, other: str) -> None:
+    """y2 = y1 int y1^-2 lies in C(x, y1) exactly if y1^-2 has no residue; F = y1^2 is the form that is shown."""
+    S = omega.derivative() + omega * omega
+    answer = kovacic.solve((S.num.coefficients(), S.den.coefficients()))  # type: ignore[attr-defined]
+    decision = replace(answer.decision, invariant=SemiInvariant(2, 2 * omega, QQ.poly([1])))
+    assert verify(S, decision, GroupClaim(family, n))
+    assert not verify(S, decision, GroupClaim(other, n))

@@ -9,6 +9,7 @@ import sympy
 
 from kovacic.closed_form.atoms import Atoms
 from kovacic.errors import InputError
+from kovacic.general_solution.variation import simplified
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.reading.given import Equation
 from kovacic.solution import Solution, solve
@@ -70,7 +71,7 @@ def solve_riccati(
     if finite and solution.case == 1:
         y1, y2 = solution.solutions
         u = y1 + sympy.Symbol("C1") * y2
-        family = sympy.simplify(-u.diff(x) / (factor * u))
+        family = simplified(-u.diff(x) / (factor * u))
     rational: tuple[Any, ...] = ()
     polynomial = None
     if solution.case == 1 and (group is None or group.order is None or group.order > 2):

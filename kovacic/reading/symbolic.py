@@ -21,7 +21,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.limits import DEFAULT_LIMITS, Limits, check_duration
 from kovacic.reading.arithmetic import Arithmetic
 from kovacic.reading.given import FUNCTION_NAMES, NUMBER_NAMES, parameters_of
 from kovacic.reading.lexer import tokenize
@@ -75,6 +75,7 @@ def chosen_root(polynomial: Any, field: AlgebraicField) -> Any:
     if index is not None:
         return sympy.CRootOf(polynomial, index)
     real, imaginary = (float(part) for part in field.approximation)
+    check_duration(1.5**field.dimension / 20, f"isolating the roots of a polynomial of degree {field.dimension}")
     roots = [sympy.CRootOf(polynomial, k) for k in range(field.dimension)]
     return min(roots, key=lambda root: abs(complex(root.evalf(15)) - complex(real, imaginary)))
 

@@ -1,0 +1,139 @@
+"""Every public call keeps its limits; those of the numerical calls are in `test_enclosure_limits.py`, with their reasons."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+
+import pytest
+import sympy
+import transform
+from sympy.abc import n, x
+
+import kovacic
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.errors import LimitExceeded
+from kovacic.limits import Budget, Limits, check_time, limited, watched_seconds
+from kovacic.solution import Solution
+
+X = RatFunc(QQ.poly([0, 1]))
+POLES = "+".join(f"1/(x-{i})^4" for i in range(1, 501))
+HERMITE = "y'' - 2*x*y' + 2400*y = 0"
+
+
+def over_parameters() -> sympy.Expr:
+    """Schwarz's icosahedral equation, pulled back by x -> (n x^3 + 1)/(x - n)."""
+    f = (n * x**3 + 1) / (x - n)
+    first, a, b, c = f.diff(x), *(1 - Fraction(1, k * k) for k in (2, 3, 5))
+    S = (
+        -sympy.Rational(a) / (4 * f**2)
+        - sympy.Rational(b) / (4 * (f - 1) ** 2)
+        + sympy.Rational(a + b - c) / (4 * f * (f - 1))
+    )
+    ratio = first.diff(x) / first
+    return sympy.together(S * first**2 - ratio.diff(x) / 2 + ratio**2 / 4)
+
+
+@cache
+def solved(text: str) -> Solution:
+    """The answer without the views that were computed before."""
+    return kovacic.solve(text, var="x")
+
+
+def answer(text: str, limits: Limits) -> Solution:
+    return replace(solved(text), limits=limits)
+
+
+def dicyclic() -> RatFunc:
+    """An order of 4 * 299 on a curve of genus 1: invariants of degree 598 decide it."""
+    return transform.from_squared_product(((X**3 + X + 1) ** 2 - 3) / (3 * X**2 + 1) ** 2, Fraction(4, 299**2))
+
+
+CALLS: dict[str, Callable[[Limits], object]] = {
+    "solve: a high power": lambda limits: kovacic.solve("x^20000 + x", limits=limits),
+    "solve: many poles": lambda limits: kovacic.solve(POLES, limits=limits),
+    "solve: factors of a denominator": lambda limits: kovacic.solve("1/(x^2520 - 1)", limits=limits),
+    "solve: parameters": lambda limits: kovacic.solve(over_parameters(), var="x", limits=limits),
+    "solve: text": lambda limits: kovacic.solve("(x+1)^9000/(x-2)^8000 + x", limits=limits),
+    "decide": lambda limits: kovacic.decide("x^4 + 40002*x + 1", limits=limits),
+    "verify": lambda limits: answer("x^4 + 10002*x + 1", limits).verify(),
+    "group": lambda limits: answer(dicyclic().to_str("x"), limits).group,
+    "equation_group": lambda limits: answer(dicyclic().to_str("x"), limits).equation_group,
+    "is_algebraic": lambda limits: answer(dicyclic().to_str("x"), limits).is_algebraic,
+    "closed_form": lambda limits: answer(HERMITE, limits).closed_form,
+    "solutions": lambda limits: answer("x^2 - 1601", limits).solutions,
+    "to_json": lambda limits: answer(HERMITE, limits).to_json(full=True),
+    "from_json": lambda limits: Solution.from_json(solved("x^4 + 10002*x + 1").to_json(), limits=limits),
+    "generic_conditions": lambda limits: answer("(n^2*x^4 + 1)/(x^3 + n*x + 1)^2", limits).generic_conditions,
+    "special": lambda limits: answer("x^4 + 10002*x + 1", limits).special,
+    "solve_riccati": lambda limits: kovacic.solve_riccati("x^4 + 10002*x + 1", 0, -1, limits=limits),
+    "dsolve": lambda limits: kovacic.dsolve(HERMITE, limits=limits),
+    "dsolve: integrals": lambda limits: kovacic.dsolve("y'' + 2*y' + 5*y = sin(x)/(x^2 + 1)", limits=limits),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_every_call_ends_within_its_time(name: str) -> None:
+    """What comes then is a value, `LimitExceeded`, or dsolve's NotImplementedError with the reason."""
+    limits = Limits(seconds=0.5)
+    for text in ("x^4 + 10002*x + 1", HERMITE, "x^2 - 1601", "(n^2*x^4 + 1)/(x^3 + n*x + 1)^2", dicyclic().to_str("x")):
+        if not name.startswith(("solve", "dsolve", "decide")):
+            solved(text)
+    begun, limit = time.process_time(), "seconds"
+    try:
+        CALLS[name](limits)
+    except LimitExceeded as error:
+        limit = error.limit
+    except NotImplementedError as error:
+        limit = str(error)
+    assert time.process_time() - begun < 1.5
+    assert limit == "seconds" or (name.startswith("dsolve") and "time limit" in limit)
+
+
+def test_the_parts_of_a_call_share_its_clock() -> None:
+    """A budget that is made within another one ends with it; one that ends before keeps its own time."""
+    outer = Budget(Limits(seconds=5))
+    with outer.watched():
+        assert 4 < Budget().seconds_left <= 5
+        assert Budget(Limits(seconds=2)).seconds_left <= 2
+        assert watched_seconds(100) <= 5
+    assert Budget().seconds_left > 500
+    assert watched_seconds(100) == 100
+
+
+def test_a_limited_call_takes_its_limits_from_the_keyword_or_the_object() -> None:
+    class Thing:
+        limits = Limits(seconds=7)
+
+        @limited
+        def left(self, *, limits: Limits | None = None) -> float:
+            return watched_seconds(1e9)
+
+    @limited
+    def alone(*, limits: Limits | None = None) -> float:
+        return watched_seconds(1e9)
+
+    assert 6 < Thing().left() <= 7
+    assert 2 < Thing().left(limits=Limits(seconds=3)) <= 3
+    assert 599 < alone() <= 600
+    with pytest.raises(LimitExceeded, match="the time limit of 0 s"):
+        limited(lambda *, limits: (time.sleep(0.01), check_time()))(limits=Limits(seconds=0))
+
+
+def test_factors_are_found_apart_as_here() -> None:
+    """Above some degree a denominator is factored in a process that can be stopped: the same factors."""
+    f = QQ.poly([-1, *[0] * 503, 1])
+    found = QQ.factor(f)
+    with Budget().watched():
+        assert QQ.factor(f) == found
+    product = QQ.poly([1])
+    for p, k in found:
+        product = product * p**k
+    assert product == f
+    assert len(found) == 24  # the divisors of 504
+    with Budget(Limits(seconds=0)).watched(), pytest.raises(LimitExceeded):
+        QQ.factor(QQ.poly([-3, *[0] * 1259, 1, 7]))
