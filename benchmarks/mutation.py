@@ -65,6 +65,9 @@ EXPLAINED: dict[str, str] = {
     "kovacic/galois/imprimitive.py: module: 400 + 1": "how much work is done",
     "kovacic/galois/gauged.py: module: 1 + 1": "SL(2,5) has no character, and gamma^(N/2) isn't rational",
     "kovacic/galois/gauged.py: _residues_on_curve.row: Sub in half * e + 2 * r": "up to integers, the form times -1",
+    "kovacic/galois/imprimitive.py: curve_of: Add in f.theta * problem.D": "theta has a pole at each singular point: N/D + D"
+    " is (N + D^2)/D, with the same residues",
+    "kovacic/galois/imprimitive.py: _of_positive_genus: Sub in _LARGEST_DEGREE // (20 * l) + 1": "how much work is done",
     "kovacic/galois/imprimitive.py: _of_positive_genus: Add in 2 * n": "how much work is done",
     "kovacic/galois/imprimitive.py: _of_positive_genus: 1 + 1": "how much work is done",
     "kovacic/galois/imprimitive.py: _small_homomorphisms: GtE in h.p ** genus > 10 ** 7": "10^7 is no power of a prime",
