@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import mpmath
@@ -22,8 +25,8 @@ from kovacic.special.answer import special_functions
 from kovacic.special.find import find
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 from kovacic.special.writer import Writer
-from tests.special_cases import KINDS, Case, pull_backs
-from tests.transform import hypergeometric, pull_back
+from tests.special_cases import KINDS, Case, pull_backs, standard
+from tests.transform import gauge, hypergeometric, pull_back
 
 x = sympy.Symbol("x")
 X = RatFunc(QQ.poly([0, 1]))
@@ -37,7 +40,8 @@ def function(expression: Any, values: dict[str, Any]) -> Any:
     expression = (
         expression.rewrite(sympy.besselj).rewrite(sympy.bessely) if expression.has(sympy.jn, sympy.yn) else expression
     )
-    return sympy.lambdify(x, expression.xreplace(named), "mpmath")
+    primes = {f"airy{k}prime": partial(getattr(mpmath, f"airy{k}"), derivative=1) for k in ("ai", "bi")}
+    return sympy.lambdify(x, expression.xreplace(named), [primes, "mpmath"])
 
 
 def solves(answer: Any, S: Any, gauge: Any = 0, **values: Any) -> bool:
@@ -298,6 +302,44 @@ def test_values_agree_with_proven_enclosures(equation: str, x0: int, x1: int) ->
             y0, dy0 = (Fraction(str(v.real)) for v in (start, slope))
             ball = answer.at(x1, x0=x0, y0=y0, dy0=dy0, digits=25)
             assert abs(ball.to_mpmath() - end.real) < mpmath.mpf(10) ** -20 * (1 + abs(end))
+
+
+def gauged_cases(count: int) -> list[Any]:
+    """S for y = a u + b u', a and b linear, u a solution of a standard equation with one irregular place."""
+    random, cases = Random(3), []
+    for kind in KINDS[:-1]:
+        for _ in range(count):
+            T = standard(kind, random)
+            a, b = QQ.poly([random.randint(-3, 3), random.randint(-3, 3)]), QQ.poly([1, random.choice((0, 1))])
+            cases.append(pytest.param(T, gauge(T, RatFunc(a), RatFunc(b)), id=f"{kind}, {a}, {b}"))
+    return cases
+
+
+@pytest.mark.parametrize(("T", "S"), gauged_cases(1))
+def test_combinations_of_a_function_and_its_derivative(T: RatFunc, S: RatFunc) -> None:
+    search = find(S, Budget())
+    assert search.pullback is not None
+    if search.gauge is not None:
+        assert search.gauge.gives(S, search.pullback.S)
+        for wrong in (
+            replace(search.gauge, A=search.gauge.A + 1),
+            replace(search.gauge, B=search.gauge.B * 2),
+            replace(search.gauge, rate=search.gauge.rate + 1),
+        ):
+            assert not wrong.gives(S, search.pullback.S)
+    found = special(S)  # checked in ball arithmetic
+    assert found
+    if not found.y2.has(sympy.hyper):  # mpmath takes seconds for 2F0
+        assert solves(found, S)
+
+
+def test_a_gauge_that_does_not_satisfy_its_equations_is_not_returned(monkeypatch: pytest.MonkeyPatch) -> None:
+    S = gauge(X, X + 1, RatFunc(QQ.poly([1])))
+    found = find(S, Budget())
+    assert found.gauge is not None
+    wrong = found.pullback, replace(found.gauge, A=found.gauge.A + 1)
+    monkeypatch.setattr("kovacic.special.find.gauged", lambda problem: iter([wrong]))
+    assert find(S, Budget()).pullback is None
 
 
 def test_views_show_them() -> None:

@@ -32,6 +32,8 @@ _UNARY = {
     sympy.gamma: "gamma",
     sympy.airyai: "airy_ai",
     sympy.airybi: "airy_bi",
+    sympy.airyaiprime: "airy_ai_prime",
+    sympy.airybiprime: "airy_bi_prime",
 }
 
 

@@ -68,7 +68,7 @@ def special_functions(
 
     try:
         with budget.watched():
-            found = solutions(search.pullback, S, gauge, variable, symbols or {})
+            found = solutions(search, S, gauge, variable, symbols or {})
     except LimitExceeded as limit:
         return SpecialFunctions(None, None, None, search.searched, str(limit))
     if found is None:

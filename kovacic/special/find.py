@@ -9,6 +9,7 @@ from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.special import confluent, gauss
+from kovacic.special.equivalent import Gauge, gauged
 from kovacic.special.pullback import Pullback
 
 _CONFLUENT = (
@@ -16,6 +17,7 @@ _CONFLUENT = (
     "Whittaker's equation (with Kummer's, Weber's and Bessel's) in f(x), f rational",
     "Bessel's equation in the square root of f(x), f rational",
 )
+_GAUGED = "combinations of these and their derivatives, f a power of x - c, over the rational numbers"
 _GAUSS = ("Gauss' hypergeometric equation in f(x), f rational, all points singular over two of 0, 1 and infinity",)
 
 
@@ -23,12 +25,14 @@ _GAUSS = ("Gauss' hypergeometric equation in f(x), f rational, all points singul
 class Search:
     """A verified pull-back, or None; `searched` says which classes were gone through, and `stopped` why a search ended early.
 
-    That nothing was found proves nothing: gauge-equivalent equations, and functions f outside the classes, aren't looked for.
+    With a `gauge`, also verified, y is a combination of u and u'.  That nothing was found proves nothing: functions f outside
+    of the classes, and other gauge-equivalent equations, aren't looked for.
     """
 
     pullback: Pullback | None
     searched: tuple[str, ...]
     stopped: str | None = None
+    gauge: Gauge | None = None
 
 
 def find(S: RatFunc, budget: Budget) -> Search:
@@ -52,6 +56,11 @@ def find(S: RatFunc, budget: Budget) -> Search:
                 budget.check()
                 if pullback.gives(S):
                     return Search(pullback, searched)
+            if not regular:
+                searched = (*searched, _GAUGED)
+                for pullback, gauge in gauged(problem):
+                    if gauge.gives(S, pullback.S):
+                        return Search(pullback, searched, gauge=gauge)
     except LimitExceeded as limit:
         return Search(None, searched, str(limit))
     return Search(None, searched)
