@@ -189,6 +189,13 @@ def test_an_exhausted_budget_is_a_value() -> None:
     assert "time limit" in str(search.stopped)
 
 
+def test_many_conjugate_poles_are_a_limit() -> None:
+    S = pull_back(standard("Whittaker", Random(1)), 1 / (X**30 + X + 3))
+    search = find(S, Budget())
+    assert search.pullback is None
+    assert "30 conjugate poles" in str(search.stopped)
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_nothing_is_returned_that_does_not_satisfy_the_identity(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every candidate is spoiled: by a parameter, or in f."""

@@ -23,7 +23,9 @@ from itertools import product
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
+from kovacic.errors import LimitExceeded
 from kovacic.special.polar import (
     PolarPart,
     integral_of_cubic_root,
@@ -37,20 +39,29 @@ from kovacic.special.pullback import Airy, Confluent, Pullback, schwarzian
 
 #: Irregular places up to which all signs are tried where no residue tells them.
 _MOST_SIGNS = 10
+#: Conjugate poles up to which roots are taken where the field has parameters: factoring there takes long.
+_WITH_PARAMETERS = 2
 
 
 def candidates(problem: Problem) -> Iterator[Pullback]:
-    """Pull-backs that are possible, the likely ones first; each of them has to be verified."""
+    """Pull-backs that are possible, the likely ones first; each of them has to be verified.
+
+    Raises `LimitExceeded` in the end where poles are conjugate over a larger field than the limit on constants allows.
+    """
     irregular = irregular_places(problem)
     orders = [place.order for place in irregular]
-    if all((order - 2) % 3 == 0 for order in orders):
+    largest = max(place.degree for place in irregular)
+    most = problem.budget.limits.constants if problem.field.ground == QQ else _WITH_PARAMETERS
+    if largest <= most and all((order - 2) % 3 == 0 for order in orders):
         yield from _airy(problem.S, irregular)
-    if all(order % 2 == 0 for order in orders):
+    if largest <= most and all(order % 2 == 0 for order in orders):
         yield from _whittaker(problem.S, irregular)
     if all(order % 2 for order in orders):
         yield from _bessel(problem.S, irregular)
     else:
         yield from _bessel_by_zeros(problem, irregular)
+    if largest > most:
+        raise LimitExceeded(f"f has {largest} conjugate poles; roots are taken up to degree {most}", limit="constants")
 
 
 def irregular_places(problem: Problem) -> list[Place]:
