@@ -25,6 +25,7 @@ from kovacic.special.answer import special_functions
 from kovacic.special.find import find
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 from kovacic.special.writer import Writer
+from kovacic.special.wronskian import wronskian
 from tests.special_cases import KINDS, Case, pull_backs, standard
 from tests.transform import gauge, hypergeometric, pull_back
 
@@ -347,6 +348,42 @@ def test_a_gauge_that_does_not_satisfy_its_equations_is_not_returned(monkeypatch
     wrong = found.pullback, replace(found.gauge, A=found.gauge.A + 1)
     monkeypatch.setattr("kovacic.special.find.gauged", lambda problem: iter([wrong]))
     assert find(S, Budget()).pullback is None
+
+
+@pytest.mark.parametrize(
+    "equation",
+    [
+        "y'' = (2*x + 3)*y",
+        "x^2*y'' + x*y' + (x^2 - 1/9)*y = 0",
+        "x^3*y'' + y = 0",
+        "y'' = x^2*y",
+        "x^2*y'' + 2*x*y' + (x^2 - n*(n + 1))*y = 0",
+        "y'' + 3*y' - (x/7)*y = 0",
+    ],
+)
+def test_wronskians(equation: str) -> None:
+    """Against derivatives by mpmath; and one minus sign is noticed."""
+    answer = kovacic.solve(equation)
+    y1, y2 = special_functions(answer.S, answer.gauge, "x", Budget(), symbols={"n": n})
+    W = wronskian(y1, y2, x)
+    assert W is not None
+    assert not W.has(sympy.besselj, sympy.besseli, sympy.jn, sympy.airyai)
+    with mpmath.workdps(40):
+        (u, du), (v, dv) = (mpmath.taylor(function(y, {"n": 2}), POINT, 1) for y in (y1, y2))
+        right = function(W + 0 * x, {"n": 2})(POINT)
+        assert abs(u * dv - du * v - right) < mpmath.mpf(10) ** -30 * abs(right)
+    assert wronskian(y2, y1, x) is None
+    assert wronskian(y1, x * y2, x) is None
+
+
+def test_initial_values_have_no_wronskian_of_values_below() -> None:
+    solution = kovacic.dsolve("x*y'' + y' + x*y = 0", ics={"y(1)": 1, "y'(1)": 0}).rhs
+    J, Y = sympy.besselj, sympy.bessely
+    assert sympy.expand(solution - sympy.pi / 2 * (J(1, 1) * Y(0, x) - Y(1, 1) * J(0, x))) == 0
+    turned = kovacic.dsolve("x*y'' + y' + x*y = 0", ics={"y'(1)": 0, "y(1)": 1}).rhs
+    assert turned == solution
+    airy = kovacic.dsolve("y'' - x*y = 1").rhs
+    assert airy.atoms(sympy.Integral) == {sympy.Integral(sympy.pi * f(x), x) for f in (sympy.airyai, sympy.airybi)}
 
 
 def test_views_show_them() -> None:

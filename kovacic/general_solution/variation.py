@@ -12,6 +12,7 @@ import sympy
 from sympy import cos, cot, csc, expand, powsimp, sec, sin, tan
 
 from kovacic.algebra.apart import last_of
+from kovacic.special.wronskian import wronskian as special_wronskian
 
 #: The largest expression (in operations) that is handed to SymPy's general simplification.
 _SIMPLIFIED = 150
@@ -24,7 +25,7 @@ def with_integrals(y1: Any, y2: Any, right: Any, x: Any, start: Any, seconds: fl
     stages = last_of(_stages, y1, y2, right, x, start, seconds=min(seconds, SECONDS))
     if stages is not None:
         return stages
-    wronskian = y1 * y2.diff(x) - y1.diff(x) * y2
+    wronskian = special_wronskian(y1, y2, x) or y1 * y2.diff(x) - y1.diff(x) * y2
     first, second = (_open(y * right / wronskian, x, start) for y in (y2, y1))
     return y2 * second - y1 * first
 
@@ -46,6 +47,8 @@ def _stages(y1: Any, y2: Any, right: Any, x: Any, start: Any) -> Iterator[Any]:
 
 def _wronskian(y1: Any, y2: Any, x: Any) -> Any:
     """y1 y2' - y1' y2, simplified: over the field of the functions that occur, and by trigonometry where that's needed."""
+    if (known := special_wronskian(y1, y2, x)) is not None:
+        return known
     value = expand(y1 * y2.diff(x) - y1.diff(x) * y2)
     if value.has(sin, cos):
         value = sympy.trigsimp(value)
