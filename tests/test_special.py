@@ -190,6 +190,14 @@ def test_an_exhausted_budget_is_a_value() -> None:
     assert "time limit" in str(search.stopped)
 
 
+def test_many_equal_singular_points_are_a_limit() -> None:
+    points = [RatFunc(QQ.poly([-k, 1])) for k in range(10)]
+    S = sum(((k + 1) / p - (k + 1) / (p - 1) - Fraction(21, 100) / (p * p) for k, p in enumerate(points[:-1])), X * 0)
+    search = find(S, Budget())
+    assert search.pullback is None
+    assert "functions f to try" in str(search.stopped)
+
+
 def test_many_conjugate_poles_are_a_limit() -> None:
     S = pull_back(standard("Whittaker", Random(1)), 1 / (X**30 + X + 3))
     search = find(S, Budget())

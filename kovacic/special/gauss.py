@@ -13,16 +13,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import combinations
 from math import gcd, lcm
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
+from kovacic.errors import LimitExceeded
 from kovacic.special.pullback import Gauss, Pullback
 
-#: The most places that are distributed, and up to which number apparent ones are among them.
-_PLACES, _WITH_APPARENT = 14, 7
+#: The most places that are distributed, up to which number apparent ones are among them, and the most functions f.
+_PLACES, _WITH_APPARENT, _TRIALS = 14, 7, 1000
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,11 @@ class _Fibre:
     places: tuple[tuple[Place, int], ...]
     square: Poly
     degree: int
+    mask: int
+
+    @property
+    def points(self) -> int:
+        return sum(place.degree for place, _ in self.places)
 
     @property
     def polynomial(self) -> Poly:
@@ -52,23 +59,32 @@ def candidates(problem: Problem) -> Iterator[Pullback]:
         yield from _apart(problem, different[0])
     if len(places) > _PLACES or different:
         return
-    # f of degree n has 2 n - 2 ramification points, so that there are n + 2 points or more over 0, 1 and infinity.
+    # f of degree n has 2 n - 2 ramification points, so that there are n + 2 + R points over 0, 1 and infinity, R being the
+    # ramification elsewhere, which the apparent places show.
+    points = sum(place.degree for place in places)
+    elsewhere = sum(int(place.delta or 1) * place.degree for place in regular if place.is_apparent)
     among = regular if len(regular) <= _WITH_APPARENT else places
-    fibres = sorted(_fibres(among, 2 * sum(place.degree for place in among) - 4), key=lambda fibre: fibre.degree)
+    fibres: dict[int, list[_Fibre]] = {}
+    for fibre in _fibres(among, 2 * sum(place.degree for place in among) - 4):
+        problem.budget.check()
+        if fibre.degree >= points - 2 - elsewhere:
+            fibres.setdefault(fibre.degree, []).append(fibre)
     tried = set()
-    for i, zeros in enumerate(fibres):
-        for poles in fibres[i + 1 :]:
+    for n, some in sorted(fibres.items()):
+        for zeros, poles in combinations(some, 2):
             problem.budget.check()
-            if zeros.degree != poles.degree or any(p is q for p, _ in zeros.places for q, _ in poles.places):
+            if zeros.mask & poles.mask:
                 continue
-            used = [place for place, _ in (*zeros.places, *poles.places)]
-            rest = [place for place in places if not any(place is one for one in used)]
-            visible, third = (sum(place.degree for place in some) for some in (used, rest))
-            if visible + third + (zeros.degree - third) // 2 < zeros.degree + 2:
+            used = zeros.mask | poles.mask
+            rest = [place for place in places if not used >> among.index(place) & 1]
+            third = sum(place.degree for place in rest)
+            if zeros.points + poles.points + third + (n - third) // 2 < n + 2:
                 continue
             for f in _scaled(zeros.polynomial, poles.polynomial, rest):
                 if f not in tried:
                     tried.add(f)
+                    if len(tried) > _TRIALS:
+                        raise LimitExceeded(f"there are more than {_TRIALS} functions f to try", limit="degree")
                     yield from _with_third(f, zeros, poles, regular)
 
 
@@ -83,15 +99,15 @@ def _apart(problem: Problem, place: Place) -> Iterator[Pullback]:
 def _fibres(places: list[Place], most: int) -> Iterator[_Fibre]:
     """Every set of places that can be a whole fibre of a function of degree `most` or less, with its multiplicities."""
 
-    def extend(index: int, chosen: list[Place], size: int) -> Iterator[list[Place]]:
+    def extend(index: int, chosen: list[Place], size: int, mask: int) -> Iterator[tuple[list[Place], int]]:
         if chosen:
-            yield chosen
+            yield chosen, mask
         for k in range(index, len(places)):
             more = size + places[k].degree
             if more <= most and (not chosen or _ratio(places[k], chosen[0]) is not None):
-                yield from extend(k + 1, [*chosen, places[k]], more)
+                yield from extend(k + 1, [*chosen, places[k]], more, mask | 1 << k)
 
-    for chosen in extend(0, [], 0):
+    for chosen, mask in extend(0, [], 0, 0):
         first = chosen[0].delta_squared
         assert first is not None
         ratios = [_ratio(place, chosen[0]) for place in chosen]
@@ -103,7 +119,7 @@ def _fibres(places: list[Place], most: int) -> Iterator[_Fibre]:
         size = sum(m * place.degree for m, place in zip(least, chosen, strict=True))
         for k in range(1, most // size + 1):
             square = first * unit * unit * Fraction(1, k * k)
-            yield _Fibre(tuple((place, k * m) for place, m in zip(chosen, least, strict=True)), square, k * size)
+            yield _Fibre(tuple((place, k * m) for place, m in zip(chosen, least, strict=True)), square, k * size, mask)
 
 
 def _ratio(place: Place, other: Place) -> Fraction | None:
