@@ -1,10 +1,12 @@
-"""How many generated pull-backs of each standard equation are found, and the time from S to the solutions.
+"""How many generated pull-backs of each standard equation are found, and the time from S to the solutions; then the same for
+the equations of SymPy's and Maxima's tests that have no Liouvillian solution (tests/data/special.jsonl).
 
 python benchmarks/special.py [count for each kind and degree] [largest degree]
 """
 
 from __future__ import annotations
 
+import json
 import sys
 import time
 from collections import Counter
@@ -14,6 +16,7 @@ from statistics import median
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from kovacic.limits import Budget, Limits
+from kovacic.reading.read import read_input
 from kovacic.special.answer import special_functions
 from kovacic.special.find import find
 from tests.special_cases import KINDS, pull_backs
@@ -39,6 +42,21 @@ def main(count: int, largest: int) -> None:
             print(f"{kind:24} {degree:6} {found[True]:4} of {count:3} {times}")
 
 
+def corpus() -> None:
+    """The equations as they are published, most of them with parameters; some need functions that SymPy hasn't."""
+    found, times = Counter[str](), []
+    for line in (Path(__file__).parent.parent / "tests" / "data" / "special.jsonl").read_text().splitlines():
+        row = json.loads(line)
+        parsed = read_input(row["equation"], var="x")
+        assert parsed.equation is not None
+        start = time.process_time()
+        answer = special_functions(parsed.S, parsed.equation.gauge, "x", Budget(Limits(seconds=30)))
+        times.append(time.process_time() - start)
+        found["found" if answer else row.get("other", "not found")] += 1
+    print(f"published: {dict(found)}; median {1000 * median(times):.1f} ms, slowest {1000 * max(times):.0f} ms")
+
+
 if __name__ == "__main__":
     numbers = [int(argument) for argument in sys.argv[1:] if argument.isdigit()]
     main(*(numbers + [20, 4][len(numbers) :]))
+    corpus()
