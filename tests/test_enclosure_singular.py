@@ -355,3 +355,24 @@ def test_logarithms_at_centres_of_every_kind(centre: str) -> None:
     coarse, fine = (evaluate(equation, "3/2", x0=centre, frobenius=(1, 0), digits=digits) for digits in (10, 90))
     assert coarse.overlaps(fine)
     assert fine.digits >= 90
+
+
+@pytest.mark.parametrize("nu", [1000, 10**6, Fraction(2_000_001, 2)])
+def test_large_orders_take_few_terms(nu: int | Fraction) -> None:
+    """J_nu(x) Gamma(nu + 1) (2/x)^nu = sum (-x^2/4)^k / (k! (nu + 1)_k), summed exactly as far as it matters."""
+    value = evaluate(bessel(nu), 10, x0=0, which="regular", digits=30)
+    with ctx.workprec(4000):
+        total = term = acb(1)
+        for k in range(1, 40):
+            term *= acb(-25) / (k * (number(Fraction(nu)) + k))
+            total += term
+        expected = total * acb(10) ** number(Fraction(nu)) + acb(arb(0, 1e-40)) * acb(10) ** number(Fraction(nu))
+        assert ball_to_flint(value).overlaps(expected)
+    assert value.digits >= 30
+
+
+def test_arrays_of_no_dimension_are_numbers() -> None:
+    numpy = pytest.importorskip("numpy")
+    for x in (numpy.float64(2), numpy.array(2.0)):
+        assert isinstance(evaluate(bessel(0), x, x0=0, which="regular"), Ball)
+    assert evaluate(bessel(0), numpy.array([]), x0=0, which="regular").shape == (0,)

@@ -138,8 +138,13 @@ def evaluate(
     >>> print(evaluate("x^2*y'' + x*y' + x^2*y = 0", 1, x0=0, which="regular"))      # the Bessel function J0
     0.765197686557966552 ± 7.1e-25
     """
-    many, shape = isinstance(x, Iterable) and not isinstance(x, str), getattr(x, "shape", None)
-    points = list(x.flat) if shape else list(x) if many else [x]  # type: ignore[attr-defined, call-overload]
+    shape = getattr(x, "shape", None)
+    many = shape != () and isinstance(x, Iterable) and not isinstance(x, str)
+    points: list[Any] = list(x) if many and not shape else [x]  # type: ignore[call-overload]
+    if shape:
+        import numpy as np
+
+        points = list(np.asarray(x, dtype=object).flat)
     holes = {i for i, p in enumerate(points) if shape is not None and p != p}
     results = evaluate_states(
         equation,
@@ -161,13 +166,13 @@ def evaluate(
     found: list[Any] = [(result.y, result.dy) if derivative else result.y for result in results]
     if shape is None:
         return tuple(found) if many else found[0]
-    import numpy as np
-
     values = iter(found)
+    if shape == ():
+        return next(values, math.nan)
     array = np.empty(len(points), dtype=object)
     for i in range(len(points)):
         array[i] = math.nan if i in holes else next(values)
-    return array.reshape(shape) if shape else array[0]
+    return array.reshape(shape)
 
 
 def evaluate_states(
@@ -407,8 +412,9 @@ def _connection(
 ) -> Matrix:
     """The matrix at about so many bits."""
     traveller, unit = Traveller.at(problem, a, None, prec, budget), ((acb(1), acb(0)), (acb(0), acb(1)))
+    both = acb(1), acb(1)
     for vertex in middle:
-        traveller.go([vertex], unit[0])
+        traveller.go([vertex], both)
     if isinstance(b, Singular):
         here = traveller.here
         assert isinstance(here, Point)
@@ -416,7 +422,7 @@ def _connection(
         basis: Matrix | None = Basis(b, end, here, bound, prec, budget).at(end)
     else:
         end, basis = b, None
-    traveller.go([end], unit[0])
+    traveller.go([end], both)
     (p, r), (q, s) = (traveller.state(start) for start in unit)
     if basis is None:
         return p, q, r, s

@@ -21,6 +21,9 @@ the error's coefficients, delta the difference of lambda from the other exponent
 |gamma_j| <= M_gamma rho^-j, j > 0,
 
     |I(lambda + n + eps)^-1| <= 1/(kappa n^2),   kappa = (1 - |delta|/N)/(1 + (2 + |delta|/N)/(N - |delta|)),   n >= N,
+
+(with 0 for |delta| where Re delta >= 0: I(lambda + n) = n (n + delta), and |n + delta| >= n)
+
     kappa n^2 E_n <= C sum_(j>=1) rho^-j (n - j) E_(n-j) + r_n,   C = M_gamma/N + M_beta (1 + (|lambda| + 1)/N),
 
 so F = sum n E_n t^n stays below the solution of kappa t F' = C (t/rho)/(1 - t/rho) F + r, r the majorant of R/A, which gives
@@ -35,6 +38,7 @@ singularities", J. Symb. Comp. 31 (2001).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -72,7 +76,8 @@ class Majorant:
     inverse: arb
 
     def growth(self, n: int, delta: arb, size: arb, t: arb) -> tuple[arb, arb]:
-        """(1 - t/rho)^(-1 - C/kappa) and kappa for the terms from n on; `delta` and `size` bound |delta| and |lambda|."""
+        """(1 - t/rho)^(-1 - C/kappa) and kappa for the terms from n on; `size` bounds |lambda|, and `delta` |delta| where its
+        real part is negative, else it's 0: then |n + delta| >= n."""
         kappa = (1 - delta / n) / (1 + (2 + delta / n) / (n - delta))
         C = self.gamma / n + self.beta * (1 + (size + 1) / n)
         return (1 - t / self.rho) ** (-1 - C / kappa), kappa
@@ -135,10 +140,20 @@ def junction(point: Singular, towards: Point, prec: int) -> tuple[Point, Majoran
 
 
 class Basis:
-    """The Frobenius basis on the way from the point to `towards`, at the points of the disc that are no farther than `last`."""
+    """The Frobenius basis on the way from the point to `towards`, at the points of the disc that are no farther than `last`.
+
+    Solutions that aren't `needed` are zero.
+    """
 
     def __init__(
-        self, point: Singular, last: Point, towards: Point, bound: Majorant, prec: int, budget: Budget
+        self,
+        point: Singular,
+        last: Point,
+        towards: Point,
+        bound: Majorant,
+        prec: int,
+        budget: Budget,
+        needed: Sequence[bool] = (True, True),
     ) -> None:
         self.point, self.towards, self.bits = point, towards, int(prec * (1 + _GROWTH)) + 100
         with working_precision(self.bits):
@@ -149,10 +164,11 @@ class Basis:
                 start, resonance = (0, 1), None
             elif N is not None and point.is_rational and N <= _SOUGHT and not _has_logarithm(op, lower, N):
                 resonance = -N
-            balls = op.in_balls()
-            self.solutions = (
-                _expand(balls, lower, upper, resonance, start, length, bound, prec, budget),
-                _expand(balls, upper, lower, None, (1, 0), length, bound, prec, budget),
+            balls, delta = op.in_balls(), abs(acb(upper) - lower).upper()
+            cases = ((lower, delta, resonance, start), (upper, arb(0), None, (1, 0)))
+            self.solutions = tuple(
+                _expand(balls, *case, length, bound, prec, budget) if wanted else None
+                for case, wanted in zip(cases, needed, strict=True)
             )
 
     def at(self, x: Point) -> Matrix:
@@ -162,7 +178,8 @@ class Basis:
             if not (t / end).real > 0:
                 raise LimitExceeded(f"{x} can't be told from the singular point {self.point}", limit="digits")
             log = end.log() + (t / end).log()  # continued along the segment
-            first, second = (solution.at(t, log) for solution in self.solutions)
+            zero = acb(0), acb(0)
+            first, second = (zero if solution is None else solution.at(t, log) for solution in self.solutions)
             # slopes: dy/dx = theta y / t, and -t theta y for t = 1/x
             factor = -t if self.point.inverted else 1 / t
             return first[0], second[0], first[1] * factor, second[1] * factor
@@ -172,10 +189,11 @@ def limit(point: Singular, start: State, budget: Budget) -> State:
     """y and y' at the point itself, for coordinates in the basis; raises InputError where one is infinite."""
     beside = Point(point.near.re + 1, point.near.im)
     last, bound = junction(point, beside, 64)
-    basis = Basis(point, last, beside, bound, max(64, ctx.prec), budget)
+    needed = [not coordinate.is_zero() for coordinate in start]
+    basis = Basis(point, last, beside, bound, max(64, ctx.prec), budget, needed)
     total = acb(0), acb(0)
     for coordinate, solution in zip(start, basis.solutions, strict=True):
-        if coordinate.is_zero():
+        if solution is None:
             continue
         powers = [solution.derivative_at_zero(k) for k in (0, 1)]
         if powers[0] is None or powers[1] is None:
@@ -249,7 +267,7 @@ class Expansion:
 def _expand(
     op: Operator,
     exponent: Any,
-    other: Any,
+    delta: arb,
     resonance: int | None,
     start: tuple[int, int],
     length: arb,
@@ -259,7 +277,7 @@ def _expand(
 ) -> Expansion:
     """The solution that starts with t^exponent (u + v log t), (u, v) = start, for |t| <= length."""
     with working_precision(64):
-        delta, size = abs(acb(exponent) - other).upper(), abs(acb(exponent)).upper()
+        size = abs(acb(exponent)).upper()
     first, order = max(_first(delta), len(op.A), abs(resonance or 0) + 1), len(op.A) - 1
     rational = isinstance(exponent, fmpq)
     kind = type(op.A[0]) if rational or exponent.imag.is_zero() else acb
@@ -267,8 +285,9 @@ def _expand(
     terms: list[Pair] = [(kind(start[0]), kind(start[1]))]
     cap = 40 * prec + 4000 + 4 * first
     while True:
-        budget.check()
         for _ in range(_STRIDE if len(terms) > 1 else first):
+            if len(terms) % _STRIDE == 0:
+                budget.check()
             terms.append(_next(op, lam + len(terms), terms, resonance))
         n = len(terms)
         with working_precision(64):

@@ -218,7 +218,8 @@ class Traveller:
     def _leave(self, point: Singular, stops: list[Point], start: State) -> list[State]:
         """Out of the disc around a singular point; the states at the stops inside."""
         last, bound = junction(point, stops[-1], self.prec)
-        basis = Basis(point, last, stops[-1], bound, self.prec, self.budget)
+        needed = [not coordinate.is_zero() for coordinate in start]
+        basis = Basis(point, last, stops[-1], bound, self.prec, self.budget, needed)
         ahead = stops[-1] - last
         inside = [stop for stop in stops if _inner(stop - last, ahead) <= 0]
         states = [apply(basis.at(stop), start) for stop in inside]

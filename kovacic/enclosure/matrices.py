@@ -21,11 +21,6 @@ def multiply(m: Matrix, n: Matrix) -> Matrix:
     return a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h
 
 
-def scaled(m: Matrix, factor: acb) -> Matrix:
-    """The matrix times a number."""
-    return m[0] * factor, m[1] * factor, m[2] * factor, m[3] * factor
-
-
 def real_part(m: Matrix) -> Matrix:
     """The real parts of the entries."""
     return acb(m[0].real), acb(m[1].real), acb(m[2].real), acb(m[3].real)
