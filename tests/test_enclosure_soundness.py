@@ -11,7 +11,7 @@ import pytest
 from flint import acb, arb, ctx, fmpq
 
 from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.evaluate import evaluate_states
+from kovacic.enclosure.evaluate import connection_matrix, evaluate_states
 from kovacic.errors import InputError
 
 Function = Callable[[acb], acb]
@@ -176,3 +176,23 @@ def test_a_frobenius_basis_goes_on_as_taylor_expansions_do(seed: int) -> None:
         return
     assert beyond.y.overlaps(onward.y)
     assert beyond.dy.overlaps(onward.dy)
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_connection_matrices_turn_coordinates(seed: int) -> None:
+    """The solution with coordinates c at one point has the coordinates C c at the other: both say the same in between."""
+    rng = random.Random(seed)
+    p = [Fraction(rng.randint(-3, 3), rng.randint(1, 3)) for _ in range(5)]
+    equation = f"x^2*(x-1)^2*y'' + x*(x-1)*(({p[0]})+({p[1]})*x)*y' + (({p[2]})+({p[3]})*x+({p[4]})*x^2)*y = 0"
+    path = rng.choice(
+        [(0, "1/2", 1), (1, "1/3", 0), (0, "-1/2", "oo"), ("oo", 3, 1), (0, "1/4", "1/2"), ("1/3", "1/2", 1)]
+    )
+    coordinates = rng.randint(-3, 3), rng.randint(1, 3)
+    matrix = connection_matrix(equation, path, digits=20)
+    with ctx.workprec(200):
+        turned = [sum((ball_to_flint(v) * k for v, k in zip(row, coordinates, strict=True)), acb(0)) for row in matrix]
+    (from_one,) = evaluate_states(equation, [path[1]], x0=path[0], frobenius=coordinates, digits=20)
+    (from_other,) = evaluate_states(equation, [path[1]], x0=path[2], frobenius=turned, digits=20)
+    assert from_one.y.overlaps(from_other.y)
+    assert from_one.dy.overlaps(from_other.dy)
+    assert from_one.y.digits > 18
