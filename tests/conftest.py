@@ -22,12 +22,15 @@ settings.register_profile("dev", deadline=None, suppress_health_check=SLOW)
 settings.register_profile("fuzz", deadline=None, database=None, suppress_health_check=SLOW, print_blob=True)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 
-#: The modules of `pytest -m quick`: the engine on published equations, the readers, the kernel's arithmetic, the command.
+#: The modules of `pytest -m quick`: arithmetic, the readers, the engine on published equations, closed forms.
 QUICK = {
+    "test_algebra",
     "test_bad_primes",
     "test_cases",
     "test_equation",
     "test_parser",
+    "test_readme",
+    "test_textbook_equations",
     "test_written_solutions",
 }
 
