@@ -63,6 +63,20 @@ def _display(writer: Any, node: nodes.math_block) -> None:
     raise nodes.SkipNode
 
 
+def _as_rst(app: Any, what: str, name: str, thing: object, options: object, lines: list[str]) -> None:
+    """Docstrings are written for reading: bars are no substitutions, and a list needs no empty line before it."""
+    result: list[str] = []
+    session = inside = False
+    for line in lines:
+        session = line.lstrip().startswith(">>>") or (session and bool(line.strip()))
+        item = line.startswith("- ")
+        if result and result[-1] and line and item != inside and not (inside and line.startswith(" ")):
+            result.append("")
+        inside = item or (inside and line.startswith(" "))
+        result.append(line if session else line.replace("|", "\\|"))
+    lines[:] = result
+
+
 def _draw(app: Any) -> None:
     runpy.run_path(str(HERE / "pictures.py"))["draw_all"](HERE / "_static" / "pictures")
 
@@ -71,3 +85,4 @@ def setup(app: Any) -> None:
     """Sphinx calls this."""
     app.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_display, None))
     app.connect("builder-inited", _draw)
+    app.connect("autodoc-process-docstring", _as_rst)
