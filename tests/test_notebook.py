@@ -19,6 +19,8 @@ def test_the_notebook_runs() -> None:
     nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
     outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
     tables = [output.data["text/html"] for output in outputs if "text/html" in output.get("data", {})]
-    assert len(tables) == 2
+    assert len(tables) == 3
     assert "no Liouvillian solution exists" in tables[1]
+    assert "<svg" in tables[2]
+    assert sum("image/png" in output.get("data", {}) for output in outputs) == 2
     assert not any(output.output_type == "error" for output in outputs)

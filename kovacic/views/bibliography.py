@@ -32,7 +32,7 @@ class Reference:
     doi: str = ""
 
     def text(self) -> str:
-        where = ", ".join(filter(None, (f"{self.journal} {self.volume}".strip(), self.pages.replace("--", "-"))))
+        where = ", ".join(filter(None, (f"{self.journal} {self.volume}".strip(), self.pages))).replace("--", "-")
         doi = f", doi {self.doi}" if self.doi else ""
         return (
             f"[{self.key}] {self.author.replace(' and ', ', ')}, {self.title}, {where} ({self.year}){doi}: {self.use}."

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from kovacic.decision import Status
+from kovacic.errors import LimitExceeded
 from kovacic.views.document import FORMATS, Sentence, Table
 from kovacic.views.formula import Formulas, Math, given
 
@@ -17,12 +18,11 @@ _LONGEST = 3000
 
 def latex_view(solution: Solution) -> str:
     """The equation and, where there are some, two solutions, between dollar signs."""
-    lines = [_equation(solution)]
-    if solution.status is Status.NONE_EXISTS:
-        lines.append(r"\text{no Liouvillian solution}")
-    elif solution.status is Status.UNDECIDED:
-        lines.append(r"\text{undecided}")
-    lines += [f"{name} = {value}" for name, value, _ in _solutions(solution)]
+    words = {Status.NONE_EXISTS: r"\text{no Liouvillian solution}", Status.UNDECIDED: r"\text{undecided}"}
+    found, _ = _solutions(solution)
+    lines = [_equation(solution), *(f"{name} = {value}" for name, value, _ in found)]
+    if solution.status in words:
+        lines.insert(1, words[solution.status])
     body = r" \\ ".join(lines)
     return rf"$\displaystyle \begin{{array}}{{l}} {body} \end{{array}}$"
 
@@ -43,24 +43,31 @@ def html_view(solution: Solution) -> str:
     group = solution.group
     if group is not None:
         rows.append((["Galois group"], [Math(group.name, group.latex), f", {group.description}"]))
-    for name, latex, text in _solutions(solution):
+    found, notes = _solutions(solution)
+    for name, latex, text in found:
         rows.append(([Math("", name)], [Math(text[:_LONGEST], latex if len(latex) <= _LONGEST else "")]))
-    form = solution.closed_form
-    if form is not None:
-        rows += [(["note"], [note]) for note in form.notes]
-        rows.append((["solutions checked"], [form.checked]))
+    rows += [(["note"], [note]) for note in notes]
+    if found and solution.closed_form is not None:
+        rows.append((["solutions checked"], [solution.closed_form.checked]))
     rows.append((["verified"], ["yes, by independent code" if solution.verified else "no"]))
     rows += [(["note"], [notice]) for notice in solution.notices]
     return FORMATS["html"].render([Table((), rows)]).rstrip()
 
 
-def _solutions(solution: Solution) -> list[tuple[str, str, str]]:
-    """y_1 and y_2: name and expression in LaTeX, and the expression as text; special functions where nothing is Liouvillian."""
+def _solutions(solution: Solution) -> tuple[list[tuple[str, str, str]], tuple[str, ...]]:
+    """y_1 and y_2, in special functions where nothing is Liouvillian: name and LaTeX, and the expression as text; and notes."""
     from sympy import latex
 
+    if solution.status is Status.UNDECIDED:
+        return [], ()
+    try:
+        form = solution.closed_form
+    except LimitExceeded as limit:
+        return [], (f"the solutions weren't written out: {limit}",)
+    values = solution.special if form is None else (form.y1, form.y2)
     y = "y" if solution.equation is None else solution.equation.unknown
-    found = solution.special if solution.status is Status.NONE_EXISTS else solution.solutions
-    return [(f"{y}_{{{k}}}", latex(value), str(value)) for k, value in enumerate(found, start=1)]
+    written = [(f"{y}_{{{k}}}", latex(value), str(value)) for k, value in enumerate(values, start=1)]
+    return written, () if form is None else form.notes
 
 
 def _equation(solution: Solution) -> str:

@@ -14,6 +14,8 @@ import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -158,7 +160,14 @@ def plot(
         axes.legend(loc="best", frameon=False)
     if output is not None:
         figure.savefig(output, dpi=150)
+    figure._repr_png_ = partial(_png, figure)  # type: ignore[attr-defined]  # Jupyter shows it without pyplot
     return figure
+
+
+def _png(figure: Figure) -> bytes:
+    file = BytesIO()
+    figure.savefig(file, format="png")
+    return file.getvalue()
 
 
 def _curves(axes: Any, samples: Samples, is_complex: bool) -> None:
