@@ -108,8 +108,8 @@ def echelon_by_degree(polynomials: Sequence[Any]) -> list[Any]:
     return basis[::-1]
 
 
-#: So many quotients of Euclid's algorithm are found one by one.
-_FEW_QUOTIENTS = 256
+#: Up to so many quotients Euclid's algorithm takes no longer than the half-gcd, which finds so many of them one by one.
+_MANY_QUOTIENTS, _FEW_QUOTIENTS = 1500, 256
 
 _Matrix = tuple[Any, Any, Any, Any]
 """(a, b; c, d), of polynomials."""
@@ -129,7 +129,7 @@ def rational_function_from_series(series: Any, order: int, top: int) -> tuple[An
     p = series.modulus()
     one, zero = nmod_poly([1], p), nmod_poly([], p)
     power = one.left_shift(order)
-    if order - top <= _FEW_QUOTIENTS:
+    if order - top <= _MANY_QUOTIENTS:
         r0, r1, t0, t1 = power, series, zero, one
         while r1.degree() > top:
             quotient, rest = divmod(r0, r1)
