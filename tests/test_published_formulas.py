@@ -257,3 +257,15 @@ def test_a_screen_of_regions() -> None:
     everything = answer.text(all=True)
     assert len(str(answer).splitlines()) <= 30
     assert len(everything.splitlines()) >= len(str(answer).splitlines())
+
+
+@pytest.mark.parametrize("S", ["(a*b*x^2 - a)/(x^2 - sqrt(2)*a)^2", "((a^2 - b^2)*x^2 + a)/(x^2 - I*b)^2"])
+def test_a_denominator_that_is_a_square_because_of_a_constant(S: str) -> None:
+    """x^4 - 2 a s x^2 + 2 a^2 is a square for s = sqrt(2) alone; the answer is complete, and s^2 is 2."""
+    answer = kovacic.conditions(S, var="x")
+    assert answer.complete is True
+    report = answer.check(30)
+    assert report, report.disagreements
+    assert report.inside
+    assert "sqrt(2)^2" not in answer.text().splitlines()[0]
+    assert "I^2" not in answer.text().splitlines()[0]

@@ -71,7 +71,7 @@ def conditions(
 
 def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, limits: Limits) -> Conditions:
     """The conditions for an input that was read; `max_degree` None: by theorems only."""
-    lifted, constant = with_free_constant(parsed.S)
+    lifted, shown, constant = with_free_constant(parsed.S)
     assumptions = replace(known, values=tuple(zip(constant.names, constant.values, strict=True)))
     bounded = limits if limits.seconds is not None else replace(limits, seconds=DEFAULT_SECONDS)
     budget = Budget(bounded)
@@ -100,7 +100,7 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
         with budget.watched():
             regions = [_with_determinants(region, max_degree) for region in regions]
     return Conditions(
-        lifted,
+        shown,
         parsed.variable,
         parameters_of(parsed.S.field),
         generic,

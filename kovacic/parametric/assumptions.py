@@ -166,6 +166,8 @@ class Assumptions:
         if not self.values:
             return None
         field, fixed, names = self.values[0][1].field, dict(self.values), function.field.names
+        if not function:
+            return field.poly([])
         below = element(function.field, function.den)
         free = [[i for i, k in enumerate(degrees(part)) if k and names[i] not in fixed] for part in (function, below)]
         if free[1]:

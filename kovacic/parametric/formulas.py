@@ -54,7 +54,7 @@ def equation_written(function: FunctionPoly, *, latex: bool = False) -> str:
     above, _, names = _cleared(function, "x")
     writer, terms = _Writer(names, latex), above.to_dict()
     linear = {next(i for i, k in enumerate(e) if k): e for e in terms if sum(map(int, e)) == 1}
-    if len(terms) - len(linear) == sum(1 for e in terms if not any(e)):
+    if linear and len(terms) - len(linear) == sum(1 for e in terms if not any(e)):
         i = next((i for i, e in linear.items() if abs(int(terms[e])) == 1), next(iter(linear)))
         rest = above - above.context().gen(i) * int(terms[linear[i]])
         value = _forms(-rest, above.context().constant(int(terms[linear[i]])))

@@ -18,8 +18,8 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.parametric.assumptions import Assumptions, Coset, common_multiple
 from kovacic.parametric.formulas import written
-from kovacic.parametric.functions import over_parameters
-from kovacic.parametric.spectra import LETTERS, classes_text, integer_condition
+from kovacic.parametric.functions import degrees, over_parameters
+from kovacic.parametric.spectra import LETTERS, classes_text, families, integer_condition
 from kovacic.parametric.statements import Point, Statement
 
 
@@ -90,14 +90,13 @@ class Classes(Statement):
             form, residue = self._in_integers
             text = written(form, latex=latex) + (f" - {residue}" if residue else "")
             return rf"{text} \in \mathbb{{Z}}" if latex else f"{text} in Z"
-        several = sum(1 for k in (self.form.num * self.form.den).degrees() if k) > 1
         first, single = self.residues[0], len(self.residues) == 1
-        if several and single and self.modulus != 1 and (self.modulus != 2 or first.denominator > 1):
+        if single and self.modulus != 1 and (self.modulus != 2 or first.denominator > 1):
             scale = lcm(first.denominator, self.modulus.denominator)
             equation = over_parameters(self.form * scale - self.form.field.poly([0, 1]))
-            return integer_condition(
-                equation, [int(first * scale)], int(self.modulus * scale), self.letter, latex=latex
-            )
+            if sum(map(bool, degrees(equation))) > 1 and families(equation):
+                residues, modulus = [int(first * scale)], int(self.modulus * scale)
+                return integer_condition(equation, residues, modulus, self.letter, latex=latex)
         text = written(self.form, latex=latex)
         if self.modulus == 2 and single and first.denominator == 1:
             kind = classes_text(self.residues, self.modulus)

@@ -160,23 +160,28 @@ def _eliminated(function: FunctionPoly) -> int | None:
     return min(factors, key=lambda i: (not factors[i].is_constant(), len(factors[i])), default=None)
 
 
-def with_free_constant(S: RatFunc) -> tuple[RatFunc, Point]:
-    """S with its algebraic constant as one more parameter, and the value of this parameter.
+def with_free_constant(S: RatFunc) -> tuple[RatFunc, RatFunc, Point]:
+    """S with its algebraic constant as one more parameter, the same as it is shown, and the value of this parameter.
 
-    S is over Q(t), and then the point is empty, or over Q(t)(alpha) with a number alpha.
+    The first has its denominator in factors: with a free constant it needn't be a square where it is one.  S is over Q(t),
+    and then the point is empty, or over Q(t)(alpha) with a number alpha.
     """
     field = S.field
     if not isinstance(field, AlgebraicField):
-        return S, NO_CONSTANT
+        return S, S, NO_CONSTANT
     base = field.base
     if not isinstance(base, FunctionField):
         raise TypeError("one algebraic constant over a field with parameters is expected")
     name = next(name for k in count() if (name := field.name + "_" * k) not in base.names)
     larger = FunctionField((*base.names, name))
-    lifted = RatFunc(_free(S.num, larger), _free(S.den, larger))
+    den = larger.poly([1])
+    for factor, power in field.factor(S.den):
+        den = den * _free(factor, larger) ** power
+    lifted = RatFunc(_free(S.num, larger), den * _free(field.poly([S.den.lc]), larger))
     coefficients = [base.rational_value(c) for c in field.modulus]
     numbers = AlgebraicField(QQ, QQ.poly([c for c in coefficients if c is not None]), field.name, field.approximation)
-    return lifted, Point((name,), (numbers.generator,), numbers)
+    shown = RatFunc(_free(S.num, larger), _free(S.den, larger))
+    return lifted, shown, Point((name,), (numbers.generator,), numbers)
 
 
 def _free(polynomial: Poly, larger: FunctionField) -> Poly:
