@@ -17,7 +17,7 @@ from kovacic.special.wronskian import wronskian as special_wronskian
 #: The largest expression (in operations) that is handed to SymPy's general simplification.
 _SIMPLIFIED = 150
 #: Seconds for the integrals of one equation, at most.
-SECONDS = 10.0
+SECONDS = 20.0
 
 
 def with_integrals(y1: Any, y2: Any, right: Any, x: Any, start: Any, seconds: float) -> Any:
