@@ -448,6 +448,8 @@ def test_boundary_values() -> None:
         "9*x^2*y'' + 2*y = 0",
         "x*y'' + y' = 0",
         "2*x*y'' + y' + 3*y = 0",
+        "(4-(x+2)^2)*y'' - (x+2)*y' + 3*y = 0",
+        "(4-(x+2)^2)*y'' - 3*(x+2)*y' + y/9 = 0",
     ],
 )
 def test_real_to_the_left_of_a_singularity(text: str) -> None:

@@ -18,7 +18,18 @@ from kovacic.reading.given import Equation
 from kovacic.reading.parser import shown
 from kovacic.special.wronskian import wronskian
 
-_ELEMENTARY = {sympy.exp, sympy.log, sympy.sin, sympy.cos, sympy.tan, sympy.sinh, sympy.cosh, sympy.tanh, sympy.atan}
+_ELEMENTARY = {
+    sympy.exp,
+    sympy.log,
+    sympy.sin,
+    sympy.cos,
+    sympy.tan,
+    sympy.sinh,
+    sympy.cosh,
+    sympy.tanh,
+    sympy.atan,
+    sympy.acos,
+}
 
 
 @dataclass(frozen=True)

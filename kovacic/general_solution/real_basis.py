@@ -21,6 +21,7 @@ from kovacic.solution import Solution
 Expr = Any  # SymPy publishes no types
 #: The largest real part (in operations, by those of the solution) that is written instead of a solution.
 _LARGEST = 4
+_COMPLEX = (sympy.re, sympy.im, sympy.Abs, sympy.arg, sympy.atan2)
 
 
 def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> tuple[Expr, Expr]:
@@ -34,10 +35,11 @@ def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> 
         if is_numerical_solution(turned, x, solution.S, solution.gauge):
             found.append(turned)
         else:
-            found += _parts(y, negative, x)
+            found += _parts(y, point, x)
     for k, second in enumerate(found[1:], 1):
         wronskian = (found[0] * second.diff(x) - found[0].diff(x) * second).subs(x, point)
-        if abs(wronskian.evalf(30)) > 1e-20:
+        value = wronskian.evalf(30)
+        if value.is_number and abs(value) > sympy.Float("1e-20"):
             return found[0], found[k]
     return y1, y2
 
@@ -56,34 +58,47 @@ def real_particular(y: Expr, equation: Equation, x: Expr, point: Expr) -> Expr:
     if not negative or y.has(sympy.Integral, sympy.Heaviside):
         return y
     right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
-    candidates = [y.xreplace({e: e.func(-u, *e.args[1:]) for e, u in negative.items()}), *_parts(y, negative, x)[:1]]
+    candidates = [y.xreplace({e: e.func(-u, *e.args[1:]) for e, u in negative.items()}), *_parts(y, point, x)[:1]]
     return next((found for found in candidates if is_solution(found, equation, right, x)), y)
 
 
-def _negative(y: Expr, x: Expr, point: Expr) -> dict[Expr, Expr]:
-    """The logarithms and roots in an expression whose arguments are negative at the point, and these arguments."""
+def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
+    """The logarithms and roots in an expression, and their arguments."""
     candidates = {e: e.args[0] for e in y.atoms(sympy.log)}
-    candidates |= {e: e.base for e in y.atoms(sympy.Pow) if not e.exp.is_Integer and e.base.has(x)}
-    return {e: u for e, u in candidates.items() if u.subs(x, point).is_negative}
+    return candidates | {e: e.base for e in y.atoms(sympy.Pow) if not e.exp.is_Integer and e.base.has(x)}
 
 
-def _parts(y: Expr, negative: dict[Expr, Expr], x: Expr) -> list[Expr]:
-    """The real and the imaginary part, those that aren't zero; the expression itself where they would be long."""
-    t = sympy.Dummy(real=True)
-    bases = {u: sympy.Dummy(positive=True) for u in negative.values()}
+def _negative(y: Expr, x: Expr, point: Expr) -> dict[Expr, Expr]:
+    """Those whose arguments are negative at the point."""
+    return {e: u for e, u in _arguments(y, x).items() if u.subs(x, point).is_negative}
 
-    def real(e: Expr, u: Expr) -> Expr:
-        p = bases[u]
-        return (
-            sympy.log(p) + sympy.I * sympy.pi
-            if e.func is sympy.log
-            else p**e.exp * sympy.exp(sympy.I * sympy.pi * e.exp)
-        )
 
-    exact = y.xreplace({e: real(e, u) for e, u in negative.items()}).subs(x, t)
-    back = {p: -u for u, p in bases.items()} | {t: x}
-    parts = [part.xreplace(back) for part in sympy.expand(exact, complex=True).as_real_imag() if part != 0]
-    short = all(
-        part.count_ops() <= _LARGEST * (y.count_ops() + 5) and not part.has(sympy.re, sympy.im) for part in parts
-    )
+def _parts(y: Expr, point: Expr, x: Expr) -> list[Expr]:
+    """The real and the imaginary part, those that aren't zero; the expression itself where they would be long.
+
+    A number a + i b with a constant modulus m becomes m exp(i acos(a/m)).
+    """
+    t, turn = sympy.Dummy(real=True), sympy.I * sympy.pi
+    back: dict[Expr, Expr] = {t: x}
+    real: dict[Expr, Expr] = {}
+    for e, u in _arguments(y, x).items():
+        value = u.subs(x, point)
+        if value.is_negative or (value.is_positive and not u.has(*real)):
+            p = next((p for p, known in back.items() if known in (u, -u) and p is not t), sympy.Dummy(positive=True))
+            back[p], phase = (-u, turn) if value.is_negative else (u, 0)
+            real[e] = sympy.log(p) + phase if e.func is sympy.log else p**e.exp * sympy.exp(phase * e.exp)
+    exact = y.xreplace(real).subs(x, t)
+    for power in exact.atoms(sympy.Pow):
+        a, b = power.base.as_real_imag()
+        square = sympy.expand((a**2 + b**2).xreplace(back))
+        if b != 0 and not power.exp.is_Integer and not square.has(x):
+            angle, m = sympy.Dummy(real=True), sympy.sqrt(square)
+            back[angle] = sympy.acos(a.xreplace(back) / m) * (-1 if b.could_extract_minus_sign() else 1)
+            exact = exact.xreplace({power: m**power.exp * sympy.exp(sympy.I * power.exp * angle)})
+    parts = [
+        part.xreplace(back).as_independent(x, as_Add=False)[1]
+        for part in sympy.expand(exact, complex=True).as_real_imag()
+        if part != 0
+    ]
+    short = all(part.count_ops() <= _LARGEST * (y.count_ops() + 5) and not part.has(*_COMPLEX) for part in parts)
     return parts if short else [y]
