@@ -349,6 +349,14 @@ def test_combinations_of_a_function_and_its_derivative(T: RatFunc, S: RatFunc) -
         assert solves(found, S)
 
 
+def test_a_combination_that_is_zero_for_one_solution_is_none() -> None:
+    """y = 1 solves these: u' - (u'/u) u = 0 for one u of an equation with a rational u'/u."""
+    for equation in ("(x - 1)*y'' + (2*x^2 - x - 3)*y' = 0", "2*x*y'' + (x^2 + 2*x - 2)*y' = 0"):
+        answer = kovacic.solve(equation)
+        assert answer.case == 1
+        assert not answer.special or solves(answer.special, answer.S, answer.gauge)
+
+
 def test_a_gauge_that_does_not_satisfy_its_equations_is_not_returned(monkeypatch: pytest.MonkeyPatch) -> None:
     S = gauge(X, X + 1, RatFunc(QQ.poly([1])))
     found = find(S, Budget())

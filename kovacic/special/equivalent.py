@@ -42,12 +42,13 @@ class Gauge:
     rate: RatFunc
 
     def gives(self, S: RatFunc, T: RatFunc) -> bool:
-        """Do a = h A and b = h B satisfy (1) exactly?"""
+        """Do a = h A and b = h B satisfy (1) exactly, and is a u + b u' zero for no solution u?"""
         A, B = RatFunc(self.A), RatFunc(self.B)
         first, second = self._slope(A), self._slope(B)
         D = T - S
         u = self._slope(first) + 2 * second * T + B * T.derivative() + D * A
-        return bool(A or B) and not u and not 2 * first + self._slope(second) + D * B
+        independent = A * (A + second) - B * (first + B * T)  # the quotient of the Wronskians, over h^2
+        return bool(independent) and not u and not 2 * first + self._slope(second) + D * B
 
     def _slope(self, P: RatFunc) -> RatFunc:
         """(h P)'/h."""
