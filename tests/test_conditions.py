@@ -508,8 +508,10 @@ def test_a_map_of_two_parameters(answers: dict[str, Conditions]) -> None:
     # k, m in {-1, -1/2, 0, 1/2, 1}: solvable where k + m - 1/2 or k - m - 1/2 is an integer.
     assert mesh[0] == [0, 1, 0, 1, 0]
     assert mesh[1] == [1, 0, 1, 0, 1]
-    with pytest.raises(kovacic.InputError, match="two parameters"):
-        answers["bessel"].plot()
+    strip = answers["bessel"].plot(ranges=((-1, 1),), steps=4)  # n - 1/2 in Z
+    assert strip.collections[0].get_array().ravel().tolist() == [0, 1, 0, 1, 0]
+    with pytest.raises(kovacic.InputError, match="one parameter or two"):
+        answers["bessel"].plot(parameters=("m",))
 
 
 def test_wrong_input_and_limits() -> None:

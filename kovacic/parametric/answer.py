@@ -377,7 +377,7 @@ class Conditions:
         return f"${self.latex()}$"
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
-        """A map of two parameters: see `kovacic.parametric.plot.plot`."""
+        """A map of two parameters, or a strip for one: see `kovacic.parametric.plot.plot`."""
         title = f"y'' = ({shown(self.S, self.variable)}) y"
         return plot(
             lambda values: str(self.predicted(self.point(values)) or "S not defined"),

@@ -20,8 +20,8 @@ def plot(
     title: str,
     axes: Any = None,
     *,
-    parameters: tuple[str, str] | None = None,
-    ranges: tuple[tuple[Any, Any], tuple[Any, Any]] = ((-4, 4), (-4, 4)),
+    parameters: Sequence[str] | None = None,
+    ranges: Sequence[tuple[Any, Any]] = ((-4, 4), (-4, 4)),
     steps: int = 48,
     fixed: Mapping[str, Any] | None = None,
 ) -> Any:
@@ -30,19 +30,21 @@ def plot(
     `parameters` are the two that vary (by default the first two), `fixed` gives values to the others; `ranges` with `steps`
     intervals each make the grid, whose points are rational, so that lines such as n - 1/2 in Z are met exactly when the step
     divides them.  Without `axes` a figure is made with the Agg backend; save it with `axes.figure.savefig`.  Nothing is
-    ever shown on a screen.  Raises `InputError` with fewer than two parameters.
+    ever shown on a screen.  With one parameter, a strip is drawn.  Raises `InputError` for names that aren't parameters.
     """
-    chosen = parameters or tuple(names[:2])
-    if len(chosen) != 2 or any(name not in names for name in chosen):
-        raise InputError("a map needs two parameters", hint=f"the parameters are {', '.join(names)}")
+    chosen = tuple(parameters or names[:2])
+    if len(chosen) not in (1, 2) or any(name not in names for name in chosen):
+        raise InputError("a map needs one parameter or two", hint=f"the parameters are {', '.join(names)}")
     values = [
-        [Fraction(low) + (Fraction(high) - Fraction(low)) * k / steps for k in range(steps + 1)] for low, high in ranges
+        [Fraction(low) + (Fraction(high) - Fraction(low)) * k / steps for k in range(steps + 1)]
+        for (low, high), _ in zip(ranges, chosen, strict=False)
     ]
 
-    def colour(first: Fraction, second: Fraction) -> int:
-        return LABELS.index(label_at({**(fixed or {}), chosen[0]: first, chosen[1]: second}))
+    def colour(*point: Fraction) -> int:
+        return LABELS.index(label_at({**(fixed or {}), **dict(zip(chosen, point, strict=True))}))
 
-    table = [[colour(first, second) for first in values[0]] for second in values[1]]
+    rows = [(second,) for second in values[1]] if len(chosen) == 2 else [()]
+    table = [[colour(first, *row) for first in values[0]] for row in rows]
 
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.colors import BoundaryNorm, ListedColormap
@@ -58,11 +60,17 @@ def plot(
         for column in values
         for step in [column[1] - column[0]]
     ]
-    axes.pcolormesh(edges[0], edges[1], table, cmap=ListedColormap(_COLOURS), norm=BoundaryNorm(range(7), 6))
+    strip = len(chosen) == 1
+    axes.pcolormesh(
+        edges[0], [0, 1] if strip else edges[1], table, cmap=ListedColormap(_COLOURS), norm=BoundaryNorm(range(7), 6)
+    )
     present = sorted({case for row in table for case in row})
     handles = [Patch(facecolor=_COLOURS[k], edgecolor="#666666", label=LABELS[k]) for k in present]
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
     axes.set_xlabel(chosen[0])
-    axes.set_ylabel(chosen[1])
+    if strip:
+        axes.set_yticks([])
+    else:
+        axes.set_ylabel(chosen[1])
     axes.set_title(title, fontsize="medium")
     return axes
