@@ -18,6 +18,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, limited, watched_seconds
+from kovacic.parametric.answer import Conditions
 from kovacic.solution import Solution
 
 X = RatFunc(QQ.poly([0, 1]))
@@ -53,6 +54,16 @@ def dicyclic() -> RatFunc:
     return transform.from_squared_product(((X**3 + X + 1) ** 2 - 3) / (3 * X**2 + 1) ** 2, Fraction(4, 299**2))
 
 
+def regions(limits: Limits) -> Conditions:
+    """For which a, b, c is y'' = (x^4 + a x^2 + b x + c) y solvable?"""
+    return replace(quartic(), limits=limits)
+
+
+@cache
+def quartic() -> Conditions:
+    return kovacic.conditions("x^4 + a*x^2 + b*x + c", var="x", max_degree=0)
+
+
 CALLS: dict[str, Callable[[Limits], object]] = {
     "solve: a high power": lambda limits: kovacic.solve("x^20000 + x", limits=limits),
     "solve: many poles": lambda limits: kovacic.solve(POLES, limits=limits),
@@ -71,6 +82,10 @@ CALLS: dict[str, Callable[[Limits], object]] = {
     "generic_conditions": lambda limits: answer("(n^2*x^4 + 1)/(x^3 + n*x + 1)^2", limits).generic_conditions,
     "special": lambda limits: answer("x^4 + 10002*x + 1", limits).special,
     "solve_riccati": lambda limits: kovacic.solve_riccati("x^4 + 10002*x + 1", 0, -1, limits=limits),
+    "conditions": lambda limits: kovacic.conditions("(x+a)^2 + b/(x-c)^2 + 1", var="x", limits=limits),
+    "check": lambda limits: regions(limits).check(10**6),
+    "case_at": lambda limits: regions(limits).case_at({"a": 10**4, "b": 12345, "c": 10**9 + 7}),
+    "solve_at": lambda limits: regions(limits).solve_at({"a": 0, "b": 10002, "c": 1}),
     "dsolve": lambda limits: kovacic.dsolve(HERMITE, limits=limits),
     "dsolve: integrals": lambda limits: kovacic.dsolve("y'' + 2*y' + 5*y = sin(x)/(x^2 + 1)", limits=limits),
 }  # fmt: skip
@@ -83,6 +98,7 @@ def test_every_call_ends_within_its_time(name: str) -> None:
     for text in ("x^4 + 10002*x + 1", HERMITE, "x^2 - 1601", "(n^2*x^4 + 1)/(x^3 + n*x + 1)^2", dicyclic().to_str("x")):
         if not name.startswith(("solve", "dsolve", "decide")):
             solved(text)
+    quartic()
     begun, limit = time.process_time(), "seconds"
     try:
         CALLS[name](limits)

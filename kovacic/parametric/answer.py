@@ -16,7 +16,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.decision import Decision, Status, Structure
 from kovacic.engine.decide import decide
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.parametric import sampling
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.formulas import as_latex, shown
@@ -215,6 +215,7 @@ class Conditions:
         with Budget(self.limits).watched():
             return tuple(determinant for statement in natural for determinant in statement.determinants(number))
 
+    @limited
     def case_at(self, values: Mapping[Any, Any]) -> int | None:
         """The case at a point with rational or algebraic coordinates: {"n": Fraction(3, 2)}, {n: sqrt(2)}.
 
@@ -232,6 +233,7 @@ class Conditions:
             raise LimitExceeded(str(decision.undecided), limit="seconds")
         return decision.case
 
+    @limited
     def solve_at(self, values: Mapping[Any, Any]) -> Solution:
         """The verified answer at a point: the omega that the region makes possible."""
         point = self.point(values)
@@ -239,7 +241,8 @@ class Conditions:
             S = at_point(self.S, point)
         except UndefinedError:
             raise InputError(f"S isn't defined at {point}") from None
-        answer = Solution(S.to_str(self.variable), self.variable, S, decide(S, Budget(self.limits)))
+        decision = decide(S, Budget(self.limits))
+        answer = Solution(S.to_str(self.variable), self.variable, S, decision, limits=self.limits)
         verified = bool(answer.verify())
         if not verified and answer.status is not Status.UNDECIDED:
             raise VerificationFailed(f"the answer for S = {S} failed its own check; please report it")
@@ -275,13 +278,17 @@ class Conditions:
         return point
 
     def check(self, samples: int = 200, *, seed: int = 1) -> CheckReport:
-        """Solve the equation without parameters at exact points inside and outside of the regions, and compare."""
+        """Solve the equation without parameters at exact points inside and outside of the regions, and compare.
+
+        As far as the time limit allows.
+        """
+        budget = Budget(self.limits)
         statements = [region.statement for region in self.regions]
         inside = outside = unclaimed = 0
         disagreements: list[Disagreement] = []
         points = sampling.points(statements, self.constant, self.parameters, self.assumptions, Random(seed))
         for point in islice(points, 20 * samples):
-            if inside + outside + unclaimed >= samples:
+            if inside + outside + unclaimed >= samples or not budget.seconds_left:
                 break
             predicted = None if point is None else self.predicted(point)
             if point is None or predicted is None:
@@ -293,7 +300,7 @@ class Conditions:
                 inside += 1
             else:
                 outside += 1
-            decision = decide(at_point(self.S, point), Budget(self.limits), certify=False)
+            decision = decide(at_point(self.S, point), budget, certify=False)
             if decision.status is not Status.UNDECIDED and decision.case != predicted.case:
                 disagreements.append(Disagreement(str(point), predicted.case, decision.case))
         return CheckReport(inside, outside, unclaimed, tuple(disagreements))
