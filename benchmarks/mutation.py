@@ -52,10 +52,15 @@ PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 }
 #: Survivors that change no answer: "file: function: fault", and why.
 EXPLAINED: dict[str, str] = {
+    "kovacic/verify/evidence.py: Inspector._no_omega_at: Mult in (opposite.order + 1) // 2": "a larger bound of a degree, and "
+    "more terms",
+    "kovacic/verify/evidence.py: Inspector._no_omega_at: 2 + 1": "max(k, 3) // 2 is max(k, 2) // 2",
     "kovacic/verify/group.py: _inverse_has_an_integral: 1 + 1": "a constant factor",
+    "kovacic/closed_form/check.py: module: 50 + 1": "a precision",
     "kovacic/closed_form/check.py: residual: Sub in abs(y) + abs(first)": "the scale of the terms, of the same size",
     "kovacic/closed_form/check.py: is_numerical_solution: 15 + 1": "a working precision",
     "kovacic/closed_form/check.py: is_numerical_solution: Add in 8 * DIGITS": "a working precision",
+    "kovacic/closed_form/check.py: is_numerical_solution: Sub in DIGITS + 15": "a working precision, that of the next attempt",
     "kovacic/closed_form/check.py: is_numerical_solution: 71 + 1": "another point",
     "kovacic/closed_form/check.py: is_numerical_solution: "
     "LtE in residual(expression, variable, S, gauge, point) < arb(10) ** (-DIGITS)": "balls",
@@ -71,6 +76,11 @@ EXPLAINED: dict[str, str] = {
     "kovacic/galois/imprimitive.py: _of_positive_genus: Add in 2 * n": "how much work is done",
     "kovacic/galois/imprimitive.py: _of_positive_genus: 1 + 1": "how much work is done",
     "kovacic/galois/imprimitive.py: _small_homomorphisms: GtE in h.p ** genus > 10 ** 7": "10^7 is no power of a prime",
+    "kovacic/galois/imprimitive.py: _of_positive_genus: GtE in 2 * n > _LARGEST_DEGREE": "how much work is done",
+    "kovacic/galois/imprimitive.py: _small_homomorphisms: Mult in 10 ** 7": "fewer primes: the invariants decide instead",
+    "kovacic/galois/imprimitive.py: _homomorphisms: 5 + 1": "other primes",
+    "kovacic/galois/imprimitive.py: _primes_from: 1 + 1": "a divisor more is tried, below p; or odd numbers alone",
+    "kovacic/galois/imprimitive.py: _order_modulo: 1 + 1": "a constant factor",
     "kovacic/galois/imprimitive.py: _order_modulo: Mult in image ** half": "half is 1: e is at most 2",
     "kovacic/galois/imprimitive.py: _squared_wronskian: Add in g * (4 * S - 2 * slope - phi * phi) % p": "the same modulo p",
     "kovacic/verify/evidence.py: Inspector._at_prime: LtE in h.p < p": "over Q each prime has one homomorphism, tried before",
