@@ -185,6 +185,7 @@ def checked(problem: Problem, solution: Any) -> str:
 
 def _checked(problem: Problem, solution: Any) -> str:
     equation, given = sympy_problem(problem)
+    equation = equation.xreplace({number: sympy.Rational(number) for number in equation.atoms(sympy.Float)})
     own = symbols(problem)
     solution = solution.xreplace({sympy.Symbol(name): symbol for name, symbol in own.items()})
     values = {
@@ -203,6 +204,8 @@ def _checked(problem: Problem, solution: Any) -> str:
         return "unchecked" if all(holds is None for holds in found) else "wrong"
     if False in found and not (found.count(True) >= 2 and _POINTS[2] < 0 and found[2] is False):
         return "wrong"  # on one side of a singularity only: another branch
+    if given and any(len(i.limits[0]) == 1 for i in whole.atoms(sympy.Integral)):
+        return "unchecked (values of indefinite integrals)"
     for key, value in given.items():
         order = 1 if key.is_Derivative or isinstance(key, sympy.Subs) else 0
         at = key.point[0] if isinstance(key, sympy.Subs) else key.args[0]
@@ -229,7 +232,7 @@ def _holds(left: Any, solution: Any, point: Any) -> bool | None:
 def _number(e: Any, point: Any) -> Any:
     """The value at a point; indefinite integrals have any."""
     integrals = (i for i in e.atoms(sympy.Integral) if len(i.limits[0]) == 1)
-    e = e.xreplace({i: sympy.Rational(7 + k, 9) for k, i in enumerate(sorted(integrals, key=str))})
+    e = e.xreplace({i: sympy.Rational(sum(map(ord, str(i))) % 997, 991) for i in integrals})
     value = sympy.N(e.subs(X, point), 40, maxn=300)
     if not value.is_number or value.has(sympy.nan, sympy.zoo, sympy.Integral) or not value.is_finite:
         raise ValueError(str(value)[:80])
