@@ -68,6 +68,8 @@ def test_the_solution_of_a_right_hand_side_and_of_initial_values(capsys: pytest.
     assert "  y(x) = C1*airyai(x) + C2*airybi(x) - 1" in capsys.readouterr().out.splitlines()
     assert main.run(["solve", "x^5 + 1/x^3"]) == 0
     assert "no special function was found; searched: Airy's equation" in capsys.readouterr().out
+    assert main.run(["solve", "y'' - (1 + exp(x))*y' = 0"]) == 0  # in t = exp(x) a product, exp(t)
+    assert " = exp(exp(x))\n" in capsys.readouterr().out
     assert main.run(["solve", "y'' + y = x", "--ics", "y(0)=1, y'(0)=0"]) == 0
     assert "  y(x) = x - sin(x) + cos(x)" in capsys.readouterr().out.splitlines()
     assert main.run(["solve", "-4", "--ics", "y(0)=0", "--ics", "y'(0)=1"]) == 0
@@ -346,9 +348,9 @@ def test_a_full_disk_is_told(arguments: list[str]) -> None:
         assert done.returncode == 5
         assert "kovacic: the output can't be written: No space left" in done.stderr
         assert "Traceback" not in done.stderr
-        assert (
-            subprocess.run([*COMMAND, *arguments], input=b"x\n", stdout=full, stderr=full, timeout=60).returncode == 5
-        )
+        if arguments[0] in ("solve", "batch"):  # no room for the message either
+            streams = {"stdout": full, "stderr": full}
+            assert subprocess.run([*COMMAND, *arguments], input=b"x\n", timeout=60, **streams).returncode == 5
     if arguments[0] in ("batch", "scan"):
         done = run(*arguments, "-o", "/dev/full", stdin="x\n")
         assert done.returncode == 5
@@ -424,7 +426,6 @@ def test_lines_keep_to_the_width_of_a_terminal() -> None:
     for command in (
         ["conditions", "n/x^2 + m/(x-1)^2 + 1"],
         ["dsolve", "y'' + y = x^3*cos(5*x)*exp(x)"],
-        ["explain", "x"],
     ):
         shown = on_terminal({**env, "COLUMNS": "60", "NO_COLOR": "1"}, *command).replace("\r\n", "\n").splitlines()
         tables = [line for line in shown if re.search(r"\S {2,}\S", line)]

@@ -34,7 +34,7 @@ def conditions() -> Conditions:
 
     >>> print(str(conditions()).partition("\\n")[2])
       R1 = 0: S isn't defined
-      x1 - x2 = 0: case 1
+      x1 = x2: case 1
       2*R/R1 in Z: case 1
       otherwise: case 2
       (proven to be complete; at most three regular singular points: Kimura's theorem)

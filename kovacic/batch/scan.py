@@ -140,7 +140,7 @@ def scan_items(expression: Any, grids: Sequence[Grid], *, var: str | None = None
         raise InputError("a scan needs a parameter", hint="n=0:10:1/4")
     if len(set(names)) < len(names) or var in names:
         raise InputError(f"the names {', '.join(names)} aren't different parameters")
-    template = Template(str(expression), names)
+    template = Template(str(expression).strip(), names)  # as the answers have it
     return (
         Item(number, template.filled(values), var, {"parameters": {name: str(value) for name, value in values.items()}})
         for number, values in enumerate(points(grids), start=1)

@@ -88,9 +88,9 @@ def general_lines(answer: Solution, values: dict[str, str] | None) -> Iterator[s
     from kovacic.views.text import shortened
 
     zero = answer.S * 0
-    equation = answer.equation or Equation(zero + 1, zero, -answer.S, zero, variable=answer.variable)
+    normal = Equation(zero + 1, zero, -answer.S, zero, variable=answer.variable)
     try:
-        found = dsolve(equation, ics=values, limits=answer.limits)
+        found = dsolve(answer.text if answer.change else answer.equation or normal, ics=values, limits=answer.limits)
     except NotImplementedError as reason:
         nothing = answer.case is None and not answer.special
         yield str(answer.special) if nothing else f"the solution wasn't written out: {reason}"

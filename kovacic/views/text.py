@@ -109,7 +109,7 @@ def _written(solution: Solution) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
     with Budget(solution.limits).watched():
         structure = build(solution.S, solution.decision, solution.gauge)
-        pair = written(structure, solution.variable)
+        pair = None if solution.change else written(structure, solution.variable)
         if pair is not None and not is_exact_solution(structure, solution.S, solution.gauge):
             raise VerificationFailed(f"a closed form for S = {solution.S} failed its check; please report the equation")
     if pair is not None:
