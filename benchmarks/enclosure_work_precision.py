@@ -192,7 +192,7 @@ COUNTED = {
     "Taylor expansions": (transport, "expand"),
     "evaluations of one": (transport, "states_at"),
     "Frobenius series": (frobenius, "_expand"),
-    "closed-form legs": (closed_form.ClosedForm, "legs"),
+    "closed-form legs": (closed_form.ClosedForm, "leg"),
     "runs": (journey.Traveller, "at"),
 }
 

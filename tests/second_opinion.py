@@ -1,6 +1,7 @@
-"""A second opinion on transition matrices in cases 2 and 3, by closed forms: what only tests use.
+"""A second opinion on transition matrices, by closed forms: what only tests use.
 
 A leg from a to b is carried by
+- case 1, y1 = E P, y2 = A/E + y1 int B/E^2 by a quadrature (`kovacic.enclosure.closed_form`, equation (1));
 - case 2, f = y+ y- = E P, w^2 = 4 S f^2 - 2 f f'' + f'^2 (a constant), y+-'/y+- = (f' +- w)/(2 f), in which a zero of f is
   removed by the conjugate:
 
@@ -45,10 +46,12 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.klein import covariants
 from kovacic.decision import SemiInvariant, Structure
-from kovacic.enclosure.closed_form import fundamental, integral, values
+from kovacic.enclosure.closed_form import ClosedForm, closed_form_of, fundamental
 from kovacic.enclosure.exponential import LogDerivative, conjugates, embed
+from kovacic.enclosure.forcing import integral
 from kovacic.enclosure.matrices import Matrix, adjugate, multiply, product
 from kovacic.enclosure.points import Point, as_point, to_acb
+from kovacic.enclosure.problem import as_problem
 from kovacic.limits import Budget
 
 Found = TypeVar("Found")
@@ -57,7 +60,7 @@ _DEPTH = 200
 
 
 def transition(solution: Solution, vertices: Sequence[object], prec: int) -> Matrix:
-    """The transition matrix along the polygon, from the certificate of a decision of case 2 or 3."""
+    """The transition matrix along the polygon, from the certificate of a decision; in case 1 one with a rational omega."""
     points, budget = [as_point(v, "a vertex") for v in vertices], Budget()
     decision = solution.decision
     assert decision.semi_invariant is not None
@@ -65,7 +68,11 @@ def transition(solution: Solution, vertices: Sequence[object], prec: int) -> Mat
     matrices: list[Matrix] = []
     with flint.ctx.workprec(prec):
         for a, b in itertools.pairwise(points):
-            if decision.case == 2:
+            if decision.case == 1:
+                closed = closed_form_of(as_problem(solution))
+                assert closed is not None
+                matrices.append(quadrature_leg(closed, to_acb(a), to_acb(b), budget))
+            elif decision.case == 2:
                 matrices += pair_leg(solution.S, decision.semi_invariant, a, b, budget)
             else:
                 matrices += klein_leg(charts(solution.S, decision.structure, decision.invariant), a, b, budget)
@@ -108,6 +115,30 @@ def cut(piece: Piece, found_on: Callable[[Piece], Found | None], budget: Budget)
         middle = current.middle
         open_pieces += [(Piece(middle, current.b), depth + 1), (Piece(current.a, middle), depth + 1)]
     return result
+
+
+def values(poly: acb_poly, x: acb) -> acb:
+    """The values of a polynomial on a ball, by its expansion at the middle: narrow where Horner's rule isn't."""
+    centre = x.mid()
+    value: acb = poly(acb_poly([centre, 1]))(x - centre)
+    return value
+
+
+def quadrature_leg(closed: ClosedForm, a: acb, b: acb, budget: Budget) -> Matrix:
+    """Case 1, whatever E is."""
+    theta, B = LogDerivative.make(closed.first.theta, None), Quotient.make(closed.reduction[1], None)
+    P, A = embed(closed.first.P, None), embed(closed.reduction[0], None)
+
+    def integrand(z: acb, analytic: bool) -> acb:
+        return B(z) * (-2 * theta.exponent(a, z, analytic=analytic)).exp()
+
+    def states(x: acb, E: acb, area: acb) -> Matrix:
+        t, p, alpha = theta.value(x), P(x), A(x)
+        y, dy = E * p, E * (t * p + P.derivative()(x))
+        return fundamental((y, dy), (alpha / E + y * area, (A.derivative()(x) - t * alpha + B(x) * p) / E + dy * area))
+
+    at_b = states(b, theta.growth(a, b), integral(integrand, a, b, budget))
+    return multiply(at_b, adjugate(states(a, acb(1), acb(0))))  # the Wronskian is 1
 
 
 @dataclass(frozen=True)

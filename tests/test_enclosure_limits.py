@@ -93,7 +93,7 @@ CALLS: dict[str, Callable[[Limits], object]] = {
     "a long way": lambda limits: evaluate("-1-1/x^2", 10**5, x0=1, limits=limits, **START),
     "many points": lambda limits: evaluate("x", range(-300, 0), x0=0, digits=300, limits=limits, **START),
     "at": lambda limits: kovacic.solve("x^2+3").at(2, x0=1, digits=90_000, method="taylor", limits=limits, **START),
-    "quadrature": lambda limits: kovacic.solve("x^2+3").at(9, x0=1, digits=5000, method="closed form", limits=limits, **START),
+    "right-hand side": lambda limits: evaluate("y'' = x^2*y + 1/x", 9, x0=1, digits=2000, limits=limits, **START),
     "a matrix": lambda limits: connection_matrix("x^9+1/(x-7)^3", [1, 2, 3, 4], digits=50_000, limits=limits),
     "monodromy": lambda limits: monodromy("1/(x^60+x+3)", digits=200, limits=limits),
     "plot": lambda limits: sample("1/(x^2-2) - 10^7/(x^2-3)", -9, 9, points=4000, digits=50, limits=limits),

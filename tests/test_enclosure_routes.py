@@ -18,8 +18,9 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.enclosure.agreement import agrees_with_group, compare, is_fuchsian
 from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.closed_form import integral
+from kovacic.enclosure.closed_form import closed_form_of
 from kovacic.enclosure.evaluate import AccuracyWarning, connection_matrix, evaluate, evaluate_states
+from kovacic.enclosure.forcing import integral
 from kovacic.enclosure.matrices import identity, multiply
 from kovacic.enclosure.monodromy import monodromy
 from kovacic.enclosure.problem import as_problem
@@ -36,10 +37,11 @@ PRIMITIVE = {
 
 def agree(S: Any, *, x: Any, x0: Any, path: Any = None, digits: int = 25) -> None:
     solution = kovacic.solve(S)
-    if solution.case in (2, 3):
+    closed = closed_form_of(as_problem(solution))
+    if closed is None or len(closed.branches) == 1:
         agree_with_the_second_opinion(solution, [x0, *(path or ()), x], digits)
+    if closed is None or not closed.is_elementary:
         return
-    assert solution.case == 1
     results = [
         evaluate_states(solution, [x], x0=x0, y0=1, dy0=Fraction(-3, 7), digits=digits, method=method, path=path)[0]
         for method in ("taylor", "closed form")
@@ -58,7 +60,9 @@ def agree_with_the_second_opinion(solution: kovacic.Solution, vertices: list[Any
     prec = 4 * digits + 40
     while True:
         closed = second_opinion.transition(solution, vertices, prec)
-        if all(entry.rel_accuracy_bits() > 3 * digits for entry in closed) or prec > 2000:
+        if all(entry.rel_accuracy_bits() > 3 * digits for entry in closed) or prec > (
+            5000 if solution.case == 1 else 2000
+        ):
             break
         prec *= 2
     assert all(entry.is_finite() for entry in closed)
@@ -102,8 +106,8 @@ def test_case_3(name: str) -> None:
 
 @pytest.mark.parametrize(
     "S",
-    ["-(10100*(1-x^2) + 1)/(1-x^2)^2", "-(250500*(1-x^2) + 1)/(1-x^2)^2", "x^2 - 101", "x^2 - 1001"],
-    ids=["Legendre, 100", "Legendre, 500", "Hermite, 50", "Hermite, 500"],
+    ["-(10100*(1-x^2) + 1)/(1-x^2)^2", "-(250500*(1-x^2) + 1)/(1-x^2)^2", "x^2 - 101", "x^2 - 301"],
+    ids=["Legendre, 100", "Legendre, 500", "Hermite, 50", "Hermite, 150"],
 )
 def test_polynomials_of_high_degree_on_an_interval_with_their_zeros(S: str) -> None:
     agree(S, x="9/10", x0="-1/3", digits=15)
@@ -132,7 +136,7 @@ def test_the_closed_form_asks_nothing_of_the_other_route(monkeypatch: pytest.Mon
     def forbidden(*_: object) -> None:
         raise AssertionError("a Taylor step")
 
-    solutions = [kovacic.solve(S) for S in ("x^2 - 7", "1 + 2/x^2", "2/x^2", "-2")]
+    solutions = [kovacic.solve(S) for S in ("1 + 2/x^2", "2/x^2", "-2")]
     monkeypatch.setattr("kovacic.enclosure.transport.expand", forbidden)
     for solution in solutions:
         evaluate(solution, [3, "1/3"], x0=2, y0=1, dy0=0, path=[1 + 1j], method="closed form")
@@ -180,8 +184,8 @@ def test_an_equation_without_closed_form_says_so() -> None:
     with pytest.raises(InputError, match="needs a Liouvillian solution"):
         evaluate(kovacic.solve("x"), 1, x0=0, y0=1, dy0=0, method="closed form")
     assert evaluate(kovacic.solve("x"), 1, x0=0, y0=1, dy0=0).digits > 15
-    for S in PRIMITIVE.values():
-        with pytest.raises(InputError, match="case 1"):
+    for S in (*PRIMITIVE.values(), "x^2 + 3"):
+        with pytest.raises(InputError, match="without a quadrature"):
             evaluate(kovacic.solve(S), 3, x0=2, y0=1, dy0=0, method="closed form")
 
 
@@ -208,7 +212,7 @@ def test_a_quadrature_can_be_stopped_and_leaves_the_precision_alone(steps: int, 
 
 
 def test_the_closed_form_stops_at_the_time_limit() -> None:
-    solution = kovacic.solve("x^2 + 3")
+    solution = kovacic.solve("1 + 2/x^2")
     with pytest.raises(LimitExceeded, match="time limit"):
         evaluate(solution, 3, x0=2, y0=1, dy0=0, digits=500, method="closed form", limits=Limits(seconds=1e-9))
 

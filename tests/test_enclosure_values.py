@@ -417,11 +417,6 @@ def test_an_equation_with_a_first_derivative_is_solved_itself_and_not_its_normal
 def test_both_routes_for_an_equation_with_a_first_derivative() -> None:
     import kovacic
 
-    solution = kovacic.solve("y'' - 2*y'/(x - 5) + (1 + 1/x)*y = 0")
-    path = [1 + 1j, 2]
-    methods = ("taylor", "closed form") if solution.case else ("taylor",)
-    balls = [evaluate(solution, 3, x0=1, y0=1, dy0=2, path=path, method=m) for m in methods]  # type: ignore[arg-type]
-    assert all(b.overlaps(balls[0]) for b in balls)  # type: ignore[union-attr,arg-type]
     elementary = kovacic.solve("x*y'' + 2*y' - x*y = 0")  # sinh(x)/x, cosh(x)/x
     values = [
         evaluate(elementary, 2, x0=1, y0=math.e, dy0=0, digits=25, method=m)  # type: ignore[arg-type]
@@ -491,7 +486,7 @@ def test_threads_get_the_balls_that_each_would_get_alone_and_leave_the_precision
 
 @pytest.mark.parametrize("method", ["taylor", "closed form", None])
 @pytest.mark.parametrize(
-    "equation", ["-1", "-2", "-1/(4*x^2)", "x^2 + 3", "9/(2*x^4 + 16*x^3 + 72*x^2 + 160*x + 200)", "y'' + y' + y = 0"]
+    "equation", ["-1", "-2", "-1/(4*x^2)", "1 + 2/x^2", "9/(2*x^4 + 16*x^3 + 72*x^2 + 160*x + 200)", "y'' + y' + y = 0"]
 )
 def test_a_real_problem_has_a_real_ball(equation: str, method: Method | None) -> None:
     import kovacic

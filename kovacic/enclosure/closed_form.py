@@ -9,10 +9,9 @@ matrices along the leg, which is carried by the certificate of the decision (E =
 
       1/y1^2 = (A/(P E^2))' + B/E^2,    B = (1 + A P' - A' P + 2 theta A P)/P^2,    y2 = A/E + y1 int_a^x B/E^2 dx,   (1)
 
-  and B has no poles but the singular points of S.  Where E^2 is rational the integral is one of partial fractions, else a
-  rigorous quadrature.
-So the zeros of P need not be known, and no leg goes around them.  In cases 2 and 3 closed forms cost more than Taylor steps
-(quadratures of algebraic functions, hypergeometric functions): there is no such route.
+  and B has no poles but the singular points of S.  Where E^2 is rational the integral is one of partial fractions.
+So the zeros of P need not be known, and no leg goes around them.  Other closed forms cost more than Taylor steps (quadratures,
+hypergeometric functions): there is no such route.
 
 `omega` numbers the solutions whose logarithmic derivative is algebraic, in every case: in case 1 the conjugates of omega, or
 the two rational ones; in cases 2 and 3 the roots of the polynomial of omega at the point, by real part and then imaginary
@@ -21,11 +20,10 @@ part.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 
-from flint import acb, acb_poly, arb, ctx
+from flint import acb, acb_poly, arb
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import decompose
@@ -37,11 +35,7 @@ from kovacic.enclosure.matrices import Matrix, State, adjugate, multiply
 from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import NumericProblem, check_segment
 from kovacic.enclosure.working import working_precision
-from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Budget, check_duration
-
-_NODES = 3e-11
-"""Seconds that the nodes of a quadrature take, over bits^2.7 (measured): they are computed in one piece."""
+from kovacic.errors import InputError
 
 _CHEAP_DEGREE = 60
 """Degree of P up to which its evaluation costs less than the Taylor steps."""
@@ -146,10 +140,9 @@ class ClosedForm:
 
     @property
     def is_cheap(self) -> bool:
-        """Does a leg cost less than Taylor steps (measured): no quadrature, and no polynomial of a high degree?"""
-        if self.first.P.degree > _CHEAP_DEGREE:
-            return False
-        return len(self.branches) == 2 or (self.square_size is not None and self.square_size <= 2 * _CHEAP_DEGREE)
+        """Does a leg cost less than Taylor steps (measured): elementary, and no polynomial of a high degree?"""
+        small = len(self.branches) == 2 or (self.square_size is not None and self.square_size <= 2 * _CHEAP_DEGREE)
+        return small and self.first.P.degree <= _CHEAP_DEGREE
 
     @cached_property
     def companion(self) -> Exponential | None:
@@ -164,15 +157,16 @@ class ClosedForm:
         factor = inverse.exact * P
         return Exponential(theta - RatFunc(factor.den.derivative(), factor.den), factor.num)
 
-    def legs(self, a: Point, b: Point, budget: Budget) -> list[Matrix]:
-        """Transition matrices whose product carries (y, y') from a to b along the straight segment."""
-        if a == b:
-            return []
+    @property
+    def is_elementary(self) -> bool:
+        """Are both solutions given without a quadrature?"""
+        return len(self.branches) == 2 or self.rational_square is not None
+
+    def leg(self, a: Point, b: Point) -> Matrix:
+        """The transition matrix that carries (y, y') from a to b along the straight segment, for elementary solutions."""
         check_segment(self.problem.system, a, b)
-        budget.check()
-        if len(self.branches) == 2:
-            return [_two_exponentials(self.branches, to_acb(a), to_acb(b))]
-        return [_integral_leg(self, to_acb(a), to_acb(b), budget)]
+        make = _two_exponentials if len(self.branches) == 2 else _integral_leg
+        return make(self, to_acb(a), to_acb(b))
 
 
 def certified(problem: NumericProblem) -> Decision:
@@ -194,10 +188,10 @@ def closed_form_of(problem: NumericProblem) -> ClosedForm | None:
     return ClosedForm(problem, Exponential(decision.semi_invariant.theta, decision.semi_invariant.P))
 
 
-def _two_exponentials(branches: tuple[Exponential, ...], a: acb, b: acb) -> Matrix:
+def _two_exponentials(closed: ClosedForm, a: acb, b: acb) -> Matrix:
     """Two omegas: y = E P for either."""
     at_a, at_b = [], []
-    for branch in branches:
+    for branch in closed.branches:
         c = branch.constant()
         theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
         slope, growth = P.derivative(), theta.growth(a, b)
@@ -208,22 +202,17 @@ def _two_exponentials(branches: tuple[Exponential, ...], a: acb, b: acb) -> Matr
     return m[0] / determinant, m[1] / determinant, m[2] / determinant, m[3] / determinant
 
 
-def _integral_leg(closed: ClosedForm, a: acb, b: acb, budget: Budget) -> Matrix:
-    """A unique omega, equation (1)."""
+def _integral_leg(closed: ClosedForm, a: acb, b: acb) -> Matrix:
+    """A unique omega, equation (1), E^2 rational."""
+    square = closed.rational_square
+    assert square is not None
     theta = LogDerivative.make(closed.first.theta, None)
     exact_A, exact_B = closed.reduction
     P, A = embed(closed.first.P, None), embed(exact_A, None)
     dP, dA = P.derivative(), A.derivative()
     num, den = embed(exact_B.num, None), embed(exact_B.den, None)
 
-    def integrand(z: acb, analytic: bool) -> acb:
-        return values(num, z) / values(den, z) * (-2 * theta.exponent(a, z, analytic=analytic)).exp()
-
-    square = closed.rational_square
-    if square is not None:
-        area = LogDerivative.make(exact_B / square, None).exponent(a, b) * value(square, None, a)
-    else:
-        area = integral(integrand, a, b, budget)
+    area = LogDerivative.make(exact_B / square, None).exponent(a, b) * value(square, None, a)
 
     def states(x: acb, E: acb, I: acb) -> tuple[State, State]:  # noqa: E741 - the integral in (1)
         t, p, alpha = theta.value(x), P(x), A(x)
@@ -237,42 +226,6 @@ def _integral_leg(closed: ClosedForm, a: acb, b: acb, budget: Budget) -> Matrix:
 def fundamental(first: State, second: State) -> Matrix:
     """The matrix with the states (y, y') of two solutions as its columns."""
     return first[0], second[0], first[1], second[1]
-
-
-def values(poly: acb_poly, x: acb) -> acb:
-    """The values of a polynomial on a ball, by its expansion at the middle: narrow where Horner's rule isn't."""
-    centre = x.mid()
-    value: acb = poly(acb_poly([centre, 1]))(x - centre)
-    return value
-
-
-def integral(function: Callable[[acb, bool], acb], a: acb, b: acb, budget: Budget) -> acb:
-    """int_a^b, by flint's rigorous adaptive quadrature; a non-finite ball where it gave up.
-
-    Raises LimitExceeded when the budget is used up.  An exception can't cross flint's C code (python-flint 0.9.0 turns it
-    into a SystemError), so the integrand answers 0 once it was stopped or interrupted, which ends the quadrature at once, and
-    the exception comes after.
-    """
-    stopped: BaseException | None = None
-
-    def guarded(z: acb, analytic: bool) -> acb:
-        nonlocal stopped
-        if stopped is None:
-            try:
-                budget.check()
-                return function(z, analytic)
-            except (LimitExceeded, KeyboardInterrupt) as reason:
-                stopped = reason
-        return acb(0)
-
-    check_duration(_NODES * ctx.prec**2.7, f"a quadrature with {ctx.prec} bits")
-    try:
-        result: acb = acb.integral(guarded, a, b)
-    except SystemError as error:  # the interrupt came between two calls of the integrand
-        raise error.__cause__ or error from None
-    if stopped is not None:
-        raise stopped
-    return result
 
 
 def exponentials(problem: NumericProblem) -> list[Exponential]:

@@ -315,12 +315,12 @@ def _route(trip: Trip, method: Method | None) -> tuple[Route, Method]:
         from kovacic.enclosure.closed_form import closed_form_of
 
         closed = closed_form_of(problem)
-        if method is None and closed is not None and not closed.is_cheap:
+        if closed is not None and not (closed.is_elementary if method else closed.is_cheap):
             closed = None
-        elif closed is None:
+        if method and closed is None:
             raise InputError(
-                "the method 'closed form' is for solutions with a rational logarithmic derivative (case 1)",
-                hint="method='taylor' treats every equation, and the other cases as fast",
+                "the method 'closed form' is for solutions of case 1 without a quadrature",
+                hint="method='taylor' treats every equation, and the others as fast",
             )
 
     def route(prec: int, budget: Budget) -> list[State]:

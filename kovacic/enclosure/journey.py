@@ -137,10 +137,9 @@ class Traveller:
         rest = stops[len(result) :]
         if rest and self.closed is not None:
             for stop in rest:
-                matrices = self.closed.legs(here, stop, self.budget)
-                way = self.product.copy()
-                for matrix in matrices:
-                    way.push(real_part(matrix) if here.is_real() and stop.is_real() else matrix)
+                self.budget.check()
+                matrix, way = self.closed.leg(here, stop), self.product.copy()
+                way.push(real_part(matrix) if here.is_real() and stop.is_real() else matrix)
                 result.append(self._given(way.apply(start), stop))
             self.product = way
         elif rest and self.forcing is not None:
