@@ -405,16 +405,20 @@ def test_which_places_tell_the_solutions_apart(text: str, expected: dict[str, bo
 
 @pytest.mark.parametrize(
     "omega",
-    [1 + 1 / X**3, X + 1 / X**2, 2 + 1 / X**4 + 1 / (X - 1), 1 / X**3 + 1 / (X - 2) ** 2, X**2 + 3 / X**5],
+    [1 + 1 / X**3, X + 1 / X**2, 2 + 1 / X**4 + 1 / (X - 1), 1 / X**3 + 1 / (X - 2) ** 2, X**2 + 3 / X**5,
+     1 + 1 / (3 * X), 1 + 2 / (3 * X), X - 1 / (4 * X) + 3 / (5 * (X - 1)), X + 5 / (4 * X)],
     ids=str,
-)
+)  # fmt: skip
 def test_a_rational_omega_is_found_from_every_place(omega: RatFunc) -> None:
-    """Irregular at 0 and elsewhere: the degree of its numerator follows from the orders of both ends of the chart."""
+    """Irregular at 0 and elsewhere: the degree of its numerator follows from the orders of both ends of the chart.
+
+    And from regular places where it has the larger or the smaller one of two exponents that differ by a fraction.
+    """
     inspector = Inspector(omega.derivative() + omega**2, Budget())
     counts, prime = zero_counts(inspector.points), next(QQ.homomorphisms()).p
     assert counts is not None
     for point in inspector.points:
-        if point.order > 2:
+        if inspector._tells_solutions_apart(point):
             evidence = (NoInvariant(2, prime, 3, 0), NoRationalOmega(counts.largest, prime, point.name))
             assert not inspector._no_rational_omega(evidence[1]), point.name
             assert not inspector.excludes(Structure.REDUCIBLE, evidence)
