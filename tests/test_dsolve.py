@@ -565,3 +565,10 @@ def test_a_singular_point_between() -> None:
         with pytest.raises(ValueError, match="a singular point of the equation lies between"):
             dsolve(text, ics=ics)
     assert dsolve("x^2*y'' - 2*x*y' + 2*y = 0", ics={"y(-1)": 0, "y(1)": 2}).rhs == x**2 + x
+
+
+def test_values_as_one_text() -> None:
+    assert dsolve("y'' + y = 0", ics="y(0)=0, y'(0)=2") == dsolve("y'' + y = 0", ics={"y(0)": 0, "y'(0)": 2})
+    for text in ("y(0)=1, y(0)=2", "y(0)", "=1"):
+        with pytest.raises(kovacic.InputError, match="aren't initial values"):
+            dsolve("y'' + y = 0", ics=text)

@@ -298,6 +298,14 @@ def test_other_numbers_in_coefficients_are_refused_with_the_way_out() -> None:
         kovacic.solve(y.diff("x", 2) + sympy.Symbol("pi") * y - sympy.pi * y)
 
 
+@pytest.mark.parametrize(
+    "text", ["x^2*y''+(a*(-1)^n*x^2-n^2)*y=0", "y''+exp(x)^n*y=0", "y''+sin(x)^n*y=0", "y''+pi^n*x*y=0", "y''+n^x*y=0"]
+)
+def test_powers_with_a_letter_in_the_exponent_are_refused(text: str) -> None:
+    with pytest.raises(kovacic.NotRational, match="isn't a rational function of"):
+        kovacic.solve(text, var="x")
+
+
 def test_euler_s_number_is_a_value_of_a_parameter() -> None:
     (notice,) = [n for n in kovacic.solve("x^2 + e").notices if "Euler" in n]
     assert "one of its generic values" in notice

@@ -12,7 +12,6 @@ from kovacic.cli.options import (
     fitted,
     ics_option,
     limit_option,
-    parse_initial_values,
     parse_limits,
     refuse_options,
     var_option,
@@ -40,7 +39,7 @@ def command(equation: str, latex: bool, ics: tuple[str, ...], var: str | None, l
     from kovacic.solution import solve
 
     refuse_options((equation,))
-    values, chosen = parse_initial_values(ics), parse_limits(limits)
+    values, chosen = ", ".join(ics), parse_limits(limits)
     try:
         found = dsolve(equation, ics=values, var=var, limits=chosen)
     except NotImplementedError as reason:

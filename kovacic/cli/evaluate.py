@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from kovacic.cli.options import EQUATIONS, limit_option, listed, parse_limits, refuse_options
+from kovacic.cli.options import EQUATIONS, limit_option, parse_limits, refuse_options
 
 
 @click.command(context_settings=EQUATIONS)
@@ -34,6 +34,7 @@ def command(
     kovacic evaluate "x^2*y'' + x*y' + x^2*y = 0" --x0 0 --regular --at 1/2 --at 10
     """
     from kovacic.enclosure.evaluate import evaluate_states
+    from kovacic.reading.parser import listed
 
     refuse_options((equation,))
     places = [place for text in points for place in listed(text)]

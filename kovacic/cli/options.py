@@ -96,30 +96,6 @@ def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
     return found or None
 
 
-def parse_initial_values(settings: Sequence[str]) -> dict[str, str] | None:
-    """`y(0)=1, y'(0)=0` as `kovacic.dsolve` takes them; None without any.  Raises `click.UsageError`."""
-    found: dict[str, str] = {}
-    for setting in settings:
-        for part in listed(setting):
-            place, separator, value = (piece.strip() for piece in part.partition("="))
-            if not (separator and place and value) or place in found:
-                raise click.UsageError(f'--ics {setting}: write "y(0)=1, y\'(0)=0", every value once')
-            found[place] = value
-    return found or None
-
-
-def listed(text: str) -> list[str]:
-    """The parts between commas, those within parentheses apart."""
-    parts, depth = [""], 0
-    for character in text:
-        depth += {"(": 1, ")": -1}.get(character, 0)
-        if character == "," and depth == 0:
-            parts.append("")
-        else:
-            parts[-1] += character
-    return [part.strip() for part in parts]
-
-
 def answer_each(
     equations: Sequence[str],
     show: Callable[[Solution], Iterable[str]],

@@ -14,7 +14,6 @@ from kovacic.cli.options import (
     fitted,
     ics_option,
     limit_option,
-    parse_initial_values,
     styled,
     var_option,
 )
@@ -59,7 +58,7 @@ def command(
     """
     from kovacic.views.text import render, solution_lines
 
-    values = parse_initial_values(ics)
+    values = ", ".join(ics)
     if values and (as_json or latex or explain or no_solutions):
         raise click.UsageError("--ics belongs to the solutions as text (kovacic dsolve --latex has the others)")
 
@@ -78,7 +77,7 @@ def command(
     return answer_each(equations, show, var=var, limits=limits, assume=assume, gap=gap)
 
 
-def general_lines(answer: Solution, values: dict[str, str] | None) -> Iterator[str]:
+def general_lines(answer: Solution, values: str) -> Iterator[str]:
     """The general solution, or that with the initial values; why not; no line for an undecided equation."""
     if answer.status == "undecided":
         return

@@ -13,7 +13,7 @@ from kovacic.decision import Status
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.given import radical_of, read_equation
 from kovacic.general_solution.impulses import place_of
-from kovacic.general_solution.initial_values import constants, read_values
+from kovacic.general_solution.initial_values import as_mapping, constants, read_values
 from kovacic.general_solution.particular import NUMBERS, particular_solution
 from kovacic.general_solution.real_basis import check_one_side, real_basis, real_particular
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
@@ -29,7 +29,7 @@ def dsolve(
     eq: Any,
     func: Any = None,
     *,
-    ics: Mapping[Any, Any] | None = None,
+    ics: Mapping[Any, Any] | str | None = None,
     var: str | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Any:
@@ -37,9 +37,9 @@ def dsolve(
 
     `eq` is a SymPy `Eq` or an expression that is zero, or text; `func` is y(x) or y, where more than one function occurs.
     `ics` gives values at ordinary points as for `sympy.dsolve`, {y(0): 1, y(x).diff(x).subs(x, 0): 2}, or as text,
-    {"y(0)": 1, "y'(0)": 2}, at one point or, as boundary values, at several: the constants that they determine are found
-    exactly, and one that stays is free.  Floats are the decimals that they are written as; values at the place of an
-    impulse or a step are those just before it.  An integral that isn't done stays an `Integral`.
+    "y(0)=1, y'(0)=2" or {"y(0)": 1, "y'(0)": 2}, at one point or, as boundary values, at several: the constants that they
+    determine are found exactly, and one that stays is free.  Floats are the decimals that they are written as; values at
+    the place of an impulse or a step are those just before it.  An integral that isn't done stays an `Integral`.
 
     With parameters, the answer holds for generic values; assumptions of their symbols are used.  Coefficients may be rational
     in exp(k x), or in sines, ... of multiples of k x, as well.
@@ -52,23 +52,23 @@ def dsolve(
     Eq(y(x), C1*cos(x) + C2*sin(x) + x)
     >>> print(dsolve("y'' - 2*x*y' + 2*y = 0", ics={"y(0)": 0, "y'(0)": 5}))
     Eq(y(x), 5*x)
-    >>> print(dsolve("y'' + y = 0", ics={"y(0)": 0, "y(pi/2)": 3}))
+    >>> print(dsolve("y'' + y = 0", ics="y(0)=0, y(pi/2)=3"))
     Eq(y(x), 3*sin(x))
     """
     budget = Budget(limits)
     with budget.watched():
         radical = radical_of(eq)
         if radical is None:
-            return _solved(eq, func, ics, var, budget)
+            return _solved(eq, func, as_mapping(ics), var, budget)
         root, symbol, value, new = radical
         own_ics = {
             key: value_.subs(symbol, value) if hasattr(value_, "subs") else value_
-            for key, value_ in (ics or {}).items()
+            for key, value_ in as_mapping(ics).items()
         }
         return _solved(eq.subs(symbol, value), func, own_ics, var, budget).subs(new, root)
 
 
-def _solved(eq: Any, func: Any, ics: Mapping[Any, Any] | None, var: str | None, budget: Budget) -> Any:
+def _solved(eq: Any, func: Any, ics: Mapping[Any, Any], var: str | None, budget: Budget) -> Any:
     equation, function = read_equation(eq, func, var, budget.limits)
     known = read_assumptions(None, eq, parameters_of(equation.S.field))
     solution = solve(equation, limits=budget.share(1).limits)

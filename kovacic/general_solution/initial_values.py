@@ -15,7 +15,7 @@ from kovacic.errors import InputError
 from kovacic.general_solution.variation import simplified
 from kovacic.reading.exponential import in_terms_of
 from kovacic.reading.given import Equation
-from kovacic.reading.parser import shown
+from kovacic.reading.parser import listed, shown
 from kovacic.special.wronskian import wronskian
 
 _ELEMENTARY = {
@@ -39,6 +39,19 @@ class Given:
     point: Any
     order: int
     value: Any
+
+
+def as_mapping(ics: Mapping[Any, Any] | str | None) -> dict[Any, Any]:
+    """Values that are given as a mapping, or as one text: "y(0)=1, y'(0)=0".  Raises `InputError`."""
+    if not isinstance(ics, str):
+        return dict(ics or {})
+    found: dict[Any, Any] = {}
+    for part in listed(ics) if ics.strip() else ():
+        place, separator, value = (piece.strip() for piece in part.partition("="))
+        if not (separator and place and value) or place in found:
+            raise InputError(f"{ics!r} aren't initial values", hint='write "y(0)=1, y\'(0)=0", every value once')
+        found[place] = value
+    return found
 
 
 def read_values(ics: Mapping[Any, Any], function: Any, equation: Equation) -> tuple[Given, ...]:

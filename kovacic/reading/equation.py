@@ -82,7 +82,7 @@ class EquationReader(RationalReader):
         names = {sympy.pi: sympy.Symbol(PI), sympy.E: sympy.Symbol(EULER)}
         plain = coefficient.xreplace({e: names[sympy.E] ** e.args[0] for e in powers} | names)
         try:
-            value = Walker(self, self.constants).value(plain)
+            value = self.arithmetic.rational(Walker(self, self.constants).value(plain))
         except NotRational:
             raise self.arithmetic.not_rational(coefficient) from None
         if {PI, EULER} <= {*self.constants.parameters}:

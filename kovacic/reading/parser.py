@@ -285,6 +285,18 @@ def _syntax_error(tokens: Tokens, k: int, pending: Sequence[tuple[int, int]]) ->
     return tokens.error(ParseError, message, first, k + 1, hint=hint)
 
 
+def listed(text: str) -> list[str]:
+    """The parts between commas, those within parentheses apart."""
+    parts, depth = [""], 0
+    for character in text:
+        depth += {"(": 1, ")": -1}.get(character, 0)
+        if character == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += character
+    return [part.strip() for part in parts]
+
+
 def shown(value: Any, width: int = 40) -> str:
     """Any value as text, shortened."""
     try:
