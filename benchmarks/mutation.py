@@ -61,6 +61,9 @@ EXPLAINED: dict[str, str] = {
     "kovacic/closed_form/check.py: is_numerical_solution: 15 + 1": "a working precision",
     "kovacic/closed_form/check.py: is_numerical_solution: Add in 8 * DIGITS": "a working precision",
     "kovacic/closed_form/check.py: is_numerical_solution: Sub in DIGITS + 15": "a working precision, that of the next attempt",
+    "kovacic/closed_form/check.py: is_numerical_solution: 96 + 1": "a working precision",
+    "kovacic/closed_form/check.py: is_numerical_solution: 89 + 1": "another point",
+    "kovacic/closed_form/check.py: is_numerical_solution: 10 + 1": "a tolerance",
     "kovacic/closed_form/check.py: is_numerical_solution: 71 + 1": "another point",
     "kovacic/closed_form/check.py: is_numerical_solution: "
     "LtE in residual(expression, variable, S, gauge, point) < arb(10) ** (-DIGITS)": "balls",
@@ -80,6 +83,7 @@ EXPLAINED: dict[str, str] = {
     "kovacic/galois/imprimitive.py: _small_homomorphisms: Mult in 10 ** 7": "fewer primes: the invariants decide instead",
     "kovacic/galois/imprimitive.py: _homomorphisms: 5 + 1": "other primes",
     "kovacic/galois/imprimitive.py: _primes_from: 1 + 1": "a divisor more is tried, below p; or odd numbers alone",
+    "kovacic/galois/jacobian.py: Jacobian.multiple: LtE in k < 0": "0 times a class and 0 times its inverse are the same",
     "kovacic/galois/imprimitive.py: _order_modulo: 1 + 1": "a constant factor",
     "kovacic/galois/imprimitive.py: _order_modulo: Mult in image ** half": "half is 1: e is at most 2",
     "kovacic/galois/imprimitive.py: _squared_wronskian: Add in g * (4 * S - 2 * slope - phi * phi) % p": "the same modulo p",
