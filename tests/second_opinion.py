@@ -48,10 +48,10 @@ from kovacic.closed_form.klein import covariants
 from kovacic.decision import SemiInvariant, Structure
 from kovacic.enclosure.closed_form import ClosedForm, closed_form_of, fundamental
 from kovacic.enclosure.exponential import LogDerivative, conjugates, embed
-from kovacic.enclosure.forcing import integral
 from kovacic.enclosure.matrices import Matrix, adjugate, multiply, product
 from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.problem import as_problem
+from kovacic.enclosure.quadrature import integral
 from kovacic.limits import Budget
 
 Found = TypeVar("Found")

@@ -57,7 +57,8 @@ class Options(TypedDict, total=False):
     y0: object
     dy0: object
     frobenius: Sequence[object] | None
-    which: Literal["regular"] | None
+    which: Literal["regular", "decaying"] | None
+    params: Mapping[str, object] | None
     digits: int
     method: Method | None
     path: Path
@@ -113,7 +114,8 @@ def evaluate(
       at the other's;
     - `which="regular"`: frobenius=(0, 1), the solution that is smaller than all others at x0;
     - `which="decaying"` and `y0`: y(x0), and y is the solution that becomes smaller than all others as x goes to +infinity.
-    S or the equation may have parameters, which get rational values: `params={"n": 3}`.
+    S or the equation may have real algebraic constants, and parameters, which get real values: `params={"n": "sqrt(2)"}`.
+    Then no bound is lost, but the start is at a regular point.
 
     Numbers are exact: int, Fraction, float and complex (their binary values), Decimal and decimal text, mpmath and SymPy
     numbers; or constants such as "sqrt(2)" and "1 + 2*I"; or balls (ours, python-flint's, mpmath's), and then the result
@@ -197,7 +199,7 @@ def evaluate_states(
     if method is not None and method not in METHODS:
         raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
     budget = Budget(limits)
-    problem = as_problem(equation, params, forced=True)
+    problem = as_problem(equation, params, forced=True, constants=True)
     targets = tuple(as_number(p, "x") for p in points)
     side: str | None = None
     chain, vertices = path == "chain", tuple[Number, ...]()
@@ -243,6 +245,8 @@ class Trip:
     def exact(self) -> bool:
         """True if a higher precision makes every ball smaller."""
         numbers = (self.origin, *self.targets, *self.start)
+        if self.problem.embedded is not None and not self.problem.embedded.exact:
+            return False
         return not any(isinstance(number, Constant) and number.fixed for number in numbers)
 
     def itinerary(self) -> Itinerary:
@@ -269,6 +273,8 @@ def _start(
         raise InputError(f"which = {which!r} isn't known", hint="which='regular' or which='decaying'")
     if problem.right is not None and (which is not None or frobenius is not None):
         raise InputError("an equation with a right-hand side needs y0 and dy0 at a regular point")
+    if problem.embedded is not None and (which is not None or frobenius is not None):
+        raise InputError("an equation whose constants aren't rational needs y0 and dy0 at a regular point")
     if which == "decaying":
         if dy0 is not None or frobenius is not None:
             raise InputError("the decaying solution is given by y0 alone")
@@ -325,7 +331,7 @@ def _route(trip: Trip, method: Method | None) -> tuple[Route, Method]:
 
     def route(prec: int, budget: Budget) -> list[State]:
         plan = trip.itinerary()
-        states = carry(problem, plan, trip.state(plan.start, prec, budget), closed, prec, budget)
+        states = carry(problem.at(prec), plan, trip.state(plan.start, prec, budget), closed, prec, budget)
         places = zip(trip.targets, plan.targets, states, strict=True)
         return [_spread(problem, number, middle, state) for number, middle, state in places]
 
@@ -338,8 +344,11 @@ def _spread(problem: NumericProblem, number: Number | Singular, middle: Point | 
     if not isinstance(number, Constant) or not isinstance(middle, Point):
         return state
     ball = number.value()
-    a, b, c = (acb_poly(poly)(ball) for poly in equation_of(problem))
-    size = max(arb(1), (abs(b / a) + abs(c / a)).upper())
+    if problem.embedded is not None:
+        size = max(arb(1), problem.embedded.bound(ball))
+    else:
+        a, b, c = (acb_poly(poly)(ball) for poly in equation_of(problem))
+        size = max(arb(1), (abs(b / a) + abs(c / a)).upper())
     change = (size * abs(ball - to_acb(middle)).upper()).expm1() * max(abs(v).upper() for v in state)
     real = all(v.imag.is_zero() for v in (ball, *state))
     error = acb(arb(0, change.upper()), arb(0, 0 if real else change.upper()))

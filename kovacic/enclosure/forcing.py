@@ -17,7 +17,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from flint import acb, acb_poly, arb, ctx
+from flint import acb, acb_poly, arb
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.enclosure.closed_form import value
@@ -25,16 +25,13 @@ from kovacic.enclosure.constants import in_balls
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import NumericProblem, System, check_segment
+from kovacic.enclosure.quadrature import integral
 from kovacic.enclosure.taylor import error_radii
 from kovacic.enclosure.transport import Leg
-from kovacic.errors import LimitExceeded
-from kovacic.limits import Budget, check_duration
+from kovacic.limits import Budget
 
 _PIECES = 16
 """Pieces of a way on which |F| is bounded."""
-
-_NODES = 3e-11
-"""Seconds that the nodes of a quadrature take, over bits^2.7 (measured): they are computed in one piece."""
 
 
 @dataclass(frozen=True)
@@ -98,32 +95,3 @@ def forcing_of(problem: NumericProblem) -> Forcing | None:
     if given is None:
         return None
     return Forcing(given.f / given.a, given.h, 1 / given.a, given.variable)
-
-
-def integral(function: Callable[[acb, bool], acb], a: acb, b: acb, budget: Budget) -> acb:
-    """int_a^b, by flint's rigorous adaptive quadrature; a non-finite ball where it gave up.
-
-    Raises LimitExceeded when the budget is used up.  An exception can't cross flint's C code (python-flint 0.9.0 turns it
-    into a SystemError), so the integrand answers 0 once it was stopped or interrupted, which ends the quadrature at once, and
-    the exception comes after.
-    """
-    stopped: BaseException | None = None
-
-    def guarded(z: acb, analytic: bool) -> acb:
-        nonlocal stopped
-        if stopped is None:
-            try:
-                budget.check()
-                return function(z, analytic)
-            except (LimitExceeded, KeyboardInterrupt) as reason:
-                stopped = reason
-        return acb(0)
-
-    check_duration(_NODES * ctx.prec**2.7, f"a quadrature with {ctx.prec} bits")
-    try:
-        result: acb = acb.integral(guarded, a, b)
-    except SystemError as error:  # the interrupt came between two calls of the integrand
-        raise error.__cause__ or error from None
-    if stopped is not None:
-        raise stopped
-    return result

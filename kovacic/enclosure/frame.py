@@ -20,6 +20,7 @@ from kovacic.algebra.rationals import to_fmpq, to_fraction
 from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import System, Zeros, along, distance_lower, offsets
 from kovacic.enclosure.working import working_precision
+from kovacic.errors import InputError
 
 Parts = tuple[list[int], list[int] | None]
 """Real and imaginary parts of the coefficients; None where all of the latter are zero."""
@@ -66,7 +67,8 @@ class Frame:
     """The equation seen from a centre: x = c + H u, H = 2^e.
 
     `poles` and `zeros` are those of S in the variable u, with |H^2 S(c + H u)| = lead prod |u - zero|/prod |u - pole|.
-    Where the zeros aren't isolated there are none, and `lead` makes this an upper bound for |u| <= 1.
+    Where the zeros aren't isolated there are none, and `lead` makes this an upper bound for |u| <= 1.  `blur` is a bound of
+    |H^2 (S - S~)| there, where S~ is the system and the coefficients of S are known by balls.
     """
 
     centre: Point
@@ -74,6 +76,7 @@ class Frame:
     poles: Zeros
     zeros: Zeros
     lead: arb
+    blur: arb | None = None
 
     @property
     def scale(self) -> Fraction:
@@ -93,10 +96,34 @@ def make_frame(system: System, centre: Point, e: int) -> Frame:
         if zeros is not None:
             power = e * (2 + len(system.num) - len(system.den))
             lead = arb(abs(system.num[-1]) if system.num else 0) / system.den[-1] * arb((1, power))
-            return Frame(centre, e, poles, zeros, lead)
+            return Frame(centre, e, poles, zeros, lead, _blur(system, centre, e, poles))
         p, q = shift(system, centre, Point(Fraction(2) ** e))
         leading = acb(*(0 if part is None else part[-1] for part in q))
-        return Frame(centre, e, poles, (), arb(norm(p)) / abs(leading))
+        blur = _blur(system, centre, e, poles)
+        return Frame(centre, e, poles, (), arb(norm(p)) / abs(leading), blur)
+
+
+def _blur(system: System, centre: Point, e: int, poles: Zeros) -> arb | None:
+    """The bound `Frame.blur`: with |N - N~| <= n, |D - D~| <= d and |D~| >= m > d on the disc,
+
+    |S - S~| <= (|N~| d/m + n)/(m - d).
+
+    Raises InputError where D may vanish there.
+    """
+    if not system.radius:
+        return None
+    unit = arb((1, e))
+    reach, least = abs(to_acb(centre)).upper() + unit, arb(abs(system.den[-1]))
+    for zeta, k in poles:  # in the variable u
+        least *= ((abs(zeta) - 1).lower() * unit) ** k
+    size = sum((abs(c) * reach**k for k, c in enumerate(system.num)), arb(0))
+    n, d = (system.radius * sum((reach**k for k in range(len(c))), arb(0)) for c in (system.num, system.den))
+    if not least > d:
+        raise InputError(
+            f"the path runs through a singular point near {centre}, or so near to one that the constants don't tell",
+            hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis",
+        )
+    return ((size * d / least + n) / (least - d) * unit * unit).upper()
 
 
 @dataclass(frozen=True)
@@ -144,7 +171,7 @@ def ray_bound(frame: Frame, target: Point) -> RayBound | None:
             for eta, k in frame.zeros:
                 p *= (abs(eta - middle) + half) ** k
             least = min(least, (q / at_centre).lower())
-            sigma = (p / q).upper()
+            sigma = (p / q if frame.blur is None else p / q + frame.blur).upper()
             t = sigma.sqrt() * delta
             if not t < _STEEPEST:
                 return None

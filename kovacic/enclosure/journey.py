@@ -20,6 +20,7 @@ from fractions import Fraction
 from flint import acb
 
 from kovacic.enclosure.closed_form import ClosedForm
+from kovacic.enclosure.embedded import EmbeddedGauge
 from kovacic.enclosure.exponential import LogDerivative
 from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.frobenius import Basis, junction, limit
@@ -88,7 +89,7 @@ class Traveller:
 
     problem: NumericProblem
     closed: ClosedForm | None
-    gauge: LogDerivative | None
+    gauge: LogDerivative | EmbeddedGauge | None
     prec: int
     budget: Budget
     here: Point | Singular
@@ -102,7 +103,11 @@ class Traveller:
         cls, problem: NumericProblem, x0: Point | Singular, closed: ClosedForm | None, prec: int, budget: Budget
     ) -> Traveller:
         """At the start of a journey."""
-        gauge = None if problem.gauge is None else LogDerivative.make(problem.gauge, None)
+        gauge: LogDerivative | EmbeddedGauge | None = None
+        if problem.embedded is not None and problem.embedded.gauge is not None:
+            gauge = problem.embedded.growth_of(problem.embedded.gauge, budget)
+        elif problem.gauge is not None:
+            gauge = LogDerivative.make(problem.gauge, None)
         found = cls(problem, closed, gauge, prec, budget, x0, Product(), acb(1), forcing_of(problem))
         if isinstance(x0, Point):
             found._begin(x0)
@@ -114,8 +119,9 @@ class Traveller:
 
     def _begin(self, x: Point) -> None:
         """From (z, z') to (y, y') at x."""
-        if self.problem.gauge is not None and self.gauge is not None:
+        if self.problem.gauge is not None:
             check_segment(System.of(self.problem.gauge), x, x)
+        if self.gauge is not None:
             self.product.push((acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1)))
         self.here = x
 
@@ -161,7 +167,7 @@ class Traveller:
             for leg in walk(self.problem.system, here, [stop], self.prec, self.budget, expanded=True):
 
                 def inverse(x: acb, analytic: bool) -> acb:
-                    if self.gauge is None or not isinstance(self.here, Point):
+                    if not isinstance(self.gauge, LogDerivative) or not isinstance(self.here, Point):
                         return acb(1)
                     return (-self.gauge.exponent(to_acb(self.here), x, analytic=analytic)).exp() / self.growth
 

@@ -11,21 +11,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 
 from flint import acb, arb, fmpq_poly, fmpz_poly
 
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.decision import Decision
-from kovacic.enclosure.points import Point, as_point, to_acb
+from kovacic.enclosure.constants import Number, as_number, to_ball
+from kovacic.enclosure.embedded import Embedded
+from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 from kovacic.limits import check_duration
-from kovacic.reading.given import Equation, parameters_of
+from kovacic.reading.given import EULER, PI, Equation, parameters_of
 
 _NUMERATOR_ROOTS = 128
 """Above this degree the zeros of the numerator aren't isolated (its size is then bounded by its coefficients)."""
@@ -50,12 +53,15 @@ Zeros = tuple[tuple[acb, int], ...]
 class System:
     """den y'' = num y: integer coefficients, low to high, without a common factor, den not zero.
 
+    With a `radius` these are approximations, and the coefficients of the exact equation differ by at most so much from them.
+
     >>> System.make((2, 0), (0, 0, 4))   # S = 2/(4 x^2)
     System(num=(1,), den=(0, 0, 2))
     """
 
     num: tuple[int, ...]
     den: tuple[int, ...]
+    radius: int = 0
 
     @classmethod
     def make(cls, num: tuple[int, ...], den: tuple[int, ...]) -> System:
@@ -64,7 +70,8 @@ class System:
         if q == 0:
             raise InputError("the denominator of S is zero")
         g = p.gcd(q) * (-1 if q.leading_coefficient() < 0 else 1)
-        return cls(*(tuple(int(c) for c in (part // g).coeffs()) for part in (p, q)))
+        num, den = (tuple(int(c) for c in (part // g).coeffs()) for part in (p, q))
+        return cls(num, den)
 
     @classmethod
     def of(cls, function: RatFunc) -> System:
@@ -101,7 +108,8 @@ class NumericProblem:
     """y'' = S y as `system`; S and the decision on it where the problem was read from a solution.
 
     `gauge` is g'/g = -b/(2a) where the user's equation is a z'' + b z' + c z = 0 with z = g y; None for a normal form.
-    `right` is that equation where its right-hand side isn't zero.
+    `right` is that equation where its right-hand side isn't zero.  `embedded` has S and the gauge where their constants are
+    known by balls only: `system` is an approximation then, S and gauge are None.
     """
 
     system: System
@@ -109,6 +117,15 @@ class NumericProblem:
     decision: Decision | None = None
     gauge: RatFunc | None = None
     right: Equation | None = None
+    embedded: Embedded | None = None
+
+    def at(self, prec: int) -> NumericProblem:
+        """With the constants to this precision."""
+        if self.embedded is None:
+            return self
+        num, den, radius = self.embedded.coefficients(prec)
+        sign = -1 if den[-1] < 0 else 1
+        return replace(self, system=System(tuple(sign * c for c in num), tuple(sign * c for c in den), radius))
 
     def singular_points(self, prec: int) -> list[Point]:
         """Those of the system and the poles of the gauge, as `System.singular_points` gives them."""
@@ -119,9 +136,16 @@ class NumericProblem:
         return System((), tuple(int(c) for c in both.coeffs())).singular_points(prec)
 
 
-def as_problem(equation: object, params: Mapping[str, object] | None = None, *, forced: bool = False) -> NumericProblem:
+def as_problem(
+    equation: object,
+    params: Mapping[str, object] | None = None,
+    *,
+    forced: bool = False,
+    constants: bool = False,
+) -> NumericProblem:
     """The numerical problem that `equation` stands for, with these values of its parameters; see
-    `kovacic.enclosure.evaluate.evaluate` for what is accepted.  Only with `forced` may it have a right-hand side."""
+    `kovacic.enclosure.evaluate.evaluate` for what is accepted.  Only with `forced` may it have a right-hand side, and only
+    with `constants` coefficients that aren't rational."""
     if isinstance(equation, NumericProblem):
         return equation
     if isinstance(equation, System):
@@ -133,29 +157,33 @@ def as_problem(equation: object, params: Mapping[str, object] | None = None, *, 
 
         decision, found = None, read_input(equation)
     S, given = found.S, found.equation  # type: ignore[attr-defined]
+    gauge = None if given is None else given.gauge or None
     names = parameters_of(S.field) if given is None else parameters_of((given.a + given.b + given.c).field)
-    if params is not None or names:
-        values = _values(names, params or {})
-        decision, S = None, _specialised(S, values)  # the decision is that for generic values
-    system = System.of(S)
-    if given is None:
-        return NumericProblem(system, S, decision)
-    if given.change is not None:
+    if given is not None and given.change is not None:
         raise InputError(f"numerical evaluation needs coefficients that are rational in {given.change.variable}")
-    right = None
-    if not given.is_homogeneous:
-        if names or not forced:
-            raise InputError(
-                f"an equation without {'parameters beside ' if forced else ''}a right-hand side is needed here"
-            )
-        right = given
-    gauge = given.gauge if not names else _specialised(given.gauge, values)
-    return NumericProblem(system, S, decision, gauge or None, right)
+    right = None if given is None or given.is_homogeneous else given
+    if right is not None and (names or not forced):
+        raise InputError(
+            f"an equation without {'parameters beside ' if forced else ''}a right-hand side is needed here"
+        )
+    numbers = _values(names, params or {}) if params is not None or names else {}
+    values = {name: value.re for name, value in numbers.items() if isinstance(value, Point)}
+    extended = [f for f in (S, gauge) if f is not None and isinstance(f.field, AlgebraicField)]
+    if constants and right is None and (extended or len(values) < len(numbers)):
+        embedded = Embedded(S, gauge, numbers)
+        return NumericProblem(System((), (1,)), embedded=embedded).at(_SHARP)
+    if len(values) < len(numbers):
+        raise InputError("the values of parameters must be rational here, or text such as '1/3'")
+    if numbers:
+        decision, S = None, _specialised(S, values)  # the decision is that for generic values
+        gauge = gauge and _specialised(gauge, values)
+    return NumericProblem(System.of(S), S, decision, gauge, right)
 
 
-def _values(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, Fraction]:
-    """The values of the parameters; raises InputError unless there is a rational one for each."""
-    given = {str(name): as_point(value, f"the parameter {name}") for name, value in params.items()}
+def _values(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, Number]:
+    """The values of the parameters; raises InputError unless there is a real one for each.  pi and e have theirs."""
+    own = {name: text for name, text in ((PI, "pi"), (EULER, "E")) if name in names}
+    given = {str(name): as_number(value, f"the parameter {name}") for name, value in (own | dict(params)).items()}
     if set(given) != set(names):
         wanted = ", ".join(names) or "no parameter"
         raise InputError(
@@ -163,9 +191,9 @@ def _values(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, F
             hint="params={'n': 3}, for instance",
         )
     for name, value in given.items():
-        if not value.is_real():
+        if not to_ball(value).imag.is_zero():
             raise InputError(f"the parameter {name} = {value} isn't real")
-    return {name: given[name].re for name in names}
+    return given
 
 
 def _specialised(function: RatFunc, values: dict[str, Fraction]) -> RatFunc:

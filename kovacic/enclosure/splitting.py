@@ -261,7 +261,7 @@ def is_split(system: System, prec: int) -> bool:
     (`benchmarks/enclosure_long_series.py` measures both ways on both sides of the bound.)
     """
     order = max(2, len(system.num) + 1, len(system.den) - 1)
-    return prec > max(_LOWEST, (_ENTIRE if len(system.den) == 1 else _SINGULAR) * order**3)
+    return not system.radius and prec > max(_LOWEST, (_ENTIRE if len(system.den) == 1 else _SINGULAR) * order**3)
 
 
 def split_legs(

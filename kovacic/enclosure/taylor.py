@@ -75,7 +75,13 @@ def expand(system: System, frame: Frame, prec: int, bound: RayBound, budget: Bud
     for start in (0, 1):
         re, im = (_recurrence_real if real else _recurrence_complex)(p, q, w, start, 1 << quiet, budget)
         columns.append((fmpz_poly(re), None if im is None else fmpz_poly(im)))
-        defects.append(_proven_defect(p, q, excess, re, im, 1 << quiet))
+        defect = _proven_defect(p, q, excess, re, im, 1 << quiet)
+        if frame.blur is not None:  # q Y'' - (p + q (S - S~)) Y: the ray bound holds for the defect over q
+            with working_precision(64):
+                size = sum(abs(int(v)) for part in (re, im) if part is not None for v in part)
+                mantissa, exponent = map(int, (frame.blur * q_0 * size).upper().man_exp())
+                defect += (mantissa << exponent if exponent >= 0 else mantissa >> -exponent) + 1
+        defects.append(defect)
     return Expansion(frame, w, (columns[0], columns[1]), (defects[0], defects[1]), q_0)
 
 

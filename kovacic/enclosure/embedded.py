@@ -1,0 +1,157 @@
+"""Equations whose constants are known by balls: algebraic constants such as sqrt(2), and parameters with irrational values.
+
+The guarantee: `Embedded.system` returns a system with integer coefficients and a `radius`, such that every coefficient of the
+exact equation, scaled by the same power of two, differs from the integer by at most that radius.  What this means for the
+solutions is bounded disc by disc (`kovacic.enclosure.frame`), so the exact solution of the exact equation lies in the balls.
+
+A constant of an extension Q(c) is the root of the modulus that the text named (sqrt(2) is positive).  The coefficients
+must be real.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from flint import acb, acb_poly, arb, ctx
+
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
+from kovacic.enclosure.constants import Number, to_ball
+from kovacic.enclosure.quadrature import integral
+from kovacic.enclosure.working import working_precision
+from kovacic.errors import InputError
+from kovacic.limits import Budget
+
+_EXTRA = 256
+"""Bits beyond twice the precision to which the constants are known: the solutions grow in a disc, and poles may be near."""
+
+_UNDEFINED = "the equation isn't defined at these values of the parameters, as far as they are known"
+
+
+@dataclass(frozen=True)
+class Embedded:
+    """S and the gauge over a field of constants, with the values of the parameters."""
+
+    S: RatFunc
+    gauge: RatFunc | None
+    values: Mapping[str, Number]
+
+    @property
+    def exact(self) -> bool:
+        """True if every precision can be had."""
+        return not any(getattr(value, "fixed", False) for value in self.values.values())
+
+    def coefficients(self, prec: int) -> tuple[tuple[int, ...], tuple[int, ...], int]:
+        """Numerator and denominator of S times the same power of two, rounded to integers, and the radius."""
+        bits = 2 * prec + _EXTRA
+        with working_precision(2 * bits):
+            parts = [_real(self._embed(part)) for part in (self.S.num, self.S.den)]
+            scaled = [[c * arb((1, bits)) for c in part] for part in parts]
+            if not scaled[1][-1] != 0:
+                raise InputError(_UNDEFINED)
+            whole = [
+                [_floor(c.mid()) for c in part[:-1]] + [_floor(c.mid()) or 1 for c in part[-1:]] for part in scaled
+            ]
+            pairs = (pair for part, ints in zip(scaled, whole, strict=True) for pair in zip(part, ints, strict=True))
+            radius = max((_floor(abs(c - n).upper()) + 1 for c, n in pairs), default=0)
+            return tuple(whole[0]), tuple(whole[1]), radius
+
+    def growth_of(self, function: RatFunc, budget: Budget) -> EmbeddedGauge:
+        """The gauge at the working precision in force."""
+        num, den = (acb_poly(_real(self._embed(part))) for part in (function.num, function.den))
+        return EmbeddedGauge(num, den, budget)
+
+    def bound(self, ball: acb) -> arb:
+        """Of |b/a| + |c/a| on the ball, for a z'' + b z' + c z = 0, z = g y."""
+        total = self._value(self.S, ball)
+        if self.gauge is None:
+            return arb(abs(total).upper())
+        gamma, slope = (self._value(f, ball) for f in (self.gauge, self.gauge.derivative()))
+        return arb((2 * abs(gamma) + abs(gamma * gamma - slope - total)).upper())
+
+    def _value(self, function: RatFunc, x: acb) -> acb:
+        value: acb = self._embed(function.num)(x) / self._embed(function.den)(x)
+        return value
+
+    def _embed(self, poly: Poly) -> acb_poly:
+        """The polynomial at the working precision in force."""
+        if isinstance(poly, RationalPoly):
+            return acb_poly(poly.rep)
+        if isinstance(poly, ExtensionPoly):
+            c, total = _root(poly.field), acb_poly([])
+            for part in reversed(poly.parts):
+                total = total * c + self._embed(part)
+            return total
+        assert isinstance(poly, FunctionPoly)
+        balls = [to_ball(self.values[name]) for name in poly.field.names]
+        return _at(poly.num, balls) * (1 / _at(poly.den, balls)[0])
+
+
+@dataclass(frozen=True)
+class EmbeddedGauge:
+    """gamma = num/den in balls, and exp int gamma by rigorous quadratures, which no pole escapes."""
+
+    num: acb_poly
+    den: acb_poly
+    budget: Budget
+
+    def value(self, x: acb) -> acb:
+        """gamma(x); raises InputError at a pole, or too near to one to tell."""
+        found: acb = self.num(x) / self.den(x)
+        return _regular(found)
+
+    def growth(self, a: acb, b: acb) -> acb:
+        """exp(int_a^b gamma) along the straight segment; raises InputError where it meets a pole."""
+        return _regular(integral(lambda z, _: self.num(z) / self.den(z), a, b, self.budget)).exp()
+
+
+def _regular(value: acb) -> acb:
+    if not value.is_finite():
+        raise InputError(
+            "the path runs through a singular point of the equation, or so near that its constants don't tell",
+            hint="go around it: path=[...] with a vertex off the axis",
+        )
+    return value
+
+
+def _real(poly: acb_poly) -> list[arb]:
+    coefficients = poly.coeffs()
+    if not all(c.is_finite() for c in coefficients):
+        raise InputError(_UNDEFINED)
+    if not all(c.imag.is_zero() for c in coefficients):
+        raise InputError("numerical evaluation needs an equation with real coefficients")
+    return [c.real for c in coefficients]
+
+
+def _floor(number: arb) -> int:
+    """The integer below an exact number."""
+    mantissa, exponent = map(int, number.man_exp())
+    return mantissa << exponent if exponent >= 0 else mantissa >> -exponent
+
+
+def _at(polynomial: Any, values: list[acb]) -> acb_poly:
+    """A polynomial over Z in x and the parameters at these values of the latter."""
+    columns: dict[int, acb] = {}
+    for exponents, coefficient in polynomial.to_dict().items():
+        term = acb(coefficient)
+        for value, exponent in zip(values, exponents[1:], strict=True):
+            term *= value ** int(exponent)
+        power = int(exponents[0])
+        columns[power] = columns.get(power, acb(0)) + term
+    return acb_poly([columns.get(k, acb(0)) for k in range(max(columns, default=-1) + 1)])
+
+
+def _root(field: AlgebraicField) -> acb:
+    """The generator, at the working precision in force."""
+    modulus = [field.base.rational_value(field.modulus[k]) for k in range(field.dimension + 1)]
+    if field.approximation is None or None in modulus:
+        raise InputError(f"which root of {field.modulus} the constant {field.name} is isn't known")
+    rep = QQ.poly([c for c in modulus if c is not None]).rep
+    target = acb(*(arb(to_fmpq(part)) for part in field.approximation))
+    with working_precision(max(ctx.prec, 128)):
+        return min((root for root, _ in rep.numer().complex_roots()), key=lambda root: float(abs(root - target).mid()))
