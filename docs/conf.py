@@ -1,11 +1,13 @@
 """The documentation: `pip install -e ".[docs]"`, then `sphinx-build -W -n -b html docs build/html`.
 
-Formulas become MathML, pictures are drawn by `pictures.py`, and both at build: the pages load nothing from anywhere.  The
+Formulas become MathML, pictures are drawn by `pictures.py`, tables of results are filled in by `tables.py`, all at build: the
+pages load nothing from anywhere.  The
 examples are run by `tests/test_documentation.py`.
 """
 
 from __future__ import annotations
 
+import importlib
 import re
 import runpy
 import sys
@@ -19,6 +21,7 @@ import kovacic
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
+tables = importlib.import_module("tables")
 
 project = "kovacic"
 author = "The kovacic developers"
@@ -81,8 +84,13 @@ def _draw(app: Any) -> None:
     runpy.run_path(str(HERE / "pictures.py"))["draw_all"](HERE / "_static" / "pictures")
 
 
+def _fill(app: Any, name: str, source: list[str]) -> None:
+    source[0] = tables.filled(source[0])
+
+
 def setup(app: Any) -> None:
     """Sphinx calls this."""
     app.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_display, None))
     app.connect("builder-inited", _draw)
+    app.connect("source-read", _fill)
     app.connect("autodoc-process-docstring", _as_rst)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import re
+import runpy
+from collections import Counter
 from pathlib import Path
 
 import pytest
-from documents import PAGES, ROOT, check_command, check_links, check_python, sessions
+from documents import PAGES, README, ROOT, check_command, check_links, check_python, sessions
 
 import kovacic
 
@@ -58,3 +60,52 @@ def test_the_comparison_has_the_figures_of_its_file() -> None:
         expected.append([right, unclear, wrong, wrong_none, len(mine) - len(solved) - wrong_none])
     table = re.findall(r"^\|.*?((?: \d+ \|){5})$", (ROOT / "docs" / "comparison.md").read_text("utf-8"), re.MULTILINE)
     assert [list(map(int, re.findall(r"\d+", row))) for row in table] == expected
+
+
+TABLES = runpy.run_path(str(ROOT / "docs" / "tables.py"))
+
+
+def verdicts(results: str, system: str) -> Counter[str]:
+    return Counter(problem["answers"][system]["verdict"] for problem in TABLES["problems"](results))
+
+
+def rows(page: str) -> dict[str, list[int]]:
+    """The rows of figures of a page, by their titles."""
+    found = re.findall(r"^\| ([^|]+) \|((?: \d+ \|)+)$", (ROOT / "docs" / page).read_text("utf-8"), re.MULTILINE)
+    return {title: list(map(int, re.findall(r"\d+", figures))) for title, figures in found}
+
+
+def test_the_textbook_problems_have_the_figures_of_their_file() -> None:
+    systems = ("kovacic.dsolve", "sympy.dsolve", "Maxima ode2, contrib_ode")
+    counts = [verdicts("dsolve", system) for system in systems]
+    shown = rows("coming-from-dsolve.md")
+    for title, key in (
+        ("right", "right"),
+        ("right, with an integral left", "right with integrals"),
+        ("wrong", "wrong"),
+    ):
+        assert shown[title] == [count[key] for count in counts]
+    rest = ("right", "right with integrals", "wrong")
+    assert shown["can't be checked, not solved, no answer in time"] == [
+        count.total() - sum(count[key] for key in rest) for count in counts
+    ]
+    readme = " ".join(README.read_text("utf-8").split())
+    right, sympys = counts[0]["right"], counts[1]["right"]
+    assert f"{right} come out right and one with an integral left, SymPy's `dsolve` has {sympys}" in readme
+    assert counts[0]["right with integrals"] == 1
+
+
+def test_every_test_equation_of_sympy_is_shown_with_both_answers() -> None:
+    page = TABLES["filled"]((ROOT / "docs" / "sympy-tests.md").read_text("utf-8"))
+    problems = TABLES["problems"]("dsolve_sympy")
+    for problem in problems:
+        assert page.count(f"| `{problem['equation']}` | ") == 1
+        for system in ("kovacic.dsolve", "sympy.dsolve"):
+            assert problem["answers"][system].get("answer", "") in page
+    counts = [verdicts("dsolve_sympy", system) for system in ("kovacic.dsolve", "sympy.dsolve")]
+    shown = rows("sympy-tests.md")
+    titles = {"not a general solution": "wrong"}
+    assert shown == {title: [count[titles.get(title, title)] for count in counts] for title in shown}
+    assert [sum(column) for column in zip(*shown.values(), strict=True)] == [len(problems)] * 2
+    assert f"have {len(problems)} equations" in page
+    assert page.count("not a general solution, 4 constants: ") == 1
