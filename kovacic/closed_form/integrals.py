@@ -15,6 +15,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr, rational
 from kovacic.closed_form.curve_display import curve_integral
+from kovacic.closed_form.elliptic import elliptic
 from kovacic.closed_form.exponential import CompositePrimitive
 from kovacic.closed_form.primitive import (
     CurvePrimitive,
@@ -42,6 +43,9 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
         integral = sympy.Integral(display(form.bare.to_power(-2), atoms, around_zero=True), atoms.x)
         return first, first * integral, (f"integral left because {primitive.reason}",)
     if isinstance(primitive, CurvePrimitive):
+        if primitive.integral.reason is not None and (named := elliptic(primitive.integral, atoms)) is not None:
+            note = f"elliptic integrals because {primitive.integral.reason}"
+            return first, _sum([_scaled(c, [*parts[1], value]) for c, value in named]), (note,)
         value, notes = curve_integral(primitive.integral, atoms)
         return first, Add(*(first * term for term in Add.make_args(value))), notes
     return first, _sum(_terms(form.first, primitive, parts, atoms)), ()

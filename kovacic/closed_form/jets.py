@@ -2,8 +2,8 @@
 
 The balls contain the values.  A function of the variable is its Taylor series, three terms of it (flint's `acb_series`).
 
-An unevaluated integral counts as an antiderivative with an arbitrary constant: its value is taken as 1, and its derivatives
-are those of the integrand.  In y1 int y1^-2 and exp(int ...) the constant changes the solution into another one.
+An unevaluated or elliptic integral counts as an antiderivative with an arbitrary constant: its value is taken as 1, and its
+derivatives are those of the integrand.  In y1 int y1^-2 and exp(int ...) the constant changes the solution into another one.
 """
 
 from __future__ import annotations
@@ -35,6 +35,8 @@ _UNARY = {
     sympy.airyaiprime: "airy_ai_prime",
     sympy.airybiprime: "airy_bi_prime",
 }
+
+_ANTIDERIVATIVES = (sympy.Integral, sympy.elliptic_f, sympy.elliptic_e, sympy.elliptic_pi)
 
 
 def jet(expression: Any, variable: Any, point: Number) -> tuple[Number, Number, Number]:
@@ -79,8 +81,8 @@ class _Evaluator:
         if isinstance(e, sympy.RootSum):
             a = e.fun.variables[0]
             return reduce(add, (_Evaluator({**self.bindings, a: root})(e.fun.expr) for root in self._roots(e.poly)))
-        if isinstance(e, sympy.Integral):
-            slope = self(e.function)
+        if isinstance(e, _ANTIDERIVATIVES):
+            slope = self(e.diff(next(iter(self.bindings))))
             return acb_series([1, slope[0], slope[1] / 2], prec=3)
         if isinstance(e, (sympy.uppergamma, sympy.lowergamma)):
             name = "gamma_upper" if isinstance(e, sympy.uppergamma) else "gamma_lower"
