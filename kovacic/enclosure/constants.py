@@ -13,34 +13,12 @@ from typing import Any
 
 from flint import acb, arb, fmpq
 
-from kovacic.enclosure.points import Point, as_point, to_acb
+from kovacic.enclosure.points import Point, as_point, midpoint, to_acb
 from kovacic.errors import InputError
 
-_FUNCTIONS = [
-    "exp",
-    "sin",
-    "cos",
-    "tan",
-    "cot",
-    "sec",
-    "csc",
-    "asin",
-    "acos",
-    "atan",
-    "sinh",
-    "cosh",
-    "tanh",
-    "coth",
-    "sech",
-    "csch",
-    "asinh",
-    "acosh",
-    "atanh",
-    "gamma",
-    "erf",
-    "erfc",
-    "zeta",
-]
+_FUNCTIONS = """
+    exp sin cos tan cot sec csc asin acos atan sinh cosh tanh coth sech csch asinh acosh atanh gamma erf erfc zeta
+"""
 
 
 @dataclass(frozen=True)
@@ -56,8 +34,7 @@ class Constant:
         ball = self.value()
         if not ball.is_finite():
             raise InputError(f"{self.text} isn't a finite number")
-        parts = (part.mid().man_exp() for part in (ball.real, ball.imag))
-        return Point(*(Fraction(int(m)) * Fraction(2) ** int(e) for m, e in parts))
+        return midpoint(ball)
 
     def __str__(self) -> str:
         return self.text
@@ -171,9 +148,11 @@ def in_balls(expression: Any, values: Mapping[Any, acb], *, analytic: bool = Fal
         name = type(node).__name__
         if name == "log" and len(node.args) == 1:
             return of(node.args[0]).log(analytic=analytic)
-        if name in _FUNCTIONS and len(node.args) == 1 and not (analytic and name[0] == "a"):
+        if name in _FUNCTIONS.split() and len(node.args) == 1 and not (analytic and name[0] == "a"):
             result: acb = getattr(of(node.args[0]), name)()
             return result
-        raise InputError(f"{node} isn't known in balls", hint=f"the functions are log, sqrt, {', '.join(_FUNCTIONS)}")
+        raise InputError(
+            f"{node} isn't known in balls", hint=f"the functions are log, sqrt, {', '.join(_FUNCTIONS.split())}"
+        )
 
     return of(expression)

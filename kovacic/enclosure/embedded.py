@@ -22,6 +22,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.enclosure.constants import Number, to_ball
+from kovacic.enclosure.points import floor
 from kovacic.enclosure.quadrature import integral
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
@@ -54,11 +55,9 @@ class Embedded:
             scaled = [[c * arb((1, bits)) for c in part] for part in parts]
             if not scaled[1][-1] != 0:
                 raise InputError(_UNDEFINED)
-            whole = [
-                [_floor(c.mid()) for c in part[:-1]] + [_floor(c.mid()) or 1 for c in part[-1:]] for part in scaled
-            ]
+            whole = [[floor(c.mid()) for c in part[:-1]] + [floor(c.mid()) or 1 for c in part[-1:]] for part in scaled]
             pairs = (pair for part, ints in zip(scaled, whole, strict=True) for pair in zip(part, ints, strict=True))
-            radius = max((_floor(abs(c - n).upper()) + 1 for c, n in pairs), default=0)
+            radius = max((floor(abs(c - n).upper()) + 1 for c, n in pairs), default=0)
             return tuple(whole[0]), tuple(whole[1]), radius
 
     def growth_of(self, function: RatFunc, budget: Budget) -> EmbeddedGauge:
@@ -126,12 +125,6 @@ def _real(poly: acb_poly) -> list[arb]:
     if not all(c.imag.is_zero() for c in coefficients):
         raise InputError("numerical evaluation needs an equation with real coefficients")
     return [c.real for c in coefficients]
-
-
-def _floor(number: arb) -> int:
-    """The integer below an exact number."""
-    mantissa, exponent = map(int, number.man_exp())
-    return mantissa << exponent if exponent >= 0 else mantissa >> -exponent
 
 
 def _at(polynomial: Any, values: list[acb]) -> acb_poly:

@@ -17,7 +17,7 @@ from fractions import Fraction
 from flint import acb, arb, fmpq_poly
 
 from kovacic.algebra.rationals import to_fmpq, to_fraction
-from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.points import Point, power_of_two, to_acb
 from kovacic.enclosure.problem import System, Zeros, along, distance_lower, offsets
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
@@ -81,7 +81,7 @@ class Frame:
     @property
     def scale(self) -> Fraction:
         """H, exactly."""
-        return Fraction(2) ** self.e
+        return power_of_two(self.e)
 
 
 def make_frame(system: System, centre: Point, e: int) -> Frame:
@@ -97,7 +97,7 @@ def make_frame(system: System, centre: Point, e: int) -> Frame:
             power = e * (2 + len(system.num) - len(system.den))
             lead = arb(abs(system.num[-1]) if system.num else 0) / system.den[-1] * arb((1, power))
             return Frame(centre, e, poles, zeros, lead, _blur(system, centre, e, poles))
-        p, q = shift(system, centre, Point(Fraction(2) ** e))
+        p, q = shift(system, centre, Point(power_of_two(e)))
         leading = acb(*(0 if part is None else part[-1] for part in q))
         blur = _blur(system, centre, e, poles)
         return Frame(centre, e, poles, (), arb(norm(p)) / abs(leading), blur)

@@ -6,10 +6,12 @@ Floats are taken at their exact binary value and decimal text at its exact decim
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
+from functools import lru_cache
 from numbers import Rational
 from typing import Any
 
@@ -31,26 +33,26 @@ class Point:
     im: Fraction = Fraction(0)
 
     def __add__(self, other: Point) -> Point:
-        return Point(self.re + other.re, self.im + other.im)
+        return Point(self.re + other.re, self.im + other.im if self.im or other.im else self.im)
 
     def __sub__(self, other: Point) -> Point:
-        return Point(self.re - other.re, self.im - other.im)
+        return Point(self.re - other.re, self.im - other.im if self.im or other.im else self.im)
 
     def __mul__(self, other: Point) -> Point:
         return Point(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
 
     def scaled(self, factor: Fraction) -> Point:
         """The point times a rational number."""
-        return Point(self.re * factor, self.im * factor)
+        return Point(self.re * factor, self.im * factor if self.im else self.im)
 
     def rounded(self, e: int) -> Point:
         """The nearest multiple of 2^e, in both parts."""
-        unit = Fraction(2) ** e
-        return Point(round(self.re / unit) * unit, round(self.im / unit) * unit)
+        unit = power_of_two(e)
+        return Point(round(self.re / unit) * unit, round(self.im / unit) * unit if self.im else self.im)
 
     def norm_squared(self) -> Fraction:
         """|z|^2, exactly."""
-        return self.re * self.re + self.im * self.im
+        return self.re * self.re + self.im * self.im if self.im else self.re * self.re
 
     def __complex__(self) -> complex:
         return complex(float(self.re), float(self.im))
@@ -64,6 +66,12 @@ class Point:
             return _short(self.re)
         sign = "-" if self.im < 0 else "+"
         return f"{_short(self.re)} {sign} {_short(abs(self.im))}i"
+
+
+@lru_cache(maxsize=1024)
+def power_of_two(e: int) -> Fraction:
+    """2^e."""
+    return Fraction(1 << e) if e >= 0 else Fraction(1, 1 << -e)
 
 
 def _short(value: Fraction) -> str:
@@ -151,3 +159,18 @@ def to_acb(point: Point) -> acb:
     if point.im == 0:
         return acb(arb(to_fmpq(point.re)))
     return acb(*(arb(to_fmpq(part)) for part in (point.re, point.im)))
+
+
+def midpoint(ball: acb) -> Point:
+    """The midpoint of a finite ball."""
+    return Point(*(_exact(part.mid()) for part in (ball.real, ball.imag)))
+
+
+def floor(number: arb) -> int:
+    """The integer below a number that is known exactly."""
+    return math.floor(_exact(number))
+
+
+def _exact(number: arb) -> Fraction:
+    mantissa, exponent = map(int, number.man_exp())
+    return Fraction(mantissa << exponent) if exponent >= 0 else Fraction(mantissa, 1 << -exponent)

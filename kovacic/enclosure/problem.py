@@ -24,7 +24,7 @@ from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.decision import Decision
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.embedded import Embedded
-from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.points import Point, midpoint, to_acb
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 from kovacic.limits import check_duration
@@ -92,11 +92,7 @@ class System:
 
     def singular_points(self, prec: int) -> list[Point]:
         """The midpoints of the enclosures of the singular points; on the real axis exactly where the singular point is."""
-        result = []
-        for root, _ in self.roots("den", prec):
-            parts = (part.mid().man_exp() for part in (root.real, root.imag))
-            result.append(Point(*(Fraction(int(m)) * Fraction(2) ** int(e) for m, e in parts)))
-        return result
+        return [midpoint(root) for root, _ in self.roots("den", prec)]
 
     def is_singular(self, point: Point) -> bool:
         """True if the point is a zero of the denominator, decided exactly."""
@@ -293,8 +289,8 @@ def check_segment(system: System, a: Point, b: Point) -> None:
 
 def name_of(system: System, point: acb) -> str:
     """The singular point in this ball, in words: its exact value where that is a short Gaussian rational, else 12 digits."""
-    parts = [Fraction(int(m)) * Fraction(2) ** int(e) for m, e in (x.mid().man_exp() for x in (point.real, point.imag))]
-    guess = Point(*(part.limit_denominator(_SHORT) for part in parts))
+    middle = midpoint(point)
+    guess = Point(*(part.limit_denominator(_SHORT) for part in (middle.re, middle.im)))
     if point.overlaps(to_acb(guess)) and system.is_singular(guess):
         return str(guess)
     re, im = (part.mid().str(12, radius=False) + "..." for part in (point.real, point.imag))

@@ -17,7 +17,7 @@ from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
 from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.rationals import to_fmpq
-from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.points import Point, midpoint, to_acb
 from kovacic.enclosure.problem import NumericProblem, equation_of
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
@@ -219,5 +219,4 @@ def _root_in(a: fmpq_poly, ball: acb) -> tuple[fmpq_poly, Point]:
             found += [(fmpq_poly(factor), root) for root, _ in factor.complex_roots() if root.overlaps(ball)]
     if len(found) != 1:
         raise InputError(f"there are {len(found)} singular points in the ball {ball}", hint="give the point itself")
-    parts = [part.mid().man_exp() for part in (found[0][1].real, found[0][1].imag)]
-    return found[0][0], Point(*(Fraction(int(m)) * Fraction(2) ** int(e) for m, e in parts))
+    return found[0][0], midpoint(found[0][1])

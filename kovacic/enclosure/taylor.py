@@ -37,7 +37,7 @@ from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
 
 from kovacic.enclosure.frame import Frame, Parts, RayBound, log2, norm, shift
 from kovacic.enclosure.matrices import Matrix, State
-from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.points import Point, floor, to_acb
 from kovacic.enclosure.problem import System
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import LimitExceeded
@@ -79,8 +79,7 @@ def expand(system: System, frame: Frame, prec: int, bound: RayBound, budget: Bud
         if frame.blur is not None:  # q Y'' - (p + q (S - S~)) Y: the ray bound holds for the defect over q
             with working_precision(64):
                 size = sum(abs(int(v)) for part in (re, im) if part is not None for v in part)
-                mantissa, exponent = map(int, (frame.blur * q_0 * size).upper().man_exp())
-                defect += (mantissa << exponent if exponent >= 0 else mantissa >> -exponent) + 1
+                defect += floor((frame.blur * q_0 * size).upper()) + 1
         defects.append(defect)
     return Expansion(frame, w, (columns[0], columns[1]), (defects[0], defects[1]), q_0)
 

@@ -24,7 +24,7 @@ from fractions import Fraction
 
 from kovacic.enclosure.frame import Frame, RayBound, fitting, least_growth, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
-from kovacic.enclosure.points import Point
+from kovacic.enclosure.points import Point, power_of_two
 from kovacic.enclosure.problem import System, check_segment, distance_lower
 from kovacic.enclosure.splitting import is_split, legs
 from kovacic.enclosure.taylor import Expansion, expand, states_at, transition
@@ -222,7 +222,7 @@ def _next_disc(
 def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, growth: float, e: int) -> Disc | None:
     """The disc of scale 2^e entered at t, its centre ahead by one scale (half way to the end if that's within reach);
     None if it doesn't fit."""
-    step, unit, grain = piece.step, Fraction(2) ** e, Fraction(2) ** (e - 4)
+    step, unit, grain = piece.step, power_of_two(e), power_of_two(e - 4)
     size = step.norm_squared()
     if _reaches_end((1 - t) ** 2 * size, e):
         centre, stop, leave = piece.at((1 + t) / 2).rounded(e - 4), Fraction(1), piece.b
@@ -245,7 +245,7 @@ def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, growth: f
 
 def _reaches_end(square: Fraction, e: int) -> bool:
     """Does a disc of scale 2^e contain a way whose length has this square, with room to spare?"""
-    return square <= Fraction(4) ** (e + 1) * Fraction(9, 10)
+    return square <= power_of_two(2 * e + 2) * Fraction(9, 10)
 
 
 def _exponent(square: Fraction) -> int:
@@ -257,11 +257,11 @@ def _ratio_down(unit: Fraction, size: Fraction) -> Fraction:
     """A short dyadic number just below unit / sqrt(size)."""
     square = unit * unit / size
     e = _exponent(square)
-    scaled = square / Fraction(4) ** (e - 12)
-    return Fraction(math.isqrt(int(scaled))) * Fraction(2) ** (e - 12)
+    scaled = square / power_of_two(2 * e - 24)
+    return Fraction(math.isqrt(int(scaled))) * power_of_two(e - 12)
 
 
 def _dyadic_down(value: Fraction) -> Fraction:
     """A dyadic number of at most 8 significant bits just below a positive value."""
     e = value.numerator.bit_length() - value.denominator.bit_length() - 8
-    return Fraction(math.floor(value / Fraction(2) ** e)) * Fraction(2) ** e
+    return Fraction(math.floor(value / power_of_two(e))) * power_of_two(e)
