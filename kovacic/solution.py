@@ -328,7 +328,7 @@ def solve(
     c: Any = 0,
     f: Any = 0,
     var: str | None = None,
-    assume: Mapping[Any, str] | None = None,
+    assume: Mapping[Any, Any] | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Solution:
     """Decide whether y'' = S(x) y has Liouvillian (closed-form) solutions, with a certificate; verified.
@@ -338,8 +338,8 @@ def solve(
     normal form is decided: a string ("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"), a SymPy `Eq` with a function y(x), or the
     coefficients of a y'' + b y' + c y = f as keywords.  `var` names the variable; by default it is the only symbol of S, or
     x.  `limits` bounds the input and the work.  Every other symbol is a parameter, for whose generic values the equation is
-    decided; `assume={"n": "integer"}`, or assumptions of SymPy symbols, say more (see `conditions`), and a notice says for
-    which of these values the answer holds.
+    decided; `assume={"n": "integer"}`, {"n": ">=0"}, or assumptions of SymPy symbols, say more (see `conditions`), and a notice
+    says for which of these values the answer holds; with {"n": 3} the number is put in for the parameter.
 
     Returns a `Solution`.  Its `status` is UNDECIDED exactly when a limit of the work was reached, or where the assumptions
     imply a case with an omega that depends on the values of the parameters; `reason` says so.  Raises `InputError` for
@@ -367,6 +367,10 @@ def solve(
 
     keywords: dict[str, Any] = {"var": var, "limits": limits}
     parsed = read_coefficients(a, b, c, f, **keywords) if S is None else read_input(S, **keywords, exponentials=True)
+    if assume:
+        from kovacic.reading.substitution import with_values
+
+        S, parsed, assume = with_values(S, parsed, assume, limits)
     if isinstance(S, str):
         text = S.strip()
     else:
@@ -393,7 +397,7 @@ def solve(
 
 @limited
 def decide(
-    S: Any, *, var: str | None = None, assume: Mapping[Any, str] | None = None, limits: Limits = DEFAULT_LIMITS
+    S: Any, *, var: str | None = None, assume: Mapping[Any, Any] | None = None, limits: Limits = DEFAULT_LIMITS
 ) -> Verdict:
     """The case of y'' = S(x) y alone, without the polynomial of omega and without the second check.
 
@@ -406,12 +410,16 @@ def decide(
     from kovacic.reading.read import read_input
 
     parsed = read_input(S, var=var, limits=limits, exponentials=True)
+    if assume:
+        from kovacic.reading.substitution import with_values
+
+        S, parsed, assume = with_values(S, parsed, assume, limits)
     decision, _, _ = _decided(parsed, S, assume, Budget(limits), certify=False)
     return Verdict(decision.status, decision.case, decision.undecided)
 
 
 def _decided(
-    parsed: Parsed, S: Any, assume: Mapping[Any, str] | None, budget: Budget, *, certify: bool
+    parsed: Parsed, S: Any, assume: Mapping[Any, Any] | None, budget: Budget, *, certify: bool
 ) -> tuple[Decision, tuple[str, ...], bool]:
     """The decision, under the assumptions if there are any, the notices, and is it proven for all values with them?"""
     decision = decide_structure(parsed.S, budget, certify=certify)

@@ -8,7 +8,7 @@ So the result means what the text meant, no arithmetic is done here, and the tex
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
@@ -17,7 +17,7 @@ from typing import Any
 from kovacic.batch import solve_many
 from kovacic.batch.records import Item, Record
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.reading.lexer import tokenize
+from kovacic.reading.substitution import Template
 
 _NUMBER = re.compile(r"[+-]?(\d+(/\d+)?|\d*\.\d+|\d+\.)")
 _NUMBER_LENGTH = 1000
@@ -80,43 +80,6 @@ def _number(part: str, text: str) -> Fraction:
         return Fraction(part)
     except ZeroDivisionError:
         raise InputError(f"{text!r}: {part!r} has the denominator 0") from None
-
-
-class Template:
-    """A text whose parameters have been found, to be filled with many values.
-
-    Raises `InputError` where the text has no such name, or uses one as a function.
-
-    >>> Template("(4*n^2 - 1)/(4*x^2) - n", ["n"]).filled({"n": Fraction(-1, 2)})
-    '(4*(-1/2)^2 - 1)/(4*x^2) - (-1/2)'
-    """
-
-    def __init__(self, text: str, names: Sequence[str]) -> None:
-        tokens = tokenize(text)
-        self._pieces: list[tuple[str, str]] = []
-        end = 0
-        for kind, start, stop in zip(tokens.kinds, tokens.starts, tokens.ends, strict=True):
-            token = text[start:stop]
-            if token not in names:
-                continue
-            if kind != "NAME":
-                raise InputError(
-                    f"the parameter {token} is followed by a parenthesis like a function",
-                    text=text,
-                    position=start,
-                    length=stop - start,
-                    hint=f"for a product write {token}*(...)",
-                )
-            self._pieces.append((text[end:start], token))
-            end = stop
-        for name in names:
-            if name not in (token for _, token in self._pieces):
-                raise InputError(f"the expression has no parameter {name}", text=text)
-        self._rest = text[end:]
-
-    def filled(self, values: Mapping[str, Fraction]) -> str:
-        """The text with these values."""
-        return "".join(f"{before}({values[name]})" for before, name in self._pieces) + self._rest
 
 
 def points(grids: Sequence[Grid]) -> Iterator[dict[str, Fraction]]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
-from kovacic.cli.options import fitted, parse_assumptions, parse_limits, refuse_options
+from kovacic.cli.options import assume_option, fitted, parse_assumptions, parse_limits, refuse_options
 
 if TYPE_CHECKING:
     from kovacic.parametric.answer import CheckReport
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 @click.option("--json", "as_json", is_flag=True, help="One line of JSON.")
 @click.option("--latex", "as_latex", is_flag=True, help="A LaTeX formula.")
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
-@click.option("--assume", metavar="NAME=WHAT", multiple=True, help="What is known about a parameter: n=integer.")
+@assume_option
 @click.option("--max-degree", default=2, show_default=True, help="The determinants Delta_d are shown up to this d.")
 @click.option("--all", "everything", is_flag=True, help="All regions, however many.")
 @click.option("--explain", "explained", is_flag=True, help="What each region follows from, and its solutions.")

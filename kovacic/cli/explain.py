@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from kovacic.cli.options import EQUATIONS, answer_each, fitted, limit_option, var_option
+from kovacic.cli.options import EQUATIONS, answer_each, assume_option, fitted, limit_option, var_option
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 @click.option("--cite", is_flag=True, help="Only the references, as BibTeX.")
 @click.option("--no-solutions", is_flag=True, help="Leave the closed forms out.")
 @var_option
+@assume_option
 @limit_option
 def command(
     equations: tuple[str, ...],
@@ -32,6 +33,7 @@ def command(
     cite: bool,
     no_solutions: bool,
     var: str | None,
+    assume: tuple[str, ...],
     limits: tuple[str, ...],
 ) -> int:
     """Explain the answer for y'' = S(x) y, or for an equation with y'' in it; "-" reads one a line.
@@ -47,4 +49,4 @@ def command(
         text = answer.explain(format=form, solutions=not no_solutions).rstrip("\n")
         return (fitted(text) if form == "text" else text,)
 
-    return answer_each(equations, show, var=var, limits=limits, gap="\n")
+    return answer_each(equations, show, var=var, limits=limits, assume=assume, gap="\n")

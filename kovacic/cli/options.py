@@ -25,7 +25,7 @@ var_option = click.option(
     "--var", metavar="NAME", help="The name of the variable; by default the only symbol of S, or x."
 )
 assume_option = click.option(
-    "--assume", metavar="NAME=WHAT", multiple=True, help="What is known about a parameter: n=integer."
+    "--assume", metavar="NAME=WHAT", multiple=True, help="What is known about a parameter: n=integer, n>=0, n=3."
 )
 ics_option = click.option(
     "--ics", metavar="VALUES", multiple=True, help='Initial values at one point: "y(0)=1, y\'(0)=0".'
@@ -86,13 +86,14 @@ def parse_limits(settings: Sequence[str]) -> Limits:
 
 
 def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
-    """What is known about the parameters, each `NAME=WHAT`; None without any.  Raises `click.UsageError`."""
+    """What is known about the parameters, each `NAME=WHAT` or an inequality; None without any.  Raises `click.UsageError`."""
     found: dict[str, str] = {}
     for setting in settings:
-        name, separator, what = setting.partition("=")
-        if not separator:
-            raise click.UsageError(f"--assume {setting}: write NAME=WHAT, such as n=integer")
-        found[name.strip()] = f"{found.get(name.strip(), '')} {what.strip()}".strip()
+        match = re.fullmatch(r"\s*(\w+)\s*(=|>=|<=|!=|>|<)([^=<>].*)", setting)
+        if match is None:
+            raise click.UsageError(f"--assume {setting}: write NAME=WHAT, such as n=integer, n=3 or n>=0")
+        name, relation, what = match[1], match[2], match[3].strip()
+        found[name] = f"{found.get(name, '')} {relation if relation != '=' else ''}{what}".strip()
     return found or None
 
 

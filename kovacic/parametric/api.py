@@ -22,6 +22,7 @@ from kovacic.parametric.restriction import reduced, with_free_constant
 from kovacic.parametric.statements import Point
 from kovacic.reading.given import Parsed, parameters_of
 from kovacic.reading.read import read_input
+from kovacic.reading.substitution import with_values
 
 #: Seconds for the search where the limits don't say.
 DEFAULT_SECONDS = 30.0
@@ -33,15 +34,16 @@ def conditions(
     S: Any,
     *,
     var: Any = None,
-    assume: Mapping[Any, str] | None = None,
+    assume: Mapping[Any, Any] | None = None,
     max_degree: int = DEFAULT_DEGREE,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Conditions:
     """The exact values of the parameters for which y'' = S(x) y has Liouvillian solutions.
 
     Every symbol besides the variable is a parameter.  `assume={"n": "positive integer"}` leaves out what then can't happen;
-    its words are integer, even, odd, half-integer, rational, irrational, noninteger, nonzero, positive, negative.  Assumptions
-    of SymPy symbols are used in the same way.  Where a
+    its words are integer, even, odd, half-integer, rational, irrational, noninteger, nonzero, positive, negative, nonnegative,
+    nonpositive, and inequalities such as ">=1/2", for a real number; a number, {"n": 3}, is put in for the parameter.
+    Assumptions of SymPy symbols are used in the same way.  Where a
     condition has a natural number d in it, its determinants are shown up to d = `max_degree`; `determinant` computes others.
     A budget that is used up (`limits.seconds`, 30 s where there is
     none) gives a partial list, and `complete` says that as well.
@@ -59,7 +61,11 @@ def conditions(
     AAECC 3 (1992).
     """
     parsed = read_input(S, var=var, limits=limits, exponentials=True)
+    given = parsed
+    S, parsed, assume = with_values(S, parsed, assume, limits)
     names = parameters_of(parsed.S.field)
+    if not names and parsed is not given:
+        raise InputError("every parameter has a value", hint="solve decides equations without parameters")
     if not names:
         used = f": {parsed.variable} is taken for the variable" if var is None and parsed.S.degree else ""
         hint = "solve decides equations without parameters; var= says which name is the variable"
@@ -87,6 +93,7 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     with budget.watched(), suppress(LimitExceeded):
         distinct = without_empty(distinct)
     regions = [region for region in distinct if region.statement.decided(assumptions) is not False]
+    regions = [replace(region, statement=region.statement.narrowed(assumptions)) for region in regions]
     always = next((k for k, r in enumerate(regions) if r.statement.decided(assumptions) is True), None)
     generic, complete = result.generic, result.complete
     if always is not None:

@@ -1,24 +1,32 @@
 """What is known about the parameters, and what follows from it for a statement about them.
 
 A parameter can be known to lie in a class s + m Z ("integer", "odd", "even", "half-integer"), to be rational or irrational, not
-an integer, not zero, positive or negative.  A conclusion holds at all values with these properties; None where none follows.
+an integer, not zero, or a real number with rational bounds ("positive", "negative", ">=1/2").  A conclusion holds at all values
+with these properties; None where none follows.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd, lcm
+from itertools import product
+from math import ceil, floor, gcd, lcm
 from random import Random
 from typing import Any
 
+from flint import acb, arb, ctx, fmpq, fmpq_poly
+
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
-from kovacic.parametric.functions import degrees, element, numerator, powers_of
+from kovacic.parametric.functions import degrees, element, numerator, over_parameters, powers_of
 
+#: Bits for the place of an algebraic number.
+_PRECISION = 200
 _DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
 
 
@@ -54,13 +62,30 @@ _COSETS = {
     "odd": Coset(Fraction(1), Fraction(2)),
     "half-integer": Coset(Fraction(1, 2), Fraction(1)),
 }
-_SIGNS = {"positive": 1, "negative": -1}
-WORDS = (*_COSETS, "rational", "irrational", "noninteger", "nonzero", *_SIGNS)
+_INEQUALITIES = {"positive": ">0", "negative": "<0", "nonnegative": ">=0", "nonpositive": "<=0"}
+WORDS = (*_COSETS, "rational", "irrational", "noninteger", "nonzero", *_INEQUALITIES)
+_BOUND = re.compile(r"(>=|<=|>|<)([+-]?\d{1,1000}(?:/0*[1-9]\d{0,999})?)")
+
+
+@dataclass(frozen=True)
+class Bound:
+    """`sign * (value - end)` isn't negative, nor zero where the bound is strict."""
+
+    sign: int
+    end: Fraction
+    strict: bool
+
+    def admits(self, number: Fraction) -> bool:
+        distance = self.sign * (number - self.end)
+        return distance > 0 or (distance == 0 and not self.strict)
+
+
+_NO_BOUND = Bound(1, Fraction(0), False)
 
 
 @dataclass(frozen=True)
 class Known:
-    """What is known about one parameter: some of `WORDS`."""
+    """What is known about one parameter: some of `WORDS`, and inequalities such as ">=1/2"."""
 
     words: tuple[str, ...] = ()
 
@@ -75,26 +100,57 @@ class Known:
         return True if self.coset or "rational" in self.words else False if "irrational" in self.words else None
 
     @property
-    def sign(self) -> int | None:
-        return next((_SIGNS[word] for word in self.words if word in _SIGNS), None)
+    def bounds(self) -> list[Bound]:
+        """The strongest lower and upper bounds; those of a class of numbers are among the numbers."""
+        found: dict[int, Bound] = {}
+        for match in filter(None, (_BOUND.fullmatch(_INEQUALITIES.get(word, word)) for word in self.words)):
+            sign, end, strict, coset = 1 if ">" in match[1] else -1, Fraction(match[2]), "=" not in match[1], self.coset
+            if coset is not None:
+                steps = (end - coset.start) / coset.step
+                nearest = coset.start + (ceil(steps) if sign > 0 else floor(steps)) * coset.step
+                end, strict = nearest + sign * coset.step * (strict and nearest == end), False
+            known = found.get(sign)
+            if known is None or sign * (end - known.end) > 0 or (end == known.end and strict):
+                found[sign] = Bound(sign, end, strict)
+        return [*found.values()]
 
     @property
     def nonzero(self) -> bool:
         outside = self.coset is not None and not self.coset.contains(Fraction(0))
-        return outside or self.sign is not None or bool({"nonzero", "noninteger", "irrational"} & set(self.words))
+        bounded = not all(bound.admits(Fraction(0)) for bound in self.bounds)
+        return outside or bounded or bool({"nonzero", "noninteger", "irrational"} & set(self.words))
 
     def admits(self, value: Poly) -> bool:
-        """May the parameter have this value?  The sign of an irrational value isn't looked at."""
+        """May the parameter have this value?  An algebraic number of which any conjugate may be meant has no sign."""
         number = value.field.rational_value(value)
         if number is None:
-            return self.rational is not True
+            return self.rational is not True and (not self.bounds or self._bounds_admit(value))
         return not (
             any(not _COSETS[word].contains(number) for word in self.words if word in _COSETS)
             or self.rational is False
             or ("noninteger" in self.words and number.denominator == 1)
             or (self.nonzero and not number)
-            or (self.sign is not None and self.sign * number <= 0)
+            or not all(bound.admits(number) for bound in self.bounds)
         )
+
+    def _bounds_admit(self, value: Poly) -> bool:
+        field = value.field
+        if not isinstance(value, ExtensionPoly) or not isinstance(field, AlgebraicField) or field.approximation is None:
+            return True
+        with ctx.workprec(_PRECISION):
+            modulus, parts = (
+                fmpq_poly([fmpq(c.numerator, c.denominator) for c in coefficients])
+                for coefficients in (
+                    [QQ.rational_value(c) or Fraction(0) for c in field.modulus],
+                    [QQ.rational_value(part[0]) or Fraction(0) for part in value.parts],
+                )
+            )
+            near = acb(*(arb(fmpq(part.numerator, part.denominator)) for part in field.approximation))
+            roots = [root for root, _ in modulus.numer().complex_roots()]
+            root = min(roots, key=lambda root: float(abs(root - near).mid()))
+            ball = sum((acb(c) * root**k for k, c in enumerate(parts)), acb(0))
+            distances = [(ball.real - arb(fmpq(b.end.numerator, b.end.denominator))) * b.sign for b in self.bounds]
+            return ball.imag.contains(0) and not any(distance < 0 for distance in distances)
 
     def sample(self, random: Random) -> Fraction:
         """A small rational number, in the known class if there is one."""
@@ -131,7 +187,12 @@ class Assumptions:
         return {name: " ".join(known.words) for name, known in self.known}
 
     def __str__(self) -> str:
-        return ", ".join(f"{name} {' '.join(known.words)}" for name, known in self.known)
+        parts = []
+        for name, known in self.known:
+            words = " ".join(word for word in known.words if not _BOUND.fullmatch(word))
+            bounds = [re.sub("^([<>]=?)", rf"{name} \1 ", word) for word in known.words if _BOUND.fullmatch(word)]
+            parts += [f"{name} {words}"] * bool(words) + bounds
+        return ", ".join(parts)
 
     def meets_classes(self, form: FunctionPoly, classes: list[Coset]) -> bool | None:
         """Is the value of a form rational and in one of the classes: True (always), False (never) or None?"""
@@ -151,6 +212,8 @@ class Assumptions:
             ((name, factor),) = linear[1].items()
             solutions = [Coset((c.start - linear[0]) / factor, c.step / abs(factor)) for c in classes]
             if "noninteger" in self.of(name).words and all(s.is_covered_by([_INTEGERS]) for s in solutions):
+                return False
+            if not any(_has_number_between(s, self.of(name).bounds) for s in solutions):
                 return False
         return None
 
@@ -189,20 +252,22 @@ class Assumptions:
             ((name, factor),) = linear[1].items()
             if not self.of(name).admits(QQ.poly([-linear[0] / factor])):
                 return True
-        terms = [(int(c), _powers(function, e)) for e, c in function.num.to_dict().items()]
+        terms = function.num.to_dict()
         if len(terms) == 1:
-            return all(self.of(name).nonzero for name in terms[0][1])
-        signs = {self._sign(c, powers) for c, powers in terms}
-        return len(signs) == 1 and None not in signs
+            return all(self.of(name).nonzero for e in terms for name in _powers(function, e))
+        return any(self.is_positive(sign * numerator(function)) for sign in (1, -1))
 
-    def _sign(self, coefficient: int, powers: Mapping[str, int]) -> int | None:
-        sign = 1 if coefficient > 0 else -1
-        for name, power in powers.items():
-            own = self.of(name).sign
-            if own is None:
-                return None
-            sign *= own**power
-        return sign
+    def is_positive(self, form: FunctionPoly, *, or_zero: bool = False) -> bool:
+        """Can a polynomial be proven to be positive, or not negative, everywhere?
+
+        With t = end + sign s, s >= 0, for one bound of each parameter t, no coefficient is negative.
+        """
+        if not form.den.is_constant():
+            return False
+        names = form.field.names
+        used = set().union(*(_powers(form, exponents) for exponents in form.num.to_dict()))
+        bounds = [self.of(name).bounds if name in used else [_NO_BOUND] for name in names]
+        return any(_is_positive(form, chosen, or_zero) for chosen in product(*bounds))
 
     def _coset_of(self, form: FunctionPoly) -> Coset | None:
         """A class that contains all values of a polynomial."""
@@ -250,14 +315,19 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     for name, what in (assume or {}).items():
         if str(name) not in names:
             raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
-        words = str(what).replace(",", " ").split()
-        unknown = [word for word in words if word not in (*WORDS, "real", "complex")]
+        text = re.sub(r"([<>]=?|!=)\s+", r"\1", str(what)).replace("!=0", "nonzero")
+        words = text.replace(",", " ").split()
+        unknown = [word for word in words if word not in (*WORDS, "real", "complex") and not _BOUND.fullmatch(word)]
         if unknown or not words:
             raise InputError(
-                f"{' '.join(unknown) or what!r} isn't an assumption that is known", hint=f"known are {', '.join(WORDS)}"
+                f"{' '.join(unknown) or what!r} isn't an assumption that is known",
+                hint=f"known are {', '.join(WORDS)}, >=1/2, a value",
             )
         found.setdefault(str(name), []).extend(words)
-    pairs = [(name, Known(tuple(w for w in dict.fromkeys(found.get(name, ())) if w in WORDS))) for name in names]
+    pairs = [
+        (name, Known(tuple(w for w in dict.fromkeys(found.get(name, ())) if w not in ("real", "complex"))))
+        for name in names
+    ]
     return Assumptions(tuple((name, known) for name, known in pairs if known.words))
 
 
@@ -269,9 +339,8 @@ def _words_of(symbol: Any) -> list[str]:
         words = ["irrational"]
     else:
         words = ["rational"] * bool(symbol.is_rational) + ["noninteger"] * (symbol.is_integer is False)
-    sign = "positive" if symbol.is_positive else "negative" if symbol.is_negative else None
-    if sign:
-        return [*words, sign]
+    sign = next((word for word in _INEQUALITIES if getattr(symbol, f"is_{word}")), None)
+    words += [sign] if sign else []
     return words if Known(tuple(words)).nonzero or symbol.is_zero is not False else [*words, "nonzero"]
 
 
@@ -285,6 +354,23 @@ def common_multiple(a: Fraction, b: Fraction) -> Fraction:
     """The least positive integral multiple of both; a and b are positive."""
     denominator = lcm(a.denominator, b.denominator)
     return Fraction(lcm(int(a * denominator), int(b * denominator)), denominator)
+
+
+def _is_positive(form: FunctionPoly, bounds: Iterable[Bound], or_zero: bool) -> bool:
+    chosen = dict(zip(form.field.names, bounds, strict=True))
+    values = [form.field.generator(name) * bound.sign + bound.end for name, bound in chosen.items()]
+    terms = over_parameters(form.value_at(values, form.field)).num.to_dict()
+    strict = any(all(chosen[name].strict for name in _powers(form, exponents)) for exponents in terms)
+    return (strict or or_zero) and all(coefficient > 0 for coefficient in terms.values())
+
+
+def _has_number_between(coset: Coset, bounds: list[Bound]) -> bool:
+    """Is there a number of the class within the bounds?"""
+    if len(bounds) < 2:
+        return True
+    low, high = sorted(bounds, key=lambda bound: -bound.sign)
+    first = coset.start + ceil((low.end - coset.start) / coset.step) * coset.step
+    return any(low.admits(number) and high.admits(number) for number in (first, first + coset.step))
 
 
 def _linear(form: FunctionPoly) -> tuple[Fraction, dict[str, Fraction]] | None:

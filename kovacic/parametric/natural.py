@@ -157,12 +157,23 @@ class Natural(Statement):
         return [chosen.exponents, *([random.choice(chosen.factors)] if chosen.factors else chosen.system or ())]
 
     def decided(self, assumptions: Assumptions) -> bool | None:
+        return None if self._possible(assumptions) else False
+
+    def narrowed(self, assumptions: Assumptions) -> Statement:
+        return replace(self, number=replace(self.number, factors=self._possible(assumptions)))
+
+    def _possible(self, assumptions: Assumptions) -> tuple[FunctionPoly, ...]:
+        """The equations for d that can have a natural root: not those that are positive for all d >= 0."""
         natural = [Coset(Fraction(0), Fraction(1))]
-        roots = [-f[0] / f[1] for f in self.number.factors if f.degree == 1]
-        never = len(roots) == len(self.number.factors) and all(
-            assumptions.meets_classes(root, natural) is False for root in roots
+        return tuple(
+            factor
+            for factor in self.number.factors
+            if not (factor.degree == 1 and assumptions.meets_classes(-factor[0] / factor[1], natural) is False)
+            and not (
+                assumptions.is_positive(over_parameters(factor[0]))
+                and all(assumptions.is_positive(over_parameters(c), or_zero=True) for c in factor if c)
+            )
         )
-        return False if never else None
 
     def text(self) -> str:
         return self._written(False)

@@ -65,6 +65,10 @@ class Statement(ABC):
         """True or False where that follows from what is known about the parameters; None otherwise."""
         return None
 
+    def narrowed(self, assumptions: Assumptions) -> Statement:
+        """What is left to say where the assumptions hold."""
+        return self
+
     @abstractmethod
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         """The same statement about other parameters: each of its functions is changed."""
@@ -117,6 +121,12 @@ class _Several(Statement):
 
     def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
         return replace(self, parts=tuple(part.avoiding(names, fixed) for part in self.parts))
+
+    def narrowed(self, assumptions: Assumptions) -> Statement:
+        """The parts that aren't the case anyway: false ones where one has to hold, true ones where all have to."""
+        needless = isinstance(self, Both)
+        parts = tuple(p.narrowed(assumptions) for p in self.parts if p.decided(assumptions) is not needless)
+        return parts[0] if len(parts) == 1 else replace(self, parts=parts) if parts else self
 
 
 class Either(_Several):

@@ -1,0 +1,97 @@
+"""Values of parameters, put into the text of an equation before it is read.
+
+A value takes the place of the parameter's name as a number in parentheses, which is what a name is to the grammar: an atom.
+So the result means what the text meant, and no arithmetic is done here.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from kovacic.algebra.rationals import QQ
+from kovacic.errors import InputError
+from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.reading.given import Parsed, parameters_of
+from kovacic.reading.lexer import tokenize
+from kovacic.reading.read import read_input
+
+#: What is known about a parameter, in words and inequalities; anything else is its value.
+_WORDS = re.compile(r"(\s*([A-Za-z-]{2,}|([<>]=?|!=)\s*[^\s,]+),?)*\s*")
+
+
+class Template:
+    """A text whose parameters have been found, to be filled with many values.
+
+    Raises `InputError` where the text has no such name, or uses one as a function.
+
+    >>> Template("(4*n^2 - 1)/(4*x^2) - n", ["n"]).filled({"n": Fraction(-1, 2)})
+    '(4*(-1/2)^2 - 1)/(4*x^2) - (-1/2)'
+    """
+
+    def __init__(self, text: str, names: Sequence[str]) -> None:
+        tokens = tokenize(text)
+        self._pieces: list[tuple[str, str]] = []
+        end = 0
+        for kind, start, stop in zip(tokens.kinds, tokens.starts, tokens.ends, strict=True):
+            token = text[start:stop]
+            if token not in names:
+                continue
+            if kind != "NAME":
+                raise InputError(
+                    f"the parameter {token} is followed by a parenthesis like a function",
+                    text=text,
+                    position=start,
+                    length=stop - start,
+                    hint=f"for a product write {token}*(...)",
+                )
+            self._pieces.append((text[end:start], token))
+            end = stop
+        for name in names:
+            if name not in (token for _, token in self._pieces):
+                raise InputError(f"the expression has no parameter {name}", text=text)
+        self._rest = text[end:]
+
+    def filled(self, values: Mapping[str, Any]) -> str:
+        """The text with these values."""
+        return "".join(f"{before}({values[name]})" for before, name in self._pieces) + self._rest
+
+
+def number_text(value: Any, limits: Limits = DEFAULT_LIMITS) -> str:
+    """The value of a parameter as text: a rational or algebraic number.  Raises `InputError` for anything else."""
+    text = str(value).strip()
+    number = read_input(text, var="x_", limits=limits).S
+    if number.num.degree > 0 or number.den.degree > 0 or number.field.ground != QQ:
+        raise InputError(f"{text!r} isn't a number")
+    return text
+
+
+def with_values(
+    S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits: Limits
+) -> tuple[Any, Parsed, Mapping[Any, Any] | None]:
+    """The input with the values that are among the assumptions, {"n": 3}, as it is read then, and the other assumptions.
+
+    Raises `InputError` for values that aren't numbers, or of what isn't a parameter.
+
+    >>> S = "(4*n^2 - 1)/(4*x^2) - k"
+    >>> text, parsed, rest = with_values(S, read_input(S), {"n": "3/2", "k": "integer"}, DEFAULT_LIMITS)
+    >>> text, rest
+    ('(4*(3/2)^2 - 1)/(4*x^2) - k', {'k': 'integer'})
+    """
+    given = assume if isinstance(assume, Mapping) else {}
+    values = {str(name): what for name, what in given.items() if _WORDS.fullmatch(str(what)) is None}
+    if not values:
+        return S, parsed, assume
+    names = parameters_of(parsed.S.field)
+    for name in values:
+        if name not in names:
+            hint = f"the parameters are {', '.join(names) or 'none'}"
+            raise InputError(f"{name} isn't a parameter of S", hint=hint)
+    texts = {name: number_text(value, limits) for name, value in values.items()}
+    text = S
+    if not isinstance(S, str):
+        text = parsed.S.to_str(parsed.variable) if parsed.equation is None else parsed.equation.text(caret=False)
+    filled = Template(text.strip(), [*texts]).filled(texts)
+    rest = {name: what for name, what in given.items() if str(name) not in texts}
+    return filled, read_input(filled, var=parsed.variable, limits=limits, exponentials=True), rest or None

@@ -1,0 +1,134 @@
+"""Values and inequalities as assumptions: the same answers as for the equation with these values, and at points within them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import product
+
+import pytest
+import sympy
+
+import kovacic
+from kovacic.algebra.function_field import FunctionField
+from kovacic.algebra.rationals import QQ
+from kovacic.cli.options import parse_assumptions
+from kovacic.parametric.assumptions import Known, read_assumptions
+from kovacic.parametric.functions import over_parameters
+
+BESSEL = "(4*n^2 - 1)/(4*x^2) - 1"
+EULER = "(n^2 - 1/4)/x^2 + k"
+
+
+@pytest.mark.parametrize("value", ["3", "-7/2", "0", "sqrt(2)", "I/2", Fraction(5, 2), sympy.sqrt(3) / 2, 2])
+def test_a_value_is_put_in_for_the_parameter(value: object) -> None:
+    for S in (EULER, sympy.sympify(EULER.replace("^", "**"))):
+        answer = kovacic.conditions(S, assume={"n": value}, var="x")
+        assert answer.parameters == ("k",)
+        assert answer.complete is True
+        general = kovacic.conditions(EULER, var="x")
+        for k in (0, 1, -2):
+            assert answer.case_at({"k": k}) == general.case_at({"n": value, "k": k})
+        assert kovacic.solve(S, assume={"n": value, "k": 1}, var="x").case == general.case_at({"n": value, "k": 1})
+    assert kovacic.decide(BESSEL, assume={"n": value}).case == kovacic.conditions(BESSEL).case_at({"n": value})
+
+
+def test_a_value_in_an_equation() -> None:
+    bessel = "x^2*y'' + x*y' + (x^2 - n^2)*y = 0"
+    answer = kovacic.solve(bessel, assume={"n": "3/2"})
+    assert answer.case == 1
+    assert answer.equation is not None
+    assert str(answer.S) == str(kovacic.solve(bessel.replace("n", "(3/2)")).S)
+    x, n = sympy.symbols("x n")
+    y = sympy.Function("y")(x)
+    equation = sympy.Eq(x**2 * y.diff(x, 2) + x * y.diff(x) + (x**2 - n**2) * y, 0)
+    assert kovacic.solve(equation, assume={n: Fraction(3, 2)}).S == answer.S
+
+
+@pytest.mark.parametrize(
+    "assume", [{"x": 2}, {"n": "k"}, {"n": "x"}, {"m": 3}, {"n": "prime"}, {"n": ">=a"}, {"n": ">1/0"}, {"n": "1/0"}]
+)
+def test_what_is_no_value_of_a_parameter_is_refused(assume: dict[str, object]) -> None:
+    for ask in (kovacic.conditions, kovacic.solve):
+        with pytest.raises(kovacic.InputError):
+            ask(BESSEL, assume=assume, var="x")
+
+
+def test_a_parameter_must_be_left_for_conditions() -> None:
+    with pytest.raises(kovacic.InputError, match="every parameter has a value"):
+        kovacic.conditions(BESSEL, assume={"n": 3})
+
+
+INEQUALITIES = ["<0", "<=0", ">0", ">=0", ">=1/2", ">-3 <=5/3", "integer >0", "odd >=2 <7", ">=-1 >1 >=0"]
+
+
+@pytest.mark.parametrize("what", INEQUALITIES)
+def test_bounds_admit_the_numbers_between(what: str) -> None:
+    known = read_assumptions({"n": what}, None, ("n",)).of("n")
+    relations = [word for word in what.split() if word[0] in "<>"]
+    for value in {Fraction(a, b) for a, b in product(range(-30, 31), (1, 2, 3))}:
+        expected = all(sympy.sympify(f"{value} {word}") for word in relations)
+        expected &= "integer" not in what or value.denominator == 1
+        expected &= "odd" not in what or (value.denominator == 1 and value % 2 == 1)
+        assert known.admits(QQ.poly([value])) == expected
+        assert not (known.nonzero and expected and not value)
+
+
+@pytest.mark.parametrize("what", INEQUALITIES)
+@pytest.mark.parametrize("S", [BESSEL, "x^6 + n*x^2", "x^4 + n*x", "n*x^5 + x", "(n+2)*x^4 + x^2 + n*x", "x^2 + n"])
+def test_inequalities_leave_out_only_what_cannot_happen(S: str, what: str) -> None:
+    general, answer = kovacic.conditions(S, var="x"), kovacic.conditions(S, assume={"n": what}, var="x")
+    assert len(answer.regions) <= len(general.regions)
+    assert kovacic.parametric.answer.Conditions.from_json(answer.to_json()) == answer
+    for value in (Fraction(k, 2) for k in range(-14, 15)):
+        if answer.assumptions.admits([("n", QQ.poly([value]))]):
+            assert answer.case_at({"n": value}) == general.case_at({"n": value})
+
+
+def test_a_sign_shortens_the_statement() -> None:
+    sextic = "x^6 + b*x^2 + c"
+    for what, expected in (("> -2", "b = 2*d + 3, "), ("<0", "b = -2*d - 3, "), ("nonnegative", "b = 2*d + 3, ")):
+        (region,) = kovacic.conditions(sextic, assume={"b": what}, var="x").regions
+        assert str(region.statement).startswith(expected)
+    assert not kovacic.conditions(sextic, assume={"b": ">-3 <3"}, var="x").regions
+    assert not kovacic.conditions(BESSEL, assume={"n": ">0 <1/2"}).regions
+    b = sympy.Symbol("b", nonnegative=True)
+    x, c = sympy.symbols("x c")
+    (region,) = kovacic.conditions(x**6 + b * x**2 + c, var=x).regions
+    assert str(region.statement).startswith("b = 2*d + 3, ")
+
+
+def test_what_is_said_to_be_positive_is() -> None:
+    field = FunctionField(("a", "b"))
+    a, b = (over_parameters(field.generator(name)) for name in "ab")
+    forms = [a * b - 1, a * a - b, a + b, a - 2, (a - 1) * (b + 1), a * a - 2 * a + 2, 3 - b, a * (3 - b), a - a + 1]
+    numbers = [Fraction(k, 2) for k in range(-8, 9)]
+    proven = 0
+    for first, second in product([">0", ">=1", "<-1", "<=2 >0", ">=2"], [">=0", ">1", "<3", ">-1 <=1"]):
+        known = read_assumptions({"a": first, "b": second}, None, ("a", "b"))
+        points = [
+            p for p in product(numbers, numbers) if known.admits(zip("ab", (QQ.poly([v]) for v in p), strict=True))
+        ]
+        assert points
+        for form in forms:
+            values = [QQ.rational_value(form.value_at(point, QQ)) for point in points]
+            for or_zero in (False, True):
+                if known.is_positive(over_parameters(form), or_zero=or_zero):
+                    proven += 1
+                    assert all(v is not None and (v > 0 or (or_zero and not v)) for v in values)
+            assert known.vanishes(over_parameters(form)) is not False or all(values)
+    assert proven > 60
+
+
+def test_algebraic_values_have_a_sign() -> None:
+    answer = kovacic.conditions("x^2 + n", assume={"n": ">=0"}, var="x")
+    for value in ("sqrt(2)", "3 - sqrt(2)", "2^(1/3)"):
+        assert answer.case_at({"n": value}) is None
+    for value in ("-sqrt(2)", "1 - sqrt(2)", "I", "1 + I", "-2^(1/3)"):
+        with pytest.raises(kovacic.InputError, match="contradicts"):
+            answer.case_at({"n": value})
+    assert Known(("positive",)).nonzero
+
+
+def test_inequalities_and_values_in_the_shell() -> None:
+    given = ("n>=0", "n < 7/2", "k=3", "m=odd", "m!=1", "j = -1/2")
+    assert parse_assumptions(given) == {"n": ">=0 <7/2", "k": "3", "m": "odd !=1", "j": "-1/2"}
