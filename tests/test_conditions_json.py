@@ -7,6 +7,7 @@ from random import Random
 from typing import Any
 
 import pytest
+import sympy
 
 import kovacic
 from kovacic.parametric import sampling
@@ -16,6 +17,10 @@ from tests.parametric_cases import FAMILIES, hypergeometric
 EQUATIONS = {
     **{family.name: family.S for family in FAMILIES},
     "Riemann": hypergeometric(("l", "m", "n")),
+    "one radical": "(4*a^2-1)/(4*x^2) - b - sqrt(2)",
+    "a cube root": "x^4 + a*x^2 + 2^(1/3)*b*x",
+    "the imaginary unit": "(n^2 - 1/4)/x^2 + I*k/x - 1",
+    "two radicals": "(4*a^2-1)/(4*x^2) - b - sqrt(2) - sqrt(3)",
     "quartic": "x^4 + a*x^2 + b*x + c",
     "Coulomb": "-2*E - 2*Z/x + l*(l+1)/x^2",
     "sextic with a centrifugal term": "x^6 + a*x^2 + c + l*(l+1)/x^2",
@@ -50,6 +55,32 @@ def test_wrong_data_are_refused(change: dict[str, Any]) -> None:
         Conditions.from_json(json.dumps(data))
     with pytest.raises(kovacic.InputError):
         Conditions.from_json("{")
+
+
+def test_the_root_that_is_meant_is_read_back() -> None:
+    for root in ("sqrt(2)", "-sqrt(2)", "sqrt(2) + sqrt(3)", "sqrt(2) - 2*sqrt(3)"):
+        answer = kovacic.conditions(f"x^2 + b + ({root})", var="x")
+        again = Conditions.from_json(answer.to_json())
+        for value, case in ((f"1 - ({root})", 1), (f"1 + ({root})", None), (f"-3 - ({root})", 1), ("1/2", None)):
+            assert again.case_at({"b": value}) == answer.case_at({"b": value}) == case
+    data = kovacic.conditions("x^2 + b + sqrt(2)", var="x").to_dict()
+    for wrong in ("t**2 - 4", "t - 1", "(t**2 - 2)**2"):
+        root = data["constant_root"] | {"minimal_polynomial": wrong}
+        with pytest.raises(kovacic.InputError):
+            Conditions.from_json(json.dumps(data | {"constant_root": root}))
+
+
+def test_several_algebraic_values_beside_an_algebraic_constant() -> None:
+    answer = kovacic.conditions("(4*a^2-1)/(4*x^2) - b - sqrt(2) - sqrt(3)", var="x")
+    for a, b, case in (
+        ("sqrt(5)", "-sqrt(2) - sqrt(3)", 1),
+        ("sqrt(5)", "-sqrt(2) + sqrt(3)", None),
+        ("I", "sqrt(2)", None),
+        ("1/2", "sqrt(2)", 1),
+        ("sqrt(2)*sqrt(6)/sqrt(3)/4", "2^(1/3)", 1),
+    ):
+        assert answer.case_at({"a": a, "b": b}) == case
+        assert answer.case_at({"a": sympy.sympify(a), "b": sympy.sympify(b.replace("^", "**"))}) == case
 
 
 def test_a_changed_statement_is_another_answer() -> None:

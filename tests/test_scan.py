@@ -48,6 +48,19 @@ def test_grids() -> None:
     assert len(parse_grid("n=0:1:1/100000000")) == 10**8 + 1
 
 
+def test_algebraic_values() -> None:
+    assert values("n=sqrt(2),1/2, -I") == ["sqrt(2)", Fraction(1, 2), "-I"]
+    grids = [parse_grid("n=sqrt(2),2^(1/3),3"), parse_grid("k=I-1,1/2")]
+    records = list(scan("x^2 + n^2 + k - n^2", grids))
+    assert [record.data["parameters"]["n"] for record in records[::2]] == ["sqrt(2)", "2^(1/3)", "3"]
+    assert {record.data.get("case") for record in records} == {None}
+    (odd,) = scan("x^2 + n^2 + 1", [parse_grid("n=sqrt(2)")])
+    assert odd.data["case"] == 1
+    for text in ("n=sqrt(2):3", "n=sqrt(k)", "n=x_", "n=sqrt(2),", "n=k"):
+        with pytest.raises(InputError):
+            parse_grid(text)
+
+
 @pytest.mark.parametrize(
     "text",
     ["", "n", "n=", "=1", "2=1", "n=1:0", "n=0:1:0", "n=0:1:2:3", "n=1/0", "n=1e9", "n=__import__('os')", "n=a:b"],

@@ -74,7 +74,9 @@ def draw_map(
 
 def _edges(grid: Grid) -> list[float]:
     """Half-way between neighbouring values, and as far beyond the first and the last one."""
-    values = list(grid)
+    values = [value for value in grid if isinstance(value, Fraction)]
+    if len(values) < len(grid):
+        raise InputError(f"the values of {grid.name} aren't all rational, and a map needs that")
     if len(values) == 1:
         values = [values[0] - Fraction(1, 2), values[0], values[0] + Fraction(1, 2)]
         return [float((a + b) / 2) for a, b in pairwise(values)]

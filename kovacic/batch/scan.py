@@ -9,15 +9,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 from typing import Any
 
+from kovacic.algebra.rationals import QQ
 from kovacic.batch import solve_many
 from kovacic.batch.records import Item, Record
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.reading.substitution import Template
+from kovacic.reading.read import read_input
+from kovacic.reading.substitution import Template, number_text
 
 _NUMBER = re.compile(r"[+-]?(\d+(/\d+)?|\d*\.\d+|\d+\.)")
 _NUMBER_LENGTH = 1000
@@ -26,24 +29,30 @@ _LARGEST_GRID = 10**9
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """The values of one parameter, in the order in which they are taken: numerators over one denominator."""
+    """The values of one parameter, in the order in which they are taken: numerators over one denominator.
+
+    Where some aren't rational, `algebraic` has them all, those as text.
+    """
 
     name: str
     numerators: Sequence[int]
     denominator: int
+    algebraic: tuple[Fraction | str, ...] = ()
 
     def __len__(self) -> int:
-        return len(self.numerators)
+        return len(self.algebraic or self.numerators)
 
-    def __iter__(self) -> Iterator[Fraction]:
+    def __iter__(self) -> Iterator[Fraction | str]:
+        if self.algebraic:
+            return iter(self.algebraic)
         return (Fraction(numerator, self.denominator) for numerator in self.numerators)
 
 
 def parse_grid(text: str) -> Grid:
     """The grid that `NAME=START:STOP:STEP` (STOP included, STEP 1 by default) or `NAME=VALUE,VALUE,...` denotes.
 
-    Numbers are integers, fractions or decimals, taken exactly.  Raises `InputError` for anything else, and `LimitExceeded`
-    for more than 10^9 values.
+    Numbers are integers, fractions or decimals, taken exactly, and VALUE can be algebraic: n=sqrt(2).  Raises `InputError` for
+    anything else, and `LimitExceeded` for more than 10^9 values.
 
     >>> grid = parse_grid("n=0:1:1/4")
     >>> grid.name, [str(value) for value in grid]
@@ -55,7 +64,10 @@ def parse_grid(text: str) -> Grid:
     name = name.strip()
     if not separator or not name.isidentifier():
         raise InputError(f"{text!r} isn't a grid", hint="NAME=START:STOP:STEP or NAME=VALUE,VALUE: n=0:10:1/4")
-    values = [_number(part, text) for part in re.split("[:,]" if ":" in rest else ",", rest)]
+    parts = re.split("[:,]" if ":" in rest else ",", rest)
+    if ":" not in rest and not all(map(_NUMBER.fullmatch, map(str.strip, parts))):
+        return Grid(name, (), 1, tuple(_algebraic(part, text) for part in parts))
+    values = [_number(part, text) for part in parts]
     if ":" not in rest:
         denominator = lcm(*(value.denominator for value in values))
         return Grid(name, [int(value * denominator) for value in values], denominator)
@@ -72,6 +84,16 @@ def parse_grid(text: str) -> Grid:
     return Grid(name, range(first, first + count * difference, difference), denominator)
 
 
+def _algebraic(part: str, text: str) -> Fraction | str:
+    with suppress(InputError):
+        return _number(part, text)
+    with suppress(InputError):
+        if read_input(number := number_text(part), var="x_").S.field != QQ:
+            return number
+    hint = "integers, fractions, decimals, algebraic numbers: n=0:10:1/4, n=sqrt(2)"
+    raise InputError(f"{text!r}: {part.strip()[:40]!r} isn't a number", hint=hint)
+
+
 def _number(part: str, text: str) -> Fraction:
     part = part.strip()
     if len(part) > _NUMBER_LENGTH or _NUMBER.fullmatch(part) is None:
@@ -82,7 +104,7 @@ def _number(part: str, text: str) -> Fraction:
         raise InputError(f"{text!r}: {part!r} has the denominator 0") from None
 
 
-def points(grids: Sequence[Grid]) -> Iterator[dict[str, Fraction]]:
+def points(grids: Sequence[Grid]) -> Iterator[dict[str, Fraction | str]]:
     """Every combination of values, the last parameter changing fastest."""
     if not grids:
         yield {}

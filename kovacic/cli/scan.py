@@ -48,7 +48,8 @@ def command(
 ) -> int:
     """Decide y'' = S(x) y for every combination of parameter values.
 
-    A range is NAME=START:STOP:STEP with STOP included and STEP 1 by default, or NAME=VALUE,VALUE,...; numbers are exact.
+    A range is NAME=START:STOP:STEP with STOP included and STEP 1 by default, or NAME=VALUE,VALUE,...; numbers are exact,
+    and a VALUE can be algebraic, sqrt(2).
 
     \b
     kovacic scan "(4*n^2-1)/(4*x^2)-1" n=0:10:1/4 --format csv

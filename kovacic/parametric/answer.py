@@ -22,10 +22,11 @@ from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_as
 from kovacic.parametric.formulas import as_latex, shown
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
-from kovacic.parametric.record import Reader, statement_data
+from kovacic.parametric.record import Reader, constant_data, constant_from, statement_data
 from kovacic.parametric.restriction import NO_CONSTANT, UndefinedError, at_point
 from kovacic.parametric.solutions import PolynomialSolution
 from kovacic.parametric.statements import Both, Either, Point, Statement, both, either
+from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
 
@@ -323,14 +324,14 @@ class Conditions:
             "complete": self.complete,
             "theory": self.theory,
             "notices": list(self.notices),
-            "constant": self.constant.names[0] if self.constant.names else None,
+            **constant_data(self.constant),
         }
 
     @classmethod
     def from_json(cls, text: str | Mapping[str, Any]) -> Conditions:
         """The conditions that `to_json` wrote, but for `Condition.solution`.
 
-        Raises `InputError` for other data, and where S has an algebraic constant.
+        Raises `InputError` for other data.
 
         >>> import kovacic
         >>> answer = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
@@ -347,9 +348,8 @@ class Conditions:
     @classmethod
     def _read(cls, data: Mapping[str, Any]) -> Conditions:
         names, variable = tuple(data["parameters"]), data["variable"]
-        if data["constant"] is not None:
-            raise InputError("conditions with an algebraic constant aren't read back")
-        reader = Reader(FunctionField(names))
+        constant = constant_from(data)
+        reader = Reader(FunctionField((*names, *constant.names)), constant.names)
         S = reader.function(data["S"], variable)
         regions = [
             Condition(
@@ -365,7 +365,9 @@ class Conditions:
         known = read_assumptions(data["assumptions"], None, names) if data["assumptions"] else NOTHING_ASSUMED
         generic, notices = Verdict.from_dict(data["generic"]["verdict"]), tuple(data["notices"])
         complete, theory = data["complete"], data["theory"]
-        return cls(S, variable, names, generic, tuple(regions), complete, theory, DEFAULT_LIMITS, notices, known)
+        return cls(
+            S, variable, names, generic, tuple(regions), complete, theory, DEFAULT_LIMITS, notices, known, constant
+        )
 
     def latex(self) -> str:
         """The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values."""
@@ -454,10 +456,8 @@ def _point(names: tuple[str, ...], values: list[Any], constant: Point, limits: L
         field = constant.field
         numbers = [number.over(field) for number in numbers]
     elif isinstance(constant.field, AlgebraicField):
-        if constant.field.name == "alpha":
-            raise InputError("rational values are needed where S has an algebraic constant that isn't one radical")
-        numbers, field = _constants([*(str(value) for value in values), constant.field.name], limits)
-        return Point((*names, *constant.names), tuple(numbers), field)
+        together = with_root(numbers, field, constant.field, limits)
+        return Point((*names, *constant.names), tuple(together), together[-1].field)
     return Point((*names, *constant.names), (*numbers, *constant.values), field)
 
 

@@ -12,18 +12,21 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.parametric.functions import over_parameters
 from kovacic.parametric.integers import Classes, IntegerRoot
 from kovacic.parametric.natural import Natural
+from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.search import NaturalNumber
-from kovacic.parametric.statements import Both, Either, Statement, Vanishes
+from kovacic.parametric.statements import Both, Either, Point, Statement, Vanishes
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_with
 from kovacic.reading.given import parameters_of
@@ -75,16 +78,42 @@ def _number(value: Fraction) -> int | str:
     return int(value) if value.denominator == 1 else str(value)
 
 
+def constant_data(constant: Point) -> dict[str, Any]:
+    """The algebraic constant that is a parameter of the statements: its name, equation and place."""
+    field = constant.field
+    if not isinstance(field, AlgebraicField) or field.approximation is None:
+        return {"constant": None}
+    root = {"minimal_polynomial": field.modulus.to_str("t"), "near": [str(part) for part in field.approximation]}
+    return {"constant": constant.names[0], "constant_root": root | {"symbol": field.name}}
+
+
+def constant_from(data: Mapping[str, Any]) -> Point:
+    """What `constant_data` wrote.  Raises `InputError` for what isn't an irreducible polynomial."""
+    if data["constant"] is None:
+        return NO_CONSTANT
+    root, arithmetic = data["constant_root"], Arithmetic(_LIMITS)
+    modulus = arithmetic.rational(parse_with(root["minimal_polynomial"], {"t": VARIABLE}, arithmetic)).num.monic()
+    if modulus.degree < 2 or QQ.factor(modulus) != [(modulus, 1)]:
+        raise InputError(f"{root['minimal_polynomial']} isn't an irreducible polynomial")
+    real, imaginary = map(Fraction, root["near"])
+    field = AlgebraicField(QQ, modulus, root["symbol"], (real, imaginary))
+    return Point((data["constant"],), (field.generator,), field)
+
+
 @dataclass(frozen=True)
 class Reader:
-    """Functions of the parameters, and statements about them."""
+    """Functions of the parameters, and statements about them; `constants` are those named by a formula, sqrt(2)."""
 
     field: FunctionField
+    constants: tuple[str, ...] = ()
 
     def function(self, text: str, letter: str = "x") -> RatFunc:
         """A rational function in `letter` over Q(t)."""
         arithmetic = Arithmetic(_LIMITS)
         names: Any = {name: self.field.generator(name) for name in self.field.names} | {letter: VARIABLE}
+        for number, constant in enumerate(name for name in self.constants if not name.isidentifier()):
+            plain = f"algebraic_constant_{number}"
+            text, names[plain] = text.replace(constant, plain), names.pop(constant)
         value = arithmetic.rational(parse_with(text, names, arithmetic))
         return RatFunc(self._embedded(value.num), self._embedded(value.den))
 

@@ -6,10 +6,12 @@ the input is read again; so every value lies in one field, and an input over Q c
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, TypeVar
+
+from flint import acb, arb, fmpq
 
 from kovacic.algebra.embedding import (
     adjoined_root,
@@ -187,9 +189,23 @@ class Enlarged(Exception):
         self.constants = constants
 
 
-def read_with_constants(read: Callable[[Constants], T], limits: Limits) -> T:
+def with_root(numbers: Sequence[Poly], field: Field, other: AlgebraicField, limits: Limits) -> list[Poly]:
+    """Numbers of one field, and after them the generator of another one, in a field that has them all.
+
+    Raises `LimitExceeded` where its degree would be above the limit.
+    """
+    near = acb(*(arb(fmpq(part.numerator, part.denominator)) for part in other.approximation or ()))
+
+    def read(constants: Constants) -> list[Poly]:
+        root = constants.root(other.modulus, near)
+        return [*(number.over(root.field) for _, _, number in constants.radicals), root]
+
+    return read_with_constants(read, limits, Constants(limits, field, tuple((Fraction(0), 0, n) for n in numbers)))
+
+
+def read_with_constants(read: Callable[[Constants], T], limits: Limits, known: Constants | None = None) -> T:
     """The result of `read`, called again with a larger field as long as it raises `Enlarged`."""
-    constants = Constants(limits)
+    constants = known or Constants(limits)
     while True:
         try:
             return read(constants)
