@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from kovacic.doubles.tabulate import TabulatedFunction
     from kovacic.enclosure.agreement import Agreement
     from kovacic.galois import EquationGroup, Group
+    from kovacic.parametric.assumptions import Assumptions
     from kovacic.parametric.generic import GenericConditions
     from kovacic.reading.given import Parsed
     from kovacic.special.answer import SpecialFunctions
@@ -42,8 +43,8 @@ class Solution:
     whether the decision has passed its independent check (always, for what `solve` returns), and `seconds` the wall-clock
     time of reading, deciding and verifying together (None for an answer that was read from JSON).  `equation` is the
     equation of which y'' = S y is the normal form, None where S itself was given.  `assumed` says that a theorem proves the
-    answer for all values with the assumptions, but for those that the notices name.  `limits` hold for each view that is
-    computed later, the group and the closed form for instance, and for `verify`.
+    answer for all values with the assumptions, `known`, but for those that the notices name.  `limits` hold for each view that
+    is computed later, the group and the closed form for instance, and for `verify`.
     """
 
     text: str
@@ -56,6 +57,7 @@ class Solution:
     equation: Equation | None = None
     assumed: bool = False
     limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
+    known: Assumptions | None = field(default=None, compare=False)
 
     @property
     def gauge(self) -> RatFunc:
@@ -172,11 +174,16 @@ class Solution:
     def special(self) -> SpecialFunctions:
         """Two solutions in Airy's, Bessel's, Kummer's or Gauss' functions, or which classes of these were searched in vain.
 
-        An exhausted limit is a value: `stopped`.
+        What was assumed about the parameters is used: hermite(n, x) for a natural number n.  An exhausted limit is a value:
+        `stopped`.
         """
         from kovacic.special.answer import special_functions
 
-        found = special_functions(self.S, self.gauge, self.variable, Budget(self.limits))
+        symbols = self.known.symbols() if self.known else {}
+        found = special_functions(self.S, self.gauge, self.variable, Budget(self.limits), symbols=symbols)
+        if found and symbols:
+            plain = {symbol: type(symbol)(name) for name, symbol in symbols.items()}
+            found = replace(found, y1=found.y1.xreplace(plain), y2=found.y2.xreplace(plain))
         return self._in_given_variable(found)  # type: ignore[no-any-return]
 
     @property
@@ -376,7 +383,7 @@ def solve(
     else:
         text = parsed.S.to_str(parsed.variable) if parsed.equation is None else parsed.equation.text(caret=False)
     budget = Budget(limits)
-    decision, notices, assumed = _decided(parsed, S, assume, budget, certify=True)
+    decision, notices, assumed, known = _decided(parsed, S, assume, budget, certify=True)
     try:
         verification = verify(parsed.S, decision, budget=budget)
     except LimitExceeded as limit:
@@ -391,7 +398,7 @@ def solve(
         )
     seconds = time.perf_counter() - start
     return Solution(
-        text, parsed.variable, parsed.S, decision, notices, verified, seconds, parsed.equation, assumed, limits
+        text, parsed.variable, parsed.S, decision, notices, verified, seconds, parsed.equation, assumed, limits, known
     )
 
 
@@ -414,26 +421,26 @@ def decide(
         from kovacic.reading.substitution import with_values
 
         S, parsed, assume = with_values(S, parsed, assume, limits)
-    decision, _, _ = _decided(parsed, S, assume, Budget(limits), certify=False)
+    decision, *_ = _decided(parsed, S, assume, Budget(limits), certify=False)
     return Verdict(decision.status, decision.case, decision.undecided)
 
 
 def _decided(
     parsed: Parsed, S: Any, assume: Mapping[Any, Any] | None, budget: Budget, *, certify: bool
-) -> tuple[Decision, tuple[str, ...], bool]:
-    """The decision, under the assumptions if there are any, the notices, and is it proven for all values with them?"""
+) -> tuple[Decision, tuple[str, ...], bool, Assumptions | None]:
+    """The decision, under the assumptions if there are any, the notices, is it proven for all values with them, and they."""
     decision = decide_structure(parsed.S, budget, certify=certify)
     if assume is None and parsed.S.field.ground == QQ:
-        return decision, parsed.notices, False
+        return decision, parsed.notices, False, None
     from kovacic.parametric.assumptions import read_assumptions
 
     known = read_assumptions(assume, S, parameters_of(parsed.S.field))
     if not known or (assume is None and not known.concerns_exponents):
-        return decision, parsed.notices, False
+        return decision, parsed.notices, False, known
     from kovacic.parametric.api import under_assumptions
 
     try:
         decision, sentence, proven = under_assumptions(parsed, decision, known, budget.limits, certify=certify)
     except LimitExceeded as limit:
-        return Decision(None, (), undecided=str(limit)), parsed.notices, False
-    return decision, (*parsed.notices, sentence) if sentence else parsed.notices, proven
+        return Decision(None, (), undecided=str(limit)), parsed.notices, False, known
+    return decision, (*parsed.notices, sentence) if sentence else parsed.notices, proven, known

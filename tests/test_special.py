@@ -26,6 +26,7 @@ from kovacic.special.find import find
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 from kovacic.special.writer import Writer
 from kovacic.special.wronskian import wronskian
+from kovacic.views.text import solution_lines
 from tests.special_cases import KINDS, Case, pull_backs, standard
 from tests.transform import gauge, hypergeometric, pull_back
 
@@ -407,3 +408,40 @@ def test_views_show_them() -> None:
     assert "Ai" in answer._repr_latex_()
     assert "<mi>A</mi><mi>i</mi>" in answer._repr_html_()
     assert "Ai" in answer.explain(format="latex")
+
+
+def test_beside_a_long_formula_there_is_a_short_one() -> None:
+    """Hermite's polynomial of degree 60, and closed forms in radicals of 900 characters."""
+    long = kovacic.solve("x^2 - 121")
+    lines = [*solution_lines(long)]
+    assert "shorter, another pair in special functions:" in lines
+    assert lines[-2:] == [
+        "  y1 = exp(-x^2/2)*hyper((-30,), (1/2,), x^2)",
+        "  y2 = x*exp(-x^2/2)*hyper((-59/2,), (3/2,), x^2)",
+    ]
+    assert sympy.simplify(sympy.hyperexpand(long.special.y1) / long.solutions[0]).is_Rational
+    assert any("hyper" in line for line in solution_lines(kovacic.solve("(-32*x^2+32*x+8613)/(144*x^2*(x-1)^2)")))
+    assert not any("special" in line for line in solution_lines(kovacic.solve("x^2 - 7")))
+
+
+@pytest.mark.parametrize("name", ["hermite", "legendre", "laguerre"])
+def test_assumptions_are_used(name: str) -> None:
+    """Given as words or by the symbol: the same answer, in plain symbols; no polynomials for integers that may be negative."""
+    equation = {
+        "hermite": "y'' - 2*x*y' + 2*n*y = 0",
+        "legendre": "(1 - x^2)*y'' - 2*x*y' + n*(n + 1)*y = 0",
+        "laguerre": "x*y'' + (1 - x)*y' + n*y = 0",
+    }[name]
+    answer = kovacic.solve(equation, assume={"n": "nonnegative integer"})
+    assert answer.special.y1 == getattr(sympy, name)(sympy.Symbol("n"), x)
+    assert f"  y1 = {name}(n, x)" in solution_lines(answer)
+    assert not kovacic.solve(equation, assume={"n": "integer"}).special.y1.has(getattr(sympy, name))
+    y, natural = sympy.Function("y")(x), sympy.Symbol("n", integer=True, nonnegative=True)
+    by_symbol = kovacic.solve(y.diff(x, 2) - 2 * x * y.diff(x) + 2 * natural * y)
+    assert by_symbol.special.y1 == sympy.hermite(sympy.Symbol("n"), x)
+
+
+def test_assumptions_that_exclude_each_other() -> None:
+    answer = kovacic.solve("y'' - 2*x*y' + 2*n*y = 0", assume={"n": "positive negative"})
+    with pytest.raises(kovacic.errors.InputError, match="contradict"):
+        _ = answer.special

@@ -194,6 +194,25 @@ class Assumptions:
             parts += [f"{name} {words}"] * bool(words) + bounds
         return ", ".join(parts)
 
+    def symbols(self) -> dict[str, Any]:
+        """SymPy's symbols with these properties, by name.  Raises `InputError` for properties that exclude each other."""
+        from sympy import Symbol
+        from sympy.core.facts import InconsistentAssumptions
+
+        found = {}
+        for name, known in self.known:
+            words = [word for word in known.words if word in WORDS and word not in (*_INEQUALITIES, "half-integer")]
+            words += ["rational", "noninteger"] if "half-integer" in known.words else []
+            for bound in known.bounds:
+                if bound.sign * bound.end >= 0:
+                    strict, weak = ("positive", "nonnegative") if bound.sign > 0 else ("negative", "nonpositive")
+                    words.append(strict if bound.end or bound.strict else weak)
+            try:
+                found[name] = Symbol(name, **dict.fromkeys(words, True))
+            except InconsistentAssumptions:
+                raise InputError(f"the assumptions on {name} contradict one another: {' '.join(known.words)}") from None
+        return found
+
     def meets_classes(self, form: FunctionPoly, classes: list[Coset]) -> bool | None:
         """Is the value of a form rational and in one of the classes: True (always), False (never) or None?"""
         value = self._value_of(form)

@@ -20,6 +20,9 @@ Style = Callable[[str, str], str]
 _LONGEST = 2000
 """Longer formulas are shortened."""
 
+_SCREEN = 600
+"""Beside a longer formula one in special functions is shown, if there is one that is shorter by half."""
+
 _LARGEST_DEGREE = 300
 """Solutions with polynomials of a higher degree aren't written out: they would be shortened anyhow."""
 
@@ -72,10 +75,12 @@ def render(
 def solution_lines(solution: Solution) -> Iterator[str]:
     """y1 and y2, of the homogeneous equation as it was given, with notes; why not, where a limit was reached.
 
-    Where there is no Liouvillian solution, the two in special functions, or which were looked for; nothing for an undecided
-    equation.  Products of powers and exponentials are written without SymPy, everything else as `Solution.closed_form` has it.
+    Where there is no Liouvillian solution, the two in special functions, or which were looked for; for an undecided equation
+    these two if they are known under the assumptions.  Beside formulas of many lines there is a shorter pair in special
+    functions, if one is known.  Products of powers and exponentials are written without SymPy, everything else as
+    `Solution.closed_form` has it.
     """
-    if solution.status is Status.UNDECIDED:
+    if solution.status is Status.UNDECIDED and not (solution.known and solution.special):
         return
     semi = solution.semi_invariant
     if semi is not None and semi.P.degree > _LARGEST_DEGREE:
@@ -91,6 +96,11 @@ def solution_lines(solution: Solution) -> Iterator[str]:
     name = "y" if solution.equation is None else solution.equation.unknown
     for k, text in enumerate(pair, start=1):
         yield f"{'  ' if solution.case is None else ''}{name}{k} = {shortened(text)}"
+    if solution.case is not None and (length := max(map(len, pair))) > _SCREEN:
+        shorter = [caret(str(y)) for y in solution.special]
+        if shorter and max(map(len, shorter)) < length / 2:
+            yield "shorter, another pair in special functions:"
+            yield from (f"  {name}{k} = {text}" for k, text in enumerate(shorter, start=1))
     yield from (f"note: {note}" for note in notes)
 
 
