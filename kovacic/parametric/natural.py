@@ -139,10 +139,11 @@ class Natural(Statement):
         for determinant in self.determinants(number):
             texts = found.setdefault(equation_written(determinant.exponents), [])
             texts += [] if str(determinant) in texts else [str(determinant)]
-        values = [" or ".join(texts) for texts in found.values()]
-        if len(set(values)) > 1:
-            values = [f"{value} where {where}" for where, value in zip(found, values, strict=True)]
-        text = ", ".join(dict.fromkeys(values))
+        places: dict[str, list[str]] = {}
+        for where, texts in found.items():
+            places.setdefault(" or ".join(texts), []).append(where)
+        values = [f"{value} where {' or '.join(where)}" for value, where in places.items()]
+        text = ", ".join(values if len(values) > 1 else places)
         return f"Delta_{number} = {text if len(text) <= _WRITTEN_OUT else text[:_WRITTEN_OUT] + '...'}"
 
     def sample(self, random: Random) -> list[FunctionPoly]:

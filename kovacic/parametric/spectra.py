@@ -57,17 +57,51 @@ def equation_text(equation: FunctionPoly, letter: str, fixed: Collection[str] = 
 def alternatives(
     equations: Sequence[FunctionPoly], letter: str, fixed: Collection[str] = (), *, latex: bool = False
 ) -> str:
-    """That one of the equations holds: `b = +-2*(d + 1)`, `n = 2*d, 2*d + 1 or -2*d - 1`."""
-    values: dict[str, list[str]] = {}
+    """That one of the equations holds: `b = +-2*(d + 1)`, `n = 2*d, 2*d + 1 or -2*d - 3`, `n or -n - 1 = 2*d or 2*d + 1`."""
     functions: dict[str, list[RatFunc]] = {}
     others: list[str] = []
     for equation in equations:
         family = families(equation, fixed) if any(degrees(equation)) else []
-        if not family:
+        if family:
+            functions.setdefault(family[0][0], []).append(family[0][1])
+        else:
             others.append(equation_text(equation, letter, fixed, latex=latex))
-            continue
-        name, f = family[0]
-        known, texts = functions.setdefault(name, []), values.setdefault(name, [])
+    word = r" \text{ or } " if latex else " or "
+    for name, known in functions.items():
+        what = symbol(name) if latex else name
+        total = _sum_in_pairs(known)
+        if total:
+            mirrored = over_parameters(total - total.field.generator(name))
+            what += word + written(mirrored, latex=latex)
+            pairs = [(f, RatFunc(total) - f) for f in known]
+            known = [*dict.fromkeys(min(sorted(p, key=str), key=partial(_starts_with_minus, letter)) for p in pairs)]
+        texts = _with_signs(known, letter, latex)
+        listed = texts if len(texts) < 3 else [", ".join(texts[:-1]), texts[-1]]
+        others.append(f"{what} = {word.join(listed)}")
+    return word.join(others)
+
+
+def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
+    """A constant, not 0, of which each function has another one that makes it up; None where there isn't one, or two pairs."""
+    for other in functions[1:] if len(functions) > 3 else ():
+        total = functions[0] + other
+        if (
+            total
+            and total.is_polynomial
+            and total.num.degree == 0
+            and total.field.rational_value(total.num) is not None
+        ):
+            mirrored = [total - f for f in functions]
+            if all(f in functions and f != g for f, g in zip(mirrored, functions, strict=True)):
+                return over_parameters(total.num)
+    return None
+
+
+def _with_signs(functions: Sequence[RatFunc], letter: str, latex: bool) -> list[str]:
+    """How the functions are written, with one text for f and -f."""
+    known: list[RatFunc] = []
+    texts: list[str] = []
+    for f in functions:
         if -f in known:
             k = known.index(-f)
             texts[k] = min((written(g, letter, latex=latex) for g in (f, -f)), key=lambda text: text.startswith("-"))
@@ -75,11 +109,11 @@ def alternatives(
         else:
             known.append(f)
             texts.append(written(f, letter, latex=latex))
-    word = r" \text{ or } " if latex else " or "
-    for name, texts in values.items():
-        listed = texts if len(texts) < 3 else [", ".join(texts[:-1]), texts[-1]]
-        others.append(f"{symbol(name) if latex else name} = {word.join(listed)}")
-    return word.join(others)
+    return texts
+
+
+def _starts_with_minus(letter: str, f: RatFunc) -> bool:
+    return written(f, letter).lstrip("(").startswith("-")
 
 
 def _is_sum(text: str) -> bool:
