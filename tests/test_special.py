@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -28,7 +27,7 @@ from kovacic.special.writer import Writer
 from kovacic.special.wronskian import wronskian
 from kovacic.views.text import solution_lines
 from tests.special_cases import KINDS, Case, pull_backs, standard
-from tests.transform import gauge, hypergeometric, pull_back
+from tests.transform import hypergeometric, pull_back
 
 x = sympy.Symbol("x")
 X = RatFunc(QQ.poly([0, 1]))
@@ -319,52 +318,6 @@ def test_values_agree_with_proven_enclosures(equation: str, x0: int, x1: int) ->
             y0, dy0 = (Fraction(str(v.real)) for v in (start, slope))
             ball = answer.at(x1, x0=x0, y0=y0, dy0=dy0, digits=25)
             assert abs(ball.to_mpmath() - end.real) < mpmath.mpf(10) ** -20 * (1 + abs(end))
-
-
-def gauged_cases(count: int) -> list[Any]:
-    """S for y = a u + b u', a and b linear, u a solution of a standard equation with one irregular place."""
-    random, cases = Random(3), []
-    for kind in KINDS[:-1]:
-        for _ in range(count):
-            T = standard(kind, random)
-            a, b = QQ.poly([random.randint(-3, 3), random.randint(-3, 3)]), QQ.poly([1, random.choice((0, 1))])
-            cases.append(pytest.param(T, gauge(T, RatFunc(a), RatFunc(b)), id=f"{kind}, {a}, {b}"))
-    return cases
-
-
-@pytest.mark.parametrize(("T", "S"), gauged_cases(1))
-def test_combinations_of_a_function_and_its_derivative(T: RatFunc, S: RatFunc) -> None:
-    search = find(S, Budget())
-    assert search.pullback is not None
-    if search.gauge is not None:
-        assert search.gauge.gives(S, search.pullback.S)
-        for wrong in (
-            replace(search.gauge, A=search.gauge.A + 1),
-            replace(search.gauge, B=search.gauge.B * 2),
-            replace(search.gauge, rate=search.gauge.rate + 1),
-        ):
-            assert not wrong.gives(S, search.pullback.S)
-    found = special(S)  # checked in ball arithmetic
-    assert found
-    if not found.y2.has(sympy.hyper):  # mpmath takes seconds for 2F0
-        assert solves(found, S)
-
-
-def test_a_combination_that_is_zero_for_one_solution_is_none() -> None:
-    """y = 1 solves these: u' - (u'/u) u = 0 for one u of an equation with a rational u'/u."""
-    for equation in ("(x - 1)*y'' + (2*x^2 - x - 3)*y' = 0", "2*x*y'' + (x^2 + 2*x - 2)*y' = 0"):
-        answer = kovacic.solve(equation)
-        assert answer.case == 1
-        assert not answer.special or solves(answer.special, answer.S, answer.gauge)
-
-
-def test_a_gauge_that_does_not_satisfy_its_equations_is_not_returned(monkeypatch: pytest.MonkeyPatch) -> None:
-    S = gauge(X, X + 1, RatFunc(QQ.poly([1])))
-    found = find(S, Budget())
-    assert found.gauge is not None
-    wrong = found.pullback, replace(found.gauge, A=found.gauge.A + 1)
-    monkeypatch.setattr("kovacic.special.find.gauged", lambda problem: iter([wrong]))
-    assert find(S, Budget()).pullback is None
 
 
 @pytest.mark.parametrize(

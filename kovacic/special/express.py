@@ -10,11 +10,8 @@ from sympy import Symbol
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.check import is_numerical_solution
-from kovacic.closed_form.product import product
-from kovacic.closed_form.product_display import display
 from kovacic.errors import VerificationFailed
 from kovacic.special.bessel import airy, bessel
-from kovacic.special.equivalent import Gauge
 from kovacic.special.find import Search
 from kovacic.special.hypergeometric import gauss
 from kovacic.special.kummer import whittaker
@@ -30,23 +27,14 @@ def solutions(
     Raises `VerificationFailed` if the check fails, which is a defect of this package; `LimitExceeded` within `Budget.watched`.
     """
     assert search.pullback is not None
-    combined = search.gauge
-    writer = Writer(gauge if combined is None else gauge * 0, Symbol(variable), symbols)
+    writer = Writer(gauge, Symbol(variable), symbols)
     found = _written(writer, search.pullback)
-    if combined is not None and found is not None:
-        found = _combination(combined, gauge, found[0], writer), _combination(combined, gauge, found[1], writer)
     for y in found or ():
         if not is_numerical_solution(y, writer.atoms.x, S, gauge):
             raise VerificationFailed(
                 f"a special function for S = {S} failed its check; please report the equation: {y}"
             )
     return None if found is None else (found[0].xreplace(writer.symbols), found[1].xreplace(writer.symbols))
-
-
-def _combination(combined: Gauge, gauge: RatFunc, u: Any, writer: Writer) -> Any:
-    """G h (A u + B u')."""
-    before = display(product(combined.rate + gauge), writer.atoms)
-    return before * (writer.atoms.poly(combined.A) * u + writer.atoms.poly(combined.B) * u.diff(writer.atoms.x))
 
 
 def _written(writer: Writer, pullback: Pullback) -> tuple[Any, Any] | None:

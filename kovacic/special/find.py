@@ -9,7 +9,6 @@ from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.special import confluent, gauss
-from kovacic.special.equivalent import Gauge, gauged
 from kovacic.special.pullback import Pullback
 
 _CONFLUENT = (
@@ -17,7 +16,6 @@ _CONFLUENT = (
     "Whittaker's equation (with Kummer's, Weber's and Bessel's) in f(x), f rational",
     "Bessel's equation in the square root of f(x), f rational",
 )
-_GAUGED = "combinations of these and their derivatives, f a power of x - c, over the rational numbers"
 _GAUSS = ("Gauss' hypergeometric equation in f(x), f rational, all points singular over two of 0, 1 and infinity",)
 
 
@@ -25,14 +23,13 @@ _GAUSS = ("Gauss' hypergeometric equation in f(x), f rational, all points singul
 class Search:
     """A verified pull-back, or None; `searched` says which classes were gone through, and `stopped` why a search ended early.
 
-    With a `gauge`, also verified, y is a combination of u and u'.  That nothing was found proves nothing: functions f outside
-    of the classes, and other gauge-equivalent equations, aren't looked for.
+    That nothing was found proves nothing: functions f outside of the classes, and combinations of u(f) and its derivative,
+    aren't looked for.
     """
 
     pullback: Pullback | None
     searched: tuple[str, ...]
     stopped: str | None = None
-    gauge: Gauge | None = None
 
 
 def find(S: RatFunc, budget: Budget) -> Search:
@@ -56,11 +53,6 @@ def find(S: RatFunc, budget: Budget) -> Search:
                 budget.check()
                 if pullback.gives(S):
                     return Search(pullback, searched)
-            if not regular:
-                searched = (*searched, _GAUGED)
-                for pullback, gauge in gauged(problem):
-                    if gauge.gives(S, pullback.S):
-                        return Search(pullback, searched, gauge=gauge)
     except LimitExceeded as limit:
         return Search(None, searched, str(limit))
     return Search(None, searched)
