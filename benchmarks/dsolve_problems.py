@@ -120,7 +120,7 @@ def problems() -> list[Problem]:
 def sympy_equations() -> list[Problem]:
     """Those linear equations of second order with rational coefficients that occur in SymPy 1.14's tests of its ODE module."""
     found, source = [], ""
-    for line in (Path(__file__).parent / "sympy_equations.txt").read_text().splitlines():
+    for line in (Path(__file__).parent / "sympy_equations.txt").read_text(encoding="utf-8").splitlines():
         if line.startswith("#"):
             source = line[2:]
         else:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 
 import pytest
 from hypothesis import HealthCheck, Phase, settings
@@ -33,6 +34,9 @@ QUICK = {
     "test_textbook_equations",
     "test_written_solutions",
 }
+
+# These are about shells, terminals and signals as POSIX has them.
+collect_ignore = ["test_batch.py", "test_batch_dask.py", "test_cli.py"] if sys.platform == "win32" else []
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

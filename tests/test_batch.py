@@ -169,7 +169,7 @@ def test_solve_many_answers_in_order_with_schema_1() -> None:
 def test_answers_validate_against_the_schema(pool: Pool) -> None:
     import jsonschema
 
-    schema = json.loads((Path(kovacic.__file__).parent / "views" / "schema.json").read_text())
+    schema = json.loads((Path(kovacic.__file__).parent / "views" / "schema.json").read_text(encoding="utf-8"))
     with Pool(1, Job(timeout=0.2)) as short:
         records = [*pool.run(items(QUICK)), *short.run(items([SLOW]))]
     for record in records:
@@ -178,7 +178,7 @@ def test_answers_validate_against_the_schema(pool: Pool) -> None:
 
 
 def test_published_equations_have_their_answers(pool: Pool) -> None:
-    expected = [json.loads(line)["case"] for line in CASES.read_text().splitlines()][:60]
+    expected = [json.loads(line)["case"] for line in CASES.read_text(encoding="utf-8").splitlines()][:60]
     with opened(str(CASES)) as stream:
         some = [item for item in read_items(stream, form="jsonl") if item.number <= 60]
     finished = list(pool.run(some, ordered=False))
@@ -305,7 +305,7 @@ def test_a_worker_that_dies_is_reported_where_a_system_lacks_signals(monkeypatch
     """As on Windows, in both processes; timeouts hold there, too."""
     known = [one for one in signal.Signals if one.name not in _MISSING]
     monkeypatch.setattr("kovacic.batch.pool.signal", SimpleNamespace(Signals=known))
-    monkeypatch.delattr(os, "sched_getaffinity")
+    monkeypatch.delattr(os, "sched_getaffinity", raising=False)
     lacking = f"import os, signal; [delattr(signal, name) for name in {_MISSING}]; sys.modules['resource'] = None; "
     broken = (
         f"import kovacic; real = kovacic.solve; kovacic.solve = lambda S, **o: real(S, **o) if S != 'x^7' else {end}; "
@@ -460,7 +460,7 @@ def test_a_record_that_contradicts_itself_is_no_answer(tmp_path: Path, change: d
     assert len(take_up(path)) == 2
     path.write_text(json.dumps({**right, **change}) + "\n" + json.dumps(other) + "\n")
     assert take_up(path).labels == {2: "case 1"}
-    assert json.loads(path.read_text()) == other
+    assert json.loads(path.read_text(encoding="utf-8")) == other
 
 
 @pytest.mark.parametrize("content", ["x^2 + 3\n", '{"S": "x", "id": 1}\n"x^2"\n', "\0\nprecious\n", "[]\n"])
@@ -470,7 +470,7 @@ def test_a_file_of_something_else_is_not_taken_up(tmp_path: Path, content: str) 
     ran = command(str(path), "-o", str(path), "--resume")
     assert ran.returncode == 2
     assert "has no answers" in ran.stderr
-    assert path.read_text() == content
+    assert path.read_text(encoding="utf-8") == content
     assert list(tmp_path.iterdir()) == [path]
 
 
@@ -492,7 +492,7 @@ def test_a_run_cut_anywhere_is_completed(tmp_path_factory: pytest.TempPathFactor
         for record in records([1, 2, 3]):
             if Item(record.number, f"x + {record.number}") not in done:
                 answers.write(record)
-    assert [json.loads(line)["line"] for line in path.read_text().splitlines()] == [1, 2, 3]
+    assert [json.loads(line)["line"] for line in path.read_text(encoding="utf-8").splitlines()] == [1, 2, 3]
 
 
 # The command
@@ -529,7 +529,7 @@ def test_an_output_file_is_not_overwritten(tmp_path: Path) -> None:
     ran = command("-", "-o", str(path), input="x\n")
     assert ran.returncode == 2
     assert "--resume" in ran.stderr
-    assert path.read_text() == "precious\n"
+    assert path.read_text(encoding="utf-8") == "precious\n"
     assert command("-", "--resume", input="x\n").returncode == 2
     assert command(str(tmp_path / "absent")).returncode == 2
 
@@ -551,7 +551,7 @@ def test_an_interrupted_run_is_resumed(tmp_path: Path, signal_sent: int) -> None
     ran = command(*arguments, "--resume")
     assert ran.returncode == 0, ran.stderr
     assert "had been answered before" in ran.stderr
-    numbers = [json.loads(line)["line"] for line in output.read_text().splitlines()]
+    numbers = [json.loads(line)["line"] for line in output.read_text(encoding="utf-8").splitlines()]
     assert sorted(numbers) == list(range(1, count + 1))
 
 

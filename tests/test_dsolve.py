@@ -494,7 +494,7 @@ def test_roots_of_parameters_and_common_factors() -> None:
 
 
 def problems_of_sympy() -> list[str]:
-    return [line for line in EQUATIONS_OF_SYMPY.read_text().splitlines() if not line.startswith("#")]
+    return [line for line in EQUATIONS_OF_SYMPY.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
 
 
 @pytest.mark.slow

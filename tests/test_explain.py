@@ -193,7 +193,7 @@ def test_latex_compiles(tmp_path: Path) -> None:
     document = (
         "\\documentclass{article}\\usepackage{amsmath,amssymb,graphicx}\\begin{document}\n" + body + "\\end{document}\n"
     )
-    (tmp_path / "a.tex").write_text(document)
+    (tmp_path / "a.tex").write_text(document, encoding="utf-8")
     command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "a.tex"]
     done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
     assert b"Overfull" not in done.stdout

@@ -117,7 +117,10 @@ def test_equations_of_the_books(equation: str, first: str, second: str) -> None:
     assert solves(answer.special, answer.S, answer.gauge, **values)
 
 
-CORPUS = [json.loads(line) for line in (Path(__file__).parent / "data" / "special.jsonl").read_text().splitlines()]
+CORPUS = [
+    json.loads(line)
+    for line in (Path(__file__).parent / "data" / "special.jsonl").read_text(encoding="utf-8").splitlines()
+]
 
 
 @pytest.mark.parametrize("part", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in range(1, 10))])

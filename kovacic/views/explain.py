@@ -82,8 +82,8 @@ _KINDS = {
 def explain(solution: Solution, *, format: str = "text", solutions: bool = True) -> str:
     """The derivation as "text", "markdown", "latex" (the body of a document with amsmath, amssymb and graphicx) or "html".
 
-    HTML is one page that needs nothing from elsewhere, with MathML, and with the picture of a real solution where there is
-    one (for rational coefficients, if matplotlib is installed).  `solutions=False` leaves the closed forms out.  Raises
+    HTML is one page that needs nothing from elsewhere, in ASCII, with MathML, and with the picture of a real solution where
+    there is one (for rational coefficients, if matplotlib is installed).  `solutions=False` leaves closed forms out.  Raises
     `ValueError` for another format.
     """
     if format not in FORMATS:
@@ -92,7 +92,8 @@ def explain(solution: Solution, *, format: str = "text", solutions: bool = True)
     if format != "html":
         return FORMATS[format].render(blocks)
     body = FORMATS[format].render([*blocks, *_picture(solution)])
-    return _PAGE.replace("BODY", body, 1).replace("TITLE", escape(str(solution)), 1)
+    page = _PAGE.replace("BODY", body, 1).replace("TITLE", escape(str(solution)), 1)
+    return page.encode("ascii", "xmlcharrefreplace").decode()
 
 
 def document(solution: Solution, *, solutions: bool = True) -> list[Block]:
