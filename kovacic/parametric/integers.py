@@ -79,13 +79,7 @@ class Classes(Statement):
     def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
         return replace(self, letter=free_letter(names))
 
-    def text(self) -> str:
-        return self._written(False)
-
-    def latex(self) -> str:
-        return self._written(True)
-
-    def _written(self, latex: bool) -> str:
+    def written(self, *, latex: bool) -> str:
         if self._in_integers:
             form, residue = self._in_integers
             text = written(form, latex=latex) + (f" - {residue}" if residue else "")
@@ -177,11 +171,8 @@ class IntegerRoot(Statement):
         N = random.choice(self.residues) + random.randint(-3, 3) * self.modulus
         return [over_parameters(self.equation(N))]
 
-    def text(self) -> str:
-        return integer_condition(self.equation, self.residues, self.modulus, self.letter, self.fixed)
-
-    def latex(self) -> str:
-        return integer_condition(self.equation, self.residues, self.modulus, self.letter, self.fixed, latex=True)
+    def written(self, *, latex: bool) -> str:
+        return integer_condition(self.equation, self.residues, self.modulus, self.letter, self.fixed, latex=latex)
 
 
 def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:

@@ -176,13 +176,7 @@ class Natural(Statement):
             )
         )
 
-    def text(self) -> str:
-        return self._written(False)
-
-    def latex(self) -> str:
-        return self._written(True)
-
-    def _written(self, latex: bool) -> str:
+    def written(self, *, latex: bool) -> str:
         d, m, factors = self.letter, self.number.m, self.number.factors
         if not any(k for factor in factors for k in degrees(factor)):
             numbers = " or ".join(written(-f[0] / f[1]) for f in factors)

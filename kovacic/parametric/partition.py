@@ -93,30 +93,33 @@ def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
         regions = [region for region in _degenerate(S, generic.undefined(problem), settings) if not region.defined]
         return _closed(regions, expected, "a rational omega for generic values, and so for all", expected)
     if riemann.applies(problem):
-        return _riemann(problem, expected, settings)
+        return _kimura(problem, None, expected, settings)
     form = confluent.recognise(problem, settings.variable)
     if form is not None:
         return _confluent(problem, form, expected, settings)
     symmetric = quotient.recognise(problem, settings.variable)
     if symmetric is not None:
-        return _symmetric(problem, symmetric, expected, settings)
+        return _kimura(problem, symmetric, expected, settings)
     if settings.only_theorems:
         return Partition(expected, "for generic values only", "no theorem covers all values")
     return _by_candidates(problem, expected, settings)
 
 
-def _riemann(problem: Problem, expected: Verdict, settings: Settings) -> Partition:
-    theory = "at most three regular singular points: Kimura's theorem"
+def _kimura(problem: Problem, found: quotient.Quotient | None, expected: Verdict, settings: Settings) -> Partition:
+    """By the theorem for the equation itself, or for its quotient."""
+    points = "singular points" if found is None else f"singular points in {found.coordinate}"
+    theory = f"at most three regular {points}: Kimura's theorem"
     regions = _degenerate(problem.S, generic.confluence(problem), settings)
     always = Verdict(None)
-    for structure, statements in riemann.structures(problem):
-        verdict = Verdict(structure, family=riemann.group(problem, structure))
+    for structure, statements, family in quotient.structures(found or quotient.Quotient(problem, 1, settings.variable)):
+        verdict = Verdict(structure, family=family)
         if statements is True:
             always = verdict
             break
-        reducible = structure is Structure.REDUCIBLE
-        omega = riemann.omega(problem, settings.variable) if reducible else _SEMI_INVARIANTS[structure]
-        origin = partial(jacobi_solutions, problem, settings.variable) if reducible else None
+        omega, origin = _SEMI_INVARIANTS[structure], None
+        if structure is Structure.REDUCIBLE and found is None:
+            omega = riemann.omega(problem, settings.variable)
+            origin = partial(jacobi_solutions, problem, settings.variable)
         regions.append(Condition(either(statements), verdict, omega=omega, origin=origin))
     return _closed(regions, always, theory, expected)
 
@@ -129,19 +132,6 @@ _SEMI_INVARIANTS = {
     Structure.ICOSAHEDRAL: "a rational invariant of degree 12; omega of degree 12",
     Structure.REDUCIBLE: _RATIONAL_OMEGA,
 }
-
-
-def _symmetric(problem: Problem, found: quotient.Quotient, expected: Verdict, settings: Settings) -> Partition:
-    theory = f"at most three regular singular points in {found.coordinate}: Kimura's theorem"
-    regions = _degenerate(problem.S, generic.confluence(problem), settings)
-    always = Verdict(None)
-    for structure, statements, family in quotient.structures(found):
-        verdict = Verdict(structure, family=family)
-        if statements is True:
-            always = verdict
-            break
-        regions.append(Condition(either(statements), verdict, omega=_SEMI_INVARIANTS[structure]))
-    return _closed(regions, always, theory, expected)
 
 
 def _confluent(problem: Problem, form: confluent.Confluent, expected: Verdict, settings: Settings) -> Partition:

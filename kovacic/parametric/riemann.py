@@ -118,11 +118,8 @@ class Schwarz(Statement):
         known = [over_parameters(root) for root in roots if root is not None]
         return [root - value for root, value in zip(known, values, strict=True)] if len(known) == 3 else []
 
-    def text(self) -> str:
-        return self._in_rows()
-
-    def latex(self) -> str:
-        return rf"\text{{{self.text().replace('^', chr(92) + '^{}')}}}"
+    def written(self, *, latex: bool) -> str:
+        return rf"\text{{{self._in_rows().replace('^', chr(92) + '^{}')}}}" if latex else self._in_rows()
 
     def merged(self, other: Statement) -> Schwarz | None:
         same = isinstance(other, Schwarz) and other.cubic == self.cubic

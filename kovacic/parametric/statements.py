@@ -50,12 +50,14 @@ class Statement(ABC):
     def _holds(self, point: Point) -> bool: ...
 
     @abstractmethod
-    def text(self) -> str:
-        """In words and formulas."""
+    def written(self, *, latex: bool) -> str:
+        """In words and formulas, as text or as LaTeX without dollar signs."""
 
-    @abstractmethod
+    def text(self) -> str:
+        return self.written(latex=False)
+
     def latex(self) -> str:
-        """As LaTeX, without dollar signs."""
+        return self.written(latex=True)
 
     def merged(self, other: Statement) -> Statement | None:
         """Both statements in one (either holds), where they are about the same function; else None."""
@@ -103,11 +105,8 @@ class Vanishes(Statement):
     def decided(self, assumptions: Assumptions) -> bool | None:
         return assumptions.vanishes(self.function)
 
-    def text(self) -> str:
-        return equation_written(self.function)
-
-    def latex(self) -> str:
-        return equation_written(self.function, latex=True)
+    def written(self, *, latex: bool) -> str:
+        return equation_written(self.function, latex=latex)
 
 
 @dataclass(frozen=True)
@@ -142,11 +141,9 @@ class Either(_Several):
         decisions = {part.decided(assumptions) for part in self.parts}
         return True if True in decisions else None if None in decisions else False
 
-    def text(self) -> str:
-        return joined([part.text() for part in self.parts], " or ", " for ")
-
-    def latex(self) -> str:
-        return joined([part.latex() for part in self.parts], r" \text{ or } ", r" \text{ for ")
+    def written(self, *, latex: bool) -> str:
+        word, before = (r" \text{ or } ", r" \text{ for ") if latex else (" or ", " for ")
+        return joined([part.written(latex=latex) for part in self.parts], word, before)
 
 
 class Both(_Several):
@@ -168,11 +165,11 @@ class Both(_Several):
         decisions = {part.decided(assumptions) for part in self.parts}
         return False if False in decisions else None if None in decisions else True
 
-    def text(self) -> str:
-        return ", and ".join(f"({part.text()})" if isinstance(part, Either) else part.text() for part in self.parts)
-
-    def latex(self) -> str:
-        return r" \text{ and } ".join(part.latex() for part in self.parts)
+    def written(self, *, latex: bool) -> str:
+        texts = [part.written(latex=latex) for part in self.parts]
+        brackets = (r"\left({}\right)" if latex else "({})") if len(texts) > 1 else "{}"
+        texts = [brackets.format(t) if isinstance(p, Either) else t for p, t in zip(self.parts, texts, strict=True)]
+        return (r" \text{ and } " if latex else ", and ").join(texts)
 
 
 def joined(texts: list[str], word: str, before: str) -> str:
