@@ -10,7 +10,7 @@ from flint import acb, arb
 
 import kovacic
 from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.evaluate import AccuracyWarning, evaluate
+from kovacic.enclosure.evaluate import AccuracyWarning, connection_matrix, evaluate
 from kovacic.errors import InputError
 
 START: dict[str, Any] = {"y0": 1, "dy0": 0}
@@ -104,6 +104,20 @@ def test_a_wide_parameter_is_said() -> None:
         evaluate("n*x", 1, x0=0, params={"n": arb(2, "1e-6")}, **START)
 
 
+def test_connection_matrices() -> None:
+    with flint.ctx.workprec(300):
+        root = arb(2).root(4)
+        exact = (root.cosh(), root.sinh() / root, root * root.sinh(), root.cosh())
+        wide = connection_matrix("n*x/x", [0, 1], params={"n": arb(2, 0.01).sqrt()})
+        for matrix in (connection_matrix("sqrt(2)", [0, 1j, 1], digits=50), wide):
+            for ball, value in zip((*matrix[0], *matrix[1]), exact, strict=True):
+                assert ball_to_flint(ball).contains(acb(value))
+    with pytest.raises(InputError, match="an end of the path"):
+        connection_matrix("sqrt(2)/x", [1, "oo"])
+    with pytest.raises(InputError, match="singular point"):
+        connection_matrix("sqrt(2)/x", [0, 1])
+
+
 def test_solutions_and_roots_that_the_text_names() -> None:
     solution = kovacic.solve("2")
     constant = evaluate("sqrt(2)*sqrt(2)", 1, x0=0, **START)
@@ -124,6 +138,8 @@ def test_solutions_and_roots_that_the_text_names() -> None:
         ("1/(x^2 - 2*n*x + n^2)", {"x": 4, "params": {"n": "1/2 + sqrt(2)"}}, "singular point"),
         ("y'' + y'/(x - sqrt(2)) = 0", {}, "singular point"),
         ("y'' + y'/(x - sqrt(2)) + y/(x - sqrt(2))^2 = 0", {"x": "sqrt(2)"}, "singular point"),
+        ("1/(x - sqrt(2))^2 + x", {"x": "sqrt(2)"}, "singular point"),
+        ("1/(x - sqrt(2))^2 + x", {"x0": "sqrt(2)"}, "singular point"),
         ("I*x", {}, "real coefficients"),
         ("n*x + 1/(m - 1)", {"params": {"n": "sqrt(2)", "m": 1}}, "isn't defined"),
         ("1/(n*x + 1)", {"params": {"n": arb(0, 1)}}, "isn't defined"),

@@ -212,6 +212,11 @@ def evaluate_states(
     elif path is not None:
         vertices = tuple(as_number(p, "a vertex of the path") for p in path)
     origin, start = _start(problem, x0, y0, dy0, frobenius, which)
+    if problem.embedded is not None:
+        with working_precision(256):
+            for number in (origin, *targets, *vertices):
+                if not isinstance(number, Singular) and not problem.embedded.bound(to_ball(number)).is_finite():
+                    raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
     trip = Trip(problem, origin, vertices, targets, start, which == "decaying", chain, side)
     with budget.watched():
         route, used = _route(trip, method)
@@ -245,9 +250,7 @@ class Trip:
     def exact(self) -> bool:
         """True if a higher precision makes every ball smaller."""
         numbers = (self.origin, *self.targets, *self.start)
-        if self.problem.embedded is not None and not self.problem.embedded.exact:
-            return False
-        return not any(isinstance(number, Constant) and number.fixed for number in numbers)
+        return self.problem.is_exact and not any(isinstance(number, Constant) and number.fixed for number in numbers)
 
     def itinerary(self) -> Itinerary:
         """With exact points: the midpoints of balls."""
@@ -367,7 +370,8 @@ def connection_matrix(
     solution continued along this polygon.
 
     At an ordinary point the coordinates are (y, y'), at a regular singular one (or "oo") those in its Frobenius basis, as
-    for `evaluate`.  A path to or from infinity goes along the line through 0 and its neighbour.  The radii are at most
+    for `evaluate`.  Constants and values of parameters are as there, too; where these are balls, the radii are what they
+    allow.  A path to or from infinity goes along the line through 0 and its neighbour.  The radii are at most
     10^-digits relative to the largest entry, unless a limit is reached first (then LimitExceeded).
 
     >>> ((a, b), (c, d)) = connection_matrix(([1], [1]), [0, 1])   # cosh, sinh
@@ -382,7 +386,7 @@ def connection_matrix(
     """
     limits = limits or DEFAULT_LIMITS
     check_digits(digits, limits)
-    problem = as_problem(equation, params)
+    problem = as_problem(equation, params, constants=True)
     if len(path) < 2:
         raise InputError("a path needs at least two vertices")
     ends = [_end(problem, value) for value in (path[0], path[-1])]
@@ -393,13 +397,13 @@ def connection_matrix(
     prec = start_bits(digits)
     while True:
         with working_precision(prec + 40), budget.watched():
-            entries = _connection(problem, ends[0], middle, ends[1], prec, budget)
+            entries = _connection(problem.at(prec), ends[0], middle, ends[1], prec, budget)
             goal = max((entry.abs_upper() for entry in entries), key=float) * arb(10) ** -digits
             sharp = all(entry.real.rad() + entry.imag.rad() <= goal for entry in entries)
             balls = [ball for ball in map(ball_from_flint, entries) if ball is not None]
         if len(balls) < 4:
             prec += prec // 2
-        elif sharp:
+        elif sharp or not problem.is_exact:
             return (balls[0], balls[1]), (balls[2], balls[3])
         prec += max(16, prec // 4)
         budget.check()
@@ -407,6 +411,8 @@ def connection_matrix(
 
 def _end(problem: NumericProblem, value: object) -> Point | Singular:
     """An end of a path: a point where the equation is regular stays one."""
+    if problem.embedded is not None:
+        return as_point(value, "an end of the path of an equation whose constants aren't rational")
     place = place_of(problem, value, "a vertex")
     return place.near if place.is_ordinary else place
 

@@ -115,6 +115,11 @@ class NumericProblem:
     right: Equation | None = None
     embedded: Embedded | None = None
 
+    @property
+    def is_exact(self) -> bool:
+        """True unless a parameter's value is a ball."""
+        return self.embedded is None or self.embedded.exact
+
     def at(self, prec: int) -> NumericProblem:
         """With the constants to this precision."""
         if self.embedded is None:
