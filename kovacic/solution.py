@@ -280,6 +280,7 @@ class Solution:
 
         return replace(loads(text), limits=limits)
 
+    @limited
     def explain(self, *, format: str = "text", solutions: bool = True) -> str:
         """The derivation as a reader of Kovacic's paper follows it: "text", "markdown", "latex", or "html" (a page of its own).
 

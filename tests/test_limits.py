@@ -16,14 +16,18 @@ from sympy.abc import n, x
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, limited, watched_seconds
 from kovacic.parametric.answer import Conditions
 from kovacic.solution import Solution
+from kovacic.verify.local import points
+from kovacic.views.formula import Formulas
 
 X = RatFunc(QQ.poly([0, 1]))
 POLES = "+".join(f"1/(x-{i})^4" for i in range(1, 501))
 HERMITE = "y'' - 2*x*y' + 2400*y = 0"
+LONG_HERMITE = "y'' - 2*x*y' + 12000*y = 0"
 
 
 def over_parameters() -> sympy.Expr:
@@ -76,6 +80,7 @@ CALLS: dict[str, Callable[[Limits], object]] = {
     "equation_group": lambda limits: answer(dicyclic().to_str("x"), limits).equation_group,
     "is_algebraic": lambda limits: answer(dicyclic().to_str("x"), limits).is_algebraic,
     "closed_form": lambda limits: answer(HERMITE, limits).closed_form,
+    "closed_form: one long power": lambda limits: answer(LONG_HERMITE, limits).closed_form,
     "solutions": lambda limits: answer("x^2 - 1601", limits).solutions,
     "to_json": lambda limits: answer(HERMITE, limits).to_json(full=True),
     "from_json": lambda limits: Solution.from_json(solved("x^4 + 10002*x + 1").to_json(), limits=limits),
@@ -95,7 +100,14 @@ CALLS: dict[str, Callable[[Limits], object]] = {
 def test_every_call_ends_within_its_time(name: str) -> None:
     """What comes then is a value, `LimitExceeded`, or dsolve's NotImplementedError with the reason."""
     limits = Limits(seconds=0.5)
-    for text in ("x^4 + 10002*x + 1", HERMITE, "x^2 - 1601", "(n^2*x^4 + 1)/(x^3 + n*x + 1)^2", dicyclic().to_str("x")):
+    for text in (
+        "x^4 + 10002*x + 1",
+        HERMITE,
+        LONG_HERMITE,
+        "x^2 - 1601",
+        "(n^2*x^4 + 1)/(x^3 + n*x + 1)^2",
+        dicyclic().to_str("x"),
+    ):
         if not name.startswith(("solve", "dsolve", "decide")):
             solved(text)
     quartic()
@@ -108,6 +120,56 @@ def test_every_call_ends_within_its_time(name: str) -> None:
         limit = str(error)
     assert time.process_time() - begun < 1.5
     assert limit == "seconds" or (name.startswith("dsolve") and "time limit" in limit)
+
+
+@pytest.mark.parametrize("format", ["text", "markdown", "latex", "html"])
+def test_an_explanation_says_what_it_leaves_out(format: str) -> None:
+    """Formulas of degree 2000 aren't printed; what takes longer than the limits allow is left out, and the rest is there."""
+    solved("x^2 - 4001").explain()  # imports
+    begun = time.process_time()
+    explained = answer("x^2 - 4001", Limits(seconds=1)).explain(format=format)
+    assert time.process_time() - begun < 2
+    assert len(explained) < 50_000  # the picture included
+    explained = explained.replace("&#x000A0;", " ").replace("&#x27;", "'")
+    assert "too long to print: degree 2000)" in explained
+    assert "too long to print: degree 2001 over degree 2000)" in explained
+    assert "The solutions aren't written out: P has the degree 2000" in explained
+    assert "2000" in str(solved("x^2 - 4001"))
+    timeless = answer("x^2 - 1", Limits(seconds=0)).explain(solutions=False)
+    assert "isn't written out: the time limit of 0 s is used up" in timeless
+    assert "References" in timeless
+
+
+def test_what_is_long_is_said_instead_of_printed() -> None:
+    """Many terms, or long coefficients; a sparse polynomial of high degree is printed."""
+    formulas = Formulas("x", QQ)
+    assert formulas.math(X**20000 + 1).latex == "x^{20000} + 1"
+    assert formulas.math((X + 1) ** 301).latex == r"\text{(too long to print: degree 301)}"
+    assert formulas.math(QQ.poly([1, 10**40_000])).text == "(too long to print: degree 1)"
+    assert formulas.math(1 / (X + 1) ** 400).text == "(too long to print: degree 0 over degree 400)"
+    assert formulas.cut((X + 1) ** 3) == formulas.math((X + 1) ** 3).text == "x^3 + 3*x^2 + 3*x + 1"
+
+
+def test_a_long_gcd_is_foreseen_only_where_there_is_one() -> None:
+    """Coprime polynomials of any size are told apart by one prime; a common factor of degree 2000 takes seconds."""
+    f = QQ.poly([3 ** (k % 97 + 40) for k in range(1001)])
+    g = QQ.poly([5 ** (k % 89 + 30) for k in range(1002)])
+    with Budget(Limits(seconds=0.05)).watched():
+        assert f.gcd(g).degree == 0
+        with pytest.raises(LimitExceeded, match="the gcd of polynomials of degree"):
+            (f**6).gcd(f**5 * g)
+        with pytest.raises(LimitExceeded, match="a power of degree"):
+            f**300
+
+
+def test_every_place_looks_at_the_clock() -> None:
+    """A thousand poles of order 2 take some milliseconds each, in the engine and in the kernel: for their logarithms."""
+    budget, S = Budget(Limits(seconds=0.2)), 2 / X**2 + 2 / (X - 1) ** 2
+    places = (*analyse(S, budget).finite_places, *points(S, budget)[:2])
+    time.sleep(budget.seconds_left)
+    for place in places:
+        with pytest.raises(LimitExceeded, match="the time limit"):
+            _ = place.logarithm
 
 
 def test_the_parts_of_a_call_share_its_clock() -> None:

@@ -16,7 +16,7 @@ from kovacic.algebra.apart import last_of
 from kovacic.algebra.lifting import Lifter, Residues, primes
 from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
-from kovacic.limits import check_time, watched_seconds
+from kovacic.limits import check_duration, check_time, watched_seconds
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
 _EUCLID_DEGREE = 16
@@ -26,6 +26,8 @@ _LONG_BITS = 1000
 _ROOT_DEGREE = 50
 #: Above this degree polynomials are factored in a process that can be stopped.
 _LONG_DEGREE = 400
+#: FLINT's time for a power per bit of the result, and for a gcd per bit of a coefficient and square of the degree.
+_POWER_SECONDS, _GCD_SECONDS = 1.2e-9, 1.2e-11
 
 
 def to_fmpq(value: Scalar) -> Any:
@@ -131,6 +133,8 @@ class RationalPoly(Poly):
     def __pow__(self, exponent: int) -> RationalPoly:
         if exponent < 0:
             raise ValueError("a polynomial has no negative powers")
+        if (degree := self.degree * exponent) > _LONG_DEGREE:
+            check_duration(_POWER_SECONDS * degree * exponent * self.height_bits(), f"a power of degree {degree}")
         return RationalPoly(self.rep**exponent)
 
     def __bool__(self) -> bool:
@@ -144,7 +148,18 @@ class RationalPoly(Poly):
         return RationalPoly(self.rep / self.rep.leading_coefficient()) if self.rep else self
 
     def _gcd(self, other: RationalPoly) -> RationalPoly:
+        degree, least = sorted((self.degree, other.degree), reverse=True)
+        if least > _LONG_DEGREE:
+            seconds = _GCD_SECONDS * degree**2 * min(self.height_bits(), other.height_bits())
+            if seconds > watched_seconds(inf):  # coprime ones take a moment only, and one prime tells
+                common = self._degree_of_gcd_modulo(other, next(primes()))
+                check_duration(seconds * common / least, f"the gcd of polynomials of degree {degree} and {least}")
         return RationalPoly(self.rep.gcd(other.rep))
+
+    def _degree_of_gcd_modulo(self, other: RationalPoly, p: int) -> int:
+        """At least that over Q, if p doesn't divide both leading coefficients."""
+        f, g = (nmod_poly(part.rep.numer().coeffs(), p) for part in (self, other))
+        return int(f.gcd(g).degree())
 
     def reversed(self, shift: int = 0) -> RationalPoly:
         return RationalPoly(fmpq_poly([0] * shift + self.rep.coeffs()[::-1]))

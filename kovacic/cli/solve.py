@@ -83,8 +83,7 @@ def general_lines(answer: Solution, values: str) -> Iterator[str]:
         return
     from kovacic.general_solution import dsolve
     from kovacic.reading.given import Equation
-    from kovacic.views.formula import caret
-    from kovacic.views.text import shortened
+    from kovacic.views.formula import caret, shortened
 
     zero = answer.S * 0
     normal = Equation(zero + 1, zero, -answer.S, zero, variable=answer.variable)

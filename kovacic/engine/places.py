@@ -94,6 +94,7 @@ class Place:
         if not 0 < delta <= self.budget.limits.unknown_degree:
             return delta == 0
         for h in self.num.field.homomorphisms():
+            self.budget.check()
             try:
                 root = next(simple_roots(h.keeping_degree(self.factor)), None)
                 if root is not None:
@@ -101,7 +102,6 @@ class Place:
                     return logarithm_obstruction(local_equation(num, den, 2), delta) != 0
             except BadPrimeError:
                 pass
-            self.budget.check()
         raise AssertionError("the sequence of primes is infinite")
 
     @property

@@ -16,6 +16,7 @@ from fractions import Fraction
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import SemiInvariant
+from kovacic.limits import check_time
 
 
 def form_numerators(S: RatFunc, F: SemiInvariant, D: Poly) -> list[Poly] | None:
@@ -26,6 +27,7 @@ def form_numerators(S: RatFunc, F: SemiInvariant, D: Poly) -> list[Poly] | None:
         return None
     A, slope = [F.P, D * F.P.derivative() + R * F.P], D.derivative()
     for k in range(1, F.degree + 1):
+        check_time()
         R = R - slope
         A.append((D * A[k].derivative() + R * A[k] - T * A[k - 1] * (F.degree - k + 1)) / (k + 1))
     return None if A.pop() else A

@@ -86,13 +86,13 @@ class Point:
         if n > self.budget.limits.unknown_degree:
             return False
         for h in self.factor.field.homomorphisms():
+            self.budget.check()
             try:
                 root = next(simple_roots(h.keeping_degree(self.factor)), None)
                 if root is not None:
                     return _obstruction(laurent_numerators(self, h, root, n + 1), n, h.p) != 0
             except BadPrimeError:
                 pass
-            self.budget.check()
         raise AssertionError("the sequence of primes is infinite")
 
 

@@ -5,7 +5,7 @@ First the paper's own steps, line by line (`families`), then what this package c
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from html import escape
 from io import StringIO
 from typing import TYPE_CHECKING
@@ -26,7 +26,7 @@ from kovacic.errors import KovacicError, LimitExceeded
 from kovacic.limits import Budget
 from kovacic.views.bibliography import references
 from kovacic.views.document import FORMATS, Block, Formula, Heading, Paragraph, Picture, Sentence, Table
-from kovacic.views.formula import Formulas, Math, given, latex_text, of_sympy
+from kovacic.views.formula import LARGEST_DEGREE, Formulas, Math, given, latex_text, of_sympy, shortened
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
@@ -83,8 +83,9 @@ def explain(solution: Solution, *, format: str = "text", solutions: bool = True)
     """The derivation as "text", "markdown", "latex" (the body of a document with amsmath, amssymb and graphicx) or "html".
 
     HTML is one page that needs nothing from elsewhere, in ASCII, with MathML, and with the picture of a real solution where
-    there is one (for rational coefficients, if matplotlib is installed).  `solutions=False` leaves closed forms out.  Raises
-    `ValueError` for another format.
+    there is one (for rational coefficients, if matplotlib is installed).  `solutions=False` leaves closed forms out.  Formulas
+    that fill more than some screens aren't printed, and parts that would take longer than the limits allow are left out; both
+    are said.  Raises `ValueError` for another format.
     """
     if format not in FORMATS:
         raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {format!r}")
@@ -92,19 +93,27 @@ def explain(solution: Solution, *, format: str = "text", solutions: bool = True)
     if format != "html":
         return FORMATS[format].render(blocks)
     body = FORMATS[format].render([*blocks, *_picture(solution)])
-    page = _PAGE.replace("BODY", body, 1).replace("TITLE", escape(str(solution)), 1)
+    page = _PAGE.replace("BODY", body, 1).replace("TITLE", escape(shortened(solution.text)), 1)
     return page.encode("ascii", "xmlcharrefreplace").decode()
 
 
 def document(solution: Solution, *, solutions: bool = True) -> list[Block]:
     """The blocks of the explanation."""
     writer = _Writer(solution)
-    blocks = [*writer.equation(), *writer.local_data(), *writer.necessary(), *writer.steps(), *writer.cases()]
+    parts = [writer.equation, writer.local_data, writer.necessary, writer.steps, writer.cases]
     if solution.status is Status.LIOUVILLIAN:
-        blocks += [*writer.certificate(), *writer.omega()]
+        parts += [writer.certificate, writer.omega]
     if solutions and solution.status is not Status.UNDECIDED:
-        blocks += writer.closed_form()
-    return [*blocks, *writer.group(), *writer.check(), *writer.bibliography()]
+        parts.append(writer.closed_form)
+    return [block for part in (*parts, writer.group, writer.check, writer.bibliography) for block in _in_time(part)]
+
+
+def _in_time(part: Callable[[], Iterator[Block]]) -> Iterator[Block]:
+    """The blocks of a part; where a limit ends it, that is said."""
+    try:
+        yield from part()
+    except LimitExceeded as limit:
+        yield _say(f"The rest of this part isn't written out: {limit}.")
 
 
 def _picture(solution: Solution) -> list[Block]:
@@ -387,11 +396,11 @@ class _Writer:
         return Math("\n + ".join(texts) + " = 0", " + ".join(formulas) + " = 0")
 
     def closed_form(self) -> Iterator[Block]:
-        try:
-            form, special = self.solution.closed_form, None if self.solution.case else self.solution.special
-        except LimitExceeded as limit:
-            yield _say(f"The solutions were not written out: {limit}.")
+        semi = self.solution.semi_invariant
+        if semi is not None and semi.P.degree > LARGEST_DEGREE:
+            yield _say(f"The solutions aren't written out: P has the degree {semi.P.degree}.")
             return
+        form, special = self.solution.closed_form, None if self.solution.case else self.solution.special
         found = special or () if form is None else (form.y1, form.y2)
         if found:
             yield Heading("Solutions in special functions" if special else "Solutions")

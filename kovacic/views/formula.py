@@ -30,6 +30,12 @@ _REPLACEMENTS = [
 ]
 
 
+#: Solutions with polynomials of a higher degree aren't written out, nor are dense polynomials of a higher degree in `Math`.
+LARGEST_DEGREE = 300
+#: Bits of all coefficients together, above which a function isn't printed in `Math`: some twenty screens.
+_LARGEST_SIZE = 100_000
+#: Characters; longer formulas are shortened.
+_LONGEST = 2000
 # The names within the engine.
 _VARIABLE = "x"
 _SYMBOL = "c"
@@ -98,13 +104,20 @@ class Formulas:
         return Names(self.variable, parameters_of(self.field))
 
     def math(self, function: RatFunc | Poly) -> Math:
-        """A function or a polynomial."""
-        renamed = self.names.renamed(RatFunc(function) if isinstance(function, Poly) else function)
+        """A function or a polynomial; of one that fills more than some screens, the degrees in place of the formula."""
+        function = RatFunc(function) if isinstance(function, Poly) else function
+        if _is_long(function):
+            return Math(_degrees(function), rf"\text{{{_degrees(function)}}}")
+        renamed = self.names.renamed(function)
         return Math(caret(renamed.to_str(self.variable)), latex_ratfunc(renamed, latex_text(self.variable)))
 
     def text(self, function: RatFunc) -> str:
         """A function for reading."""
         return caret(self.names.ratfunc(function))
+
+    def cut(self, function: RatFunc) -> str:
+        """A function for reading; of one that fills more than some screens, the degrees."""
+        return _degrees(function) if _is_long(function) else self.text(function)
 
     def factor(self, function: RatFunc, operators: str = " /*-") -> str:
         """A function for reading, as the factor of a product: in parentheses where it has one of the operators."""
@@ -131,6 +144,25 @@ class Formulas:
         if root is None or x in root or " " in root:
             return self.factor_of_place(place)
         return Math(f"{x} = {root}", f"{latex_text(x)} = {latex_text(root)}")
+
+
+def shortened(text: str) -> str:
+    """A formula of at most two screens."""
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]} ... ({len(text)} characters)"
+
+
+def _is_long(function: RatFunc) -> bool:
+    """Has it more terms, or longer coefficients, than anybody reads?"""
+    return any(
+        terms > LARGEST_DEGREE or terms * part.height_bits() > _LARGEST_SIZE
+        for part in (function.num, function.den)
+        for terms in [part.degree + 1 if part.degree < LARGEST_DEGREE else sum(map(bool, part))]
+    )
+
+
+def _degrees(function: RatFunc) -> str:
+    above, below = function.num.degree, function.den.degree
+    return f"(too long to print: degree {above}" + (f" over degree {below})" if below > 0 else ")")
 
 
 def of_sympy(expression: Any) -> Math:

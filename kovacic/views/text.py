@@ -9,7 +9,7 @@ from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, Status
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 from kovacic.reading.given import parameters_of
-from kovacic.views.formula import Formulas, caret
+from kovacic.views.formula import LARGEST_DEGREE, Formulas, caret, shortened
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
@@ -17,14 +17,8 @@ if TYPE_CHECKING:
 #: Gives a piece of text a role ("good", "bad", "unsure", "title", "faint"): colours on a terminal, nothing elsewhere.
 Style = Callable[[str, str], str]
 
-_LONGEST = 2000
-"""Longer formulas are shortened."""
-
 _SCREEN = 600
 """Beside a longer formula one in special functions is shown, if there is one that is shorter by half."""
-
-_LARGEST_DEGREE = 300
-"""Solutions with polynomials of a higher degree aren't written out: they would be shortened anyhow."""
 
 
 def one_line(solution: Solution) -> str:
@@ -35,7 +29,7 @@ def one_line(solution: Solution) -> str:
     if solution.status is Status.NONE_EXISTS:
         return f"{equation}: no Liouvillian solution"
     if solution.omega is not None:
-        return f"{equation}: case {solution.case}, omega = {_formulas(solution).text(solution.omega)}"
+        return f"{equation}: case {solution.case}, omega = {_formulas(solution).cut(solution.omega)}"
     degree = "" if solution.riccati is None else f", omega {_of_degree(solution.riccati.degree)}"
     return f"{equation}: case {solution.case}{degree}"
 
@@ -83,7 +77,7 @@ def solution_lines(solution: Solution) -> Iterator[str]:
     if solution.status is Status.UNDECIDED and not (solution.known and solution.special):
         return
     semi = solution.semi_invariant
-    if semi is not None and semi.P.degree > _LARGEST_DEGREE:
+    if semi is not None and semi.P.degree > LARGEST_DEGREE:
         yield f"the solutions aren't written out here: polynomials of degree {semi.P.degree} (--json --full has them)"
         return
     try:
@@ -102,11 +96,6 @@ def solution_lines(solution: Solution) -> Iterator[str]:
             yield "shorter, another pair in special functions:"
             yield from (f"  {name}{k} = {text}" for k, text in enumerate(shorter, start=1))
     yield from (f"note: {note}" for note in notes)
-
-
-def shortened(text: str) -> str:
-    """A formula of at most two screens."""
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]} ... ({len(text)} characters)"
 
 
 def _written(solution: Solution) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -137,7 +126,7 @@ def omega_lines(solution: Solution, *, integral: bool = True) -> list[str]:
         return []
     names = formulas.names
     if riccati.degree == 1:
-        omega = formulas.text(-riccati.coefficients[0])
+        omega = formulas.cut(-riccati.coefficients[0])
         lines = [f"omega = {omega}"]
         if integral:
             lines.append(f"y = exp(integral of omega d{solution.variable})")
