@@ -16,9 +16,10 @@ from dataclasses import dataclass
 
 from sympy import asin, elliptic_e, elliptic_f, elliptic_pi, sqrt
 
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms, Expr, rational
+from kovacic.closed_form.atoms import Atoms, Expr
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
 
 
@@ -34,7 +35,7 @@ class _Legendre:
 def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] | None:
     """Terms (c, e) whose sum of c e is int r dx/sqrt(g) times a constant, on every domain without branch points of the terms.
 
-    None if the genus isn't 1, or the branch points or the poles don't lie in the field.
+    None if the genus isn't 1, or the branch points or the poles don't lie in the field, or in that with one real square root.
     """
     r, g = integral.integrand, integral.g
     if g.degree not in (3, 4):
@@ -42,10 +43,15 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
     x, t, even = g.field.poly([0, 1]), RatFunc(g.field.poly([0, 1])), False
     if g.degree == 4 and not g[1] and not g[3] and r(-t) == r:
         r, g, even = RatFunc(_halved(r.num), _halved(r.den)), _halved(g) * x, True
+    quadratic = [p for p, _ in g.field.factor(g) if p.degree == 2 and atoms.real_roots(p)]
+    if len(quadratic) == 1:  # two real roots
+        field = AlgebraicField(g.field, quadratic[0])
+        r, g = RatFunc(r.num.over(field), r.den.over(field), reduced=True), g.over(field)
+        x, t = x.over(field), RatFunc(x.over(field))
     roots = [-p[0] for p, _ in g.field.factor(g) if p.degree == 1]
     if len(roots) < g.degree:
         return None
-    legendre = _legendre(r, _ordered(roots, even))
+    legendre = _legendre(r, _ordered(roots, even, atoms))
     m = legendre.m
     done = integrate_on_curve(legendre.integrand, t.num * (t.num - 1) * (t.num - m.inverse()))
     if any(residue.factor.degree > 1 for residue in done.residues):
@@ -53,19 +59,21 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
     shown = legendre.t(t * t) if even else legendre.t
     root = atoms.x * sqrt(atoms.ratio(shown / (t * t))) if even else sqrt(atoms.ratio(shown))  # sqrt(t)
     phi, modulus = asin(root), atoms.constant(m)
-    terms = []
+    terms: list[tuple[Poly, Expr]] = []
     if done.exact:
         W = root * sqrt(atoms.ratio(1 - shown)) * sqrt(atoms.ratio(1 - shown * m))
-        (a, top), (b, bottom) = (atoms.primitive(p) for p in (done.exact(shown).num, done.exact(shown).den))
-        terms.append((rational(a / b / 2), top / bottom * W))
-    first, second = m * done.rest[0] + done.rest[1], -done.rest[1]
-    terms += [(atoms.constant(c), f(phi, modulus)) for c, f in ((first, elliptic_f), (second, elliptic_e)) if c]
+        C = done.exact(shown)
+        lead = C.num.lc
+        (a, top), (b, bottom) = (atoms.primitive(p) for p in ((C / lead).num, (C / lead).den))
+        terms.append((lead * (a / b / 2), top / bottom * W))
+    terms.append((m * done.rest[0] + done.rest[1], elliptic_f(phi, modulus)))
+    terms.append((-done.rest[1], elliptic_e(phi, modulus)))
     for residue in done.residues:
         inverse = -residue.factor[0].inverse()  # 1/tau
-        terms.append(
-            (atoms.constant(-m * residue.value[0] * inverse), elliptic_pi(atoms.constant(inverse), phi, modulus))
-        )
-    return terms
+        terms.append((-m * residue.value[0] * inverse, elliptic_pi(atoms.constant(inverse), phi, modulus)))
+    terms = [(c, e) for c, e in terms if c]
+    last = terms[-1][0].inverse()
+    return [(atoms.constant(c * last), e) for c, e in terms]
 
 
 def _halved(p: Poly) -> Poly:
@@ -73,10 +81,10 @@ def _halved(p: Poly) -> Poly:
     return p.field.poly([p[k] for k in range(0, p.degree + 1, 2)])
 
 
-def _ordered(roots: list[Poly], even: bool) -> list[Poly | None]:
+def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> list[Poly | None]:
     """What becomes 0, 1, 1/m and infinity (None is infinity): 0 < t < 1 for real x, and 0 < m < 1 where there is a choice."""
-    field = roots[0].field
-    values = {a: field.rational_value(a) for a in roots}
+    shown = {a: atoms.constant(a) for a in roots}
+    values = {a: float(shown[a]) if shown[a].is_number else None for a in roots}
     known = sorted((a for a in roots if values[a] is not None), key=lambda a: values[a] or 0)
     points = [*known, *(a for a in roots if values[a] is None)]
     if even:
