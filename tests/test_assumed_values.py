@@ -44,6 +44,14 @@ def test_a_value_in_an_equation() -> None:
     assert kovacic.solve(equation, assume={n: Fraction(3, 2)}).S == answer.S
 
 
+def test_a_value_in_coefficients_and_in_exponentials() -> None:
+    assert kovacic.solve(a="x^2", b="x", c="x^2 - n^2", assume={"n": "5/2"}).case == 1
+    for S in ("a*exp(2*x) + b^2", sympy.sympify("a*exp(2*x) + b**2")):
+        answer = kovacic.conditions(S, assume={"a": 2}, var="x")  # Bessel in exp(x), the square root of exp(2*x)
+        assert [answer.case_at({"b": b}) for b in ("1/2", "1/3", "-7/2")] == [2, None, 2]
+        assert kovacic.solve(S, assume={"a": 2, "b": "3/2"}, var="x").case == 2
+
+
 @pytest.mark.parametrize(
     "assume", [{"x": 2}, {"n": "k"}, {"n": "x"}, {"m": 3}, {"n": "prime"}, {"n": ">=a"}, {"n": ">1/0"}, {"n": "1/0"}]
 )

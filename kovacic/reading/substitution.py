@@ -89,9 +89,12 @@ def with_values(
             hint = f"the parameters are {', '.join(names) or 'none'}"
             raise InputError(f"{name} isn't a parameter of S", hint=hint)
     texts = {name: number_text(value, limits) for name, value in values.items()}
-    text = S
-    if not isinstance(S, str):
+    text, change = S, None if parsed.equation is None else parsed.equation.change
+    if change is not None:
+        text = str(S)
+    elif not isinstance(S, str):
         text = parsed.S.to_str(parsed.variable) if parsed.equation is None else parsed.equation.text(caret=False)
     filled = Template(text.strip(), [*texts]).filled(texts)
     rest = {name: what for name, what in given.items() if str(name) not in texts}
-    return filled, read_input(filled, var=parsed.variable, limits=limits, exponentials=True), rest or None
+    variable = parsed.variable if change is None else change.variable
+    return filled, read_input(filled, var=variable, limits=limits, exponentials=True), rest or None
