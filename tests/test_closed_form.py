@@ -283,6 +283,12 @@ def test_integrals_of_genus_1_are_named(g: str, factor: str, exponent: str, kind
         assert abs(mpmath.im(value(point + 0.01) / value(point))) < 1e-30
 
 
+def test_branch_points_may_be_complex_constants() -> None:
+    y1 = ((x - sympy.I) * (x - 2) * (x - 3)) ** sympy.Rational(1, 4)
+    S = sympy.factor(sympy.simplify(y1.diff(x, 2) / y1), extension=[sympy.I])
+    assert kovacic.solve(S).solutions[1].has(sympy.elliptic_f)
+
+
 def test_legendres_modulus_may_be_a_parameter() -> None:
     y = kovacic.solve(_with_square("(1 - x**2)*(1 - k**2*x**2)")).solutions[1]
     (integral,) = y.atoms(sympy.elliptic_f)

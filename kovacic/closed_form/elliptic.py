@@ -84,7 +84,7 @@ def _halved(p: Poly) -> Poly:
 def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> list[Poly | None]:
     """What becomes 0, 1, 1/m and infinity (None is infinity): 0 < t < 1 for real x, and 0 < m < 1 where there is a choice."""
     shown = {a: atoms.constant(a) for a in roots}
-    values = {a: float(shown[a]) if shown[a].is_number else None for a in roots}
+    values = {a: float(shown[a]) if shown[a].is_number and shown[a].is_real else None for a in roots}
     known = sorted((a for a in roots if values[a] is not None), key=lambda a: values[a] or 0)
     points = [*known, *(a for a in roots if values[a] is None)]
     if even:
