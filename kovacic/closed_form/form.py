@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from sympy import Add, Mul, Symbol, evaluate, exp, hyper
@@ -19,7 +19,7 @@ from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pa
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular, build
 from kovacic.decision import Decision
 from kovacic.errors import VerificationFailed
-from kovacic.limits import check_time
+from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, limited
 
 EXACT = "exact"
 NUMERICAL = "numerical, 50 digits"
@@ -40,16 +40,18 @@ class ClosedForm:
     gauge: RatFunc
     checked: str
     notes: tuple[str, ...] = ()
+    limits: Limits = field(default=DEFAULT_LIMITS, compare=False, repr=False)
 
     def __iter__(self) -> Iterator[Any]:
         return iter((self.y1, self.y2))
 
     @property
+    @limited
     def power_polynomial(self) -> tuple[int, Any] | None:
         """(k, P) for case 3: P, an expression in x and Z, vanishes at Z = c y1^k and Z = c' y2^k for some constants.
 
         All its roots are k-th powers of solutions.  None in the other cases, with a gauge factor, and where P is too long to
-        be written out.
+        be written out.  Raises `LimitExceeded` where that takes longer than `limits` allow.
         """
         if not isinstance(self.structure, KleinForm) or self.structure.polynomial is None:
             return None
