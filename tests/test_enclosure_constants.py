@@ -152,3 +152,9 @@ def test_solutions_and_roots_that_the_text_names() -> None:
 def test_what_cant_be_had_is_said(equation: str, options: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
         evaluate(equation, **({"x": 2, "x0": 0} | START | options))
+
+
+@pytest.mark.parametrize("S", ["1/(x^2-2)^2", "1/(x^2-2)", "1/(x-sqrt(2))^2+x"])
+def test_a_singular_point_that_is_no_fraction_is_refused(S: str) -> None:
+    with pytest.raises(InputError, match=r"sqrt\(2\) is a singular point"):
+        evaluate(S, "sqrt(2)", x0=0, y0=1, dy0=0)

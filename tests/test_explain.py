@@ -348,3 +348,9 @@ def test_an_answer_in_special_functions_shows_them_in_jupyter() -> None:
     assert "<mi>A</mi><mi>i</mi>" in airy._repr_html_()
     assert "Ai" in airy._repr_latex_()
     assert airy.plot(-3, 1, points=20)._repr_png_().startswith(b"\x89PNG")
+
+
+def test_a_page_has_a_picture_beside_an_irregular_singular_point() -> None:
+    """Kovacic's Example 1; solutions are as large as exp(1/x) at 0."""
+    page = kovacic.solve("(4*x^6-8*x^5+12*x^4+4*x^3+7*x^2-20*x+4)/(4*x^4)").explain(format="html")
+    assert "<svg" in page

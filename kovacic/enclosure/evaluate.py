@@ -42,6 +42,8 @@ Start = tuple[Number, Number]
 """y(x0) and y'(x0), or the coordinates in the Frobenius basis at x0."""
 
 
+_APART = arb(2) ** -200
+"""What is nearer to a singular point can't be told from it."""
 _FEW = 8
 """Targets up to which a closed form costs less than the Taylor steps, which serve many at once."""
 
@@ -212,15 +214,25 @@ def evaluate_states(
     elif path is not None:
         vertices = tuple(as_number(p, "a vertex of the path") for p in path)
     origin, start = _start(problem, x0, y0, dy0, frobenius, which)
-    if problem.embedded is not None:
-        with working_precision(256):
-            for number in (origin, *targets, *vertices):
-                if not isinstance(number, Singular) and not problem.embedded.bound(to_ball(number)).is_finite():
-                    raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
+    _check_regular(problem, (origin, *targets, *vertices))
     trip = Trip(problem, origin, vertices, targets, start, which == "decaying", chain, side)
     with budget.watched():
         route, used = _route(trip, method)
         return raise_precision(route, used, targets, digits, budget, trip.exact)
+
+
+def _check_regular(problem: NumericProblem, numbers: Sequence[Number | Singular]) -> None:
+    """Raise InputError for a number such as sqrt(2) that is a singular point; rational points are compared exactly."""
+    constants = problem.embedded
+    with working_precision(256):
+        singular = [to_acb(z) for z in problem.singular_points(256)] if constants is None else []
+        for number in numbers:
+            if isinstance(number, Singular) or (constants is None and isinstance(number, Point)):
+                continue
+            ball = to_ball(number)
+            near = any(abs(ball - z).lower() < _APART for z in singular)
+            if near or (constants is not None and not constants.bound(ball).is_finite()):
+                raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
 
 
 @dataclass(frozen=True)

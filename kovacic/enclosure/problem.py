@@ -56,7 +56,7 @@ class System:
     With a `radius` these are approximations, and the coefficients of the exact equation differ by at most so much from them.
 
     >>> System.make((2, 0), (0, 0, 4))   # S = 2/(4 x^2)
-    System(num=(1,), den=(0, 0, 2))
+    System(num=(1,), den=(0, 0, 2), radius=0)
     """
 
     num: tuple[int, ...]

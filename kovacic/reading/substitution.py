@@ -26,6 +26,7 @@ class Template:
 
     Raises `InputError` where the text has no such name, or uses one as a function.
 
+    >>> from fractions import Fraction
     >>> Template("(4*n^2 - 1)/(4*x^2) - n", ["n"]).filled({"n": Fraction(-1, 2)})
     '(4*(-1/2)^2 - 1)/(4*x^2) - (-1/2)'
     """

@@ -6,6 +6,7 @@ First the paper's own steps, line by line (`families`), then what this package c
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from html import escape
 from io import StringIO
 from typing import TYPE_CHECKING
@@ -71,6 +72,7 @@ _CONDITIONS = {
 }
 #: So many families are shown.
 _MOST_SHOWN = 24
+_PICTURE_SECONDS = 5.0
 _KINDS = {
     Kind.ORDINARY: "ordinary",
     Kind.REGULAR: "regular",
@@ -123,7 +125,8 @@ def _picture(solution: Solution) -> list[Block]:
     try:
         singular = [float(z.re) for z in as_problem(solution).singular_points(64) if z.is_real()]
         low, high = round(min(singular, default=-3)) - 2, round(max(singular, default=3)) + 2
-        figure = solution.plot(low, high, digits=6, points=240)
+        seconds = min(solution.limits.seconds or _PICTURE_SECONDS, _PICTURE_SECONDS)
+        figure = solution.plot(low, high, digits=6, points=240, limits=replace(solution.limits, seconds=seconds))
     except (KovacicError, ImportError):
         return []
     drawing = StringIO()

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from kovacic.enclosure.evaluate import evaluate_states
-from kovacic.enclosure.points import Point, as_point
+from kovacic.enclosure.points import Point, as_point, midpoint
 from kovacic.enclosure.precision import Evaluation
 from kovacic.enclosure.problem import as_problem
 from kovacic.errors import InputError
@@ -29,7 +29,7 @@ from kovacic.limits import Limits
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MARGIN = 256
+_MARGIN, _IRREGULAR_MARGIN = 256, 16
 """The curve ends this share of its interval before a singular point."""
 
 
@@ -68,7 +68,8 @@ def sample(
     problem = as_problem(equation, forced=True)
     singular = problem.singular_points(128)
     cuts = sorted({z.re for z in singular if z.is_real() and a.re <= z.re <= b.re})
-    intervals = _regular_intervals(a.re, b.re, cuts)
+    wide = {float(midpoint(root).re) for root, order in problem.system.roots("den", 128) if order > 2}
+    intervals = _regular_intervals(a.re, b.re, cuts, wide)
     longest = max(intervals, key=lambda i: i[1] - i[0])
     grids = []
     for left, right in intervals:
@@ -92,14 +93,20 @@ def sample(
     return Samples(tuple(tuple(itertools.islice(states, len(grid))) for grid in grids), tuple(map(complex, singular)))
 
 
-def _regular_intervals(a: Fraction, b: Fraction, cuts: list[Fraction]) -> list[tuple[Fraction, Fraction]]:
+def _regular_intervals(
+    a: Fraction, b: Fraction, cuts: list[Fraction], irregular: set[float]
+) -> list[tuple[Fraction, Fraction]]:
+    """The intervals between the cuts; where a cut is irregular, solutions beside it are as large as exp(1/distance)."""
     ends = [a, *cuts, b]
     result = []
     for left, right in itertools.pairwise(ends):
         if right == left:
             continue
-        margin = (right - left) / _MARGIN
-        result.append((left + margin if left in cuts else left, right - margin if right in cuts else right))
+        start, stop = (
+            (right - left) / (_IRREGULAR_MARGIN if float(end) in irregular else _MARGIN) if end in cuts else 0
+            for end in (left, right)
+        )
+        result.append((left + start, right - stop))
     return result
 
 
