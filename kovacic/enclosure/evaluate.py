@@ -224,11 +224,13 @@ def evaluate_states(
 def _check_regular(problem: NumericProblem, numbers: Sequence[Number | Singular]) -> None:
     """Raise InputError for a number such as sqrt(2) that is a singular point; rational points are compared exactly."""
     constants = problem.embedded
+    places = [number for number in numbers if not isinstance(number, Singular)]
+    unclear = [number for number in places if constants is not None or not isinstance(number, Point)]
+    if not unclear:
+        return
     with working_precision(256):
         singular = [to_acb(z) for z in problem.singular_points(256)] if constants is None else []
-        for number in numbers:
-            if isinstance(number, Singular) or (constants is None and isinstance(number, Point)):
-                continue
+        for number in unclear:
             ball = to_ball(number)
             near = any(abs(ball - z).lower() < _APART for z in singular)
             if near or (constants is not None and not constants.bound(ball).is_finite()):
