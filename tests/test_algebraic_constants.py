@@ -111,7 +111,7 @@ def test_a_square_root_beside_an_irrational_coefficient() -> None:
     assert str(answer.constants) == "x**2 + 6"
 
 
-@settings(max_examples=15)
+@settings(max_examples=40)
 @given(strategies.over_number_fields("case 1", "case 2", "odd"))
 def test_closed_forms_over_a_number_field(example: Example) -> None:
     """Each is checked, exactly and to 50 digits, before it is returned."""

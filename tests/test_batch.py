@@ -537,7 +537,7 @@ def test_an_output_file_is_not_overwritten(tmp_path: Path) -> None:
 @pytest.mark.parametrize("signal_sent", [signal.SIGINT, signal.SIGKILL])
 def test_an_interrupted_run_is_resumed(tmp_path: Path, signal_sent: int) -> None:
     source, output = tmp_path / "in.txt", tmp_path / "out.jsonl"
-    count = 1000
+    count = 2000
     source.write_text("".join(f"x^2 + {k % 20}\n" for k in range(count)))
     arguments = [str(source), "-o", str(output), "-j", "2", "--as-finished"]
     with started([sys.executable, "-m", "kovacic", "batch", *arguments], stderr=subprocess.PIPE) as process:

@@ -145,7 +145,7 @@ def check_generated(example: strategies.Example) -> None:
     assert said == "checked" or said.startswith(REASONS), said
 
 
-@settings(max_examples=50)
+@settings(max_examples=100)
 @given(strategies.examples())
 def test_generated_answers_are_checked(example: strategies.Example) -> None:
     check_generated(example)

@@ -110,7 +110,7 @@ constants = st.sampled_from(
 )
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(constants, st.lists(waves, min_size=1, max_size=3))
 def test_random_right_hand_sides(equation: tuple[int, int], terms: list) -> None:
     """Substituted; the roots of the characteristic polynomial often are exponents on the right: resonance."""
