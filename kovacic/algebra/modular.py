@@ -10,7 +10,7 @@ from itertools import accumulate
 from operator import mul
 from typing import Any
 
-from flint import fmpz, nmod_mat, nmod_poly
+from flint import fmpz, fmpz_mod_poly_ctx, nmod_mat, nmod_poly
 
 
 class BadPrimeError(Exception):
@@ -108,71 +108,19 @@ def echelon_by_degree(polynomials: Sequence[Any]) -> list[Any]:
     return basis[::-1]
 
 
-#: Up to so many quotients Euclid's algorithm takes no longer than the half-gcd, which finds so many of them one by one.
-_MANY_QUOTIENTS, _FEW_QUOTIENTS = 1500, 256
+def rational_function_from_series(series: Any, order: int, top: int) -> tuple[Any, Any] | None:
+    """(A, B) with A = B series + O(t^order), deg A <= top, B(0) = 1, deg B < order - top, both least; None without one.
 
-_Matrix = tuple[Any, Any, Any, Any]
-"""(a, b; c, d), of polynomials."""
-
-
-def rational_function_from_series(series: Any, order: int, top: int) -> tuple[Any, Any]:
-    """(A, B) with A = B series + O(t^order) and deg A <= top, of which every such pair with deg B < order - top is a multiple.
-
-    Euclid's algorithm on t^order and the series gives it, and before it a pair (A', B') with deg A' > top, deg B' < deg B
-    and A' B - A B' = c t^order.  Every pair is a combination alpha (A', B') + beta (A, B).  If alpha isn't zero and the first
-    component has at most degree top, the leading terms of alpha A' and beta A cancel; so the second one has the degree of
-    beta B, which is at least deg A' - deg A + deg B = order - deg A.
-
-    Many steps are taken together, by the half-gcd, which need not be trusted: these conditions are checked.  Reference: J. von
-    zur Gathen and J. Gerhard, Modern Computer Algebra, sections 5.7 and 11.1.
+    A/B is unique: for two such pairs A B' - A' B has a degree below `order` and no term there.  The coefficients of t^k with
+    top < k < order say that the series satisfies a linear recurrence, the shortest of which is Berlekamp and Massey's.
+    Reference: J. von zur Gathen and J. Gerhard, Modern Computer Algebra, sections 5.7 and 12.3.
     """
-    p = series.modulus()
-    one, zero = nmod_poly([1], p), nmod_poly([], p)
-    power = one.left_shift(order)
-    if order - top <= _MANY_QUOTIENTS:
-        r0, r1, t0, t1 = power, series, zero, one
-        while r1.degree() > top:
-            quotient, rest = divmod(r0, r1)
-            r0, r1, t0, t1 = r1, rest, t1, t0 - quotient * t1
-        return r1, t1
-    if series.degree() <= top:
-        return series, one
-    a, before, b, multiple = _quotients(power, series, order - top - 1)
-    A0, A = power * a + series * before, power * b + series * multiple
-    rest = A0 * multiple - A * before
-    if not (A0.degree() > top >= A.degree() and before.degree() < multiple.degree() and rest == power * rest[order]):
-        raise AssertionError("the half-gcd went wrong; please report the equation")
-    return A, multiple
-
-
-def _quotients(r0: Any, r1: Any, k: int) -> _Matrix:
-    """The product of Euclid's steps (0, 1; 1, -q) on (r0, r1) for as long as deg r1 >= deg r0 - k, with r0 as given.
-
-    These quotients depend on the highest 2k + 1 coefficients of r0, and those beside them of r1, alone.
-    """
-    p, n = r0.modulus(), r0.degree()
-    one, zero = nmod_poly([1], p), nmod_poly([], p)
-    steps: _Matrix = (one, zero, zero, one)
-    if k > _FEW_QUOTIENTS:
-        half = k // 2
-        cut = max(n - 2 * half, 0)
-        steps = _quotients(r0.right_shift(cut), r1.right_shift(cut), half)
-        r0, r1 = steps[0] * r0 + steps[1] * r1, steps[2] * r0 + steps[3] * r1
-    while r1 and r1.degree() >= n - k:
-        rest = k - (n - r0.degree())
-        if rest > _FEW_QUOTIENTS and r0.degree() < n:  # the second half
-            cut = max(r0.degree() - 2 * rest, 0)
-            return _product(_quotients(r0.right_shift(cut), r1.right_shift(cut), rest), steps)
-        q, remainder = divmod(r0, r1)
-        r0, r1 = r1, remainder
-        steps = (steps[2], steps[3], steps[0] - q * steps[2], steps[1] - q * steps[3])
-    return steps
-
-
-def _product(m: _Matrix, n: _Matrix) -> _Matrix:
-    a, b, c, d = m
-    e, f, g, h = n
-    return a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h
+    p, size = series.modulus(), order - top - 1
+    terms = series.truncate(order).left_shift(max(size - top - 1, 0)).coeffs()[max(top + 1 - size, 0) :]
+    recurrence = fmpz_mod_poly_ctx(p).minpoly([int(c) for c in terms] + [0] * (2 * size - len(terms)))
+    B = nmod_poly([int(c) for c in recurrence.coeffs()][::-1], p)
+    A = series.mul_low(B, order)
+    return (A, B) if B.degree() <= size and A.degree() <= top else None
 
 
 #: So few residues are inverted one by one.

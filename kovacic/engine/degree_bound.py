@@ -9,15 +9,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
 from kovacic.decision import Evidence, NecessaryCondition, NoRationalOmega, Rule
 from kovacic.engine.places import Kind, Place, Problem
 
-#: Series of so many terms are multiplied term by term.
+#: A polynomial with so many terms is moved to another point at once.
 _FEW_TERMS = 16
 
 
@@ -26,8 +26,9 @@ def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
     for place in problem.places:
         if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED) and place.delta is None:
             p = place.factor
-            bottom = _leading_coefficient(place)
-            top = place.local_num % p if place.kind is Kind.UNRAMIFIED else bottom + 4 * place.local_num
+            top, bottom = place.near[0], _leading_coefficient(place)
+            if place.kind is Kind.REGULAR:
+                top = bottom + 4 * top
             if is_provably_not_a_square(top * bottom % p, p):
                 return NecessaryCondition(Rule.NOT_A_SQUARE, (str(place),))
     return None
@@ -35,8 +36,7 @@ def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
 
 def _leading_coefficient(place: Place) -> Poly:
     """E with S = num / (t^order E) to leading order at the class of x in K[x]/p."""
-    p = place.factor
-    return place.cofactor % p if p.degree == 1 else p.derivative() ** place.order * place.cofactor % p
+    return place.factor.derivative() ** place.order * place.near[1] % place.factor
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ def _trace(place: Place) -> Poly | None:
         if place.delta_squared is not None:
             return trace_of_square_root(place.delta_squared, place.factor)
         p = place.factor
-        return trace_of_square_root((1 + 4 * place.local_num * _leading_coefficient(place).inverse_modulo(p)) % p, p)
+        return trace_of_square_root((1 + 4 * place.near[0] * _leading_coefficient(place).inverse_modulo(p)) % p, p)
     return trace_of_square_root(irregular_difference_squared(place), place.factor)
 
 
@@ -116,96 +116,33 @@ def irregular_difference_squared(place: Place) -> Poly:
     """(b/a)^2 at an unramified irregular place, in K[x]/p: 4 s_0 rho^2, rho the coefficient of t^(nu-1) in sqrt(s/s_0).
 
     Here S = s(t)/t^(2 nu) with t = x - c, c the class of x modulo p.  For s = N/E and v = 1/(N_0 E_0) that is 4 v l^2, l the
-    coefficient of t^(nu-1) in N (v N E)^(-1/2).
+    coefficient of t^(nu-1) in N (v N E)^(-1/2), which Newton's iteration gives.
     """
-    p, nu = place.factor, place.order // 2
-    ring = _Expansions(p, nu)
-    N = ring.expand(place.local_num % p**nu)
-    E = ring.expand(place.cofactor % p**nu)
-    if p.degree > 1:  # p = t slope
-        E = ring.product(E, ring.slope_power(place.order), nu)
-    v = ring.inverse(ring.reduced(N[0] * E[0]))
-    root = ring.inverse_square_root([ring.reduced(term * v) for term in ring.product(N, E, nu)])
-    last = ring.reduced(sum([N[j] * root[nu - 1 - j] for j in range(nu)]))
-    return p.field.from_scalars(ring.scalars(ring.reduced(4 * v * ring.reduced(last * last))))
+    p, nu, (num, cofactor) = place.factor, place.order // 2, place.near
+    c = -p[0] if p.degree == 1 else AlgebraicField(p.field, p).generator
+    t = c.field.poly([0, 1])
+    end = t**nu
+    slope = _moved(p, c, nu + 1) // t  # p = t slope
+    N, E, power = _moved(num, c, nu), _moved(cofactor, c, nu), c.field.poly([1])
+    for digit in f"{place.order:b}" if p.degree > 1 else "":
+        power = power * power * (slope if digit == "1" else 1) % end
+    E = E * power % end
+    v = (N[0] * E[0]).inverse()
+    u, root, known = N * E % end * v, c.field.poly([1]), 1
+    while known < nu:
+        known = min(2 * known, nu)
+        ahead = t**known
+        root = (root + root * (1 - u * root * root % ahead) / 2) % ahead
+    last = (N * root)[nu - 1]
+    value = 4 * v * last * last
+    return value if p.degree == 1 else p.field.poly([part[0] for part in value.parts])
 
 
-class _Expansions:
-    """Power series in t = x - c over K[x]/p, c the class of x, as the lists of their first `count` coefficients.
-
-    For a linear p these are scalars of K, else polynomials of degree below that of p.
-    """
-
-    def __init__(self, p: Poly, count: int) -> None:
-        self.p, self.count, self.field, self._linear = p, count, p.field, p.degree == 1
-        self._slope: dict[int, list[Any]] = {} if self._linear else {1: [*_taylor(p, p)[1:], *[p * 0] * count][:count]}
-
-    def reduced(self, element: Any) -> Any:
-        return element if self._linear else element % self.p
-
-    def inverse(self, element: Any) -> Any:
-        one = self.field.scalar(self.field.poly([1]), 0)
-        return one / element if self._linear else element.inverse_modulo(self.p)
-
-    def scalars(self, element: Any) -> list[Any]:
-        return [element] if self._linear else [self.field.scalar(element, i) for i in range(2 * self.p.degree - 1)]
-
-    def product(self, one: list[Any], other: list[Any], count: int) -> list[Any]:
-        """The first `count` coefficients; many of them by one product of polynomials over K [Kronecker's substitution]."""
-        if count <= _FEW_TERMS:
-            return [self.reduced(sum([one[i] * other[k - i] for i in range(k + 1)])) for k in range(count)]
-        field, width = self.field, 2 * self.p.degree - 1  # coefficients begin so far apart that products don't overlap
-        factors = [
-            field.from_scalars([scalar for term in terms[:count] for scalar in self.scalars(term)])
-            for terms in (one, other)
-        ]
-        product = factors[0] * factors[1]
-        scalars = [field.scalar(product, i) for i in range(width * count)]
-        if self._linear:
-            return scalars
-        return [field.from_scalars(scalars[k : k + width]) % self.p for k in range(0, width * count, width)]
-
-    def inverse_square_root(self, u: list[Any]) -> list[Any]:
-        """u^(-1/2) for u_0 = 1: the first terms from 2 u r' = -u' r, the others by Newton's iteration."""
-        root = [u[0]]
-        for k in range(1, min(self.count, _FEW_TERMS)):
-            total = sum([(2 * k - j) * u[j] * root[k - j] for j in range(1, k + 1)])
-            root.append(self.reduced(total) / (-2 * k))
-        while len(root) < self.count:
-            known = min(2 * len(root), self.count)
-            root += [root[0] * 0] * (known - len(root))
-            residual = self.product(u, self.product(root, root, known), known)
-            change = self.product(root, [residual[0] - 1, *residual[1:]], known)
-            root = [term - correction / 2 for term, correction in zip(root, change, strict=True)]
-        return root
-
-    def slope_power(self, exponent: int) -> list[Any]:
-        """(p/t)^exponent."""
-        if exponent not in self._slope:
-            half = self.slope_power(exponent // 2)
-            square = self.product(half, half, self.count)
-            self._slope[exponent] = self.product(square, self._slope[1], self.count) if exponent % 2 else square
-        return self._slope[exponent]
-
-    def expand(self, f: Poly) -> list[Any]:
-        """f(c + t), for many terms from the quotient and the remainder modulo a power of p."""
-        n = self.p.degree
-        if self._linear:
-            moved = f(self.field.poly([-self.p[0], 1])) if self.p[0] else f
-            return [self.field.scalar(moved, i) for i in range(self.count)]
-        half = (f.degree // n + 1) // 2
-        if f.degree < n or self.count <= _FEW_TERMS:
-            return [*_taylor(f, self.p), *[f * 0] * self.count][: self.count]
-        high, low = divmod(f, self.p**half)
-        shifted = self.product(self.expand(high), self.slope_power(half), self.count)
-        terms = self.expand(low)
-        return [*terms[:half], *(a + b for a, b in zip(terms[half:], shifted, strict=False))]
-
-
-def _taylor(polynomial: Poly, p: Poly) -> list[Any]:
-    """All Taylor coefficients at the class of x in K[x]/p."""
-    coefficients = []
-    while polynomial:
-        coefficients.append(polynomial % p)
-        polynomial = polynomial.derivative() / len(coefficients)
-    return coefficients
+def _moved(f: Poly, c: Poly, count: int) -> Poly:
+    """f(t + c) modulo t^count, a long polynomial by halves."""
+    t = c.field.poly([0, 1])
+    if not c or f.degree < _FEW_TERMS or c.field == f.field:
+        return (f(t + c) if c else f) % t**count
+    half = (f.degree + 1) // 2
+    high, low = divmod(f, f.field.poly([0, 1]) ** half)
+    return (_moved(high, c, count) * (t + c) ** half + _moved(low, c, count)) % t**count

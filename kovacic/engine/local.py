@@ -117,9 +117,10 @@ def rational_omega(c: Chart, Q: Any, degree: int) -> tuple[Any, Any] | None:
     u = series_solution(*reduced_equation(c.equation, Q), order)
     local = (Q * u + u.derivative().left_shift(c.equation.nu)).mul_low(u.inverse_series_trunc(order), order)
     series = c.D.right_shift(c.equation.nu).mul_low(local, order)
-    A, P = rational_function_from_series(series, order, top)
-    if P.degree() > degree:
+    found = rational_function_from_series(series, order, top)
+    if found is None or found[1].degree() > degree:
         return None
+    A, P = found
     B = c.D * P
     if c.den * (A.derivative() * B - A * B.derivative() + A * A) != c.num * B * B:
         return None

@@ -46,8 +46,7 @@ class Kind(Enum):
 class Place:
     """All roots of one irreducible factor, or infinity (the root 0 in the coordinate z = 1/x).
 
-    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den; `local_num` is num modulo
-    factor^order, and `local_den` den modulo factor^(2 order), or something congruent to them.
+    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den.
     """
 
     factor: Poly
@@ -55,9 +54,16 @@ class Place:
     order: int
     num: Poly
     den: Poly
-    local_num: Poly
-    local_den: Poly
     budget: Budget
+    known: tuple[Poly, Poly] | None = None
+
+    @cached_property
+    def near(self) -> tuple[Poly, Poly]:
+        """N and q modulo p^nu with S = N/(p^order q), nu = order/2 or 1: as much of S as the exponents depend on."""
+        if self.known is not None:
+            return self.known
+        modulus = self.factor ** max(self.order // 2, 1)
+        return self.num % modulus, self.den // self.factor**self.order % modulus
 
     @cached_property
     def delta_squared(self) -> Poly | None:
@@ -67,12 +73,10 @@ class Place:
         """
         if self.order != 2:
             return self.num.field.poly([1]) if self.order == 1 else None
-        p = self.factor
-        top, bottom = self.local_num % p, self.local_den // (p * p) % p
-        if p.degree > 1:
-            bottom = p.derivative() ** 2 * bottom % p
+        top, cofactor = self.near
+        bottom = self.factor.derivative() ** 2 * cofactor % self.factor
         b = top[bottom.degree] / bottom.lc
-        return 4 * b + 1 if p.degree == 1 or top == bottom * b else None
+        return 4 * b + 1 if top == bottom * b else None
 
     @cached_property
     def delta(self) -> Fraction | None:
@@ -108,12 +112,6 @@ class Place:
     def degree(self) -> int:
         """How many points of the Riemann sphere the place stands for."""
         return self.factor.degree
-
-    @cached_property
-    def cofactor(self) -> Poly:
-        """den/factor^order modulo factor^order."""
-        power = self.factor**self.order
-        return self.local_den // power % power
 
     @cached_property
     def name(self) -> str:
@@ -180,19 +178,18 @@ class Problem:
 def analyse(S: RatFunc, budget: Budget) -> Problem:
     """The singular places of y'' = S y and their local data."""
     factors = S.field.factor(S.den) if S.den.degree > 0 else []
-    nums, dens = [S.num] * len(factors), [S.den] * len(factors)
+    known: list[tuple[Poly, Poly] | None] = [None] * len(factors)
     if len(factors) >= _MANY_FACTORS:
         powers = [factor**order for factor, order in factors]
-        nums, cofactors = remainders(S.num, powers), remainders(sum_of_cofactors(powers), powers)
-        dens = [power * cofactor for power, cofactor in zip(powers, cofactors, strict=True)]
-    places = []
-    for (factor, order), local_num, local_den in zip(factors, nums, dens, strict=True):
-        budget.check()
-        places.append(Place(factor, False, order, S.num, S.den, local_num, local_den, budget))
+        moduli = [factor ** max(order // 2, 1) for factor, order in factors]
+        known = list(zip(remainders(S.num, moduli), remainders(sum_of_cofactors(powers), moduli), strict=True))
+    places = [
+        Place(factor, False, order, S.num, S.den, budget, near)
+        for (factor, order), near in zip(factors, known, strict=True)
+    ]
     num, den, order = at_infinity(S)
     z = S.field.poly([0, 1])
-    places.append(Place(z, True, order, num, den, num, den, budget))
-    return Problem(S, tuple(places), budget)
+    return Problem(S, (*places, Place(z, True, order, num, den, budget)), budget)
 
 
 def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:

@@ -306,10 +306,12 @@ def _riccati_series(start: list[int], s: list[int], nu: int, count: int, p: int)
 def _is_rational(series: Any, num: Any, den: Any, nu: int, degree: int, growth: int) -> bool:
     """Is there omega = A/(den P) with this expansion of t^nu omega, deg P <= degree and deg A <= degree + growth?
 
-    Euclid's algorithm gives the only candidate; it must solve the Riccati equation of num/den.
+    The only candidate must solve the Riccati equation of num/den.
     """
     top = degree + growth
     order = top + degree + 2
-    A, multiple = rational_function_from_series(den.right_shift(nu).mul_low(series, order), order, top)
-    B = den * multiple
-    return multiple.degree() <= degree and bool(den * (A.derivative() * B - A * B.derivative() + A * A) == num * B * B)
+    found = rational_function_from_series(den.right_shift(nu).mul_low(series, order), order, top)
+    if found is None:
+        return False
+    A, B = found[0], den * found[1]
+    return found[1].degree() <= degree and bool(den * (A.derivative() * B - A * B.derivative() + A * A) == num * B * B)
