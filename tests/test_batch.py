@@ -362,41 +362,11 @@ def _alive(pid: int) -> bool:
         ({"memory": 0}, "memory"),
         ({"scheduler": "tcp://localhost:1"}, "needs a backend"),
         ({"backend": "nonsense"}, "isn't a backend"),
-        ({"backend": "loky", "scheduler": "tcp://localhost:1"}, "no scheduler"),
     ],
 )
 def test_impossible_options_are_refused(options: dict[str, object], message: str) -> None:
     with pytest.raises(InputError, match=message):
         list(kovacic.solve_many(["x"], **options))
-
-
-def test_loky_gives_the_same_answers() -> None:
-    records = list(kovacic.solve_many([*QUICK, "x+"] * 20, backend="loky", jobs=2, timeout=60))
-    assert [record.number for record in records] == list(range(1, 121))
-    assert [record.case for record in records] == [*QUICK_CASES, None] * 20
-    from joblib.externals.loky import get_reusable_executor
-
-    get_reusable_executor().shutdown(wait=True)
-
-
-def test_a_lost_loky_worker_loses_nothing_and_repeats_nothing() -> None:
-    psutil = pytest.importorskip("psutil")
-    finished = []
-    killed = None
-    for record in kovacic.solve_many(QUICK * 400, backend="loky", jobs=2, timeout=60, ordered=False):
-        finished.append(record)
-        if killed is None and len(finished) > 200:
-            workers = [p for p in psutil.Process().children() if "LokyProcess" in " ".join(p.cmdline())]
-            killed = workers[0]
-            killed.kill()
-    assert killed is not None
-    assert not killed.is_running()
-    finished.sort(key=lambda record: record.number)
-    assert [record.number for record in finished] == list(range(1, 2001))
-    assert [record.case for record in finished] == QUICK_CASES * 400
-    from joblib.externals.loky import get_reusable_executor
-
-    get_reusable_executor().shutdown(wait=True)
 
 
 # The file of answers

@@ -31,7 +31,7 @@ def kill_a_worker():
         time.sleep(0.1)
         shown = subprocess.run(["ps", "-eo", "pid,args"], capture_output=True, text=True).stdout
         processes = [line.split(maxsplit=1) for line in shown.splitlines()]
-        actors = [int(pid) for pid, command in processes if command.startswith("ray::PoolActor")]
+        actors = [int(pid) for pid, command in processes if command.startswith("ray::run_chunk")]
     time.sleep(0.5)
     os.kill(actors[0], signal.SIGKILL)
     print("killed")

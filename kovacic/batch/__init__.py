@@ -5,7 +5,7 @@ Texts, or files of them, go in; a `Record` with a line of JSON for every one of 
     files    files into items; the answers   pool     items into records, with limits that hold
     scan     grids of parameters as items    child    the parent's end of a worker process
     map      a picture of a scan             worker   the process
-    backends the pool through joblib: loky, Dask, Ray
+    backends chunks through Dask or Ray
 
 >>> import kovacic
 >>> [record.case for record in kovacic.solve_many(["x^2 + 3", "x", "-3/(16*x^2) + 1/x"], jobs=1)]
@@ -45,13 +45,13 @@ def solve_many(
     `jobs` worker processes (by default one for each core) take the equations in turn.  `timeout`, in seconds, and `memory`,
     in MiB, hold for each equation: a process that exceeds one is killed and replaced, and its equation is undecided.
     With `group` each record has the Galois group as well.
-    `backend` ("loky", "dask", "ray") runs the same on joblib's engines, for Dask on the cluster of the `scheduler`.
+    `backend` ("dask", "ray") runs the same on a cluster, for Dask on that of the `scheduler`.
 
     Raises `InputError` for options that don't fit together.  Closing the iterator ends the processes.
     """
     from kovacic.batch.files import item_from
 
-    job = make_job(timeout=timeout, memory=memory, group=group, limits=limits)
+    job = Job(timeout=timeout, memory=memory, group=group, limits=limits)
     items = (item_from(number, value, var=var, limits=limits) for number, value in enumerate(equations, start=1))
     return run_items(items, job, jobs=jobs, ordered=ordered, backend=backend, scheduler=scheduler)
 
@@ -86,22 +86,4 @@ def _run_here(items: Iterable[Item], job: Job, jobs: int, ordered: bool, stream:
         yield from pool.run(items, ordered=ordered, stream=stream)
 
 
-def make_job(
-    *,
-    timeout: float | None = None,
-    memory: int | None = None,
-    group: bool = False,
-    limits: Limits = DEFAULT_LIMITS,
-) -> Job:
-    """The job with these conditions; raises `InputError` for impossible ones."""
-    if timeout is not None and not 0 < timeout < 1e8:
-        raise InputError(f"a timeout of {timeout} s isn't possible", hint="give seconds, above 0")
-    if memory is not None:
-        if memory < 1:
-            raise InputError(f"a memory limit of {memory} MiB isn't possible", hint="give MiB, at least 1")
-        if not os.path.exists("/proc/self/statm"):
-            raise InputError("memory limits need a Linux system", hint="leave the memory limit out")
-    return Job(timeout=timeout, memory=memory, group=group, limits=limits)
-
-
-__all__ = ["Item", "Job", "Record", "make_job", "run_items", "solve_many"]
+__all__ = ["Item", "Job", "Record", "run_items", "solve_many"]

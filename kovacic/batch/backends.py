@@ -1,38 +1,31 @@
-"""The same batch on another engine, through joblib: loky on this machine, Dask or Ray on many.
+"""The same batch on other machines: chunks of items through Dask or Ray.
 
-The engine distributes chunks of items.  On the machine that gets one, the chunk runs through a worker process that can be
-killed, as on a single machine: limits hold everywhere, an equation that exhausts the memory doesn't take a Dask worker with
-it, and flint, whose precision is global, isn't run in threads.  Each thread of the engine keeps its worker process for the
-next chunk; the process ends with the thread's process, or after a failure.
+On the machine that gets a chunk, it runs through a worker process that can be killed, as on a single machine: limits hold
+everywhere, an equation that exhausts the memory doesn't take a Dask worker with it, and flint, whose precision is global,
+isn't run in threads.  Each thread of the engine keeps its worker process for the next chunk; the process ends with the
+thread's process, or after a failure.  What a lost worker of the engine had is done again by another one: the engine sees to it.
 """
 
 from __future__ import annotations
 
-import os
-import pickle
 import threading
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import ExitStack, contextmanager
-from functools import partial
-from itertools import chain, islice
-from tempfile import TemporaryDirectory, mkstemp
-from typing import Any
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from contextlib import contextmanager
+from itertools import islice
 
 from kovacic.batch.pool import Pool
 from kovacic.batch.records import Item, Job, Record
 from kovacic.errors import InputError, KovacicError, needs
 
-BACKENDS = ("loky", "dask", "ray")
-
 # Items that travel together.  At 5 ms each they keep a worker busy for half a second, and a lost worker loses little.
 CHUNK = 100
-
-# Chunks that Ray gets at a time.
-_RAY_ROUND = 64
-
-# Worker processes that may be lost one after the other, without an answer in between.
+# Processes of Ray's that a chunk may lose; Dask's own number is 3.
 _LOSSES = 4
+
+#: Sends a chunk, and the number of chunks that the engine has room for.
+_Engine = tuple[Callable[[Job, list[Item]], Future[list[Record]]], int]
 
 
 class _Kept(threading.local):
@@ -59,35 +52,6 @@ def run_chunk(job: Job, items: list[Item]) -> list[Record]:
         raise
 
 
-def run_chunk_into_file(folder: str, job: Job, items: list[Item]) -> str:
-    """The path of a new file in the folder with the records of `run_chunk`."""
-    descriptor, path = mkstemp(dir=folder)
-    with os.fdopen(descriptor, "wb") as file:
-        pickle.dump(run_chunk(job, items), file)
-    return path
-
-
-def _records_of_file(path: str) -> list[Record]:
-    with open(path, "rb") as file:
-        records: list[Record] = pickle.load(file)
-    os.unlink(path)
-    return records
-
-
-@contextmanager
-def _transport(backend: str) -> Iterator[tuple[Callable[..., Any], Callable[[Any], list[Record]]]]:
-    """What a worker calls with a job and a chunk, and what makes records of its result.
-
-    loky waits without end for the rest of a result if a worker is killed while it writes one into their common pipe.  A
-    path is short enough to be written at once, so that the records go through a file.
-    """
-    if backend != "loky":
-        yield run_chunk, list
-        return
-    with TemporaryDirectory(prefix="kovacic-") as folder:
-        yield partial(run_chunk_into_file, folder), _records_of_file
-
-
 def run_on_backend(
     items: Iterable[Item],
     job: Job,
@@ -97,129 +61,68 @@ def run_on_backend(
     scheduler: str | None = None,
     ordered: bool = True,
 ) -> Iterator[Record]:
-    """One record for each item, from the joblib backend.
+    """One record for each item, from "dask" or "ray".
 
     `jobs` is the number of chunks that are worked on at a time: by default, all that the engine has room for.  `scheduler`
-    is the address of a running Dask scheduler ("tcp://host:8786") or Ray cluster; without it, loky and Ray start on this
-    machine, and Dask uses the client that the program has made.  What a lost worker had is done by another one, and a
-    record is passed on once.  Raises `InputError` where the engine isn't installed or can't be reached, and `KovacicError`
-    where its workers are lost one after the other.
+    is the address of a running Dask scheduler ("tcp://host:8786") or Ray cluster; without it, Ray starts on this machine, and
+    Dask uses the client that the program has made.  Raises `InputError` where the engine isn't installed or can't be
+    reached, and `KovacicError` where it gives up.
     """
-    with _configured(backend, jobs, scheduler), _transport(backend) as transport:
-        chunks = _chunks(items)
-        if backend != "ray":
-            yield from _run(chunks, job, backend, transport, "generator" if ordered else "generator_unordered")
-            return
-        while some := list(islice(chunks, _RAY_ROUND)):  # its joblib backend returns lists only
-            yield from _run(iter(some), job, backend, transport, "list")
-
-
-def _run(
-    chunks: Iterator[list[Item]],
-    job: Job,
-    backend: str,
-    transport: tuple[Callable[..., Any], Callable[[Any], list[Record]]],
-    return_as: str,
-) -> Iterator[Record]:
-    """The records of all chunks; what a lost worker process had is done again, and a record is passed on once.
-
-    Dask does it by itself; loky and Ray give up all that is on its way.
-    """
-    from joblib import Parallel, delayed
-
-    work, received = transport
-    on_their_way: dict[int, list[Item]] = {}
-
-    def sent(chunks: Iterable[list[Item]]) -> Iterator[list[Item]]:
-        for chunk in chunks:
-            on_their_way[chunk[0].number] = chunk
-            yield chunk
-
-    losses = 0
-    while True:
-        again = list(on_their_way.values())
-        on_their_way.clear()
-        parallel = Parallel(batch_size=1, pre_dispatch="2*n_jobs", return_as=return_as)
+    if backend not in _ENGINES:
+        raise InputError(f"{backend!r} isn't a backend", hint=f"one of {', '.join(_ENGINES)}")
+    iterator, pending = iter(items), deque[Future[list[Record]]]()
+    with _ENGINES[backend](scheduler) as (send, room):
+        most = jobs or 2 * room
         try:
-            for result in parallel(delayed(work)(job, chunk) for chunk in sent(chain(again, chunks))):
-                records = received(result)
-                del on_their_way[records[0].number]
-                losses = 0
+            while True:
+                while len(pending) < most and (chunk := list(islice(iterator, CHUNK))):
+                    pending.append(send(job, chunk))
+                if not pending:
+                    return
+                done = pending[0] if ordered else wait(pending, return_when=FIRST_COMPLETED).done.pop()
+                pending.remove(done)
+                try:
+                    records = done.result()
+                except KovacicError:
+                    raise
+                except Exception as error:
+                    raise KovacicError(f"{backend} gave a chunk of equations up: {error}") from error
                 yield from records
-            if not on_their_way:
-                return
-            reason = "no answer, and no error"
-        except _losses(backend) as error:
-            reason = str(error)
-        losses += 1
-        if losses == _LOSSES:
-            raise KovacicError(f"{backend} has lost {_LOSSES} worker processes in a row: {reason}")
-
-
-def _losses(backend: str) -> tuple[type[Exception], ...]:
-    """What the engine raises when one of its processes, or a machine, is gone."""
-    if backend != "ray":
-        return (BrokenProcessPool,)
-    from ray.exceptions import NodeDiedError, RayActorError, WorkerCrashedError
-
-    return (NodeDiedError, RayActorError, WorkerCrashedError)
-
-
-def _chunks(items: Iterable[Item]) -> Iterator[list[Item]]:
-    iterator = iter(items)
-    while chunk := list(islice(iterator, CHUNK)):
-        yield chunk
+        finally:
+            for future in pending:
+                future.cancel()
 
 
 @contextmanager
-def _configured(backend: str, jobs: int | None, scheduler: str | None) -> Iterator[None]:
-    """joblib's configuration for this backend; connections that are made here are closed here."""
-    with needs("dask", f"the backend {backend}"):
-        from joblib import parallel_config
-
-    with ExitStack() as stack:
-        options = {"n_jobs": -1 if jobs is None else jobs}
-        if backend == "dask":
-            options["client"] = stack.enter_context(_dask_client(scheduler))
-        elif backend == "ray":
-            _connect_ray(scheduler)
-        elif backend != "loky":
-            raise InputError(f"{backend!r} isn't a backend", hint=f"one of {', '.join(BACKENDS)}")
-        elif scheduler is not None:
-            raise InputError("loky has no scheduler", hint="--backend dask --scheduler tcp://host:8786")
-        stack.enter_context(parallel_config(backend, **options))
-        yield
-
-
-@contextmanager
-def _dask_client(scheduler: str | None) -> Iterator[Any]:
+def _dask(scheduler: str | None) -> Iterator[_Engine]:
     """A client of the scheduler, or the one that the program has made."""
-    try:
+    with needs("dask", "the backend dask"):
         from distributed import Client, get_client
-    except ImportError:
-        raise InputError("Dask isn't installed", hint="pip install 'kovacic[dask]'") from None
-    if scheduler is None:
-        try:
-            existing = get_client()
-        except ValueError:
-            raise InputError("there is no Dask client", hint="--scheduler tcp://host:8786, or make a client") from None
-        yield existing
-        return
     try:
-        client = Client(scheduler, set_as_default=False)
+        client = get_client() if scheduler is None else Client(scheduler, set_as_default=False)
     except (OSError, ValueError) as error:
+        if scheduler is None:
+            raise InputError("there is no Dask client", hint="--scheduler tcp://host:8786, or make a client") from None
         hint = "dask scheduler --port 8786, and --scheduler tcp://host:8786"
         raise InputError(f"the scheduler at {scheduler} can't be reached: {error}", hint=hint) from None
-    with client:
-        yield client
+    executor = client.get_executor(pure=False)
+    try:
+        yield lambda job, chunk: executor.submit(run_chunk, job, chunk), max(1, sum(client.nthreads().values()))
+    finally:
+        if scheduler is not None:
+            client.close()
 
 
-def _connect_ray(address: str | None) -> None:
+@contextmanager
+def _ray(address: str | None) -> Iterator[_Engine]:
     try:
         import ray
-        from ray.util.joblib import register_ray
     except ImportError:
         raise InputError("Ray isn't installed", hint="pip install ray") from None
-    if address is not None:
+    if address is not None or not ray.is_initialized():
         ray.init(address=address, ignore_reinit_error=True)
-    register_ray()
+    work = ray.remote(run_chunk).options(max_retries=_LOSSES)
+    yield lambda job, chunk: work.remote(job, chunk).future(), max(1, int(ray.cluster_resources().get("CPU", 1)))
+
+
+_ENGINES = {"dask": _dask, "ray": _ray}

@@ -7,7 +7,6 @@ and in scripts without a main guard, and it can be killed at any moment without 
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -16,6 +15,7 @@ import time
 from collections import deque
 from contextlib import suppress
 from queue import SimpleQueue
+from typing import IO, cast
 
 from kovacic.batch.records import Item, Job
 from kovacic.batch.worker import encode_item
@@ -24,22 +24,14 @@ from kovacic.batch.worker import encode_item
 _START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.batch.worker import main; main()"
 _SHOWN_ERROR_BYTES = 20_000
 
-#: A process has so many items, that it works on included, so that it needn't wait for the parent.
-ITEMS_AHEAD = 32
-
-# Its answers are fetched once in so many seconds at most: to wake up for each one costs more than to read it.
-_SECONDS_BETWEEN_READS = 0.005
-
-_PIPE_BYTES = 1 << 16
-
-# (child, line), the line None at the end of the process
-Event = tuple["Child", str | None]
+# (child, line), the line None at the end of the process; None where an item of a stream has arrived
+Event = tuple["Child", bytes | None] | None
 
 
 class Child:
     """A worker process.  `assigned` are the items that it hasn't answered, the one that it works on first."""
 
-    def __init__(self, job: Job, events: SimpleQueue[Event | None]) -> None:
+    def __init__(self, job: Job, events: SimpleQueue[Event]) -> None:
         self.assigned: deque[Item] = deque()
         self.ready = False
         self.busy_since = time.monotonic()
@@ -50,13 +42,11 @@ class Child:
             stdout=subprocess.PIPE,
             stderr=self._errors,
         )
+        self.pid = self._process.pid
+        self._to, self._from = cast("IO[bytes]", self._process.stdin), cast("IO[bytes]", self._process.stdout)
         self._reader = threading.Thread(target=self._read, args=(events,), daemon=True)
         self._reader.start()
         self._send(job.dumps() + "\n")
-
-    @property
-    def pid(self) -> int:
-        return self._process.pid
 
     def give(self, item: Item) -> None:
         """Append an item to what the process has to do; a process that is gone reports itself through its events."""
@@ -75,11 +65,9 @@ class Child:
         self._process.kill()
         self._process.wait()
         self._reader.join()
-        assert self._process.stdin is not None
-        assert self._process.stdout is not None
-        self._process.stdout.close()
+        self._from.close()
         with suppress(OSError):  # something was still waiting to be written
-            self._process.stdin.close()
+            self._to.close()
         self._errors.close()
 
     def last_words(self) -> tuple[int, str]:
@@ -90,24 +78,12 @@ class Child:
         return status, self._errors.read().decode("utf-8", errors="replace").strip()
 
     def _send(self, line: str) -> None:
-        assert self._process.stdin is not None
         with suppress(OSError):  # a broken pipe: the end of the process arrives as an event
-            self._process.stdin.write(line.encode())
-            self._process.stdin.flush()
+            self._to.write(line.encode())
+            self._to.flush()
 
-    def _read(self, events: SimpleQueue[Event | None]) -> None:
-        assert self._process.stdout is not None
-        descriptor, unfinished = self._process.stdout.fileno(), list[bytes]()
-        while data := os.read(descriptor, _PIPE_BYTES):
-            start = time.monotonic()
-            *lines, rest = data.split(b"\n")
-            if lines:
-                lines[0] = b"".join([*unfinished, lines[0]])
-                unfinished.clear()
-            for line in lines:
-                events.put((self, line.decode()))
-            if rest:
-                unfinished.append(rest)  # of a long answer, which the process is waiting to write
-            elif len(self.assigned) > 1:
-                time.sleep(max(0.0, start + _SECONDS_BETWEEN_READS - time.monotonic()))
+    def _read(self, events: SimpleQueue[Event]) -> None:
+        for line in self._from:
+            if line.endswith(b"\n"):  # else the process ended while it wrote
+                events.put((self, line))
         events.put((self, None))

@@ -1,8 +1,8 @@
 """A pool of worker processes that can be killed: every item gets exactly one record.
 
 One loop in the caller's thread waits for events (a record, the end of a process, an item from a stream) and for the next
-deadline.  A busy process has some small items waiting in its pipe; the last of them is given to another process when that
-one has nothing to do.  A record counts only if it comes from the item's owner.
+deadline.  A busy process has one more short item waiting in its pipe, which is given to another process when that one has
+nothing to do.  A record counts only if it comes from the item's owner.
 
 A process that is over its time is killed, and its item gets a record.  So does the item of a process that has ended with an
 exception; one whose process was killed by somebody else gets another one, up to three times.  What was waiting behind the
@@ -16,15 +16,14 @@ import re
 import signal
 import threading
 import time
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
 from queue import Empty, Queue, SimpleQueue
 
-from kovacic.batch.child import ITEMS_AHEAD, Child, Event
+from kovacic.batch.child import Child, Event
 from kovacic.batch.records import Item, Job, Record, lost, refused, stopped
-from kovacic.batch.worker import READY, decode_record
+from kovacic.batch.worker import decode_record
 from kovacic.errors import InputError, KovacicError
 
 # A process has so many seconds beyond the timeout to end by itself, with an answer that says what it has excluded.
@@ -50,15 +49,6 @@ _PATIENCE_SECONDS = 0.1
 _OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_alloc", re.IGNORECASE)
 
 
-@dataclass(slots=True)
-class _Entry:
-    """An item on its way: its owner, and how many processes it has lost."""
-
-    item: Item
-    owner: Child | None = None
-    losses: int = 0
-
-
 class Pool(AbstractContextManager["Pool"]):
     """`jobs` worker processes for one job; a context manager, which kills them at the end.
 
@@ -69,14 +59,13 @@ class Pool(AbstractContextManager["Pool"]):
     """
 
     def __init__(self, jobs: int, job: Job) -> None:
-        self._job = job
-        self._events: SimpleQueue[Event | None] = SimpleQueue()
-        self._jobs = jobs
+        self._job, self._jobs = job, jobs
+        self._events: SimpleQueue[Event] = SimpleQueue()
         self._children: list[Child] = []
-        self._entries: dict[int, _Entry] = {}
-        self._again: deque[_Entry] = deque()
+        self._owners: dict[int, Child] = {}  # of the items without an answer, by their numbers
+        self._again: deque[Item] = deque()
+        self._losses: Counter[int] = Counter()
         self._failed_starts = 0
-        self._exhausted = False
         self.replaced = 0
 
     def __exit__(self, *error: object) -> None:
@@ -86,9 +75,8 @@ class Pool(AbstractContextManager["Pool"]):
         """Kill the processes; `run` would start new ones."""
         for child in self._children:
             child.kill()
-        self._children.clear()
-        self._entries.clear()
-        self._again.clear()
+        for kept in (self._children, self._owners, self._again, self._losses):
+            kept.clear()
 
     def pids(self) -> list[int]:
         """The identifiers of the worker processes."""
@@ -100,96 +88,79 @@ class Pool(AbstractContextManager["Pool"]):
         The numbers of the items must differ.  `stream` says that the items may be long in coming.
         """
         feed = _read_ahead(items, self._events) if stream else iter(items)
-        self._exhausted = False
         if not ordered:
-            yield from self._records(feed, deque())
+            yield from self._records(feed)
             return
         order: deque[int] = deque()
         ready: dict[int, Record] = {}
-        for record in self._records(feed, order, window=ORDERED_WINDOW):
+
+        def noted() -> Iterator[Item | None]:
+            for item in feed:
+                while len(order) >= ORDERED_WINDOW:
+                    yield None
+                if item is not None:
+                    order.append(item.number)
+                yield item
+
+        for record in self._records(noted()):
             ready[record.number] = record
             while order and order[0] in ready:
                 yield ready.pop(order.popleft())
 
-    def _records(
-        self, feed: Iterator[Item | None], order: deque[int], *, window: int | None = None
-    ) -> Iterator[Record]:
-        """The records as they come; the numbers of the items are appended to `order` as they are taken."""
+    def _records(self, feed: Iterator[Item | None]) -> Iterator[Record]:
+        """The records as they come; the feed gives None where there is no item for the moment."""
         while len(self._children) < self._jobs:
             self._children.append(Child(self._job, self._events))
+        exhausted = False
         while True:
-            yield from self._hand_out(feed, order, window)
-            if self._exhausted and not self._entries:
+            for depth in (0, 1):
+                for child in self._children:
+                    while child.ready and len(child.assigned) == depth:
+                        try:
+                            item = self._again.popleft() if self._again else None if exhausted else next(feed)
+                        except StopIteration:
+                            exhausted = True
+                            break
+                        if item is None:
+                            break
+                        if item.error is not None:
+                            yield refused(item, item.error)
+                        elif depth and len(item.text) > _WAITING_CHARACTERS:
+                            self._again.appendleft(item)
+                            break
+                        else:
+                            self._give(child, item)
+            if exhausted and not self._owners and not self._again:
                 return
             self._share_waiting()
             yield from self._handle(self._wait())
 
-    def _hand_out(self, feed: Iterator[Item | None], order: deque[int], window: int | None) -> Iterator[Record]:
-        for depth in range(1, ITEMS_AHEAD + 1):
-            for child in self._children:
-                if not child.ready or len(child.assigned) != depth - 1:
-                    continue
-                waiting = sum(len(item.text) for item in child.assigned)
-                if depth > 1 and waiting > _WAITING_CHARACTERS:
-                    continue
-                while (entry := self._next(feed, order, window)) is not None:
-                    item = entry.item
-                    if item.error is not None:
-                        yield refused(item, item.error)
-                    elif depth > 1 and waiting + len(item.text) > _WAITING_CHARACTERS:
-                        self._entries[item.number] = entry
-                        self._again.appendleft(entry)
-                        return
-                    else:
-                        entry.owner = child
-                        self._entries[item.number] = entry
-                        child.give(item)
-                        break
-
-    def _next(self, feed: Iterator[Item | None], order: deque[int], window: int | None) -> _Entry | None:
-        if self._again:
-            return self._again.popleft()
-        if self._exhausted or (window is not None and len(order) >= window):
-            return None
-        try:
-            item = next(feed)
-        except StopIteration:
-            self._exhausted = True
-            return None
-        if item is None:  # for the moment
-            return None
-        if window is not None:
-            order.append(item.number)
-        return _Entry(item)
+    def _give(self, child: Child, item: Item) -> None:
+        self._owners[item.number] = child
+        child.give(item)
 
     def _share_waiting(self) -> None:
-        """Give what waits behind a slow item, the last one first, to a process that has nothing to do."""
-        now = time.monotonic()
+        """Give what waits behind a slow item to a process that has nothing to do."""
+        patient = time.monotonic() - _PATIENCE_SECONDS
         for idle in self._idle():
             for child in self._children:
-                waiting = self._waiting(child)
-                if waiting and child.busy_since + _PATIENCE_SECONDS <= now:
-                    self._entries[waiting[-1].number].owner = idle
-                    idle.give(waiting[-1])
+                if (waiting := self._waiting(child)) and child.busy_since <= patient:
+                    self._give(idle, waiting[0])
                     break
 
     def _idle(self) -> list[Child]:
         return [child for child in self._children if child.ready and not child.assigned]
 
     def _waiting(self, child: Child) -> list[Item]:
-        return [item for item in list(child.assigned)[1:] if self._owned(item, child)]
+        return [item for item in list(child.assigned)[1:] if self._owners.get(item.number) is child]
 
-    def _owned(self, item: Item, child: Child) -> bool:
-        entry = self._entries.get(item.number)
-        return entry is not None and entry.owner is child
-
-    def _wait(self) -> list[Event | None]:
+    def _wait(self) -> list[Event]:
         """The events that have arrived, at least one unless a deadline comes first."""
         moments = [self._deadline(child) for child in self._children]
         if self._idle():
             moments += [child.busy_since + _PATIENCE_SECONDS for child in self._children if self._waiting(child)]
-        deadline = min(moments, default=math.inf)
-        events: list[Event | None] = []
+        deadline = min(moments)
+        events: list[Event] = []
         try:
             wait = None if deadline == math.inf else max(0.0, deadline - time.monotonic())
             events.append(self._events.get(timeout=wait))
@@ -205,7 +176,7 @@ class Pool(AbstractContextManager["Pool"]):
             return math.inf
         return child.busy_since + self._job.timeout + GRACE_SECONDS
 
-    def _handle(self, events: list[Event | None]) -> Iterator[Record]:
+    def _handle(self, events: list[Event]) -> Iterator[Record]:
         for event in events:
             if event is None or event[0] not in self._children:
                 continue
@@ -213,29 +184,32 @@ class Pool(AbstractContextManager["Pool"]):
             if line is None:
                 yield from self._died(child)
             elif not child.ready:
-                assert line.strip() == READY, line
                 child.ready = True
                 self._failed_starts = 0
             else:
-                record = decode_record(line)
+                record = decode_record(line.decode())
                 item = child.finished_one()
                 assert record.number == item.number, (record, item)
-                if self._owned(item, child):
-                    del self._entries[item.number]
+                if self._released(item, child):
                     yield record
         if not events:
             now = time.monotonic()
             for child in [child for child in self._children if self._deadline(child) <= now]:
                 yield from self._over_time(child)
 
+    def _released(self, item: Item, child: Child) -> bool:
+        """Takes the item off its owner; was it this one?"""
+        owned = self._owners.get(item.number) is child
+        if owned:
+            del self._owners[item.number]
+        return owned
+
     def _over_time(self, child: Child) -> Iterator[Record]:
         if not child.ready:
             raise KovacicError(f"a worker process hasn't started within {_START_SECONDS:g} s")
         item = child.assigned[0]
-        if self._owned(item, child):
-            del self._entries[item.number]
+        if self._released(item, child):
             seconds = time.monotonic() - child.busy_since
-            assert self._job.timeout is not None
             yield stopped(item, f"the time limit of {self._job.timeout:g} s is used up (process killed)", seconds)
         self._replace(child)
 
@@ -246,13 +220,11 @@ class Pool(AbstractContextManager["Pool"]):
             if self._failed_starts >= _START_ATTEMPTS:
                 raise KovacicError(f"worker processes can't be started: {_cause(status, words)}\n{words}")
         head = child.assigned[0] if child.assigned else None
-        if head is not None and self._owned(head, child):
-            seconds = time.monotonic() - child.busy_since
-            entry = self._entries[head.number]
-            entry.losses += 1
-            limit = self._limit_behind(status, words)
-            if limit is not None or entry.losses >= _processes_for(status):
-                del self._entries[head.number]
+        if head is not None and self._owners.get(head.number) is child:
+            seconds, limit = time.monotonic() - child.busy_since, self._limit_behind(status, words)
+            self._losses[head.number] += 1
+            if limit is not None or self._losses[head.number] >= _processes_for(status):
+                del self._owners[head.number]
                 yield lost(head, _cause(status, words), seconds) if limit is None else stopped(head, limit, seconds)
         self._replace(child)
 
@@ -266,16 +238,14 @@ class Pool(AbstractContextManager["Pool"]):
 
     def _replace(self, child: Child) -> None:
         """Kill a process, put what it still owns back to the front, and start another one."""
-        again = [self._entries[item.number] for item in child.assigned if self._owned(item, child)]
-        for entry in again:
-            entry.owner = None
+        again = [item for item in child.assigned if self._released(item, child)]
         self._again.extendleft(reversed(again))
         child.kill()
         self._children[self._children.index(child)] = Child(self._job, self._events)
         self.replaced += 1
 
 
-def _read_ahead(items: Iterable[Item], events: SimpleQueue[Event | None]) -> Iterator[Item | None]:
+def _read_ahead(items: Iterable[Item], events: SimpleQueue[Event]) -> Iterator[Item | None]:
     """The items of a stream, read by a thread, so that answers come out while it is silent; None where there is none yet."""
     queue: Queue[Item | InputError | None] = Queue(_AHEAD)
 

@@ -6,6 +6,7 @@ Items, records and jobs are plain data that travel between processes and machine
 from __future__ import annotations
 
 import json
+import os
 from array import array
 from collections import Counter
 from collections.abc import Iterator, Mapping
@@ -96,12 +97,21 @@ class Job:
     `timeout`, in seconds, and `memory`, in MiB above what an idle worker has, are hard: the process is killed.  `limits`
     are those of `kovacic.solve`; their clock is set to `timeout`, so that most equations end by themselves.  With `group`,
     the record has the differential Galois group: its name, its order (null if infinite) and whether it is finite.
+    Raises `InputError` for impossible conditions.
     """
 
     timeout: float | None = None
     memory: int | None = None
     group: bool = False
     limits: Limits = DEFAULT_LIMITS
+
+    def __post_init__(self) -> None:
+        if self.timeout is not None and not 0 < self.timeout < 1e8:
+            raise InputError(f"a timeout of {self.timeout} s isn't possible", hint="give seconds, above 0")
+        if self.memory is not None and self.memory < 1:
+            raise InputError(f"a memory limit of {self.memory} MiB isn't possible", hint="give MiB, at least 1")
+        if self.memory is not None and not os.path.exists("/proc/self/statm"):
+            raise InputError("memory limits need a Linux system", hint="leave the memory limit out")
 
     @property
     def engine_limits(self) -> Limits:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,15 +27,9 @@ def command(
     output: Path | None,
     resume: bool,
     form: str | None,
-    ordered: bool,
-    group: bool,
     var: str | None,
-    timeout: float | None,
-    memory: int | None,
     limits: tuple[str, ...],
-    progress: bool | None,
-    quiet: bool,
-    **engine: Any,
+    **run: Any,
 ) -> int:
     """Decide every equation of FILE; "-" is standard input.
 
@@ -50,23 +45,12 @@ def command(
     Exit status: 0 all decided, 3 some undecided, 2 some bad input, 4 a self-check or a process failed, 5 the output can't
     be written.
     """
-    from kovacic.batch import make_job, run_items
     from kovacic.batch.files import Answers, count_items, guess_format, opened, read_items
 
-    chosen = parse_limits(limits)
-    job = make_job(timeout=timeout, memory=memory, group=group, limits=chosen)
-    done = already_answered(output, resume)
+    chosen, done = parse_limits(limits), already_answered(output, resume)
     form = form or guess_format(file)
     with ExitStack() as stack:
         items = read_items(stack.enter_context(opened(file)), form=form, var=var, limits=chosen)
         write = write_line if output is None else stack.enter_context(Answers(output)).write
-        left = (item for item in items if item not in done)
-        summary = answer_all(
-            run_items(left, job, ordered=ordered, stream=file == "-", **engine),
-            write,
-            total=lambda: None if file == "-" else count_items(file, form=form) - len(done),
-            answered=len(done),
-            progress=progress,
-            quiet=quiet,
-        )
-    return summary.exit_status
+        count = None if file == "-" else partial(count_items, file, form=form)
+        return answer_all(items, write, count=count, done=done, limits=chosen, stream=file == "-", **run)

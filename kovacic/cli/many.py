@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -15,7 +15,8 @@ from kovacic.cli.options import limit_option
 
 if TYPE_CHECKING:
     from kovacic.batch.files import Done
-    from kovacic.batch.records import Record, Summary
+    from kovacic.batch.records import Item, Record, Summary
+    from kovacic.limits import Limits
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -28,7 +29,7 @@ _OPTIONS = [
     ),
     click.option("--memory", type=click.IntRange(min=1), metavar="MIB", help="For each equation."),
     limit_option,
-    click.option("--backend", type=click.Choice(["loky", "dask", "ray"]), help="Run on an engine of joblib's."),
+    click.option("--backend", type=click.Choice(["dask", "ray"]), help="Run on a cluster."),
     click.option("--scheduler", metavar="ADDRESS", help="The engine's address, for example tcp://host:8786."),
     click.option("--progress/--no-progress", default=None, help="By default if standard error is a terminal."),
     click.option("-q", "--quiet", is_flag=True, help="No summary."),
@@ -62,38 +63,44 @@ def write_line(record: Record) -> None:
 
 
 def answer_all(
-    records: Iterator[Record],
+    items: Iterable[Item],
     write: Callable[[Record], None],
     *,
-    total: Callable[[], int | None],
-    answered: int,
+    count: Callable[[], int] | None,
+    done: Done,
+    timeout: float | None,
+    memory: int | None,
+    group: bool,
+    limits: Limits,
     progress: bool | None,
     quiet: bool,
-) -> Summary:
-    """Write every record, with a line of progress where it is wanted, and at the end, be it an interruption, the summary.
-
-    `total` counts the equations where that is possible, `answered` those that needn't be answered again.
+    **engine: Any,
+) -> int:
+    """Write a record for every item that isn't done, with a line of progress where it is wanted, and at the end, be it an
+    interruption, the summary; the exit status.  `count` tells how many items there are, where that is possible.
     """
+    from kovacic.batch import Job, run_items
     from kovacic.batch.records import Summary
 
+    job = Job(timeout=timeout, memory=memory, group=group, limits=limits)
     summary, start = Summary(), time.monotonic()
     with ExitStack() as stack:
         if not quiet:
-            stack.callback(lambda: _print_summary(summary, answered, time.monotonic() - start))
+            stack.callback(lambda: _print_summary(summary, len(done), time.monotonic() - start))
         if progress is None:
             progress = sys.stderr.isatty() and not sys.stdout.isatty()
-        size, shown = total() if progress else None, -_REFRESH
+        size, shown = count() - len(done) if progress and count else None, -_REFRESH
         if progress:
             stack.callback(sys.stderr.write, "\n")
             stack.callback(lambda: _show_progress(summary, size, time.monotonic() - start))
-        for record in records:
+        for record in run_items((item for item in items if item not in done), job, **engine):
             write(record)
             summary.add(record)
             now = time.monotonic() - start
             if progress and now > shown + _REFRESH:
                 _show_progress(summary, size, now)
                 shown = now
-    return summary
+    return summary.exit_status
 
 
 def _show_progress(summary: Summary, total: int | None, seconds: float) -> None:

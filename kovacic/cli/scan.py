@@ -37,14 +37,9 @@ def command(
     resume: bool,
     form: str | None,
     picture: Path | None,
-    group: bool,
     var: str | None,
-    timeout: float | None,
-    memory: int | None,
     limits: tuple[str, ...],
-    progress: bool | None,
-    quiet: bool,
-    **engine: Any,
+    **run: Any,
 ) -> int:
     """Decide y'' = S(x) y for every combination of parameter values.
 
@@ -57,7 +52,6 @@ def command(
 
     Exit status: 0 all decided, 3 some undecided, 2 some points where S isn't defined, 4 a self-check or a process failed.
     """
-    from kovacic.batch import make_job, run_items
     from kovacic.batch.map import draw_map
     from kovacic.batch.scan import parse_grid, scan_items
 
@@ -69,8 +63,7 @@ def command(
     if resume and form == "csv":
         raise click.UsageError("--resume needs --output FILE.jsonl, the file of the interrupted scan")
     done = already_answered(output, resume)
-    job = make_job(timeout=timeout, memory=memory, group=group, limits=parse_limits(limits))
-    labels = dict(done.labels)
+    labels, chosen = dict(done.labels), parse_limits(limits)
     items = scan_items(expression, grids, var=var)
     with ExitStack() as stack:
         write = _writer(stack, output, form, grids)
@@ -80,17 +73,10 @@ def command(
             if picture is not None:
                 labels[record.number] = record.label
 
-        summary = answer_all(
-            run_items((item for item in items if item not in done), job, **engine),
-            noted,
-            total=lambda: prod(map(len, grids)) - len(done),
-            answered=len(done),
-            progress=progress,
-            quiet=quiet,
-        )
+        status = answer_all(items, noted, count=lambda: prod(map(len, grids)), done=done, limits=chosen, **run)
     if picture is not None:
         draw_map(expression, (grids[0], grids[1]), labels, picture)
-    return summary.exit_status
+    return status
 
 
 def _writer(stack: ExitStack, output: Path | None, form: str, grids: Sequence[Grid]) -> Callable[[Record], None]:
