@@ -42,7 +42,7 @@ from kovacic.parametric.search import (
 from kovacic.parametric.solutions import jacobi_solutions, laguerre_solutions
 from kovacic.parametric.statements import Statement, Vanishes, both, either
 from kovacic.solution import Solution
-from kovacic.views.text import omega_lines
+from kovacic.views.sentences import omega_lines
 
 #: The degree of an algebraic number up to which its equation is solved, although it is known to be reducible.
 _WRITTEN_OUT = 2
@@ -336,5 +336,5 @@ def omega_text(S: RatFunc, decision: Decision, variable: str) -> str | None:
     if decision.riccati is None or decision.structure is None:
         return None
     lines = omega_lines(Solution(S.to_str(variable), variable, S, decision))
-    text = " ".join(line.strip() for line in lines if not line.startswith("y ="))
+    text = " ".join(line.strip() for line in lines)
     return text if len(text) <= _LONGEST_OMEGA else _SEMI_INVARIANTS[decision.structure]

@@ -6,7 +6,7 @@ A sentence is a sequence of plain strings and `Math`.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 
@@ -24,6 +24,11 @@ class Heading:
 @dataclass(frozen=True)
 class Paragraph:
     sentence: Sentence
+
+
+def say(*sentence: str | Math) -> Paragraph:
+    """A paragraph of one sentence."""
+    return Paragraph(sentence)
 
 
 @dataclass(frozen=True)
@@ -69,15 +74,16 @@ class Format:
         if isinstance(block, Heading):
             return self.heading(self.plain(block.text), block.level)
         if isinstance(block, Paragraph):
-            return self.paragraph(self._sentence(block.sentence))
+            return self.paragraph(self.sentence(block.sentence))
         if isinstance(block, Formula):
             return self.formula(block.math)
         if isinstance(block, Picture):
             return f"<figure>{block.svg}<figcaption>{self.plain(block.caption)}</figcaption></figure>"
-        rows = [[self._sentence(cell) for cell in row] for row in block.rows]
-        return self.table([[self._sentence([cell]) for cell in block.head], *rows])
+        rows = [[self.sentence(cell) for cell in row] for row in block.rows]
+        return self.table([[self.sentence([cell]) for cell in block.head], *rows])
 
-    def _sentence(self, sentence: Sentence) -> str:
+    def sentence(self, sentence: Iterable[str | Math]) -> str:
+        """The parts of a sentence, one after the other."""
         return "".join(self.math(part) if isinstance(part, Math) else self.plain(part) for part in sentence)
 
 

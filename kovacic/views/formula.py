@@ -6,16 +6,16 @@ Text has ^ for powers.  LaTeX is made from the exact data, each quotient as one 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import count
+from functools import cached_property
+from itertools import chain, count
 from math import gcd
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.reading.given import Equation, parameters_of
+from kovacic.reading.given import parameters_of
 
 _GREEK = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega"
 # What has another form in LaTeX, in the order in which it is replaced.
@@ -49,46 +49,9 @@ class Math:
     latex: str
 
 
-def _first_free(name: str, taken: set[str]) -> str:
-    return next(candidate for k in count() if (candidate := name + (str(k) if k else "")) not in taken)
-
-
-class Names:
-    """The names of one answer: those of the engine, unless the user's variable is called the same."""
-
-    def __init__(self, variable: str, taken: Sequence[str] = ()) -> None:
-        """`taken` are the names of the parameters."""
-        self.variable = variable
-        self.symbol = _first_free(_SYMBOL, {variable, *taken})
-        self.unknown = next(name for name in ("w", "W", "w1", "w2", "w3") if name not in {variable, *taken})
-
-    def poly(self, polynomial: Poly) -> str:
-        """Python syntax."""
-        return self._renamed(polynomial).to_str(self.variable)
-
-    def ratfunc(self, function: RatFunc) -> str:
-        """Python syntax."""
-        return self.renamed(function).to_str(self.variable)
-
-    def renamed(self, function: RatFunc) -> RatFunc:
-        """The same function, whose constants are printed with `symbol`."""
-        return RatFunc(self._renamed(function.num), self._renamed(function.den), reduced=True)
-
-    def place(self, place: str) -> str:
-        """A factor of the denominator, which evidence has in the engine's variable, in the user's."""
-        return re.sub(rf"\b{_VARIABLE}\b", self.variable, place)
-
-    def internal_place(self, place: str) -> str:
-        """The inverse of `place`."""
-        return re.sub(rf"\b{re.escape(self.variable)}\b", _VARIABLE, place)
-
-    def _renamed(self, polynomial: Poly) -> Poly:
-        if not isinstance(polynomial, ExtensionPoly):
-            return polynomial
-        field = polynomial.field
-        if field.name != _SYMBOL or self.symbol == _SYMBOL:  # any other name belongs to the field of S
-            return polynomial
-        return ExtensionPoly.make(AlgebraicField(field.base, field.modulus, self.symbol), polynomial.parts)
+def _first_free(taken: set[str], *candidates: str) -> str:
+    numbered = (f"{candidates[-1]}{k}" for k in count(1))
+    return next(name for name in chain(candidates, numbered) if name not in taken)
 
 
 @dataclass(frozen=True)
@@ -98,51 +61,71 @@ class Formulas:
     variable: str
     field: Field
 
-    @property
-    def names(self) -> Names:
-        """The names of the variable, of omega and of its constants."""
-        return Names(self.variable, parameters_of(self.field))
+    @cached_property
+    def symbol(self) -> str:
+        """The name of omega's constants: that of the engine, unless a name of the user's is the same."""
+        return _first_free({self.variable, *parameters_of(self.field)}, _SYMBOL)
+
+    @cached_property
+    def unknown(self) -> str:
+        """The name of omega in its polynomial."""
+        return _first_free({self.variable, *parameters_of(self.field)}, "w", "W", "w")
+
+    def python(self, function: RatFunc | Poly) -> str:
+        """A function or a polynomial in Python's syntax."""
+        if isinstance(function, Poly):
+            return self._renamed(function).to_str(self.variable)
+        return self._both_renamed(function).to_str(self.variable)
+
+    def place_name(self, place: str) -> str:
+        """A factor of the denominator, which evidence has in the engine's variable, in the user's."""
+        return re.sub(rf"\b{_VARIABLE}\b", self.variable, place)
+
+    def internal_place(self, place: str) -> str:
+        """The inverse of `place_name`."""
+        return re.sub(rf"\b{re.escape(self.variable)}\b", _VARIABLE, place)
+
+    def _both_renamed(self, function: RatFunc) -> RatFunc:
+        return RatFunc(self._renamed(function.num), self._renamed(function.den), reduced=True)
+
+    def _renamed(self, polynomial: Poly) -> Poly:
+        """The same, its constants printed with `symbol`."""
+        if not isinstance(polynomial, ExtensionPoly):
+            return polynomial
+        field = polynomial.field
+        if field.name != _SYMBOL or self.symbol == _SYMBOL:  # any other name belongs to the field of S
+            return polynomial
+        return ExtensionPoly.make(AlgebraicField(field.base, field.modulus, self.symbol), polynomial.parts)
 
     def math(self, function: RatFunc | Poly) -> Math:
         """A function or a polynomial; of one that fills more than some screens, the degrees in place of the formula."""
         function = RatFunc(function) if isinstance(function, Poly) else function
         if _is_long(function):
             return Math(_degrees(function), rf"\text{{{_degrees(function)}}}")
-        renamed = self.names.renamed(function)
+        renamed = self._both_renamed(function)
         return Math(caret(renamed.to_str(self.variable)), latex_ratfunc(renamed, latex_text(self.variable)))
 
-    def text(self, function: RatFunc) -> str:
-        """A function for reading."""
-        return caret(self.names.ratfunc(function))
-
-    def cut(self, function: RatFunc) -> str:
-        """A function for reading; of one that fills more than some screens, the degrees."""
-        return _degrees(function) if _is_long(function) else self.text(function)
-
-    def factor(self, function: RatFunc, operators: str = " /*-") -> str:
-        """A function for reading, as the factor of a product: in parentheses where it has one of the operators."""
-        text = self.text(function)
-        return f"({text})" if any(sign in text for sign in operators) else text
+    def factor(self, function: RatFunc | Poly) -> Math:
+        """A function as the factor of a product: in parentheses where it needs them."""
+        value = self.math(function)
+        if not any(sign in value.text for sign in " /*-"):
+            return value
+        return Math(f"({value.text})", rf"\left({value.latex}\right)")
 
     def named(self, text: str, latex: str, function: RatFunc | Poly) -> Math:
         """`name = function`."""
         value = self.math(function)
         return Math(f"{text} = {value.text}", f"{latex} = {value.latex}")
 
-    def factor_of_place(self, place: str) -> Math:
-        """The factor that vanishes at a place, = 0; "infinity" for infinity."""
+    def place(self, place: str) -> Math:
+        """A place: infinity, x = 2 where its factor is linear in x with a simple constant, else factor = 0."""
         if place == "infinity":
             return Math(place, r"\infty")
-        factor = self.names.place(place)
-        return Math(f"{caret(factor)} = 0", f"{latex_text(factor)} = 0")
-
-    def place(self, place: str) -> Math:
-        """A place: x = 2 where its factor is linear in x with a simple constant, else factor = 0."""
-        factor, x = self.names.place(place), self.variable
+        factor, x = self.place_name(place), self.variable
         root = {f"{x} - ": "", f"{x} + ": "-"}.get(factor[: len(x) + 3])
         root = "0" if factor == x else None if root is None else root + factor[len(x) + 3 :]
         if root is None or x in root or " " in root:
-            return self.factor_of_place(place)
+            return Math(f"{caret(factor)} = 0", f"{latex_text(factor)} = 0")
         return Math(f"{x} = {root}", f"{latex_text(x)} = {latex_text(root)}")
 
 
@@ -175,11 +158,6 @@ def of_sympy(expression: Any) -> Math:
 def caret(text: str) -> str:
     """Python's powers as they are read."""
     return text.replace("**", "^")
-
-
-def given(equation: Equation) -> Math:
-    """The equation as it was given."""
-    return Math(equation.text(), latex_text(equation.text(caret=False)))
 
 
 def latex_text(text: str) -> str:

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -45,12 +46,14 @@ from kovacic.reading.given import Change, Equation, parameters_of
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
 from kovacic.verify import verify
-from kovacic.views.formula import Names
+from kovacic.views.formula import Formulas
 
 SCHEMA = 1
 
 # An answer may be larger than an input may be by default.
 _LIMITS = Limits(digits=10**7, exponent=10**6, degree=200_000, bits=40_000_000)
+
+_ARITHMETIC = Arithmetic(_LIMITS)
 
 # Stands for a generator such as sqrt(2) where text is read.
 _RADICAL = "radical_"
@@ -84,21 +87,21 @@ def loads(text: str | Mapping[str, Any]) -> Solution:
 
 def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
     """The answer as a JSON object of plain Python values."""
-    names = Names(solution.variable, parameters_of(solution.S.field))
+    names = Formulas(solution.variable, solution.S.field)
     decision = solution.decision
     riccati, form, constants = decision.riccati, decision.semi_invariant, solution.constants
     data = {
         "schema": SCHEMA,
         "input": solution.text,
         "variable": solution.variable,
-        "S": names.ratfunc(solution.S),
+        "S": names.python(solution.S),
         "status": decision.status.value,
         "case": decision.case,
         "riccati": riccati
         and {
             "variable": names.unknown,
             "degree": riccati.degree,
-            "coefficients": [names.ratfunc(coefficient) for coefficient in riccati.coefficients],
+            "coefficients": [names.python(coefficient) for coefficient in riccati.coefficients],
         },
         "constants": constants and {"symbol": names.symbol, "minimal_polynomial": constants.to_str(names.symbol)},
         "field": _field(solution.S.field),
@@ -106,7 +109,7 @@ def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
         "verified": solution.verified,
         "proof": {
             "structure": decision.structure and decision.structure.value,
-            "semi_invariant": form and riccati and {**_form(form, names), "D": names.poly(riccati.D)},
+            "semi_invariant": form and riccati and {**_form(form, names), "D": names.python(riccati.D)},
             "invariant": decision.invariant and _form(decision.invariant, names),
             "excluded": [_exclusion(exclusion, names) for exclusion in decision.exclusions],
             "undecided": decision.undecided,
@@ -114,7 +117,7 @@ def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
         "notices": list(solution.notices),
         "seconds": solution.seconds,
         "equation": solution.equation and _equation(solution.equation),
-        "gauge": solution.equation and names.ratfunc(solution.gauge),
+        "gauge": solution.equation and names.python(solution.gauge),
     }
     if full:
         data["group"] = group_dict(solution)
@@ -140,9 +143,9 @@ def from_dict(data: Mapping[str, Any]) -> Solution:
     rational = reader = _base_reader(data.get("field"), variable)
     if constants is not None:
         symbol = constants["symbol"]
-        modulus = rational.over({symbol: VARIABLE}).poly(constants["minimal_polynomial"])
+        modulus = replace(rational, names={symbol: VARIABLE}).poly(constants["minimal_polynomial"])
         field = AlgebraicField(rational.field, modulus)
-        reader = rational.over({variable: VARIABLE, symbol: field.generator}, field)
+        reader = replace(rational, names={variable: VARIABLE, symbol: field.generator}, field=field)
     semi_invariant, riccati = proof["semi_invariant"], data["riccati"]
     form = None if semi_invariant is None else reader.semi_invariant(semi_invariant)
     polynomial = None
@@ -150,7 +153,7 @@ def from_dict(data: Mapping[str, Any]) -> Solution:
         polynomial = _riccati(form.P, reader.poly(semi_invariant["D"]), riccati, reader)
     decision = Decision(
         structure=None if proof["structure"] is None else Structure(proof["structure"]),
-        exclusions=tuple(_read_exclusion(entry, Names(variable)) for entry in proof["excluded"]),
+        exclusions=tuple(_read_exclusion(entry, Formulas(variable, QQ)) for entry in proof["excluded"]),
         invariant=None if proof["invariant"] is None else rational.semi_invariant(proof["invariant"]),
         semi_invariant=form,
         riccati=polynomial,
@@ -194,23 +197,18 @@ def _read_equation(data: Mapping[str, Any] | None, variable: str) -> Equation | 
     if data is None:
         return None
     reader = _base_reader(data["field"], variable)
-    a, b, c, f = (reader.over_field(reader.ratfunc(data[name])) for name in ("a", "b", "c", "f"))
-    h = None if data["h"] is None else _read_symbolic(data, variable)
-    change = data.get("change")
-    return Equation(
-        a, b, c, f, h, variable, data["unknown"], change and Change(change["variable"], change["expression"])
-    )
+    a, b, c, f = (reader.ratfunc(data[name]) for name in ("a", "b", "c", "f"))
+    h, change = None, data.get("change")
+    if data["h"] is not None:
+        from sympy import E, Symbol
 
+        from kovacic.reading.symbolic import read_expression
 
-def _read_symbolic(data: Mapping[str, Any], variable: str) -> Any:
-    """The part of the right-hand side that isn't rational, as SymPy wrote it."""
-    from sympy import E, Symbol
-
-    from kovacic.reading.symbolic import read_expression
-
-    parameters = data["field"]["parameters"] if data["field"] else []
-    names = {name: Symbol(name) for name in (*parameters, variable)}
-    return read_expression(data["h"], names={"E": E, **names}, limits=_LIMITS)
+        parameters = data["field"]["parameters"] if data["field"] else []
+        symbols = {name: Symbol(name) for name in (*parameters, variable)}
+        h = read_expression(data["h"], names={"E": E, **symbols}, limits=_LIMITS)
+    made = change and Change(change["variable"], change["expression"])
+    return Equation(a, b, c, f, h, variable, data["unknown"], made)
 
 
 def _generic(solution: Solution) -> dict[str, list[str]] | None:
@@ -258,30 +256,19 @@ def _base_reader(data: Mapping[str, Any] | None, variable: str) -> _Reader:
     return _Reader(field, {variable: VARIABLE}, constants, radical)
 
 
+@dataclass(frozen=True)
 class _Reader:
-    """Expressions in given names, as polynomials and rational functions over a field."""
+    """Expressions as polynomials and rational functions over a field; `radical` is a constant that is no name: sqrt(2)."""
 
-    def __init__(
-        self, field: Field, names: Mapping[str, Value], constants: Mapping[str, Value], radical: str = ""
-    ) -> None:
-        self.field = field
-        self._constants = constants
-        self._names = {**constants, **names}
-        self._radical = radical
-        self._arithmetic = Arithmetic(_LIMITS)
-
-    def over(self, names: Mapping[str, Value], field: Field | None = None) -> _Reader:
-        """A reader that knows the same constants, for other names."""
-        return _Reader(field or self.field, names, self._constants, self._radical)
+    field: Field
+    names: Mapping[str, Value]
+    constants: Mapping[str, Value]
+    radical: str = ""
 
     def ratfunc(self, text: str) -> RatFunc:
-        if self._radical:
-            text = text.replace(self._radical, f"({_RADICAL})")
-        value = self._arithmetic.rational(parse_with(text, self._names, self._arithmetic))
-        return RatFunc(self._embedded(value.num), self._embedded(value.den), reduced=True)
-
-    def over_field(self, value: RatFunc) -> RatFunc:
-        """The function over the whole field."""
+        if self.radical:
+            text = text.replace(self.radical, f"({_RADICAL})")
+        value = _ARITHMETIC.rational(parse_with(text, {**self.constants, **self.names}, _ARITHMETIC))
         return RatFunc(value.num.over(self.field), value.den.over(self.field), reduced=True)
 
     def poly(self, text: str) -> Poly:
@@ -289,9 +276,6 @@ class _Reader:
         if not value.is_polynomial:
             raise ValueError(f"{text!r} isn't a polynomial")
         return value.num
-
-    def _embedded(self, polynomial: Poly) -> Poly:
-        return self.field.embed(polynomial) if self.field.extends(polynomial.field) else polynomial
 
     def semi_invariant(self, data: Mapping[str, Any]) -> SemiInvariant:
         return SemiInvariant(data["degree"], self.ratfunc(data["theta"]), self.poly(data["P"]))
@@ -311,11 +295,11 @@ def _riccati(P: Poly, D: Poly, data: Mapping[str, Any], reader: _Reader) -> Ricc
     return RiccatiPolynomial(P, D, tuple(numerators))
 
 
-def _form(form: SemiInvariant, names: Names) -> dict[str, Any]:
-    return {"degree": form.degree, "theta": names.ratfunc(form.theta), "P": names.poly(form.P)}
+def _form(form: SemiInvariant, names: Formulas) -> dict[str, Any]:
+    return {"degree": form.degree, "theta": names.python(form.theta), "P": names.python(form.P)}
 
 
-def _exclusion(exclusion: Exclusion, names: Names) -> dict[str, Any]:
+def _exclusion(exclusion: Exclusion, names: Formulas) -> dict[str, Any]:
     return {
         "structure": exclusion.structure.value,
         "case": exclusion.structure.case,
@@ -323,22 +307,22 @@ def _exclusion(exclusion: Exclusion, names: Names) -> dict[str, Any]:
     }
 
 
-def _evidence(evidence: Evidence, names: Names) -> dict[str, Any]:
+def _evidence(evidence: Evidence, names: Formulas) -> dict[str, Any]:
     if isinstance(evidence, NecessaryCondition):
-        places = [names.place(place) for place in evidence.places]
+        places = [names.place_name(place) for place in evidence.places]
         rule = evidence.rule
         return {"kind": "necessary_condition", "rule": rule.name.lower(), "places": places, "statement": rule.value}
     if isinstance(evidence, NoInvariant):
         return {"kind": "no_invariant", **vars(evidence)}
-    return {"kind": "no_rational_omega", **vars(evidence), "place": names.place(evidence.place)}
+    return {"kind": "no_rational_omega", **vars(evidence), "place": names.place_name(evidence.place)}
 
 
-def _read_exclusion(data: Mapping[str, Any], names: Names) -> Exclusion:
+def _read_exclusion(data: Mapping[str, Any], names: Formulas) -> Exclusion:
     evidence = tuple(_read_evidence(entry, names) for entry in data["evidence"])
     return Exclusion(Structure(data["structure"]), evidence)
 
 
-def _read_evidence(data: Mapping[str, Any], names: Names) -> Evidence:
+def _read_evidence(data: Mapping[str, Any], names: Formulas) -> Evidence:
     kind = data["kind"]
     if kind == "necessary_condition":
         return NecessaryCondition(

@@ -11,7 +11,7 @@ and neither the backend nor the state of pyplot is touched.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -29,7 +29,7 @@ from kovacic.limits import Limits
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MARGIN, _IRREGULAR_MARGIN = 256, 16
+_SHARE, _IRREGULAR_SHARE = Fraction(1, 256), Fraction(1, 16)
 """The curve ends this share of its interval before a singular point."""
 
 
@@ -68,21 +68,23 @@ def sample(
     problem = as_problem(equation, forced=True)
     singular = problem.singular_points(128)
     cuts = sorted({z.re for z in singular if z.is_real() and a.re <= z.re <= b.re})
-    wide = {float(midpoint(root).re) for root, order in problem.system.roots("den", 128) if order > 2}
-    intervals = _regular_intervals(a.re, b.re, cuts, wide)
-    longest = max(intervals, key=lambda i: i[1] - i[0])
-    grids = []
-    for left, right in intervals:
-        count = max(2, round(points * (right - left) / (b.re - a.re)))
-        grids.append([left + (right - left) * Fraction(k, count - 1) for k in range(count)])
-    initial = (y0, dy0) if which is None and frobenius is None else (None, None)
+    wild = {float(midpoint(root).re) for root, order in problem.system.roots("den", 128) if order > 2}
+    grids, longest = [], (a.re, a.re)
+    for left, right in itertools.pairwise([a.re, *cuts, b.re]):
+        # Beside an irregular singular point, solutions are as large as exp(1/distance).
+        shares = [0 if end not in cuts else _IRREGULAR_SHARE if float(end) in wild else _SHARE for end in (left, right)]
+        first, last = left + (right - left) * shares[0], right - (right - left) * shares[1]
+        longest = max(longest, (first, last), key=lambda interval: interval[1] - interval[0])
+        count = max(2, round(points * (last - first) / (b.re - a.re)))
+        grids.append([first + (last - first) * Fraction(k, count - 1) for k in range(count)] if left < right else [])
+    given = which is None and frobenius is None
     states = iter(
         evaluate_states(
             problem,
             list(itertools.chain(*grids)),
-            x0=(longest[0] + longest[1]) / 2 if x0 is None else x0,
-            y0=initial[0],
-            dy0=initial[1],
+            x0=sum(longest) / 2 if x0 is None else x0,
+            y0=y0 if given else None,
+            dy0=dy0 if given else None,
             which=which,
             frobenius=frobenius,
             digits=digits,
@@ -90,24 +92,8 @@ def sample(
             limits=limits,
         )
     )
-    return Samples(tuple(tuple(itertools.islice(states, len(grid))) for grid in grids), tuple(map(complex, singular)))
-
-
-def _regular_intervals(
-    a: Fraction, b: Fraction, cuts: list[Fraction], irregular: set[float]
-) -> list[tuple[Fraction, Fraction]]:
-    """The intervals between the cuts; where a cut is irregular, solutions beside it are as large as exp(1/distance)."""
-    ends = [a, *cuts, b]
-    result = []
-    for left, right in itertools.pairwise(ends):
-        if right == left:
-            continue
-        start, stop = (
-            (right - left) / (_IRREGULAR_MARGIN if float(end) in irregular else _MARGIN) if end in cuts else 0
-            for end in (left, right)
-        )
-        result.append((left + start, right - stop))
-    return result
+    runs = (tuple(itertools.islice(states, len(grid))) for grid in grids if grid)
+    return Samples(tuple(runs), tuple(map(complex, singular)))
 
 
 def plot(
@@ -115,55 +101,34 @@ def plot(
     start: object,
     stop: object,
     *,
-    x0: object | None = None,
-    y0: object = 1,
-    dy0: object = 0,
-    which: str | None = None,
-    frobenius: Sequence[object] | None = None,
-    points: int = 400,
-    digits: int = 8,
     title: str | None = None,
     output: str | Path | None = None,
-    limits: Limits | None = None,
+    **options: Any,
 ) -> Figure:
     """A figure with the real part over [start, stop], and the imaginary part unless it can't be told from zero; saved to
     `output` if given.
 
-    Arguments as for `sample`.  The file type follows the suffix of `output` (png, svg, pdf).  Returns the matplotlib
+    `options` are those of `sample`.  The file type follows the suffix of `output` (png, svg, pdf).  Returns the matplotlib
     figure.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as NewFigure
 
-    samples = sample(
-        equation,
-        start,
-        stop,
-        x0=x0,
-        y0=y0,
-        dy0=dy0,
-        which=which,
-        frobenius=frobenius,
-        points=points,
-        digits=digits,
-        limits=limits,
-    )
+    samples = sample(equation, start, stop, **options)
     figure = NewFigure(figsize=(8, 4.8), layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
-    is_complex = any(abs(result.y.mid.imag) > result.y.radius for run in samples.runs for result in run)
-    _curves(axes, samples, is_complex)
+    _curves(axes, samples)
     low, high = float(as_point(start, "from").re), float(as_point(stop, "to").re)
-    _marks(axes, samples, low, high)
+    label: str | None = "singular point"
+    for z in samples.singular:
+        if z.imag == 0 and low <= z.real <= high:
+            axes.axvline(z.real, color="C3", linestyle="--", linewidth=1, label=label)
+            label = None
     _limit_height(axes, samples)
-    axes.set_xlim(low, high)
-    axes.set_xlabel("x")
-    axes.set_ylabel("y")
+    axes.set(xlim=(low, high), xlabel="x", ylabel="y", title=title or "")
     axes.axhline(0, color="0.8", linewidth=0.8, zorder=0)
-    if title:
-        axes.set_title(title)
-    handles, _ = axes.get_legend_handles_labels()
-    if handles:
+    if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="best", frameon=False)
     if output is not None:
         figure.savefig(output, dpi=150)
@@ -177,31 +142,22 @@ def _png(figure: Figure) -> bytes:
     return file.getvalue()
 
 
-def _curves(axes: Any, samples: Samples, is_complex: bool) -> None:
-    parts: tuple[tuple[str, str, Callable[[complex], float]], ...] = (
-        ("Re y", "C0", lambda z: z.real),
-        ("Im y", "C1", lambda z: z.imag),
-    )
-    span = max(max(abs(z.real), abs(z.imag)) for run in samples.runs for z in (result.y.mid for result in run))
+def _curves(axes: Any, samples: Samples) -> None:
+    values = [result.y for run in samples.runs for result in run]
+    parts = [("y", "C0", "real")]
+    if any(abs(y.mid.imag) > y.radius for y in values):
+        parts = [("Re y", "C0", "real"), ("Im y", "C1", "imag")]
+    span = max(max(abs(y.mid.real), abs(y.mid.imag)) for y in values)
     band: str | None = "error band"
-    for label, colour, pick in parts if is_complex else parts[:1]:
+    for label, colour, part in parts:
         for number, run in enumerate(samples.runs):
-            xs = [float(x.re) for x in (result.x for result in run) if isinstance(x, Point)]
-            ys = [pick(result.y.mid) for result in run]
-            radii = [result.y.radius for result in run]
-            shown = label if is_complex else "y"
-            axes.plot(xs, ys, color=colour, linewidth=1.5, label=shown if number == 0 else None)
+            xs = [float(result.x.re) for result in run if isinstance(result.x, Point)]
+            ys, radii = [getattr(result.y.mid, part) for result in run], [result.y.radius for result in run]
+            axes.plot(xs, ys, color=colour, linewidth=1.5, label=None if number else label)
             if any(radius > 2e-3 * span for radius in radii):
-                below = [y - r for y, r in zip(ys, radii, strict=True)]
-                above = [y + r for y, r in zip(ys, radii, strict=True)]
+                below, above = ([y + sign * r for y, r in zip(ys, radii, strict=True)] for sign in (-1, 1))
                 axes.fill_between(xs, below, above, color=colour, alpha=0.25, linewidth=0, label=band)
                 band = None
-
-
-def _marks(axes: Any, samples: Samples, low: float, high: float) -> None:
-    on_axis = [z.real for z in samples.singular if z.imag == 0 and low <= z.real <= high]
-    for number, x in enumerate(on_axis):
-        axes.axvline(x, color="C3", linestyle="--", linewidth=1, label="singular point" if number == 0 else None)
 
 
 def _limit_height(axes: Any, samples: Samples) -> None:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, Status
+from kovacic.decision import Status
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 from kovacic.reading.given import parameters_of
-from kovacic.views.formula import LARGEST_DEGREE, Formulas, caret, shortened
+from kovacic.views.document import FORMATS
+from kovacic.views.formula import LARGEST_DEGREE, caret, shortened
+from kovacic.views.sentences import equation_of, formulas_of, normal_form, omega_lines, omega_of, reason, unknown_of
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
@@ -23,13 +25,13 @@ _SCREEN = 600
 
 def one_line(solution: Solution) -> str:
     """The equation and the verdict."""
-    equation = _equation(solution)
+    equation = equation_of(solution).text
     if solution.status is Status.UNDECIDED:
         return f"{equation}: undecided, {solution.reason}"
     if solution.status is Status.NONE_EXISTS:
         return f"{equation}: no Liouvillian solution"
     if solution.omega is not None:
-        return f"{equation}: case {solution.case}, omega = {_formulas(solution).cut(solution.omega)}"
+        return f"{equation}: case {solution.case}, omega = {omega_of(solution).text}"
     degree = "" if solution.riccati is None else f", omega {_of_degree(solution.riccati.degree)}"
     return f"{equation}: case {solution.case}{degree}"
 
@@ -41,9 +43,9 @@ def render(
 
     Each is given out as soon as it is known: the verdict doesn't wait for solutions, which may take a while.
     """
-    yield style(_equation(solution), "title")
+    yield style(equation_of(solution).text, "title")
     if solution.equation is not None and not solution.equation.is_normal_form:
-        yield f"  normal form: {_normal_form(solution)}, of which the following speaks"
+        yield f"  normal form: {normal_form(solution).text}, of which the following speaks"
     for notice in solution.notices:
         yield style(f"  note: {notice}", "faint")
     if solution.status is Status.UNDECIDED:
@@ -55,7 +57,9 @@ def render(
         case = f"case {solution.case}, omega = y'/y is {_of_degree(solution.riccati.degree)}"
         yield f"  {style('Liouvillian solutions exist', 'good')}: {case}"
     yield from (f"  {line}" for line in solutions or ())
-    yield from (f"  {line}" for line in omega_lines(solution, integral=solutions is None))
+    yield from (f"  {line}" for line in omega_lines(solution))
+    if solution.omega is not None and solutions is None:
+        yield f"  y = exp(integral of omega d{solution.variable})"
     yield from (f"  {line}" for line in _exclusions(solution))
     if parameters_of(solution.S.field) and solution.status is not Status.UNDECIDED and not solution.assumed:
         yield f"  for generic parameters: {solution.generic_conditions}"
@@ -87,7 +91,7 @@ def solution_lines(solution: Solution) -> Iterator[str]:
         return
     if solution.case is None:
         yield "in special functions, verified:" if pair else str(solution.special)
-    name = "y" if solution.equation is None else solution.equation.unknown
+    name = unknown_of(solution)
     for k, text in enumerate(pair, start=1):
         yield f"{'  ' if solution.case is None else ''}{name}{k} = {shortened(text)}"
     if solution.case is not None and (length := max(map(len, pair))) > _SCREEN:
@@ -119,60 +123,19 @@ def _written(solution: Solution) -> tuple[tuple[str, ...], tuple[str, ...]]:
     return tuple(caret(str(y)) for y in form), form.notes
 
 
-def omega_lines(solution: Solution, *, integral: bool = True) -> list[str]:
-    """omega, or its polynomial; without a Liouvillian solution no line.  With `integral` what y is in terms of omega."""
-    riccati, formulas = solution.riccati, _formulas(solution)
-    if riccati is None:
-        return []
-    names = formulas.names
-    if riccati.degree == 1:
-        omega = formulas.cut(-riccati.coefficients[0])
-        lines = [f"omega = {omega}"]
-        if integral:
-            lines.append(f"y = exp(integral of omega d{solution.variable})")
-    else:
-        lines = [f"omega is a root {names.unknown} of", f"    {names.unknown}^{riccati.degree}"]
-        for k in range(riccati.degree - 1, -1, -1):
-            coefficient = riccati.coefficients[k]
-            if coefficient:
-                negative = formulas.text(coefficient).removeprefix("(").startswith("-")
-                text = formulas.factor(-coefficient if negative else coefficient)
-                power = {0: "", 1: f" {names.unknown}"}.get(k, f" {names.unknown}^{k}")
-                lines.append(f"    {'-' if negative else '+'} {text}{power}")
-        lines[-1] += " = 0"
-    if solution.constants is not None:
-        modulus = solution.constants.to_str(names.symbol).replace("**", "^")
-        lines.append(f"where {names.symbol} is any root of {modulus}")
-    return lines
-
-
 def _exclusions(solution: Solution) -> list[str]:
     """One line for each structure that was excluded, equal reasons of the finite groups together."""
-    formulas = _formulas(solution)
+    formulas = formulas_of(solution)
     grouped: dict[tuple[int, str], list[str]] = {}
     for exclusion in solution.proof:
-        reasons = "; ".join(_reason(evidence, formulas) for evidence in exclusion.evidence)
+        sentences = [reason(evidence, formulas) for evidence in exclusion.evidence]
+        reasons = "; ".join(FORMATS["text"].sentence(sentence) for sentence in sentences)
         grouped.setdefault((exclusion.structure.case, reasons), []).append(exclusion.structure.value)
     lines = []
     for (case, reasons), structures in grouped.items():
         which = f" ({', '.join(structures)})" if case == 3 else ""
         lines.append(f"not case {case}{which}: {reasons}")
     return lines
-
-
-def _reason(evidence: Evidence, formulas: Formulas) -> str:
-    if isinstance(evidence, NecessaryCondition):
-        places = [formulas.factor_of_place(place).text for place in evidence.places]
-        return evidence.rule.value + (f" (at {', '.join(places)})" if places else "")
-    if isinstance(evidence, NoInvariant):
-        m = evidence.invariant_degree
-        if evidence.prime is None:
-            return f"the exponents leave no room for an invariant of degree {m}"
-        return f"no rational invariant of degree {m}, by a linear system of nullity 0 modulo {evidence.prime}"
-    if evidence.prime is None:
-        return "the exponents leave no room for a rational omega"
-    place = formulas.factor_of_place(evidence.place).text
-    return f"no rational omega, by its expansion at {place} modulo {evidence.prime}"
 
 
 def _how_verified(solution: Solution) -> str:
@@ -186,15 +149,3 @@ def _how_verified(solution: Solution) -> str:
 
 def _of_degree(degree: int) -> str:
     return "rational" if degree == 1 else f"algebraic of degree {degree}"
-
-
-def _formulas(solution: Solution) -> Formulas:
-    return Formulas(solution.variable, solution.S.field)
-
-
-def _equation(solution: Solution) -> str:
-    return _normal_form(solution) if solution.equation is None else str(solution.equation)
-
-
-def _normal_form(solution: Solution) -> str:
-    return f"y'' = {_formulas(solution).factor(solution.S)} y" if solution.S else "y'' = 0"

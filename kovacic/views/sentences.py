@@ -1,0 +1,101 @@
+"""What several views say of an answer, each once: its equation, omega, its solutions, the reasons of an exclusion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from kovacic.decision import Evidence, NecessaryCondition, NoInvariant
+from kovacic.views.formula import Formulas, Math, latex_text, of_sympy
+
+if TYPE_CHECKING:
+    from kovacic.solution import Solution
+
+
+def formulas_of(solution: Solution) -> Formulas:
+    """How the functions of this answer are written."""
+    return Formulas(solution.variable, solution.S.field)
+
+
+def unknown_of(solution: Solution) -> str:
+    """The name of the function that is looked for."""
+    return "y" if solution.equation is None else solution.equation.unknown
+
+
+def equation_of(solution: Solution) -> Math:
+    """The equation as it was given."""
+    equation = solution.equation
+    return normal_form(solution) if equation is None else Math(str(equation), latex_text(equation.text(caret=False)))
+
+
+def normal_form(solution: Solution, y: str = "y") -> Math:
+    """y'' = S y."""
+    S = formulas_of(solution).factor(solution.S)
+    return Math(f"{y}'' = {S.text} {y}", f"{y}'' = {S.latex} {y}") if solution.S else Math(f"{y}'' = 0", f"{y}'' = 0")
+
+
+def omega_of(solution: Solution) -> Math:
+    """omega where it is rational, else the equation of which it is a root, a term a line."""
+    riccati, formulas = solution.riccati, formulas_of(solution)
+    assert riccati is not None
+    if solution.omega is not None:
+        return formulas.math(solution.omega)
+    w, m = formulas.unknown, riccati.degree
+    texts, latex = [f"{w}^{m}"], f"{w}^{{{m}}}"
+    for k in range(m - 1, -1, -1):
+        if coefficient := riccati.coefficients[k]:
+            negative = formulas.math(coefficient).text.removeprefix("(").startswith("-")
+            value, sign = formulas.factor(-coefficient if negative else coefficient), "-" if negative else "+"
+            texts.append(f"{sign} {value.text}" + {0: "", 1: f" {w}"}.get(k, f" {w}^{k}"))
+            latex += f" {sign} {value.latex}" + {0: "", 1: f" {w}"}.get(k, f" {w}^{{{k}}}")
+    return Math("\n".join(texts) + " = 0", f"{latex} = 0")
+
+
+def constants_of(solution: Solution) -> Math | None:
+    """The polynomial of which omega's constant is a root."""
+    if solution.constants is None:
+        return None
+    modulus = solution.constants.to_str(formulas_of(solution).symbol)
+    return Math(modulus.replace("**", "^"), latex_text(modulus))
+
+
+def omega_lines(solution: Solution) -> list[str]:
+    """omega, or its polynomial, as text; without a Liouvillian solution no line."""
+    if solution.riccati is None:
+        return []
+    omega, constants, formulas = omega_of(solution), constants_of(solution), formulas_of(solution)
+    if solution.omega is not None:
+        lines = [f"omega = {omega.text}"]
+    else:
+        lines = [f"omega is a root {formulas.unknown} of", *(f"    {line}" for line in omega.text.splitlines())]
+    return lines if constants is None else [*lines, f"where {formulas.symbol} is any root of {constants.text}"]
+
+
+def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
+    """Why a structure is excluded, without the bounds of the linear systems."""
+    if isinstance(evidence, NecessaryCondition):
+        yield evidence.rule.value
+        for k, place in enumerate(evidence.places):
+            yield ", " if k else " (at "
+            yield formulas.place(place)
+        yield ")" if evidence.places else ""
+    elif isinstance(evidence, NoInvariant):
+        m = evidence.invariant_degree
+        if evidence.prime is None:
+            yield f"the exponents leave no room for an invariant of degree {m}"
+        else:
+            yield f"no rational invariant of degree {m}, by a linear system of nullity 0 modulo {evidence.prime}"
+    elif evidence.prime is None:
+        yield "the exponents leave no room for a rational omega"
+    else:
+        yield "no rational omega, by its expansion at "
+        yield formulas.place(evidence.place)
+        yield f" modulo {evidence.prime}"
+
+
+def solutions_of(solution: Solution) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
+    """Names and formulas of two solutions, in special functions where nothing is Liouvillian, if any are known; and notes."""
+    form, y = solution.closed_form, unknown_of(solution)
+    values = solution.special if form is None else (form.y1, form.y2)
+    names = [Math(f"{y}{k}", f"{y}_{{{k}}}") for k in (1, 2)]
+    return list(zip(names, map(of_sympy, values), strict=False)), () if form is None else form.notes

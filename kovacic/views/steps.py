@@ -1,0 +1,212 @@
+"""The paper's own steps, written out: the poles, the necessary conditions, and steps 1 to 3 case by case (`families`)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from kovacic.decision import Status
+from kovacic.engine.places import Kind, Place, analyse
+from kovacic.limits import Budget
+from kovacic.views.document import Block, Formula, Heading, Sentence, Table, say
+from kovacic.views.formula import Math, latex_text, of_sympy
+from kovacic.views.sentences import formulas_of
+
+if TYPE_CHECKING:
+    from kovacic.solution import Solution
+    from kovacic.views.families import Family, Point, Search
+
+# d from the chosen exponents, and what P has to satisfy, by case [Kovacic 1986, sections 3.1, 4.1 and 5.1].
+DEGREE = {
+    1: Math("d = alpha_inf - sum alpha_c", r"d = \alpha_\infty - \sum_c \alpha_c"),
+    2: Math("d = (e_inf - sum e_c)/2", r"d = \tfrac{1}{2}\left(e_\infty - \sum_c e_c\right)"),
+    3: Math("d = n/12 (e_inf - sum e_c)", r"d = \tfrac{n}{12}\left(e_\infty - \sum_c e_c\right)"),
+}
+_EQUATIONS = {
+    1: [Math("P'' + 2 theta P' + (theta' + theta^2 - S) P = 0",
+             r"P'' + 2 \theta P' + \left(\theta' + \theta^{2} - S\right) P = 0")],
+    2: [Math("P''' + 3 theta P'' + (3 theta^2 + 3 theta' - 4 S) P'"
+             "\n + (theta'' + 3 theta theta' + theta^3 - 4 S theta - 2 S') P = 0",
+             r"P''' + 3 \theta P'' + \left(3 \theta^{2} + 3 \theta' - 4 S\right) P'"
+             r" + \left(\theta'' + 3 \theta \theta' + \theta^{3} - 4 S \theta - 2 S'\right) P = 0")],
+    3: [Math("P_n = -P,  P_(-1) = 0,  D = product of the x - c",
+             r"P_n = -P, \quad P_{-1} = 0, \quad D = \prod_c (x - c)"),
+        Math("P_(i-1) = -D P_i' + ((n-i) D' - D theta) P_i - (n-i)(i+1) D^2 S P_(i+1)",
+             r"P_{i-1} = -D P_i' + \left((n-i) D' - D \theta\right) P_i - (n-i)(i+1) D^{2} S P_{i+1}")],
+}  # fmt: skip
+_CONDITIONS = {
+    1: "every pole has order 1 or an even order; at infinity the order is even or > 2",
+    2: "some pole has order 2 or an odd order > 2",
+    3: "no pole has an order > 2, at infinity the order is >= 2; every Delta is rational",
+}
+#: So many families are shown.
+_MOST_SHOWN = 24
+_KINDS = {
+    Kind.ORDINARY: "ordinary",
+    Kind.REGULAR: "regular",
+    Kind.UNRAMIFIED: "irregular",
+    Kind.RAMIFIED: "irregular, ramified",
+}
+
+
+class Steps:
+    """The steps for one answer."""
+
+    def __init__(self, solution: Solution) -> None:
+        self.solution = solution
+        self.places = analyse(solution.S, Budget()).places
+        self.formulas = formulas_of(solution)
+
+    def local_data(self) -> Iterator[Block]:
+        yield Heading("Poles and local exponents")
+        x = latex_text(self.solution.variable)
+        yield say(
+            "At a pole of order 2, ",
+            Math(f"S = b/({self.solution.variable} - c)^2 + ...", rf"S = \frac{{b}}{{({x} - c)^2}} + \dots"),
+            ", the local solutions have exponents with the difference ",
+            Math("Delta = sqrt(1 + 4b)", r"\Delta = \sqrt{1 + 4 b}"),
+            ". Conjugate poles stay together.",
+        )
+        head = ("place", "points", "order", "local type", "Delta")
+        yield Table(head, [self._row(place) for place in self.places])
+
+    def _row(self, place: Place) -> list[Sentence]:
+        delta: str | Math = "-"
+        if place.kind is Kind.REGULAR:
+            if place.delta is not None:
+                delta = str(place.delta)
+            elif place.delta_squared is not None:
+                square = self.formulas.math(place.delta_squared)
+                delta = Math(f"sqrt({square.text})", rf"\sqrt{{{square.latex}}}")
+            else:
+                delta = "not rational"
+        cells: list[str | Math] = [
+            self.formulas.place(str(place)),
+            "1" if place.at_infinity else str(place.degree),
+            str(place.order) if not place.at_infinity else str(-self.solution.S.degree) if self.solution.S else "-",
+            _KINDS[place.kind] + (", logarithm" if place.logarithm else ""),
+            delta,
+        ]
+        return [[cell] for cell in cells]
+
+    def necessary(self) -> Iterator[Block]:
+        yield Heading("Kovacic's necessary conditions (section 2.1)")
+        rows: list[list[Sentence]] = []
+        for case, condition in _CONDITIONS.items():
+            failing = [] if case == 2 else [place for place in self.places if not _allowed(case, [place])]
+            verdict: list[str | Math] = ["holds" if _allowed(case, self.places) else "fails"]
+            for k, place in enumerate(failing):
+                verdict += [", " if k else " at ", self.formulas.place(str(place))]
+            rows.append([[str(case)], [condition], verdict])
+        yield Table(("case", "condition", "verdict"), rows)
+
+    def search(self) -> Iterator[Block]:
+        """The paper's steps 1 to 3, case by case, up to the one that succeeds."""
+        from kovacic.views.families import search
+
+        solution = self.solution
+        degree = 12 if solution.riccati is None else solution.riccati.degree
+        for m in () if solution.status is Status.UNDECIDED else (1, 2, 4, 6, 12):
+            case = min(m, 3)
+            if m > degree or not _allowed(case, self.places):
+                continue
+            yield Heading(f"Case {case}{f', n = {m}' if case == 3 else ''}: Kovacic's steps")
+            found = search(solution.S, self.places, solution.variable, m)
+            if found is None:
+                domain = (
+                    "rational coefficients, exponents that are square roots of rational numbers, and poles of low order"
+                )
+                yield say(f"The steps are written out for {domain} only.")
+            else:
+                yield from self._search(found, case)
+
+    def _search(self, search: Search, case: int) -> Iterator[Block]:
+        yield self._sets(search, case)
+        many = f"{search.total} famil{'y' if search.total == 1 else 'ies'} of exponents"
+        natural = "" if search.natural is None else f", d is a natural number for {search.natural}"
+        parity = " (with an odd e)" if case == 2 and natural else ""
+        yield say("Step 2: ", DEGREE[case], f"; {many}{natural}{parity}.")
+        if search.families is None:
+            yield say(
+                "They are too many to be listed; the engine finds omega, or proves that there is none, without them."
+            )
+            return
+        if not search.complete:
+            yield say("Of conjugate poles, only families with equal exponents are listed.")
+        shown = search.families[:_MOST_SHOWN]
+        if shown:
+            head = [*map(self._point, search.points), Math("d", "d"), Math("P", "P")]
+            rows: list[list[Sentence]] = []
+            for family in shown:
+                values = [of_sympy(choice.value) for choice in family.choices]
+                rows.append([*([value] for value in values), [of_sympy(family.d)], [self._outcome(family)]])
+            yield Table(head, rows)
+        if len(search.families) > _MOST_SHOWN:
+            yield say(f"and {len(search.families) - _MOST_SHOWN} more.")
+        tried = [family for family in search.families if family.theta is not None]
+        if tried:
+            yield say("Step 3: P of degree d, with")
+            yield from map(Formula, _EQUATIONS[case])
+        for family in tried[-_MOST_SHOWN:]:
+            yield from self._trial(family)
+
+    def _sets(self, search: Search, case: int) -> Table:
+        """Step 1."""
+        from sympy import Add, Symbol
+
+        rows: list[list[Sentence]] = []
+        for point, choices in zip(search.points, search.choices, strict=True):
+            values = [of_sympy(choice.value) for choice in choices]
+            if case == 1:
+                t = Symbol(self.solution.variable) - (0 if point.place.at_infinity or point.at is None else point.at)
+                singular = of_sympy(Add(*(c * t**power for power, c in choices[0].singular)))
+                rows.append([[self._point(point)], [singular], [values[0]], [values[-1]]])
+            else:
+                inside = ", ".join(value.text for value in values)
+                rows.append([[self._point(point)], [Math(f"{{{inside}}}", rf"\{{{inside}\}}")]])
+        alphas = (Math(f"alpha{sign}", rf"\alpha^{sign}") for sign in "+-")
+        return Table(
+            ("place", Math("[sqrt S]", r"[\sqrt{S}]"), *alphas) if case == 1 else ("place", Math("E", "E")), rows
+        )
+
+    def _point(self, point: Point) -> Math:
+        if point.at is None or point.place.at_infinity:
+            return self.formulas.place(str(point.place))
+        at = of_sympy(point.at)
+        return Math(f"{self.solution.variable} = {at.text}", f"{latex_text(self.solution.variable)} = {at.latex}")
+
+    @staticmethod
+    def _outcome(family: Family) -> str | Math:
+        if family.P is not None:
+            return of_sympy(family.P)
+        if family.theta is not None:
+            return "none"
+        return "not tried" if family.d.is_Integer and family.d >= 0 else ""
+
+    @staticmethod
+    def _trial(family: Family) -> Iterator[Block]:
+        theta, d = of_sympy(family.theta), family.d
+        yield Formula(Math(f"theta = {theta.text}", rf"\theta = {theta.latex}"))
+        impossible = next((condition for condition in family.conditions if condition.is_number), None)
+        conditions = [of_sympy(condition) for condition in family.conditions[:6]]
+        if family.P is not None:
+            P = of_sympy(family.P)
+            yield say(f"d = {d}: ", Math(f"P = {P.text}", f"P = {P.latex}"), " is a solution.")
+        elif impossible is not None:
+            yield say(f"d = {d}: no solution, for a coefficient is ", of_sympy(impossible), ", which isn't 0.")
+        elif conditions:
+            system = ", ".join(f"{c.text} = 0" for c in conditions), r",\; ".join(f"{c.latex} = 0" for c in conditions)
+            yield say(
+                f"d = {d}: no solution, for the lower coefficients a0, ... of P would satisfy ", Math(*system), "."
+            )
+        else:
+            yield say(f"d = {d}: no solution, for the linear system for its {d + 1} coefficients has rank {d + 1}.")
+
+
+def _allowed(case: int, places: Sequence[Place]) -> bool:
+    """The necessary conditions; that of case 2 has to hold at some pole only."""
+    if case == 1:
+        return all(place.kind is not Kind.RAMIFIED for place in places)
+    if case == 2:
+        return any(place.order == 2 or place.kind is Kind.RAMIFIED for place in places if not place.at_infinity)
+    return all(place.order == 0 or (place.order <= 2 and place.delta is not None) for place in places)
