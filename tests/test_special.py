@@ -17,14 +17,13 @@ import kovacic
 import kovacic.errors
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.general_solution.variation import special_wronskian as wronskian
 from kovacic.limits import Budget, Limits
 from kovacic.reading.read import read_input
 from kovacic.special import confluent, gauss
-from kovacic.special.answer import special_functions
-from kovacic.special.find import find
+from kovacic.special.answer import find, special_functions
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 from kovacic.special.writer import Writer
-from kovacic.special.wronskian import wronskian
 from kovacic.views.text import solution_lines
 from tests.special_cases import KINDS, Case, pull_backs, standard
 from tests.transform import hypergeometric, pull_back

@@ -12,11 +12,10 @@ from sympy.functions.special.bessel import BesselBase
 
 from kovacic.closed_form.atoms import Atoms
 from kovacic.errors import InputError
-from kovacic.general_solution.variation import simplified
+from kovacic.general_solution.variation import simplified, special_wronskian
 from kovacic.reading.exponential import in_terms_of
 from kovacic.reading.given import Equation
 from kovacic.reading.parser import listed, shown
-from kovacic.special.wronskian import wronskian
 
 _ELEMENTARY = {
     sympy.exp,
@@ -129,7 +128,7 @@ def constants(
     initial = len(rows) == 2 and given[0].point == given[1].point and given[0].order != given[1].order
     for (a, b, r), (c, d, s) in combinations(rows, 2):
         determinant = a * d - b * c
-        if initial and (W := wronskian(y1, y2, x)) is not None:
+        if initial and (W := special_wronskian(y1, y2, x)) is not None:
             determinant = W.subs(x, given[0].point) * (1 if given[0].order == 0 else -1)
         if initial or not _is_zero(determinant):  # that of initial values is the Wronskian at an ordinary point
             values, used = [tidy((r * d - b * s) / determinant), tidy((a * s - r * c) / determinant)], 2

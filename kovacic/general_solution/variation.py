@@ -12,12 +12,18 @@ import sympy
 from sympy import cos, cot, csc, expand, powsimp, sec, sin, tan
 
 from kovacic.algebra.apart import last_of
-from kovacic.special.wronskian import wronskian as special_wronskian
 
 #: The largest expression (in operations) that is handed to SymPy's general simplification.
 _SIMPLIFIED = 150
 #: Seconds for the integrals of one equation, at most.
 SECONDS = 20.0
+#: C1 with C2 and C1 C2' - C1' C2.
+_PAIRS: dict[Any, tuple[Any, Any]] = {
+    sympy.airyai: (sympy.airybi, lambda z: 1 / sympy.pi),
+    sympy.besselj: (sympy.bessely, lambda z: 2 / (sympy.pi * z)),
+    sympy.besseli: (sympy.besselk, lambda z: -1 / z),
+    sympy.jn: (sympy.yn, lambda z: z**-2),
+}
 
 
 def with_integrals(y1: Any, y2: Any, right: Any, x: Any, start: Any, seconds: float) -> Any:
@@ -55,6 +61,27 @@ def _wronskian(y1: Any, y2: Any, x: Any) -> Any:
     if value.has(sympy.log, sympy.erf, sympy.Integral):
         value = sympy.cancel(sympy.together(value))
     return simplified(value)
+
+
+def special_wronskian(y1: Any, y2: Any, x: Any) -> Any | None:
+    """y1 y2' - y1' y2 for pairs P C1(z), P C2(z) of Airy or Bessel functions: P^2 z' (C1 C2' - C1' C2)(z); None for others.
+
+    Reference: DLMF 9.2.7, 10.5.2, 10.28.2, 10.50.1.
+
+    >>> x = sympy.Symbol("x")
+    >>> print(special_wronskian(x * sympy.besselj(0, x**2), x * sympy.bessely(0, x**2), x))
+    4*x/pi
+    """
+    found = [f for f in sympy.sympify(y1, strict=True).atoms(*_PAIRS) if f.has(x)]
+    if len(found) != 1:
+        return None
+    (function,) = found
+    partner, value = _PAIRS[function.func]
+    P, z = y1 / function, function.args[-1]
+    if P.has(*_PAIRS) or y2 / partner(*function.args) != P:
+        return None
+    W = P**2 * z.diff(x) * value(z)
+    return sympy.cancel(W) if W.is_rational_function(x) else W
 
 
 def simplified(expression: Any) -> Any:

@@ -7,24 +7,33 @@ from dataclasses import dataclass
 from typing import Any
 
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
-from kovacic.special.find import find
+from kovacic.special import confluent, gauss
 from kovacic.special.pullback import Pullback
+
+_CONFLUENT = (
+    "Airy's equation in f(x), f rational",
+    "Whittaker's equation (with Kummer's, Weber's and Bessel's) in f(x), f rational",
+    "Bessel's equation in the square root of f(x), f rational",
+)
+_GAUSS = ("Gauss' hypergeometric equation in f(x), f rational, all points singular over two of 0, 1 and infinity",)
 
 
 @dataclass(frozen=True)
 class SpecialFunctions:
     """y1 and y2, SymPy expressions, and the verified pull-back that they come from; all None where nothing was found.
 
-    `searched` says which classes were gone through, `stopped` why a search ended early.  That nothing was found proves nothing.
+    `searched` says which classes were gone through, `stopped` why a search ended early.  That nothing was found proves nothing:
+    functions f outside of the classes, and combinations of u(f) and its derivative, aren't looked for.
     """
 
-    y1: Any
-    y2: Any
     pullback: Pullback | None
     searched: tuple[str, ...]
     stopped: str | None = None
+    y1: Any = None
+    y2: Any = None
 
     @property
     def solutions(self) -> tuple[Any, ...]:
@@ -45,6 +54,32 @@ class SpecialFunctions:
         return f"no special function was found; searched: {'; '.join(self.searched)}"
 
 
+def find(S: RatFunc, budget: Budget) -> SpecialFunctions:
+    """The first pull-back of Airy's, Whittaker's, Bessel's or Gauss' equation that gives S, checked exactly; not yet written.
+
+    An exhausted budget is a value: `stopped` is its sentence.
+
+    >>> from kovacic.algebra.rationals import QQ
+    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> found = find(x**4 + 2 * x, Budget()).pullback
+    >>> print(found.equation.q, found.equation.r, found.equation.M, found.f)
+    1 2/3 -2/9 -x**3/3
+    """
+    searched: tuple[str, ...] = ()
+    try:
+        with budget.watched():
+            problem = analyse(S, budget)
+            regular = not confluent.irregular_places(problem)
+            searched = _GAUSS if regular else _CONFLUENT
+            for pullback in gauss.candidates(problem) if regular else confluent.candidates(problem):
+                budget.check()
+                if pullback.gives(S):
+                    return SpecialFunctions(pullback, searched)
+    except LimitExceeded as limit:
+        return SpecialFunctions(None, searched, str(limit))
+    return SpecialFunctions(None, searched)
+
+
 def special_functions(
     S: RatFunc, gauge: RatFunc, variable: str, budget: Budget, *, symbols: Mapping[str, Any] | None = None
 ) -> SpecialFunctions:
@@ -63,16 +98,15 @@ def special_functions(
     """
     search = find(S, budget)
     if search.pullback is None:
-        return SpecialFunctions(None, None, None, search.searched, search.stopped)
+        return search
     from kovacic.special.express import solutions  # imports SymPy
 
     try:
         with budget.watched():
-            found = solutions(search, S, gauge, variable, symbols or {})
+            found = solutions(search.pullback, S, gauge, variable, symbols or {})
     except LimitExceeded as limit:
-        return SpecialFunctions(None, None, None, search.searched, str(limit))
+        return SpecialFunctions(None, search.searched, str(limit))
     if found is None:
-        return SpecialFunctions(
-            None, None, None, search.searched, "the assumptions don't tell which solutions are independent"
-        )
-    return SpecialFunctions(*found, search.pullback, search.searched)
+        said = "the assumptions don't tell which solutions are independent"
+        return SpecialFunctions(None, search.searched, said)
+    return SpecialFunctions(search.pullback, search.searched, None, *found)

@@ -57,7 +57,8 @@ def candidates(problem: Problem) -> Iterator[Pullback]:
     if largest <= most and all(order % 2 == 0 for order in orders):
         yield from _whittaker(problem.S, irregular)
     if all(order % 2 for order in orders):
-        yield from _bessel(problem.S, irregular)
+        t, one = sum((square(place) for place in irregular), RatFunc(problem.S.num * 0)), problem.field.poly([1])
+        yield from _with_constant(problem.S, t, one * 0, one)
     else:
         yield from _bessel_by_zeros(problem, irregular)
     if largest > most:
@@ -73,10 +74,10 @@ def irregular_places(problem: Problem) -> list[Place]:
 
 def _airy(S: RatFunc, places: list[Place]) -> Iterator[Pullback]:
     for q in _scales(places, lambda place: leading_square(place) * -9, 3):
-        parts = _parts(places, integral_of_cubic_root, q)
-        if parts is None:
+        parts = [part for place in places if (part := integral_of_cubic_root(place, q)) is not None]
+        if len(parts) < len(places):
             continue
-        f = sum((part.part for part in parts[1:]), parts[0].part)
+        f = sum(parts, RatFunc(q * 0))
         c = _over_slope(S, f) / q - f
         if c.is_polynomial and c.num.degree <= 0:
             yield Pullback(Airy(q), f + c)
@@ -84,8 +85,8 @@ def _airy(S: RatFunc, places: list[Place]) -> Iterator[Pullback]:
 
 def _whittaker(S: RatFunc, places: list[Place]) -> Iterator[Pullback]:
     for q in _scales(places, lambda place: unit(place, 1), 2):
-        parts = _parts(places, integral_of_square_root, q)
-        if parts is None:
+        parts = [part for place in places if (part := integral_of_square_root(place, q)) is not None]
+        if len(parts) < len(places):
             continue
         for signs in _signs(parts):
             f = sum((part.part * sign for part, sign in zip(parts, signs, strict=True)), RatFunc(q * 0))
@@ -101,22 +102,6 @@ def _signs(parts: list[PolarPart]) -> Iterator[Sequence[int]]:
             yield from product((1,), *[(1, -1)] * (len(parts) - 1))
     elif all(rate in (rates[0], -rates[0]) for rate in rates):
         yield [1 if rate == rates[0] else -1 for rate in rates]
-
-
-def _bessel(S: RatFunc, places: list[Place]) -> Iterator[Pullback]:
-    t = sum((square(place).part for place in places), RatFunc(S.num * 0))
-    one = S.field.poly([1])
-    yield from _with_constant(S, t, one * 0, one)
-
-
-def _parts(places: list[Place], part: Callable[[Place, Poly], PolarPart | None], q: Poly) -> list[PolarPart] | None:
-    """The parts at all places, None if one has none."""
-    found = []
-    for place in places:
-        if (one := part(place, q)) is None:
-            return None
-        found.append(one)
-    return found
 
 
 def _scales(places: list[Place], value: Callable[[Place], Poly], n: int) -> list[Poly]:

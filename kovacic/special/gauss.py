@@ -54,10 +54,12 @@ def candidates(problem: Problem) -> Iterator[Pullback]:
     """Pull-backs that are possible, those of small degree first; each of them has to be verified."""
     regular = [place for place in problem.places if place.kind is Kind.REGULAR]
     places = [place for place in regular if not place.is_apparent]
-    different = [place for place in places if place.delta_squared is None]
-    if different:
-        yield from _apart(problem, different[0])
-    if len(places) > _PLACES or different:
+    different = next((place for place in places if place.delta_squared is None), None)
+    if different is not None and different.degree == 2:  # separated over the field with a root of their polynomial
+        field = AlgebraicField(problem.field, different.factor)
+        S = RatFunc(problem.S.num.over(field), problem.S.den.over(field), reduced=True)
+        yield from candidates(analyse(S, problem.budget))
+    if len(places) > _PLACES or different is not None:
         return
     # f of degree n has 2 n - 2 ramification points, so that there are n + 2 + R points over 0, 1 and infinity, R being the
     # ramification elsewhere, which the apparent places show.
@@ -86,14 +88,6 @@ def candidates(problem: Problem) -> Iterator[Pullback]:
                     if len(tried) > _TRIALS:
                         raise LimitExceeded(f"there are more than {_TRIALS} functions f to try", limit="degree")
                     yield from _with_third(f, zeros, poles, regular)
-
-
-def _apart(problem: Problem, place: Place) -> Iterator[Pullback]:
-    """Two conjugate places with different exponents are separated, over the field with the root of their polynomial."""
-    if place.degree == 2:
-        field = AlgebraicField(problem.field, place.factor)
-        S = RatFunc(problem.S.num.over(field), problem.S.den.over(field), reduced=True)
-        yield from candidates(analyse(S, problem.budget))
 
 
 def _fibres(places: list[Place], most: int) -> Iterator[_Fibre]:
@@ -135,26 +129,17 @@ def _ratio(place: Place, other: Place) -> Fraction | None:
 def _scaled(zeros: Poly, poles: Poly, rest: list[Place]) -> Iterator[RatFunc]:
     """The multiples of zeros/poles that are 1 at the places of the rest, or have 1 for a critical value."""
     f = RatFunc(zeros, poles)
+    slope = f.derivative().num
     if rest:
-        values = [_value(f, rest[0])]
+        finite = [] if rest[0].at_infinity else [rest[0].factor]
     else:
-        slope = f.derivative().num
-        factors = slope.field.factor(slope) if slope.degree > 0 else []
-        values = [
-            f.num * f.den.inverse_modulo(p) % p for p, _ in factors if f.num.gcd(p).degree == f.den.gcd(p).degree == 0
-        ]
-        values.append(f.num.lc if f.degree == 0 else f.num * 0)
+        finite = [p for p, _ in slope.field.factor(slope)] if slope.degree > 0 else []
+    values = [f.num * f.den.inverse_modulo(p) % p for p in finite if f.den.gcd(p).degree == 0]
+    if f.degree == 0 and not (rest and finite):
+        values.append(f.num.lc)
     for value in values:
-        if value is not None and value.degree == 0:
+        if value.degree == 0:
             yield f / value
-
-
-def _value(f: RatFunc, place: Place) -> Poly | None:
-    if place.at_infinity:
-        return f.num.lc if f.degree == 0 else None
-    if f.den.gcd(place.factor).degree:
-        return None
-    return f.num * f.den.inverse_modulo(place.factor) % place.factor
 
 
 def _with_third(f: RatFunc, zeros: _Fibre, poles: _Fibre, regular: list[Place]) -> Iterator[Pullback]:

@@ -84,11 +84,14 @@ class Riemann:
 
 def gauss(writer: Writer, equation: Gauss, f: RatFunc) -> tuple[Expr, Expr] | None:
     """Two solutions; None where the assumptions make the equation reducible, and it isn't known which pair is independent."""
-    forms = sorted(_arrangements(writer, equation, f), key=lambda form: form.cost)
-    for form in forms:
-        for one in form.signs:
-            if writer.is_degree(one.degree) and _are_regular(one):
-                return _jacobi(one)
+    a, b, c = (writer.square_root(value) for value in (equation.A, equation.B, equation.C))
+    orders = [(f, (a, b, c)), (1 - f, (b, a, c)), (1 / f, (c, b, a)), (1 - 1 / f, (b, c, a)), (1 / (1 - f), (c, a, b))]
+    arranged = [Riemann(writer, g, *order) for g, order in [*orders, (f / (f - 1), (a, c, b))]]
+    forms = sorted(arranged, key=lambda form: form.cost)
+    for one in (one for form in forms for one in form.signs):
+        apart = (writer.is_natural(-value) or not writer.is_integer(value) for value in (one.alpha, one.beta))
+        if writer.is_degree(one.degree) and all(apart):
+            return _jacobi(one)
     first = forms[0]
     reducible = any(writer.is_integer(one.degree) for one in first.signs)
     free = first if not reducible else next((form for form in forms if not writer.is_integer(form.alpha)), None)
@@ -99,19 +102,6 @@ def gauss(writer: Writer, equation: Gauss, f: RatFunc) -> tuple[Expr, Expr] | No
         return writer.pair(first.regular.term, first.swapped.regular.term)
     even = next((one for form in forms for one in form.signs if one.alpha == one.beta), None)
     return None if even is None else writer.pair(*_even_and_odd(even))
-
-
-def _arrangements(writer: Writer, equation: Gauss, f: RatFunc) -> list[Riemann]:
-    """The six functions that are f up to the order of 0, 1, infinity, each with its exponent differences."""
-    a, b, c = (writer.square_root(value) for value in (equation.A, equation.B, equation.C))
-    orders = [(f, (a, b, c)), (1 - f, (b, a, c)), (1 / f, (c, b, a)), (1 - 1 / f, (b, c, a)), (1 / (1 - f), (c, a, b))]
-    return [Riemann(writer, g, *order) for g, order in [*orders, (f / (f - 1), (a, c, b))]]
-
-
-def _are_regular(form: Riemann) -> bool:
-    """Is neither of -alpha, -beta known to be an integer that may be negative?"""
-    writer = form.writer
-    return all(writer.is_natural(-value) or not writer.is_integer(value) for value in (form.alpha, form.beta))
 
 
 def _jacobi(form: Riemann) -> tuple[Expr, Expr]:

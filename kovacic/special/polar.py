@@ -18,10 +18,7 @@ from kovacic.engine.places import Place
 
 @dataclass(frozen=True)
 class PolarPart:
-    """The polar part of a function with poles of this order at a place, without its constant term.
-
-    `residue` is that of the differential which it is the integral of: an element of K[x]/p, constant.
-    """
+    """That of int sqrt(S/q) dx, up to the sign, its order, and the residue of sqrt(S/q) dx, a constant in K[x]/p."""
 
     part: RatFunc
     order: int
@@ -34,13 +31,20 @@ def unit(place: Place, precision: int) -> Poly:
     return place.num * (place.den // place.factor**place.order).inverse_modulo(power) % power
 
 
-def root_modulo(v: Poly, p: Poly, n: int) -> Poly | None:
-    """A square (n = 2) or cubic (n = 3) root of v in K[x]/p, None if there is none."""
+def root_modulo(v: Poly, p: Poly, n: int, precision: int) -> Poly | None:
+    """A square (n = 2) or cubic (n = 3) root of v modulo p^precision, None if there is none; by Newton's method."""
     if p.degree == 1:
-        return root(v[0], n)
-    extension = AlgebraicField(v.field, p, "_a")
-    element = root(ExtensionPoly.make(extension, [v[k] for k in range(p.degree)]), n)
-    return None if element is None else v.field.poly([part[0] for part in element.parts])
+        w = root(v % p, n)
+    else:
+        extension = AlgebraicField(v.field, p, "_a")
+        element = root(ExtensionPoly.make(extension, [(v % p)[k] for k in range(p.degree)]), n)
+        w = None if element is None else v.field.poly([part[0] for part in element.parts])
+    known = 1
+    while w is not None and known < precision:
+        known = min(2 * known, precision)
+        power = p**known
+        w = (w * (n - 1) + v * (w ** (n - 1)).inverse_modulo(power)) * Fraction(1, n) % power
+    return w
 
 
 def root(value: Poly, n: int) -> Poly | None:
@@ -58,15 +62,9 @@ def integral_of_square_root(place: Place, q: Poly) -> PolarPart | None:
     None if S/q has no square root over the residue field, or its residues at the roots of p aren't equal.
     """
     p, m = place.factor, place.order // 2
-    V = unit(place, m) / q
-    s = root_modulo(V % p, p, 2)
+    s = root_modulo(unit(place, m) / q, p, 2, m)
     if s is None:
         return None
-    known = 1
-    while known < m:
-        known = min(2 * known, m)
-        power = p**known
-        s = (s + V * s.inverse_modulo(power)) * Fraction(1, 2) % power
     parts = decompose(RatFunc(s, p**m))
     residue = parts.residues[0].value if parts.residues else s.field.poly([])
     return None if residue.degree > 0 else PolarPart(_in_x(parts.exact, place), m - 1, residue)
@@ -78,11 +76,10 @@ def leading_square(place: Place) -> Poly:
     return -unit(place, 1) * (d * d * p.derivative() ** 2).inverse_modulo(p) % p
 
 
-def square(place: Place) -> PolarPart:
+def square(place: Place) -> RatFunc:
     """The polar part of t with t'^2/t = -S + ... at a ramified place: (T'p - d T p')^2 = -T V modulo p^d for t = T/p^d."""
     p, d = place.factor, place.order - 2
-    T = expanded_square(place, d)
-    return PolarPart(_in_x(RatFunc(T, p**d), place), d, p.field.poly([]))
+    return _in_x(RatFunc(expanded_square(place, d), p**d), place)
 
 
 def expanded_square(place: Place, precision: int) -> Poly:
@@ -98,19 +95,11 @@ def expanded_square(place: Place, precision: int) -> Poly:
     return T
 
 
-def integral_of_cubic_root(place: Place, q: Poly) -> PolarPart | None:
+def integral_of_cubic_root(place: Place, q: Poly) -> RatFunc | None:
     """F at a place where q F'^2 F = S + ...: F^3 = -9 t/q has a pole of order d = k - 2; None without a cubic root."""
     p, d = place.factor, (place.order - 2) // 3
-    cube = expanded_square(place, d) * -9 / q
-    W = root_modulo(cube % p, p, 3)
-    if W is None:
-        return None
-    known = 1
-    while known < d:
-        known = min(2 * known, d)
-        power = p**known
-        W = (2 * W + cube * (W * W).inverse_modulo(power)) * Fraction(1, 3) % power
-    return PolarPart(_in_x(RatFunc(W, p**d), place), d, p.field.poly([]))
+    W = root_modulo(expanded_square(place, d) * -9 / q, p, 3, d)
+    return None if W is None else _in_x(RatFunc(W, p**d), place)
 
 
 def _in_x(function: RatFunc, place: Place) -> RatFunc:
