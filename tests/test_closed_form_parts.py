@@ -23,12 +23,12 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution, value_at
 from kovacic.closed_form.curve import integrate_on_curve
 from kovacic.closed_form.curve_display import curve_integral
+from kovacic.closed_form.exponential import ExponentialPrimitive
 from kovacic.closed_form.form import ClosedForm, solutions
 from kovacic.closed_form.integrals import logarithms
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import OCTAHEDRAL_B, POLYNOMIALS, RATIOS, KleinForm
 from kovacic.closed_form.primitive import (
-    ExponentialPrimitive,
     OpenPrimitive,
     PowerPrimitive,
     RationalPrimitive,

@@ -12,14 +12,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.curve import CurveIntegral
-from kovacic.closed_form.exponential import CompositePrimitive
-from kovacic.closed_form.primitive import (
-    CurvePrimitive,
-    ExponentialPrimitive,
-    PowerPrimitive,
-    Primitive,
-    RationalPrimitive,
-)
+from kovacic.closed_form.primitive import OpenPrimitive, Primitive
 from kovacic.closed_form.product import Product
 from kovacic.closed_form.structure import (
     ClosedStructure,
@@ -69,12 +62,6 @@ def _is_riccati_solution(omega: RatFunc, S: RatFunc) -> bool:
     return (n.derivative() * d - n * d.derivative() + n * n) * S.den == S.num * (d * d)
 
 
-def _has_logarithmic_derivative(r: RatFunc, rate: RatFunc) -> bool:
-    """r'/r = rate for a function r other than 0, multiplied by the denominators."""
-    n, d = r.num, r.den
-    return bool(r) and (n.derivative() * d - n * d.derivative()) * rate.den == rate.num * (n * d)
-
-
 def _conjugate(form: Conjugate, S: RatFunc, gauge: RatFunc) -> bool:
     A, B, delta = form.A, form.B, form.delta
     slope_a, slope_b = A.derivative(), B.derivative()
@@ -107,18 +94,13 @@ def _is_complete(integral: CurveIntegral) -> bool:
 
 def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
     """Is the derivative of the integral y^-2, up to a constant?"""
-    target = bare.logarithmic_derivative * -2
-    if isinstance(primitive, RationalPrimitive):
-        return _has_logarithmic_derivative(primitive.parts.derivative, target)
-    if isinstance(primitive, CurvePrimitive):
-        r, g = primitive.integral.integrand, RatFunc(primitive.integral.g)
-        rate = target + g.derivative() / (2 * g)
-        return _has_logarithmic_derivative(r, rate) and _is_complete(primitive.integral)
-    if isinstance(primitive, ExponentialPrimitive | CompositePrimitive):
-        return _has_logarithmic_derivative(primitive.integrand, target - primitive.kernel_derivative)
-    if isinstance(primitive, PowerPrimitive):
-        return primitive.logarithmic_derivative == target
-    return True  # the integral is left as it is
+    if isinstance(primitive, OpenPrimitive):
+        return True  # the integral is left as it is
+    if isinstance(primitive, CurveIntegral) and not _is_complete(primitive):
+        return False
+    r, rate = primitive.integrand, bare.logarithmic_derivative * -2 - primitive.kernel_derivative
+    n, d = r.num, r.den  # r'/r = rate, multiplied by the denominators
+    return bool(r) and (n.derivative() * d - n * d.derivative()) * rate.den == rate.num * (n * d)
 
 
 def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: Any) -> Any:

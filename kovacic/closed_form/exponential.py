@@ -21,9 +21,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from kovacic.algebra.combination import combination
-from kovacic.algebra.partial_fractions import prime_part, reduce_poles
+from kovacic.algebra.partial_fractions import Residue, prime_part, reduce_poles
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+
+
+@dataclass(frozen=True)
+class GammaTerm:
+    """`coefficient` * int t^(power + alpha) exp(beta t^n) dx, equation (1) of `kovacic.closed_form.primitive`."""
+
+    coefficient: Poly
+    power: int
 
 
 @dataclass(frozen=True)
@@ -37,29 +45,60 @@ class ErrorTerm:
 
 
 @dataclass(frozen=True)
-class CompositePrimitive:
-    """h = r exp(E): W exp(E) + sum of c exp(e) Ei(E - e) for (c, e) in `logarithmic` + sum of `errors`."""
+class Monomial:
+    """E = beta t^n + `constant`, t = x - centre."""
+
+    centre: Poly
+    beta: Poly
+    n: int
+    constant: Poly
+
+    @property
+    def t(self) -> RatFunc:
+        return RatFunc(self.beta.field.poly([-self.centre, 1]))
+
+
+@dataclass(frozen=True)
+class ExponentialPrimitive:
+    """h = r k, k = exp(E): W k + sum of c exp(e) Ei(E - e) for (c, e) in `logarithmic` + sum of `errors`.
+
+    With `monomial`, k is t^alpha exp(E) and there are `terms`; for n = 1, alpha = 0 also conjugate simple `poles` a with
+    residues rho, each of which gives rho exp(E(a)) Ei(E - E(a)).
+    """
 
     E: RatFunc
     W: RatFunc
-    logarithmic: tuple[tuple[Poly, Poly], ...]
-    errors: tuple[ErrorTerm, ...]
+    logarithmic: tuple[tuple[Poly, Poly], ...] = ()
+    errors: tuple[ErrorTerm, ...] = ()
+    monomial: Monomial | None = None
+    alpha: Fraction = Fraction(0)
+    terms: tuple[GammaTerm, ...] = ()
+    poles: tuple[Residue, ...] = ()
 
     @property
     def kernel_derivative(self) -> RatFunc:
-        """E'."""
-        return self.E.derivative()
+        """k'/k."""
+        slope = self.E.derivative()
+        return slope + self.alpha / self.monomial.t if self.monomial and self.alpha else slope
 
     @property
     def integrand(self) -> RatFunc:
         """r, recomputed from the result by (1)."""
         slope = self.E.derivative()
-        total = self.W.derivative() + self.W * slope
+        total = self.W.derivative() + self.W * self.kernel_derivative
         total = sum((slope / (self.E - e) * c for c, e in self.logarithmic), total)
-        return sum((term.q.derivative() * term.coefficient for term in self.errors), total)
+        total = sum((term.q.derivative() * term.coefficient for term in self.errors), total)
+        if self.monomial is not None:
+            total = sum((self.monomial.t**term.power * term.coefficient for term in self.terms), total)
+        return sum((residue.logarithmic for residue in self.poles), total)
+
+    @property
+    def rational_part(self) -> RatFunc | None:
+        """W, if the integral is W k; else None."""
+        return None if self.logarithmic or self.errors or self.terms or self.poles else self.W
 
 
-def integrate_composite(r: RatFunc, E: RatFunc) -> CompositePrimitive | str:
+def integrate_composite(r: RatFunc, E: RatFunc) -> ExponentialPrimitive | str:
     """int r exp(E) dx, or why it is left.
 
     >>> from kovacic.algebra.rationals import QQ
@@ -84,7 +123,7 @@ def integrate_composite(r: RatFunc, E: RatFunc) -> CompositePrimitive | str:
         logarithmic.append((c, e))
     if prime_part(rest.den, E.den).degree > 0:
         return "a pole with a residue remains beside the exponential"
-    levels = [e for e in _limits(E) if all(e != known for _, known in logarithmic)]
+    levels = [e for e in _limit(E) if (E - e).num.degree == 0 and all(e != known for _, known in logarithmic)]
     squares = list(_squares(E))
     candidates = [slope / (E - e) for e in levels] + [q.derivative() for q, _, _ in squares]
     solved = _with_rational_part(rest, E, candidates)
@@ -93,28 +132,23 @@ def integrate_composite(r: RatFunc, E: RatFunc) -> CompositePrimitive | str:
     more, constants = solved
     logarithmic += [(c, e) for c, e in zip(constants, levels, strict=False) if c]
     errors = [ErrorTerm(c, *square) for c, square in zip(constants[len(levels) :], squares, strict=True) if c]
-    return CompositePrimitive(E, W + more, tuple(logarithmic), tuple(errors))
+    return ExponentialPrimitive(E, W + more, tuple(logarithmic), tuple(errors))
 
 
-def _limits(E: RatFunc) -> Iterator[Poly]:
-    """The value e at infinity, if E is finite there and E - e has no finite zero."""
-    if E.num.degree <= E.den.degree:
-        e = E.num.lc / E.den.lc if E.num.degree == E.den.degree else E.num * 0
-        if (E - e).num.degree == 0:
-            yield e
+def _limit(E: RatFunc) -> list[Poly]:
+    """The value at infinity, if E is finite there."""
+    finite = E.num.degree <= E.den.degree
+    return [E.num.lc / E.den.lc if E.num.degree == E.den.degree else E.num * 0] if finite else []
 
 
 def _squares(E: RatFunc) -> Iterator[tuple[RatFunc, Poly, Poly]]:
     """(q, b, e) with E = e + b q^2."""
-    field, values = E.field, []
     slope = E.derivative().num
-    for p, _ in field.factor(slope) if slope.degree > 0 else []:
-        values.append(E.num * E.den.inverse_modulo(p) % p)
-    if E.num.degree <= E.den.degree:
-        values.append(E.num.lc / E.den.lc if E.num.degree == E.den.degree else E.num * 0)
-    for k, e in enumerate(values):
+    factors = E.field.factor(slope) if slope.degree > 0 else []
+    values = [E.num * E.den.inverse_modulo(p) % p for p, _ in factors] + _limit(E)
+    for e in dict.fromkeys(values):
         level = E - e
-        if e.degree > 0 or e in values[:k] or not level:
+        if e.degree > 0 or not level:
             continue
         top, bottom = (part.monic().root(2) for part in (level.num, level.den))
         if top is not None and bottom is not None:

@@ -8,18 +8,16 @@ from fractions import Fraction
 from math import gcd, lcm
 
 import sympy
-from sympy import Add, Ei, Integer, Mul, erf, erfi, exp, pi, sqrt
+from sympy import Add, Ei, Mul, erf, erfi, exp, pi, sqrt
 
 from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr, rational
+from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.curve_display import curve_integral
 from kovacic.closed_form.elliptic import elliptic
-from kovacic.closed_form.exponential import CompositePrimitive
+from kovacic.closed_form.exponential import ExponentialPrimitive, Monomial
 from kovacic.closed_form.primitive import (
-    CurvePrimitive,
-    ExponentialPrimitive,
     OpenPrimitive,
     PowerPrimitive,
     Primitive,
@@ -42,11 +40,11 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
     if isinstance(primitive, OpenPrimitive):
         integral = sympy.Integral(display(form.bare.to_power(-2), atoms, around_zero=True), atoms.x)
         return first, first * integral, (f"integral left because {primitive.reason}",)
-    if isinstance(primitive, CurvePrimitive):
-        if primitive.integral.reason is not None and (named := elliptic(primitive.integral, atoms)) is not None:
-            note = f"elliptic integrals because {primitive.integral.reason}"
+    if isinstance(primitive, CurveIntegral):
+        if primitive.reason is not None and (named := elliptic(primitive, atoms)) is not None:
+            note = f"elliptic integrals because {primitive.reason}"
             return first, _sum([_scaled(c, [*parts[1], value]) for c, value in named]), (note,)
-        value, notes = curve_integral(primitive.integral, atoms)
+        value, notes = curve_integral(primitive, atoms)
         return first, Add(*(first * term for term in Add.make_args(value))), notes
     return first, _sum(_terms(form.first, primitive, parts, atoms)), ()
 
@@ -56,8 +54,8 @@ def times_integral(y: Product, h: Product, atoms: Atoms) -> Expr | None:
     primitive, parts = integrate(h), factors(y, atoms)
     if isinstance(primitive, OpenPrimitive):
         return None
-    if isinstance(primitive, CurvePrimitive):
-        value, notes = curve_integral(primitive.integral, atoms)
+    if isinstance(primitive, CurveIntegral):
+        value, notes = curve_integral(primitive, atoms)
         return None if notes else Add(*(Mul(parts[0], *parts[1], term) for term in Add.make_args(value)))
     return Add(*(c * e for c, e in _terms(y, primitive, parts, atoms)))
 
@@ -68,8 +66,6 @@ def _terms(y: Product, primitive: Primitive, first: Factors, atoms: Atoms) -> li
         return _rational(y, primitive, first, atoms)
     if isinstance(primitive, PowerPrimitive):
         return _power(y, primitive, first, atoms)
-    if isinstance(primitive, CompositePrimitive):
-        return _composite(y, primitive, first, atoms)
     if isinstance(primitive, ExponentialPrimitive):
         return _exponential(y, primitive, first, atoms)
     raise TypeError(f"{type(primitive).__name__} has no such terms")
@@ -126,38 +122,11 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
 
 
 def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
-    """first * (W k e^constant + the special functions times e^constant)."""
-    terms = []
+    """first * (W k + the terms with Ei, error and gamma functions)."""
+    terms, E, (scale, parts), shape = [], primitive.E, first, primitive.monomial
     if primitive.W:
-        terms.append(_algebraic_part(y, primitive, atoms))
-    shift = exp(atoms.constant(primitive.constant)) if primitive.constant else Integer(1)
-    t = atoms.x - atoms.constant(primitive.centre)
-    scale, parts = first
-    for term in primitive.terms:
-        c, value = _special(primitive, term.power, t, atoms)
-        terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, value]))
-    beta, centre = atoms.constant(primitive.beta), atoms.constant(primitive.centre)
-    for residue in primitive.poles.residues:
-        p, rho = residue.factor, residue.value
-        if p.degree == 1:
-            a = -atoms.constant(p[0])
-            value = exp(beta * (a - centre)) * Ei(beta * (atoms.x - a))
-            terms.append(_scaled(scale * atoms.constant(rho), [*parts, shift, value]))
-        else:
-            a = atoms.root
-            body = atoms.poly(rho, a) * exp(beta * (a - centre)) * Ei(beta * (atoms.x - a))
-            value = atoms.root_sum(atoms.poly(p, a), body)
-            terms.append(_scaled(scale, [*parts, shift, value]))
-    return terms
-
-
-def _composite(y: Product, primitive: CompositePrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
-    """first * (W exp(E) + the terms with Ei and with error functions)."""
-    terms, E = [], primitive.E
-    if primitive.W:
-        merged = Product(y.powers, y.roots, y.exponential + E)
-        terms.append(_scaled(*factors(merged, atoms, primitive.W, like=y)))
-    scale, parts = first
+        powers = y.powers if shape is None else _with_exponents(y, (shape.t.num, primitive.alpha))
+        terms.append(_scaled(*factors(Product(powers, y.roots, y.exponential + E), atoms, primitive.W, like=y)))
     for c, e in primitive.logarithmic:
         value = [exp(atoms.constant(e)), Ei(atoms.sum(E - e))]
         terms.append(_scaled(scale * atoms.constant(c), [*parts, *value]))
@@ -166,6 +135,15 @@ def _composite(y: Product, primitive: CompositePrimitive, first: Factors, atoms:
         root = atoms.sqrt(error.b if grows else -error.b)
         value = [exp(atoms.constant(error.e)), sqrt(pi) * (erfi if grows else erf)(root * atoms.sum(error.q))]
         terms.append(_scaled(scale * atoms.constant(error.coefficient) / (2 * root), [*parts, *value]))
+    for residue in primitive.poles:
+        p, a, slope = residue.factor, atoms.root, atoms.constant(E.num.lc)
+        body = atoms.poly(residue.value, a) * exp(atoms.poly(E.num, a)) * Ei(slope * (atoms.x - a))
+        terms.append(_scaled(scale, [*parts, atoms.root_sum(atoms.poly(p, a), body)]))
+    for term in primitive.terms:
+        assert shape is not None
+        c, value = _gamma(shape, primitive.alpha, term.power, atoms)
+        shift = exp(atoms.constant(shape.constant))
+        terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, value]))
     return terms
 
 
@@ -180,7 +158,7 @@ def _power(y: Product, primitive: PowerPrimitive, first: Factors, atoms: Atoms) 
     n = alpha.denominator
     v = Mul(*(atoms.poly(p) ** e for p, e in ((t.num, rational(Fraction(1, n))), (t.den, rational(Fraction(-1, n))))))
     z = atoms.root
-    for residue in primitive.poles.residues:
+    for residue in primitive.poles:
         body = atoms.poly(residue.value, z**n) * z ** int(alpha * n) * sympy.log(v - z)
         value = atoms.root_sum(atoms.poly(residue.factor, z**n), body)
         terms.append(_scaled(scale, [*parts, value]))
@@ -196,31 +174,19 @@ def _with_exponents(y: Product, *changes: tuple[Poly, Fraction]) -> tuple[Power,
     return tuple(Power(base, exponent) for base, exponent in powers.items() if exponent)
 
 
-def _algebraic_part(y: Product, primitive: ExponentialPrimitive, atoms: Atoms) -> Scaled:
-    """first * W * k e^constant, as one product."""
-    t = primitive.beta.field.poly([-primitive.centre, 1])
-    inner = y.exponential + RatFunc(t) ** primitive.n * primitive.beta + primitive.constant
-    merged = _with_exponents(y, (t, primitive.alpha))
-    return _scaled(*factors(Product(merged, y.roots, inner), atoms, primitive.W, like=y))
-
-
-def _special(primitive: ExponentialPrimitive, power: int, t: Expr, atoms: Atoms) -> Scaled:
+def _gamma(shape: Monomial, alpha: Fraction, power: int, atoms: Atoms) -> Scaled:
     """int t^(power + alpha) exp(beta t^n) dt by equation (1) of `kovacic.closed_form.primitive`."""
-    alpha, beta, n = primitive.alpha, atoms.constant(primitive.beta), primitive.n
+    beta, n, t = atoms.constant(shape.beta), shape.n, atoms.x - atoms.constant(shape.centre)
     s = (power + alpha + 1) / n
     if s == 0:
         return sympy.Rational(1, n), Ei(beta * t**n)
     if s == Fraction(1, 2):
-        positive = beta.is_real is not False and not atoms.is_negative(primitive.beta)
-        root = atoms.sqrt(primitive.beta if positive else -primitive.beta)
+        positive = beta.is_real is not False and not atoms.is_negative(shape.beta)
+        root = atoms.sqrt(shape.beta if positive else -shape.beta)
         u = root * t ** sympy.Rational(n, 2)
         return 1 / (root * n), sqrt(pi) * (erfi if positive else erf)(u)
-    order = rational(s)
-    t_n = t**n
-    z = -beta * t_n
+    order, z = rational(s), -beta * t**n
     if n == 1 and beta.is_negative:
         return -((-beta) ** -order), sympy.uppergamma(order, z)
     # z^(-s) gamma(s, z) is entire; with Gamma(s, z) the powers of z and of t would differ in some sectors.
-    exponent = rational(power + alpha + 1)
-    powers = t**exponent * z**-order
-    return sympy.Rational(1, n), powers * sympy.lowergamma(order, z)
+    return sympy.Rational(1, n), t ** rational(power + alpha + 1) * z**-order * sympy.lowergamma(order, z)

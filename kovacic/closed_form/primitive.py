@@ -17,11 +17,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from kovacic.algebra.partial_fractions import Decomposition, decompose, reduce_poles
+from kovacic.algebra.partial_fractions import Decomposition, Residue, decompose, reduce_poles
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
-from kovacic.closed_form.exponential import CompositePrimitive, integrate_composite
+from kovacic.closed_form.exponential import ExponentialPrimitive, GammaTerm, Monomial, integrate_composite
 from kovacic.closed_form.product import Product
 from kovacic.closed_form.torsion import completed
 
@@ -35,53 +35,17 @@ class RationalPrimitive:
 
     parts: Decomposition
 
-
-@dataclass(frozen=True)
-class CurvePrimitive:
-    """h = r/sqrt(g): an integral on the curve s^2 = g."""
-
-    integral: CurveIntegral
-
-
-@dataclass(frozen=True)
-class Term:
-    """`coefficient * G_power` of equation (1)."""
-
-    coefficient: Poly
-    power: int
-
-
-@dataclass(frozen=True)
-class ExponentialPrimitive:
-    """h = rational * k, k = (x - centre)^alpha exp(beta (x - centre)^n): W k + sum of `terms` + Ei terms.
-
-    `poles` (only for n = 1, alpha = 0) are the simple poles a with residue rho that remain; each gives
-    rho exp(beta (a - centre)) Ei(beta (x - a)).  The exponential in h itself is exp(beta (x - centre)^n + constant).
-    """
-
-    centre: Poly
-    alpha: Fraction
-    beta: Poly
-    n: int
-    constant: Poly
-    W: RatFunc
-    terms: tuple[Term, ...]
-    poles: Decomposition
-
     @property
     def kernel_derivative(self) -> RatFunc:
-        """k'/k."""
-        field = self.beta.field
-        t = RatFunc(field.poly([-self.centre, 1]))
-        return self.alpha / t + t ** (self.n - 1) * (self.beta * self.n)
+        return self.parts.exact * 0
 
     @property
     def integrand(self) -> RatFunc:
-        """h/k, recomputed from the result."""
-        field = self.beta.field
-        t = RatFunc(field.poly([-self.centre, 1]))
-        total = self.W.derivative() + self.W * self.kernel_derivative + self.poles.derivative
-        return sum((t**term.power * term.coefficient for term in self.terms), total)
+        return self.parts.derivative
+
+    @property
+    def rational_part(self) -> RatFunc | None:
+        return None if self.parts.residues else self.parts.exact
 
 
 @dataclass(frozen=True)
@@ -95,19 +59,23 @@ class PowerPrimitive:
     t: RatFunc
     alpha: Fraction
     W: RatFunc
-    poles: Decomposition
+    poles: tuple[Residue, ...]
+
+    @property
+    def kernel_derivative(self) -> RatFunc:
+        """alpha t'/t."""
+        return self.t.derivative() / self.t * self.alpha
 
     @property
     def integrand(self) -> RatFunc:
-        """r, recomputed from the result, as a function of t."""
-        t = RatFunc(self.W.field.poly([0, 1]))
-        return self.W.derivative() + self.W * self.alpha / t + self.poles.derivative
+        """r(t) dt/dx, recomputed from the result."""
+        rate = self.alpha / RatFunc(self.W.field.poly([0, 1]))
+        r = sum((residue.logarithmic for residue in self.poles), self.W.derivative() + self.W * rate)
+        return r(self.t) * self.t.derivative()
 
     @property
-    def logarithmic_derivative(self) -> RatFunc:
-        """That of r(t) t^alpha dt/dx with respect to x."""
-        r, slope = self.integrand, self.t.derivative()
-        return r.derivative()(self.t) * slope / r(self.t) + slope * self.alpha / self.t + slope.derivative() / slope
+    def rational_part(self) -> RatFunc | None:
+        return None if self.poles else self.W(self.t)
 
 
 @dataclass(frozen=True)
@@ -117,9 +85,8 @@ class OpenPrimitive:
     reason: str
 
 
-Primitive = (
-    RationalPrimitive | CurvePrimitive | ExponentialPrimitive | CompositePrimitive | PowerPrimitive | OpenPrimitive
-)
+#: int r k dx, with r as `integrand`, k'/k as `kernel_derivative`, and W as `rational_part` if the integral is W k alone.
+Primitive = RationalPrimitive | CurveIntegral | ExponentialPrimitive | PowerPrimitive | OpenPrimitive
 
 
 def integrate_inverse_square(y: Product) -> Primitive:
@@ -138,17 +105,23 @@ def integrate(h: Product) -> Primitive:
     >>> print(done.W, [(str(term.coefficient), term.power) for term in done.terms])
     (-x**2 + 2)/(6*x**3 - 18*x) [('1/6', 0)]
     """
+    found = _integrated(h)
+    return OpenPrimitive(found) if isinstance(found, str) else found
+
+
+def _integrated(h: Product) -> Primitive | str:
+    """The integral, or why it is left."""
     field = h.field
     if h.roots:
-        return OpenPrimitive(f"the exponents at the roots of {h.roots[0].factor} are different algebraic numbers")
+        return f"the exponents at the roots of {h.roots[0].factor} are different algebraic numbers"
     rational = RatFunc(field.poly([1]))
     fractional: list[tuple[Poly, Fraction]] = []
     for power in h.powers:
         exponent = power.rational_exponent
         if exponent is None:
-            return OpenPrimitive(f"the exponent at {power.base} is irrational")
+            return f"the exponent at {power.base} is irrational"
         if abs(exponent) > _LARGEST_EXPONENT:
-            return OpenPrimitive(f"the factor {power.base} has the power {exponent} in the integrand")
+            return f"the factor {power.base} has the power {exponent} in the integrand"
         if exponent.denominator == 1:
             rational = rational * RatFunc(power.base) ** int(exponent)
         else:
@@ -159,7 +132,7 @@ def integrate(h: Product) -> Primitive:
     return _with_exponential(rational, fractional, E)
 
 
-def _without_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fraction]]) -> Primitive:
+def _without_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fraction]]) -> Primitive | str:
     if not fractional:
         return RationalPrimitive(decompose(rational))
     if all(exponent.denominator == 2 for _, exponent in fractional):
@@ -167,7 +140,7 @@ def _without_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fractio
         for p, exponent in fractional:
             g = g * p
             rational = rational * RatFunc(p) ** int(exponent + Fraction(1, 2))
-        return CurvePrimitive(completed(integrate_on_curve(rational, g)))
+        return completed(integrate_on_curve(rational, g))
     linear = all(p.degree == 1 for p, _ in fractional)
     if linear and len(fractional) == 1:
         (p, alpha), t = fractional[0], RatFunc(fractional[0][0])
@@ -180,7 +153,7 @@ def _without_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fractio
         x = RatFunc(p.field.poly([-c, d])) / below
         r = rational(x) * (RatFunc(d - c) / below) ** int(alpha + beta) * (c - d) / (below * below)
         return _with_power(r, alpha, RatFunc(p, q))
-    return OpenPrimitive("it is an incomplete beta integral, with fractional powers of several factors")
+    return "it is an incomplete beta integral, with fractional powers of several factors"
 
 
 def _with_power(r: RatFunc, alpha: Fraction, t: RatFunc) -> PowerPrimitive:
@@ -197,39 +170,29 @@ def _with_power(r: RatFunc, alpha: Fraction, t: RatFunc) -> PowerPrimitive:
     return PowerPrimitive(t, alpha, W, poles)
 
 
-def _with_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fraction]], E: RatFunc) -> Primitive:
-    field = rational.field
-    if not fractional and _monomial_exponent(E, None) is None:
-        return _composite(rational, E)
+def _with_exponential(r: RatFunc, fractional: list[tuple[Poly, Fraction]], E: RatFunc) -> Primitive | str:
     if len(fractional) > 1 or any(p.degree > 1 for p, _ in fractional):
-        return OpenPrimitive("the integrand has an exponential and fractional powers of several factors")
+        return "the integrand has an exponential and fractional powers of several factors"
     centre = -fractional[0][0][0] if fractional else None
     alpha = fractional[0][1] if fractional else Fraction(0)
-    shape = _monomial_exponent(E, centre)
+    shape = _monomial(E, centre)
     if shape is None:
-        return OpenPrimitive("the exponent in the integrand isn't a multiple of a power of x - c, up to a constant")
-    centre, beta, n, constant = shape
-    shifted = rational(field.poly([centre, 1])) if centre else rational
-    W, laurent, poles = _reduce(shifted, alpha, beta, n)
-    if poles.residues and (n != 1 or alpha):
-        return (
-            OpenPrimitive("a pole with a residue remains beside the exponential") if alpha else _composite(rational, E)
-        )
-    W, terms = _reduce_laurent(W, laurent, alpha, beta, n)
-    if centre:
-        back = field.poly([-centre, 1])
-        W = W(RatFunc(back))
-        poles = decompose(poles.derivative(RatFunc(back)))
-    return ExponentialPrimitive(centre, alpha, beta, n, constant, W, terms, poles)
+        left = "the exponent in the integrand isn't a multiple of a power of x - c, up to a constant"
+        return left if fractional else integrate_composite(r, E)
+    shifted = r(r.field.poly([shape.centre, 1])) if shape.centre else r
+    W, laurent, poles = _reduce(shifted, alpha, shape.beta, shape.n)
+    if poles and (shape.n != 1 or alpha):
+        return "a pole with a residue remains beside the exponential" if alpha else integrate_composite(r, E)
+    W, terms = _reduce_laurent(W, laurent, alpha, shape.beta, shape.n)
+    if shape.centre:
+        W = W(shape.t)
+    linear = tuple((residue.value, E.num(-residue.factor[0])) for residue in poles if residue.factor.degree == 1)
+    conjugate = tuple(residue for residue in poles if residue.factor.degree > 1)
+    return ExponentialPrimitive(E, W, linear, (), shape, alpha, terms, conjugate)
 
 
-def _composite(r: RatFunc, E: RatFunc) -> Primitive:
-    found = integrate_composite(r, E)
-    return OpenPrimitive(found) if isinstance(found, str) else found
-
-
-def _monomial_exponent(E: RatFunc, centre: Poly | None) -> tuple[Poly, Poly, int, Poly] | None:
-    """(c, beta, n, constant) with E = beta (x - c)^n + constant, c the given centre if there is one; None if it isn't so."""
+def _monomial(E: RatFunc, centre: Poly | None) -> Monomial | None:
+    """E = beta (x - c)^n + constant, c the given centre if there is one; None if it isn't so."""
     field = E.field
     if E.is_polynomial:
         n, beta = E.num.degree, E.num.lc
@@ -237,7 +200,7 @@ def _monomial_exponent(E: RatFunc, centre: Poly | None) -> tuple[Poly, Poly, int
             centre = -E.num[n - 1] / (beta * n) if n > 1 else field.poly([])
         shifted = E.num(field.poly([centre, 1]))
         lower = shifted - field.poly([0, 1]) ** n * beta
-        return (centre, beta, n, lower) if lower.degree <= 0 else None
+        return Monomial(centre, beta, n, lower) if lower.degree <= 0 else None
     polynomial, rest = divmod(E.num, E.den)
     if polynomial.degree > 0 or rest.degree > 0:
         return None
@@ -245,47 +208,44 @@ def _monomial_exponent(E: RatFunc, centre: Poly | None) -> tuple[Poly, Poly, int
     pole = -E.den[n - 1] / field.poly([n])
     if E.den != field.poly([-pole, 1]) ** n or (centre is not None and centre != pole):
         return None
-    return pole, rest, -n, polynomial
+    return Monomial(pole, rest, -n, polynomial)
 
 
-def _reduce(r: RatFunc, alpha: Fraction, beta: Poly, n: int) -> tuple[RatFunc, RatFunc, Decomposition]:
+def _reduce(r: RatFunc, alpha: Fraction, beta: Poly, n: int) -> tuple[RatFunc, RatFunc, tuple[Residue, ...]]:
     """W, a Laurent polynomial and simple poles with r = L(W) + Laurent + poles."""
-    field = r.field
-    x = RatFunc(field.poly([0, 1]))
-    W, r, residues = reduce_poles(r, alpha / x + x ** (n - 1) * (beta * n), x.num)
-    poles = Decomposition(RatFunc(field.poly([])), residues)
-    return W, r - poles.derivative, poles
+    x = RatFunc(r.field.poly([0, 1]))
+    W, r, poles = reduce_poles(r, alpha / x + x ** (n - 1) * (beta * n), x.num)
+    return W, sum((-residue.logarithmic for residue in poles), r), poles
 
 
 def _reduce_laurent(
     W: RatFunc, laurent: RatFunc, alpha: Fraction, beta: Poly, n: int
-) -> tuple[RatFunc, tuple[Term, ...]]:
+) -> tuple[RatFunc, tuple[GammaTerm, ...]]:
     """W and the terms of (1) for the Laurent polynomial; W is in the shifted coordinate."""
     field = laurent.field
-    x = RatFunc(field.poly([0, 1]))
+    x, inverse = RatFunc(field.poly([0, 1])), (beta * n).inverse()
     lowest = -laurent.den.degree
     coefficients = {lowest + i: laurent.num[i] for i in range(laurent.num.degree + 1) if laurent.num[i]}
-    inverse = (beta * n).inverse()
-    pending = sorted(coefficients, key=lambda m: -abs((m + alpha + 1) / n - Fraction(1, 2)))
-    while pending:
-        m = pending.pop(0)
+    # From the largest |s - 1/2| inwards, with all powers in between.
+    powers = range(min(coefficients, default=0) - abs(n), max(coefficients, default=0) + abs(n) + 1)
+    powers = range(min(powers[0], -abs(n) - 1), max(powers[-1], abs(n) + 1))
+    for m in sorted(powers, key=lambda m: -abs((m + alpha + 1) / n - Fraction(1, 2))):
         s = (m + alpha + 1) / n
         if 0 <= s < 1 or not coefficients.get(m):
             continue
         value = coefficients.pop(m)
         if s >= 1:
-            j = m - n + 1
-            part, target, change = value * inverse, m - n, -(value * inverse * (j + alpha))
+            j, target = m - n + 1, m - n
+            part = value * inverse
+            change = -(part * (j + alpha))
         else:
-            j = m + 1
+            j, target = m + 1, m + n
             part = value * (1 / (j + alpha))
-            target, change = m + n, -(part * beta * n)
+            change = -(part * beta * n)
         W = W + x**j * part
         if change:
             coefficients[target] = coefficients.get(target, field.poly([])) + change
-            pending = sorted({*pending, target}, key=lambda m: -abs((m + alpha + 1) / n - Fraction(1, 2)))
-    terms = tuple(Term(value, m) for m, value in sorted(coefficients.items()) if value)
-    return W, terms
+    return W, tuple(GammaTerm(value, m) for m, value in sorted(coefficients.items()) if value)
 
 
 def normalised_constant(exact: RatFunc) -> RatFunc:

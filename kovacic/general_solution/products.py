@@ -18,14 +18,9 @@ from kovacic.algebra.poly import Field
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import DIGITS, value_at
-from kovacic.closed_form.exponential import CompositePrimitive
 from kovacic.closed_form.integrals import times_integral
 from kovacic.closed_form.jets import jet
-from kovacic.closed_form.primitive import (
-    ExponentialPrimitive,
-    PowerPrimitive,
-    RationalPrimitive,
-)
+from kovacic.closed_form.primitive import OpenPrimitive
 from kovacic.closed_form.product import Product, product
 from kovacic.closed_form.product_display import factors
 from kovacic.closed_form.structure import ClosedStructure, Diagonal, Triangular
@@ -96,24 +91,10 @@ def _products(form: ClosedStructure) -> tuple[Product, Product] | None:
         return form.first, form.second
     if not isinstance(form, Triangular):
         return None
-    primitive = form.primitive
-    if isinstance(primitive, ExponentialPrimitive):
-        left = bool(primitive.terms or primitive.poles.residues)
-    elif isinstance(primitive, CompositePrimitive):
-        left = bool(primitive.logarithmic or primitive.errors)
-    elif isinstance(primitive, RationalPrimitive):
-        left = bool(primitive.parts.residues)
-    else:
-        left = not isinstance(primitive, PowerPrimitive) or bool(primitive.poles.residues)
-    if left:
+    W = None if isinstance(form.primitive, OpenPrimitive) else form.primitive.rational_part
+    if isinstance(form.primitive, OpenPrimitive) or not W:
         return None
-    if isinstance(primitive, RationalPrimitive):
-        rate = primitive.parts.exact.derivative() / primitive.parts.exact
-    elif isinstance(primitive, PowerPrimitive):
-        t, slope = primitive.t, primitive.t.derivative()
-        rate = primitive.W.derivative()(t) * slope / primitive.W(t) + slope * primitive.alpha / t
-    elif isinstance(primitive, ExponentialPrimitive | CompositePrimitive):
-        rate = primitive.W.derivative() / primitive.W + primitive.kernel_derivative
+    rate = W.derivative() / W + form.primitive.kernel_derivative
     return form.first, product(form.first.logarithmic_derivative + rate)
 
 
