@@ -21,7 +21,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution, value_at
-from kovacic.closed_form.curve import integrate_on_curve
+from kovacic.closed_form.curve import integrate_on_curve, unit
 from kovacic.closed_form.curve_display import curve_integral
 from kovacic.closed_form.exponential import ExponentialPrimitive
 from kovacic.closed_form.form import ClosedForm, solutions
@@ -37,7 +37,6 @@ from kovacic.closed_form.primitive import (
 from kovacic.closed_form.product import product
 from kovacic.closed_form.structure import Triangular
 from kovacic.closed_form.torsion import completed
-from kovacic.closed_form.units import unit
 from kovacic.decision import Structure
 from kovacic.reading.read import read_input
 

@@ -1,4 +1,4 @@
-"""Constants, polynomials, rational functions and their integrals as SymPy expressions, without simplification."""
+"""Constants, polynomials, rational functions, their integrals and products as SymPy expressions, without simplification."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 import sympy
-from sympy import Add, Integer, Mul, Pow, Rational, Symbol, log, sqrt
+from sympy import Add, Integer, Mul, Pow, Rational, Symbol, exp, log, sqrt
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
@@ -15,6 +15,7 @@ from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.closed_form.product import Factor, Product, grouped, merged
 from kovacic.reading.symbolic import chosen_root
 
 Expr = Any  # SymPy publishes no types
@@ -35,6 +36,12 @@ class RootSum(sympy.RootSum):  # type: ignore[misc]
 def rational(value: Fraction | int) -> Expr:
     """A SymPy rational number."""
     return Rational(value.numerator, value.denominator)
+
+
+def hypergeometric(top: tuple[Expr, ...], bottom: tuple[Expr, ...], z: Expr) -> Expr:
+    """SymPy's `hyper`, made without asking whether |z| <= 1, which takes milliseconds."""
+    ordered = sympy.hyper(top, bottom, 0)
+    return sympy.Function.__new__(sympy.hyper, *ordered.args[:2], z, evaluate=False)
 
 
 class Atoms:
@@ -188,3 +195,56 @@ def _is_the_smaller_root(field: AlgebraicField) -> bool:
     real, imaginary = field.approximation
     middle = field.base.rational_value(field.modulus[1])
     return imaginary < 0 or (imaginary == 0 and middle is not None and real < -middle / 2)
+
+
+def display(y: Product, atoms: Atoms, *, around_zero: bool = False) -> Expr:
+    """A product, up to a constant factor."""
+    return Mul(*factors(y, atoms, around_zero=around_zero)[1])
+
+
+def factors(
+    y: Product, atoms: Atoms, extra: RatFunc | None = None, *, like: Product | None = None, around_zero: bool = True
+) -> tuple[Expr, list[Expr]]:
+    """(c, factors): y * extra is c times the product of the factors, merged and grouped (`kovacic.closed_form.product`).
+
+    With `around_zero` the roots of x^2 - a, a > 0, are written so that they are real around 0.
+    """
+    found = merged(y, extra, like=like)
+    scale: Expr = Integer(1)
+    for factor in found:
+        content = atoms.primitive(factor.base)[0]
+        if content != 1:
+            scale = scale * rational(content) ** atoms.constant(factor.exponent)
+    sign, powers = _powers(found, atoms, around_zero)
+    for residue in y.roots:
+        for a in atoms.real_roots(residue.factor):
+            powers.append((atoms.x - a) ** sympy.expand_mul(atoms.poly(residue.value, a)))
+    return scale * sign, [*powers, _exponential(y, atoms)]
+
+
+def _powers(found: list[Factor], atoms: Atoms, around_zero: bool) -> tuple[Expr, list[Expr]]:
+    """(c, powers) with the product, up to contents, c * powers."""
+    scale: Expr = Integer(1)
+    powers: list[Expr] = []
+    for group, exponent in grouped(found):
+        index = atoms.constant(exponent)
+        bases = []
+        for base in group:
+            shown = atoms.primitive(base)[1]
+            negative_at_zero = base.degree == 2 and not base[1] and atoms.constant(base[0]).is_negative
+            if around_zero and negative_at_zero and not index.is_Integer:
+                shown, scale = -shown, scale * Integer(-1) ** index
+            bases.append(shown)
+        powers.append(Mul(*bases) ** index)
+    return scale, powers
+
+
+def _exponential(y: Product, atoms: Atoms) -> Expr:
+    """The factor exp(rational function) of a product, with the sums over roots that aren't written as powers."""
+    inner = [atoms.log_sum(residue) for residue in y.roots if not atoms.real_roots(residue.factor)]
+    if y.exponential.num.degree > 0 or not y.exponential.is_polynomial:
+        rational_part = atoms.sum(y.exponential)
+        if not inner:
+            return exp(rational_part, evaluate=False)
+        inner.append(rational_part)
+    return exp(Add(*inner))

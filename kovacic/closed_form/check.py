@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -86,10 +85,7 @@ def _on_curve(form: OnCurve, S: RatFunc, gauge: RatFunc) -> bool:
 def _is_complete(integral: CurveIntegral) -> bool:
     """If a unit stands for the residues and the rest: is its derivative theirs?"""
     u, g = integral.unit, integral.g
-    if u is None:
-        return True
-    zero = RatFunc(g.field.poly([]))
-    return u.is_unit(g) and u.integrand(g) == replace(integral, exact=zero).integrand
+    return u is None or (u.is_unit(g) and u.integrand(g) == integral.without_exact)
 
 
 def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:

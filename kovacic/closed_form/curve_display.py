@@ -1,7 +1,7 @@
 """Integrals on s^2 = g, and exponentials of them, as SymPy expressions that are real where g is positive.
 
 kappa int r dx/sqrt(g) is a sum of kappa C sqrt(g) and of kappa c log(Q) or kappa c atan(Q): every logarithm of
-`kovacic.closed_form.curve` and `kovacic.closed_form.units` with tau^2 < 0 is turned into an arc tangent,
+`kovacic.closed_form.curve` and `kovacic.closed_form.curve` with tau^2 < 0 is turned into an arc tangent,
 -log(A + i eta B s)/(i eta) = atan(A/(eta B s))/eta up to a constant.
 """
 
@@ -14,13 +14,9 @@ import sympy
 from sympy import Add, Integer, Mul, atan, cos, exp, log, sin, sqrt
 
 from kovacic.algebra.partial_fractions import Residue
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms, Expr, discriminant, rational
-from kovacic.closed_form.curve import CurveIntegral
-from kovacic.closed_form.product_display import display
+from kovacic.closed_form.atoms import Atoms, Expr, discriminant, display, rational
+from kovacic.closed_form.curve import CurveIntegral, Unit, unit
 from kovacic.closed_form.structure import OnCurve
-from kovacic.closed_form.units import Unit, unit
 
 
 @dataclass(frozen=True)
@@ -45,9 +41,11 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
     kappa = atoms.sqrt(-form.kappa_squared if oscillates else form.kappa_squared)
     terms = _terms(form.integral, atoms, alone=zeros is None)
     common = display(form.common, atoms)
-    A, B = (
-        (Integer(1), Integer(0)) if zeros is None else _zeros(zeros, kappa * sqrt(atoms.poly(form.integral.g)), atoms)
-    )
+    A, B = Integer(1), Integer(0)
+    if zeros is not None:  # up to a common factor, without denominators
+        (a, A), (b, B) = atoms.primitive(zeros.A), atoms.primitive(zeros.B)
+        numbers, roots = (rational(b / a) * kappa * sqrt(atoms.poly(form.integral.g))).as_coeff_Mul()
+        A, B = numbers.q * A, numbers.p * B * roots
     if not terms.others and not terms.logarithms:
         return common * A, common * B, terms.notes
     if oscillates:
@@ -64,31 +62,14 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
     return first, second, terms.notes
 
 
-def _zeros(zeros: Unit, t: Expr, atoms: Atoms) -> tuple[Expr, Expr]:
-    """A and B t, up to a common factor, without denominators."""
-    (a, A), (b, B) = atoms.primitive(zeros.A), atoms.primitive(zeros.B)
-    numbers, roots = (rational(b / a) * t).as_coeff_Mul()
-    return numbers.q * A, numbers.p * B * roots
-
-
 def _times(factor: Expr, term: Expr) -> Expr:
     """factor * term with the square roots of rational numbers multiplied out."""
-    coefficient, rest = (
-        term.as_independent(*term.free_symbols, as_Add=False) if term.free_symbols else (term, Integer(1))
-    )
-    constant = _radical_product(factor, coefficient)
-    return (constant if constant.is_Rational else sympy.sqrtdenest(constant)) * rest
-
-
-def _radical_product(a: Expr, b: Expr) -> Expr:
-    """The product of two constants; sqrt(p) sqrt(q) for rational p and q becomes sqrt(p q)."""
-    if a.is_Rational and b.is_Rational:
-        return a * b
+    a = factor
+    b, rest = term.as_independent(*term.free_symbols, as_Add=False) if term.free_symbols else (term, Integer(1))
     square = sympy.expand_mul(a**2 * b**2)
     if square.is_Rational and a.is_real and b.is_real:
-        negative = (a.is_negative or False) != (b.is_negative or False)
-        return -sqrt(square) if negative else sqrt(square)
-    return sympy.expand_mul(a * b)
+        return (-sqrt(square) if bool(a.is_negative) != bool(b.is_negative) else sqrt(square)) * rest
+    return sympy.sqrtdenest(sympy.expand_mul(a * b)) * rest
 
 
 def _oriented(form: OnCurve) -> OnCurve:
@@ -117,14 +98,17 @@ def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
         others.append(atoms.ratio(integral.exact) * root)
     if not integral.is_elementary:
         if integral.unit is None:
-            others.append(sympy.Integral(atoms.ratio(_integrand(integral)) / root, atoms.x))
+            others.append(sympy.Integral(atoms.ratio(integral.without_exact) / root, atoms.x))
             return _Terms((), tuple(others), (f"integral left because {integral.reason}",))
         _append_unit(integral.unit, root, atoms, logarithms, others)
         return _Terms(tuple(logarithms), tuple(others))
     if integral.rest:
-        # sqrt(x - x1) + sqrt(x - x2) is the better form for real roots that aren't symmetric to 0.
-        split = alone and not integral.exact and not integral.residues and bool(g[1] and atoms.real_roots(g))
-        logarithms.append((atoms.constant(integral.rest) * (2 if split else 1), _at_infinity(g, atoms, split)))
+        # x - (x1 + x2)/2 + sqrt(g); alone, for real roots that aren't symmetric to 0, its square root, which has another sign
+        # of sqrt(g) in some regions.
+        c, base = atoms.constant(integral.rest), atoms.poly(g.derivative() * Fraction(1, 2)) + root
+        if alone and not integral.exact and not integral.residues and g[1] and (roots := atoms.real_roots(g)):
+            c, base = 2 * c, Add(*(sqrt(atoms.x - a) for a in roots))
+        logarithms.append((c, base))
     for residue in integral.residues:
         found = unit(integral.g, residue)
         if found is not None:
@@ -132,11 +116,6 @@ def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
         else:
             others.append(_root_sum(integral, residue, root, atoms))
     return _Terms(tuple(logarithms), tuple(others))
-
-
-def _integrand(integral: CurveIntegral) -> RatFunc:
-    zero = RatFunc(integral.g.field.poly([]))
-    return replace(integral, exact=zero).integrand
 
 
 def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr, Expr]], others: list[Expr]) -> None:
@@ -154,16 +133,6 @@ def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr,
     tau = atoms.sqrt(u.tau_squared)
     top = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root
     logarithms.append((factor / tau, top / atoms.primitive(p)[1] if p.degree > 0 else top))
-
-
-def _at_infinity(g: Poly, atoms: Atoms, split: bool) -> Expr:
-    """x - (x1 + x2)/2 + sqrt(g), or sqrt(x - x1) + sqrt(x - x2), the square root of twice that.
-
-    The latter has another sign of sqrt(g) in some regions, so that it can't be used together with other terms.
-    """
-    if split:
-        return Add(*(sqrt(atoms.x - a) for a in atoms.real_roots(g)))
-    return atoms.poly(g.derivative() * Fraction(1, 2)) + sqrt(atoms.poly(g))
 
 
 def _root_sum(integral: CurveIntegral, residue: Residue, root: Expr, atoms: Atoms) -> Expr:

@@ -6,15 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from sympy import Add, Mul, Symbol, evaluate, exp, hyper
+from sympy import Add, Mul, Symbol, exp
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms, Expr, rational
+from kovacic.closed_form.atoms import Atoms, Expr, display, hypergeometric, rational
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution
 from kovacic.closed_form.curve_display import exponentials
 from kovacic.closed_form.integrals import triangular
-from kovacic.closed_form.klein import Hypergeometric, KleinForm
-from kovacic.closed_form.product_display import display
+from kovacic.closed_form.klein import KleinForm
 from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular, build
 from kovacic.decision import Decision
@@ -104,7 +103,11 @@ def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[
     if isinstance(form, OnCurve):
         return exponentials(form, atoms)
     J = atoms.factored(form.J)
-    return _hypergeometric(form.first, J, atoms), _hypergeometric(form.second, J, atoms), ()
+    first, second = (
+        Mul(display(y.factor, atoms), hypergeometric((rational(y.a), rational(y.b)), (rational(y.c),), J))
+        for y in (form.first, form.second)
+    )
+    return first, second, ()
 
 
 def _one_exponential(y: Expr) -> Expr:
@@ -117,10 +120,3 @@ def _one_exponential(y: Expr) -> Expr:
         return Mul(*(factor for factor in product.args if not isinstance(factor, exp)), exp(Add(*inner)))
 
     return y.replace(lambda e: e.is_Mul, merged) if y.has(exp) else y
-
-
-def _hypergeometric(y: Hypergeometric, J: Expr, atoms: Atoms) -> Expr:
-    a, b, c = (rational(value) for value in (y.a, y.b, y.c))
-    with evaluate(False):  # else SymPy asks whether J is polar, which takes milliseconds
-        function = hyper((a, b), (c,), J)
-    return Mul(display(y.factor, atoms), function)

@@ -11,8 +11,7 @@ import sympy
 from sympy import Add, Ei, Mul, erf, erfi, exp, pi, sqrt
 
 from kovacic.algebra.partial_fractions import Residue
-from kovacic.algebra.poly import Poly
-from kovacic.closed_form.atoms import Atoms, Expr, rational
+from kovacic.closed_form.atoms import Atoms, Expr, display, factors, rational
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.curve_display import curve_integral
 from kovacic.closed_form.elliptic import elliptic
@@ -25,8 +24,7 @@ from kovacic.closed_form.primitive import (
     integrate,
     normalised_constant,
 )
-from kovacic.closed_form.product import Power, Product
-from kovacic.closed_form.product_display import display, factors
+from kovacic.closed_form.product import Power, Product, gathered
 from kovacic.closed_form.structure import Triangular
 
 Scaled = tuple[Expr, Expr]  # a constant and an expression, to be multiplied
@@ -125,7 +123,8 @@ def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, at
     """first * (W k + the terms with Ei, error and gamma functions)."""
     terms, E, (scale, parts), shape = [], primitive.E, first, primitive.monomial
     if primitive.W:
-        powers = y.powers if shape is None else _with_exponents(y, (shape.t.num, primitive.alpha))
+        more = () if shape is None else (Power(shape.t.num, y.field.poly([primitive.alpha])),)
+        powers = gathered((*y.powers, *more))
         terms.append(_scaled(*factors(Product(powers, y.roots, y.exponential + E), atoms, primitive.W, like=y)))
     for c, e in primitive.logarithmic:
         value = [exp(atoms.constant(e)), Ei(atoms.sum(E - e))]
@@ -152,8 +151,9 @@ def _power(y: Product, primitive: PowerPrimitive, first: Factors, atoms: Atoms) 
     terms = []
     t, alpha = primitive.t, primitive.alpha
     if primitive.W:
-        powers = _with_exponents(y, (t.num, alpha), (t.den, -alpha))
-        terms.append(_scaled(*factors(replace(y, powers=powers), atoms, primitive.W(t), like=y)))
+        more = (Power(p, y.field.poly([e])) for p, e in ((t.num, alpha), (t.den, -alpha)) if p.degree > 0)
+        merged = replace(y, powers=gathered((*y.powers, *more)))
+        terms.append(_scaled(*factors(merged, atoms, primitive.W(t), like=y)))
     scale, parts = first
     n = alpha.denominator
     v = Mul(*(atoms.poly(p) ** e for p, e in ((t.num, rational(Fraction(1, n))), (t.den, rational(Fraction(-1, n))))))
@@ -163,15 +163,6 @@ def _power(y: Product, primitive: PowerPrimitive, first: Factors, atoms: Atoms) 
         value = atoms.root_sum(atoms.poly(residue.factor, z**n), body)
         terms.append(_scaled(scale, [*parts, value]))
     return terms
-
-
-def _with_exponents(y: Product, *changes: tuple[Poly, Fraction]) -> tuple[Power, ...]:
-    """The powers of a product times others."""
-    powers = {power.base: power.exponent for power in y.powers}
-    for base, exponent in changes:
-        if base.degree > 0:
-            powers[base] = powers.get(base, y.field.poly([])) + exponent
-    return tuple(Power(base, exponent) for base, exponent in powers.items() if exponent)
 
 
 def _gamma(shape: Monomial, alpha: Fraction, power: int, atoms: Atoms) -> Scaled:

@@ -7,7 +7,7 @@ written form and not from omega.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -60,6 +60,14 @@ class Product:
         powers = tuple(Power(power.base, power.exponent * n) for power in self.powers)
         roots = tuple(Residue(residue.factor, residue.value * n) for residue in self.roots)
         return Product(powers, roots, self.exponential * n)
+
+
+def gathered(powers: Iterable[Power]) -> tuple[Power, ...]:
+    """The powers, every base once."""
+    exponents: dict[Poly, Poly] = {}
+    for power in powers:
+        exponents[power.base] = exponents.get(power.base, power.exponent * 0) + power.exponent
+    return tuple(Power(base, exponent) for base, exponent in exponents.items() if exponent)
 
 
 def product(logarithmic_derivative: RatFunc, zeros: Poly | None = None) -> Product:

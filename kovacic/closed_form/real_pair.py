@@ -25,9 +25,8 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms, Expr
-from kovacic.closed_form.product import Power
-from kovacic.closed_form.product_display import display
+from kovacic.closed_form.atoms import Atoms, Expr, display, rational
+from kovacic.closed_form.product import Power, gathered
 from kovacic.closed_form.structure import Conjugate
 from kovacic.engine.places import rational_square_root
 
@@ -44,9 +43,6 @@ class _Pair:
     def rotated(self, delta: Poly, re: Poly, im: Poly) -> _Pair:
         """Multiplied by re + sqrt(delta) im."""
         return replace(self, A=self.A * re + self.B * im * delta, B=self.A * im + self.B * re)
-
-    def with_power(self, base: Poly, exponent: Fraction) -> _Pair:
-        return replace(self, powers=(*self.powers, Power(base, base.field.poly([exponent]))))
 
 
 def is_real_pair(form: Conjugate, atoms: Atoms) -> bool:
@@ -70,16 +66,14 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
             phase.append(s * atoms.log_sum(residue))
         else:
             pair = turned
-    common = display(replace(form.common, powers=_merged(pair.powers)), atoms)
-    A, B = pair.A, pair.B
-    content = _content(atoms, A, B)
-    A, B = A * (1 / content), B * (1 / content)
+    common = display(replace(form.common, powers=gathered(pair.powers)), atoms)
+    content = atoms.primitive(pair.A or pair.B)[0]
+    A, B = pair.A * (1 / content), pair.B * (1 / content)
     first, second = atoms.poly(A), s * atoms.poly(B)
     for p, sign in pair.halves:
         # exp(+-i phi/2) is a multiple of plus +- i minus, plus * minus = t.
-        distance = atoms.poly(p.derivative() * Fraction(1, 2))
-        scale, radical = atoms.primitive(p)
-        root = sqrt(radical) * sqrt(sympy.Rational(scale.numerator, scale.denominator))
+        distance, (scale, radical) = atoms.poly(p.derivative() * Fraction(1, 2)), atoms.primitive(p)
+        root = sqrt(radical) * sqrt(rational(scale))
         plus = sqrt(root + distance)
         minus = sign * sqrt(-atoms.constant(p[1] * p[1] - 4 * p[0])) / (2 * plus)
         first, second = first * plus - second * minus, first * minus + second * plus
@@ -89,32 +83,16 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
             angle, second = -angle, -second
         evaluate = angle.has(sympy.atan)  # everything else stays as it is
         c, t = cos(angle, evaluate=evaluate), sin(angle, evaluate=evaluate)
-        first, second = (
-            first * c - second * t,
-            first * t + second * c,
-        )
-    return _times(common, first), _times(common, second)
-
-
-def _times(common: Expr, factor: Expr) -> Expr:
-    return _without_content(factor) * common
+        first, second = first * c - second * t, first * t + second * c
+    return _without_content(first) * common, _without_content(second) * common
 
 
 def _without_content(expression: Expr) -> Expr:
     """Without a constant factor, if it is visible."""
-    if not isinstance(expression, Add):
-        return (
-            expression.as_independent(*expression.free_symbols, as_Add=False)[1]
-            if expression.free_symbols
-            else expression
-        )
-    constants = [term.as_coeff_Mul()[0] for term in expression.args]
-    return -expression if all(c.is_negative for c in constants) else expression
-
-
-def _content(atoms: Atoms, A: Poly, B: Poly) -> Fraction:
-    lead = A if A else B
-    return atoms.primitive(lead)[0]
+    if isinstance(expression, Add):
+        return -expression if all(term.as_coeff_Mul()[0].is_negative for term in expression.args) else expression
+    symbols = expression.free_symbols
+    return expression.as_independent(*symbols, as_Add=False)[1] if symbols else expression
 
 
 def _half_turns(pair: _Pair, delta: Poly, residue: Residue, phase: list[Expr], atoms: Atoms, s: Expr) -> _Pair | None:
@@ -139,17 +117,8 @@ def _half_turns(pair: _Pair, delta: Poly, residue: Residue, phase: list[Expr], a
     re, im = p.derivative() * Fraction(1, 2), p.field.poly([sign * ratio / 2])
     for _ in range(turns):
         pair = pair.rotated(delta, re, im)
-    pair = pair.with_power(p, -abs(q) / 2)
-    if half:
-        pair = replace(pair, halves=(*pair.halves, (p, sign)))
-    return pair
-
-
-def _merged(powers: tuple[Power, ...]) -> tuple[Power, ...]:
-    exponents: dict[Poly, Poly] = {}
-    for power in powers:
-        exponents[power.base] = exponents.get(power.base, power.exponent * 0) + power.exponent
-    return tuple(Power(base, exponent) for base, exponent in exponents.items() if exponent)
+    powers, halves = (*pair.powers, Power(p, p.field.poly([-abs(q) / 2]))), ((p, sign),) if half else ()
+    return replace(pair, powers=powers, halves=(*pair.halves, *halves))
 
 
 def conjugate_roots(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:

@@ -13,12 +13,11 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import Decomposition, decompose
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
+from kovacic.closed_form.curve import CurveIntegral, Unit, gathered_zeros, integrate_on_curve
 from kovacic.closed_form.klein import KleinForm, klein_form
 from kovacic.closed_form.primitive import Primitive, integrate_inverse_square
 from kovacic.closed_form.product import Product, product
 from kovacic.closed_form.torsion import completed
-from kovacic.closed_form.units import Unit, gathered_zeros
 from kovacic.decision import Decision, SemiInvariant, Structure
 
 
@@ -135,10 +134,13 @@ def _imprimitive(S: RatFunc, semi: SemiInvariant, gauge: RatFunc) -> OnCurve:
     square = (4 * S - 2 * phi.derivative() - phi * phi) * Fraction(1, 4)
     # (y1 y2)^2 is rational: a constant times h^2 g with known factors.
     g, h = field.poly([1]), RatFunc(semi.P)
-    for factor, exponent in _rational_powers(decompose(semi.theta * 2)):
-        h = h * RatFunc(factor) ** (exponent // 2)
-        if exponent % 2:
-            g = g * factor
+    for residue in decompose(semi.theta * 2).residues:
+        exponent = residue.rational
+        if exponent is None or exponent.denominator != 1:
+            raise AssertionError("the square of y1 y2 is rational")
+        h = h * RatFunc(residue.factor) ** (int(exponent) // 2)
+        if int(exponent) % 2:
+            g = g * residue.factor
     r = 1 / h
     constant = square * RatFunc(g) * h * h
     # r = 1/h has h' numerator and denominator monic, so that kappa alone carries the constant.
@@ -158,13 +160,3 @@ def _imprimitive(S: RatFunc, semi: SemiInvariant, gauge: RatFunc) -> OnCurve:
 def logarithmic_derivative(polynomial: Poly) -> RatFunc:
     """p'/p."""
     return RatFunc(polynomial.derivative(), polynomial)
-
-
-def _rational_powers(parts: Decomposition) -> list[tuple[Poly, int]]:
-    powers = []
-    for residue in parts.residues:
-        value = residue.rational
-        if value is None or value.denominator != 1:
-            raise AssertionError("the square of y1 y2 is rational")
-        powers.append((residue.factor, int(value)))
-    return powers

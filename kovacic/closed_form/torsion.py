@@ -26,9 +26,8 @@ from fractions import Fraction
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.curve import CurveIntegral
+from kovacic.closed_form.curve import CurveIntegral, Unit
 from kovacic.closed_form.klein import singular_part
-from kovacic.closed_form.units import Unit
 from kovacic.decision import NoInvariant, SemiInvariant
 from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Problem, analyse, rational_square_root
@@ -55,7 +54,7 @@ def completed(integral: CurveIntegral) -> CurveIntegral:
     """The integral with its unit U if it is elementary on a curve of positive genus, else with the reason why it is left."""
     if integral.is_elementary:
         return integral
-    found = _decide(replace(integral, exact=RatFunc(integral.g.field.poly([]))))
+    found = _decide(replace(integral, exact=integral.exact * 0))
     if isinstance(found, str):
         g = integral.g
         return replace(integral, reason=found.format(g=g, genus=(g.degree - 1) // 2))

@@ -9,10 +9,9 @@ import sympy
 from kovacic.algebra.combination import combination
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.form import ClosedForm
 from kovacic.closed_form.product import product
-from kovacic.closed_form.product_display import display
 from kovacic.general_solution.impulses import response
 from kovacic.general_solution.products import rational_over, variation_of_products
 from kovacic.general_solution.undetermined import undetermined

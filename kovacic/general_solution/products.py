@@ -16,13 +16,12 @@ from flint import acb, arb, ctx, fmpq
 
 from kovacic.algebra.poly import Field
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.atoms import Atoms, factors
 from kovacic.closed_form.check import DIGITS, value_at
 from kovacic.closed_form.integrals import times_integral
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import OpenPrimitive
 from kovacic.closed_form.product import Product, product
-from kovacic.closed_form.product_display import factors
 from kovacic.closed_form.structure import ClosedStructure, Diagonal, Triangular
 from kovacic.errors import InputError
 from kovacic.reading.from_sympy import parse_sympy

@@ -24,13 +24,13 @@ import sympy
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Expr
+from kovacic.closed_form.atoms import Expr, hypergeometric
 from kovacic.closed_form.check import is_numerical_solution
 from kovacic.closed_form.product import product
 from kovacic.errors import VerificationFailed
 from kovacic.special.hypergeometric import gauss
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
-from kovacic.special.writer import HALF, Factor, Number, Term, Writer, by_parity, hypergeometric, multiplicities
+from kovacic.special.writer import HALF, Factor, Number, Term, Writer, by_parity, multiplicities
 
 
 def solutions(

@@ -21,9 +21,9 @@ from itertools import product
 import sympy
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Expr
+from kovacic.closed_form.atoms import Expr, hypergeometric
 from kovacic.special.pullback import Gauss
-from kovacic.special.writer import HALF, Factor, Number, Term, Writer, by_parity, hypergeometric
+from kovacic.special.writer import HALF, Factor, Number, Term, Writer, by_parity
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,8 @@ from sympy import Mul, exp
 from kovacic.algebra.poly import Poly, Scalar
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms, Expr
+from kovacic.closed_form.atoms import Atoms, Expr, display, factors
 from kovacic.closed_form.product import Power, Product, product
-from kovacic.closed_form.product_display import display, factors
 from kovacic.special.polar import root
 
 HALF = Fraction(1, 2)
@@ -185,12 +184,6 @@ def multiplicities(f: RatFunc) -> list[tuple[Poly, int]]:
     """The monic irreducible factors with their multiplicities, negative in the denominator."""
     parts = ((f.num, 1), (f.den, -1))
     return [(p, sign * k) for part, sign in parts if part.degree > 0 for p, k in f.field.factor(part)]
-
-
-def hypergeometric(top: tuple[Expr, ...], bottom: tuple[Expr, ...], z: Expr) -> Expr:
-    """SymPy's `hyper`, made without asking whether |z| <= 1, which takes milliseconds."""
-    ordered = sympy.hyper(top, bottom, 0)
-    return sympy.Function.__new__(sympy.hyper, *ordered.args[:2], z, evaluate=False)
 
 
 def by_parity(N: Expr, odd: Expr, even: Expr) -> Expr:
