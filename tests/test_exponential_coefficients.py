@@ -173,6 +173,28 @@ def test_other_coefficients_are_refused(S: str, message: str) -> None:
         kovacic.solve(S, var="x")
 
 
+@pytest.mark.parametrize(
+    ("equation", "message", "position"),
+    [
+        ("y'' + exp(x)*y(2*x) = 0", "y is a function of x alone", 13),
+        ("y'' + sin(x)*y^2 = 0", "a power of y", 13),
+        ("y'' + exp(x)*y*y' = 0", "a product of y", 6),
+        ("exp(x) + y", "the symbol y beside", 9),
+        ("gamma(x)", "isn't a rational function", 0),
+    ],
+)
+def test_texts_with_exponentials_are_refused_where_others_are(equation: str, message: str, position: int) -> None:
+    with pytest.raises(kovacic.InputError, match=message) as caught:
+        kovacic.solve(equation)
+    assert caught.value.position == position
+
+
+def test_known_functions_are_differentiated_and_decimals_noticed_as_in_other_texts() -> None:
+    one, other = (read_input(f"y'' = {S}*y", exponentials=True) for S in ("diff(0.5*cosh(k*x))", "k/2*sinh(k*x)"))
+    assert one.S == other.S
+    assert "0.5 was taken exactly, as 1/2" in one.notices
+
+
 def test_numbers_are_never_taken_for_values_of_the_new_variable() -> None:
     answer = kovacic.solve("2*sech(x)^2*(-1) + 1")
     assert answer.change is not None

@@ -9,8 +9,9 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 
 from kovacic.errors import InputError, NotRational
 from kovacic.limits import Limits
+from kovacic.reading.equation import parse_equation, parse_sympy_equation
 from kovacic.reading.exponential import in_exponentials
-from kovacic.reading.from_sympy import function_of, parse_sympy_equation
+from kovacic.reading.from_sympy import function_of
 from kovacic.reading.given import Equation
 
 
@@ -33,8 +34,6 @@ def _rational(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equa
     if func is not None and not isinstance(name, UndefinedFunction):
         raise InputError(f"{func!r} isn't a function", hint="give y(x), or y = Function('y')")
     if isinstance(eq, str):
-        from kovacic.reading.equation import parse_equation
-
         variable = var if applied is None else str(applied.args[0])
         unknown = None if func is None else str(name)
         eq, _ = parse_equation(eq, variable=variable, unknown=unknown, limits=limits)

@@ -35,6 +35,9 @@ T = TypeVar("T")
 #: Bits of a number whose square root becomes the name of a field: Python prints integers of at most 4300 digits.
 _LARGEST_RADICAND = 14_000
 
+#: Digits of the approximation that tells an algebraic number of SymPy from its conjugates.
+_DIGITS = 15
+
 
 @dataclass(frozen=True)
 class Constants:
@@ -108,6 +111,22 @@ class Constants:
         root = self.radical(QQ.poly([-1]), 2, "I")
         assert root is not None
         return root
+
+    def algebraic(self, node: Any) -> Poly | None:
+        """An algebraic number that SymPy has in any other form, through its minimal polynomial; None where it finds none."""
+        import sympy
+
+        if node is sympy.I:
+            return self.imaginary_unit()
+        exact = node.as_expr() if isinstance(node, sympy.AlgebraicNumber) else node
+        try:
+            is_root = isinstance(exact, sympy.CRootOf)
+            minimal = exact.poly if is_root else sympy.minimal_polynomial(exact, sympy.Dummy(), polys=True)
+        except NotImplementedError:
+            return None
+        coefficients = [Fraction(int(c.p), int(c.q)) for c in reversed(minimal.all_coeffs())]
+        real, imaginary = sympy.N(exact, _DIGITS).as_real_imag()
+        return self.root(QQ.poly(coefficients), acb(arb(str(real)), arb(str(imaginary))))
 
     def root(self, minimal: Poly, approximation: Any) -> Poly:
         """The root of a polynomial over Q that lies nearest to an approximation (an `acb`)."""

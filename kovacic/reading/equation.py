@@ -13,17 +13,30 @@ Within an equation the unknown function may follow a coefficient without a sign:
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
-from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import Place, RationalReader, tokens_of
-from kovacic.reading.given import DEFAULT_VARIABLE, ENERGY, EULER, FUNCTION_NAMES, NUMBER_NAMES, PI, UNKNOWN, Equation
+from kovacic.reading.from_sympy import function_of, functions_in, names_of, walked
+from kovacic.reading.given import (
+    DEFAULT_VARIABLE,
+    ENERGY,
+    EULER,
+    FUNCTION_NAMES,
+    NUMBER_NAMES,
+    PI,
+    TRANSCENDENTAL_HINT,
+    UNKNOWN,
+    Equation,
+    over,
+)
 from kovacic.reading.lexer import PRIMES, Tokens
-from kovacic.reading.linear import REST, LinearArithmetic, LinearForm
+from kovacic.reading.linear import REST, LinearArithmetic, LinearForm, is_rational
 from kovacic.reading.parser import Site, evaluate
 
 DERIVATIVES = frozenset({"diff", "Diff", "Derivative", "D"})
@@ -52,10 +65,45 @@ def parse_equation(
     """
     tokens = tokens_of(text, limits, what="equation", hint="for example y'' = (x^2 + 3) y")
     x, y = names_in_equation(tokens, variable, unknown)
+    return _read(partial(evaluate, tokens), x, y, limits, text)
 
+
+def parse_sympy_equation(
+    value: Any, *, variable: str | None = None, unknown: Any = None, limits: Limits = DEFAULT_LIMITS
+) -> tuple[Equation, tuple[str, ...], Any]:
+    """The equation, what the user should know about how it was read, and the function y(x) that occurs in it.
+
+    Read are `Eq(lhs, rhs)` and expressions that are zero, in an applied function such as y(x) and its derivatives; `unknown`
+    is that function, where more than one occurs.  Raises `NotLinear`, `NotRational` and `LimitExceeded`.
+    """
+    from sympy import E, pi
+
+    expression, function = sympy_equation(value, variable, unknown)
+    names = names_of(expression)
+    for letter, number in ((PI, pi), (EULER, E)):
+        if letter in names and expression.has(number):
+            raise InputError(f"{letter} is a symbol and a number in one equation", hint="rename the symbol")
+    x, y = function.args[0].name, str(function.func)
+    return *_read(partial(walked, expression), x, y, limits, None), function
+
+
+def sympy_equation(value: Any, variable: str | None, unknown: Any) -> tuple[Any, Any]:
+    """An expression that is zero, and the function y(x) in it."""
+    expression = value.lhs - value.rhs if getattr(value, "is_Equality", False) else value
+    function = function_of(expression) if unknown is None else unknown
+    if len(function.args) != 1 or not function.args[0].is_Symbol:
+        raise NotLinear(f"{function} isn't a function of one variable")
+    if variable is not None and function.args[0].name != variable:
+        raise InputError(f"{function} isn't a function of {variable}")
+    return expression, function
+
+
+def _read(
+    walk: Callable[[RationalReader], Any], x: str, y: str, limits: Limits, text: str | None
+) -> tuple[Equation, tuple[str, ...]]:
     def read(constants: Constants) -> tuple[Equation, tuple[str, ...]]:
-        reader = EquationReader(x, y, LinearArithmetic(limits, x, y), constants)
-        equation = reader.equation_of(evaluate(tokens, reader), text)
+        reader = EquationReader(x, y, limits, constants)
+        equation = reader.equation_of(walk(reader), text)
         return equation, (*reader.notices(), *constants.notices())
 
     return read_with_constants(read, limits)
@@ -67,33 +115,34 @@ class EquationReader(RationalReader):
     arithmetic: LinearArithmetic
     constants: Constants
 
-    def __init__(self, variable: str, unknown: str, arithmetic: LinearArithmetic, constants: Constants) -> None:
+    def __init__(self, variable: str, unknown: str, limits: Limits, constants: Constants) -> None:
+        arithmetic = LinearArithmetic(limits, variable, unknown, self.coefficient)
         super().__init__({variable: VARIABLE}, variable, arithmetic, constants)
         self.unknown = unknown
-        arithmetic.with_parameters = self.with_parameters  # type: ignore[method-assign]
 
-    def with_parameters(self, coefficient: Any) -> Any:
+    def coefficient(self, expression: Any) -> Any:
         """A rational function of x and pi, or of x and e, with that number as a parameter."""
         import sympy
 
-        from kovacic.reading.walker import Walker
-
-        powers = {e for e in coefficient.atoms(sympy.exp) if e.args[0].is_Integer}
+        powers = {e for e in expression.atoms(sympy.exp) if e.args[0].is_Integer}
         names = {sympy.pi: sympy.Symbol(PI), sympy.E: sympy.Symbol(EULER)}
-        plain = coefficient.xreplace({e: names[sympy.E] ** e.args[0] for e in powers} | names)
-        try:
-            value = self.arithmetic.rational(Walker(self, self.constants).value(plain))
-        except NotRational:
-            raise self.arithmetic.not_rational(coefficient) from None
+        plain = expression.xreplace({e: names[sympy.E] ** e.args[0] for e in powers} | names)
+        value = walked(plain, self)
+        if not is_rational(value):
+            shown = expression.xreplace({sympy.E: names[sympy.E]})  # E is the energy in texts
+            if expression.free_symbols:
+                raise NotRational(f"a coefficient that isn't a rational function of {self.variable}: {shown}")
+            raise NotRational(f"{shown} isn't an algebraic number", hint=TRANSCENDENTAL_HINT)
         if {PI, EULER} <= {*self.constants.parameters}:
             raise NotRational("pi and e in coefficients: it isn't known whether they are algebraically independent")
         return value
 
     def equation_of(self, value: Any, text: str | None) -> Equation:
         """The equation that says that a linear form is zero; `text` is what it was read from."""
-        form, y = self.arithmetic.form(value), self.unknown
-        coefficients = {k: self.arithmetic.rational(c) for k, c in form.parts.items()}
-        order = max((k for k, c in coefficients.items() if k != REST and c), default=0)
+        parts = {**value.parts} if isinstance(value, LinearForm) else {REST: value}
+        rest, y = parts.pop(REST, Term(0, 0)), self.unknown
+        coefficients = {k: self.arithmetic.rational(c) for k, c in parts.items()}
+        order = max((k for k, c in coefficients.items() if c), default=0)
         if order != 2:
             what = f"is of order {order}" if order else f"contains no derivative of {y}"
             raise NotLinear(
@@ -103,16 +152,36 @@ class EquationReader(RationalReader):
                 length=len(text or ""),
                 hint=f"for example {y}'' = (x^2 + 3) {y}",
             )
-        field = self.constants.field
+        h = None
+        if not is_rational(rest):
+            terms = [(term, walked(term, self)) for term in rest.as_ordered_terms()]
+            h = -sum(term for term, value in terms if not is_rational(value)) or None
+            rest = self.arithmetic.sum([Term(0, 0), *(value for _, value in terms if is_rational(value))])
+        found = [
+            *(coefficients.get(k, self.arithmetic.rational(Term(0, 0))) for k in range(3)),
+            self.arithmetic.rational(rest),
+        ]
+        c, b, a, r = (over(part, self.constants.field) for part in found)
+        return Equation(a, b, c, -r, h, self.variable, y)
 
-        def coefficient(k: int) -> RatFunc:
-            if k not in coefficients:
-                return RatFunc(field.poly([]))
-            return RatFunc(coefficients[k].num.over(field), coefficients[k].den.over(field), reduced=True)
+    def other_leaf(self, node: Any) -> Any:
+        if node.is_Derivative:
+            value = walked(node.expr, self)
+            for symbol, count in node.variable_count:
+                if symbol.name != self.variable or not getattr(count, "is_Integer", False):
+                    raise NotLinear(f"{node} isn't a derivative with respect to {self.variable}")
+                for _ in range(int(count)):
+                    value = self.arithmetic.derivative(value)
+            return value
+        from sympy import Symbol
 
-        c, b, a = map(coefficient, range(3))
-        h = None if form.other is None or form.other == 0 else -form.other
-        return Equation(a, b, c, -coefficient(REST), h, self.variable, y)
+        plain = node.xreplace({symbol: Symbol(symbol.name) for symbol in node.free_symbols})
+        functions = {str(function) for function in functions_in(plain)}
+        if functions and str(plain) == f"{self.unknown}({self.variable})":
+            return self._derivative_of_unknown("")
+        if functions:
+            raise NotLinear(f"{self.unknown}({self.variable}) within {plain}: the equation isn't linear")
+        return plain
 
     def name(self, name: str) -> Any:
         if name == self.unknown:
@@ -120,8 +189,8 @@ class EquationReader(RationalReader):
         if name != self.variable and name in ("e", "pi", "π"):
             import sympy
 
-            return self.arithmetic.opaque(sympy.E if name == "e" else sympy.pi)
-        if name == UNKNOWN:  # the unknown function has another name
+            return sympy.E if name == "e" else sympy.pi
+        if name == UNKNOWN and self.unknown:  # the unknown function has another name
             return self.constants.parameter(name)
         return super().name(name)
 
@@ -132,7 +201,7 @@ class EquationReader(RationalReader):
         return self._derivative_of_unknown(text[len(name) :])
 
     def equation(self, left: Any, right: Any) -> Any:
-        if not self.arithmetic.form(left).coefficients:  # f = a y'' + b y' + c y
+        if not isinstance(left, LinearForm):  # f = a y'' + b y' + c y
             left, right = right, left
         return self.arithmetic.sum([left, self.arithmetic.negate(right)])
 
@@ -145,11 +214,10 @@ class EquationReader(RationalReader):
             return self.arithmetic.power(base, exponent)
         except NotAnInteger:
             pass
-        if not isinstance(base, LinearForm) and not isinstance(exponent, LinearForm):
-            try:
-                return self._rational_power(base, exponent, place)
-            except NotRational:
-                pass
+        try:
+            return self._rational_power(base, exponent, place)
+        except NotRational:
+            pass
         if ENERGY in self.constants.parameters and self.arithmetic.closed(base) == self.constants.parameter(ENERGY):
             hint = f"write exp(...) or e^x for the exponential function; {ENERGY} is the energy"
             raise NotLinear(f"a power of {ENERGY}, which is a parameter", hint=hint)
@@ -178,9 +246,7 @@ class EquationReader(RationalReader):
         return LinearForm({order: Term(1, 0)})
 
     def _is_variable(self, value: Any) -> bool:
-        if isinstance(value, LinearForm | tuple):
-            return False
-        return bool(self.arithmetic.closed(value) == self.arithmetic.closed(VARIABLE))
+        return is_rational(value) and bool(self.arithmetic.closed(value) == self.arithmetic.closed(VARIABLE))
 
     def _differentiated(self, arguments: list[Any]) -> Any:
         """diff(y, x), diff(y, x, 2), diff(y, (x, 2)), diff(y, x, x), diff(y): the order is the number of differentiations."""
@@ -202,7 +268,7 @@ class EquationReader(RationalReader):
         return function
 
     def _order(self, value: Any) -> int:
-        number = None if isinstance(value, LinearForm | tuple) else self.arithmetic.number(value)
+        number = self.arithmetic.number(value) if is_rational(value) else None
         if number is None or number.denominator != 1 or number < 0:
             raise NotLinear("the order of a derivative is a number 0, 1, 2, ...")
         return number.numerator

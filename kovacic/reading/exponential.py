@@ -15,26 +15,33 @@ Continuous Dynamical Systems B 10 (2008) 265-293 (Hamiltonian algebrization).
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from math import gcd
 from typing import Any
 
 import sympy
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.poly import Field
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import NotLinear, NotRational
 from kovacic.limits import Limits
-from kovacic.reading.equation import DERIVATIVES, is_equation, names_in_equation
-from kovacic.reading.expression import chosen_variable, tokens_of
-from kovacic.reading.from_sympy import function_of, is_sympy_equation, parse_sympy_equation
-from kovacic.reading.given import ENERGY, EULER, NUMBER_NAMES, UNKNOWN, Change, Equation, Parsed, lowered
-from kovacic.reading.lexer import PRIMES
-from kovacic.reading.parser import Site, evaluate
-from kovacic.reading.symbolic import LIMITS, SymbolicReader, read_expression
+from kovacic.reading.arithmetic import Term
+from kovacic.reading.equation import (
+    EquationReader,
+    is_equation,
+    names_in_equation,
+    parse_sympy_equation,
+    sympy_equation,
+)
+from kovacic.reading.expression import RationalReader, chosen_variable, tokens_of
+from kovacic.reading.from_sympy import is_sympy_equation, walked
+from kovacic.reading.given import ENERGY, EULER, NUMBER_NAMES, UNKNOWN, Change, Equation, Parsed, lowered, over
+from kovacic.reading.linear import REST
+from kovacic.reading.parser import evaluate
+from kovacic.reading.symbolic import read_expression
 
-#: Reciprocals that have names of their own.
-_RECIPROCALS = {"sech": sympy.cosh, "csch": sympy.sinh}
 _HINT = "coefficients are rational in x, or in exp(k*x) and sines, cosines, ... of rational multiples of k*x"
 
 
@@ -46,27 +53,27 @@ def in_exponentials(given: Any, *, variable: str | None, limits: Limits) -> Pars
     equation = _symbolic(given, variable, limits)
     if equation is None:
         return None
-    (a, b, c, f), x, unknown = equation
-    rewritten = [sympy.expand_power_exp(part.rewrite(sympy.exp)) for part in (a, b, c, f)]
+    parts, x, reader = equation
+    rewritten = [sympy.expand_power_exp(parts.get(k, sympy.Integer(0)).rewrite(sympy.exp)) for k in (2, 1, 0, REST)]
     exponentials = {e for part in rewritten for e in part.atoms(sympy.exp) if e.has(x)}
     if not exponentials:
         return None
     T = sympy.Dummy("T")
     k, powers = _powers(exponentials, x, T)
-    a, b, c, f = (part.xreplace(powers) for part in rewritten)
-    if any(part.has(x) for part in (a, b, c, f)):
+    a, b, c, rest = (part.xreplace(powers) for part in rewritten)
+    if any(part.has(x) for part in (a, b, c, rest)):
         raise NotRational(f"{x} beside exp({k * x})", hint=_HINT)
-    names = {s.name for part in (a, b, c, f, k) for s in part.free_symbols} | {x.name, unknown}
+    unknown = reader.unknown or UNKNOWN
+    names = {s.name for part in (a, b, c, rest, k) for s in part.free_symbols} | {x.name, unknown}
     t = sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
-    parts = [part.xreplace({T: t}) for part in (k**2 * T**2 * a, k**2 * T * a + k * T * b, c, f)]
     Y = sympy.Function(f"{unknown}_")(t)
-    whole = parts[0] * Y.diff(t, 2) + parts[1] * Y.diff(t) + parts[2] * Y - parts[3]
-    read, notices, _ = parse_sympy_equation(whole, limits=limits)
+    whole = k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y + rest
+    read, notices, _ = parse_sympy_equation(whole.xreplace({T: t}), limits=limits)
     monic, expression = _best(read, k, x)
     change = Change(x.name, expression)
     a, b, c, f = _cleared(*monic)
     result = Equation(a, b, c, f, None, t.name, unknown, change)
-    return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *notices), result)
+    return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *reader.notices(), *notices), result)
 
 
 def in_terms_of(change: Change, expression: Any, variable: str) -> Any:
@@ -152,7 +159,7 @@ def _best(equation: Equation, k: Any, x: Any) -> tuple[Monic, str]:
     parts = [part / equation.a for part in (equation.b, equation.c, equation.f)]
     T = RatFunc(field.poly([0, 1]))
     # With theta = T d/dT: theta^2 Y + P theta Y + Q Y = F.
-    P, Q, F = (_over(part, field) for part in parts)
+    P, Q, F = (over(part, field) for part in parts)
     P, Q, F = P * T - 1, Q * T * T, F * T * T
     g = gcd(*(i for part in (P, Q, F) for poly in (part.num, part.den) for i, c in enumerate(poly) if c)) or 1
     found: list[tuple[Monic, str]] = []
@@ -172,7 +179,7 @@ def _best(equation: Equation, k: Any, x: Any) -> tuple[Monic, str]:
             function = getattr(sympy, name if trigonometric else f"{name}h")
             found.append((_over_base(*quotient), str(function(h * (kappa if trigonometric else k) * x))))
     if i is not None and trigonometric:
-        p, q, f = (_over(part, field) for part in found[0][0])
+        p, q, f = (over(part, field) for part in found[0][0])
         M, slope, curvature = (1 + T * i) / (1 - T * i), 2 * i / (1 - T * i) ** 2, 2 * i / (1 - T * i)
         found.append(
             (_over_base(p(M) * slope - curvature, q(M) * slope**2, f(M) * slope**2), str(sympy.tan(g * kappa * x / 2)))
@@ -221,15 +228,11 @@ def _singular_points(p: RatFunc, q: RatFunc, _: RatFunc) -> int:
     return int(finite + (bool(S) and den.degree - S.num.degree < 4))
 
 
-def _over(function: RatFunc, field: Field) -> RatFunc:
-    return RatFunc(function.num.over(field), function.den.over(field), reduced=True)
-
-
 def _over_base(*parts: RatFunc) -> Monic:
     """The functions over the field below, if all of them are defined there."""
     below = [lowered(part) for part in parts]
     known = {part.field for part in below if part}
-    p, q, f = (_over(part, *known) for part in below) if len(known) == 1 else parts
+    p, q, f = (over(part, *known) for part in below) if len(known) == 1 else parts
     return p, q, f
 
 
@@ -245,78 +248,53 @@ def _cleared(p: RatFunc, q: RatFunc, f: RatFunc) -> tuple[RatFunc, RatFunc, RatF
     return RatFunc(a), p * a, q * a, f * a
 
 
-Symbolic = tuple[tuple[Any, Any, Any, Any], Any, str]
-
-
-def _symbolic(given: Any, variable: str | None, limits: Limits) -> Symbolic | None:
-    """The coefficients a, b, c and the right-hand side as SymPy expressions, x, and the name of the unknown function."""
+def _symbolic(given: Any, variable: str | None, limits: Limits) -> tuple[dict[int, Any], Any, _Reader] | None:
+    """The coefficients of the derivatives and `REST`, as SymPy expressions, x, and the reader."""
+    walk: Callable[[RationalReader], Any]
+    y = ""
     if isinstance(given, str):
         tokens = tokens_of(given, limits, what="equation", hint="for example y'' = (x^2 + 3) y")
-        if not is_equation(given):
-            names = [name for name in tokens.names() if name not in {*NUMBER_NAMES, ENERGY, UNKNOWN, EULER}]
-            return _alone(evaluate(tokens, _Reader(None, "S", LIMITS)), variable or chosen_variable(names))
-        x, unknown = names_in_equation(tokens, variable)
-        y = sympy.Function(unknown)(sympy.Symbol(x))
-        return _linear(evaluate(tokens, _EquationReader(y)), y)
-    if is_sympy_equation(given):
-        whole = given.lhs - given.rhs if getattr(given, "is_Equality", False) else given
-        y = function_of(whole)
-        plain = {symbol: sympy.Symbol(symbol.name) for symbol in whole.free_symbols | y.free_symbols}
-        return _linear(whole.xreplace(plain).doit(), y.xreplace(plain))
-    if isinstance(given, sympy.Expr):
-        S = given.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in given.free_symbols})
-        return _alone(S, variable or chosen_variable(sorted(symbol.name for symbol in S.free_symbols)))
-    return None
-
-
-def _alone(S: Any, variable: str) -> Symbolic:
-    return (sympy.Integer(1), sympy.Integer(0), -S, sympy.Integer(0)), sympy.Symbol(variable), UNKNOWN
-
-
-def _linear(whole: Any, y: Any) -> Symbolic:
-    """The coefficients of an expression that is linear in y(x) and its derivatives, and zero."""
-    x = y.args[0]
-    unknowns = [sympy.Dummy() for _ in range(3)]
-    whole = whole.xreplace({y.diff(x, 2): unknowns[2]}).xreplace({y.diff(x): unknowns[1]}).xreplace({y: unknowns[0]})
-    coefficients = [whole.diff(u) for u in unknowns]
-    if any(part.has(*unknowns) for part in coefficients) or not coefficients[2] or whole.has(sympy.Derivative):
+        walk = partial(evaluate, tokens)
+        if is_equation(given):
+            x, y = names_in_equation(tokens, variable)
+        else:
+            x = variable or chosen_variable([n for n in tokens.names() if n not in {*NUMBER_NAMES, ENERGY, EULER}])
+    elif is_sympy_equation(given):
+        expression, function = sympy_equation(given, variable, None)
+        walk, x, y = partial(walked, expression), function.args[0].name, str(function.func)
+    elif isinstance(given, sympy.Expr):
+        walk, x = partial(walked, given), variable or chosen_variable(sorted(s.name for s in given.free_symbols))
+    else:
+        return None
+    reader = _Reader(x, y, limits, _Symbols())  # type: ignore[arg-type]
+    value = walk(reader)
+    parts = {2: Term(1, 0), 0: reader.arithmetic.negate(value)} if not y else getattr(value, "parts", {})
+    found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
+    if max(found, default=0) != 2:
         raise NotLinear("a linear equation of second order is expected")
-    rest = whole.xreplace({u: sympy.Integer(0) for u in unknowns})
-    return (coefficients[2], coefficients[1], coefficients[0], -rest), x, str(y.func)
+    return found, sympy.Symbol(x), reader
 
 
-class _Reader(SymbolicReader):
-    """S as a SymPy expression, with sech and csch."""
+class _Reader(EquationReader):
+    """Reads equations whose coefficients may be any SymPy expressions."""
 
-    def call(self, head: str, arguments: list[Any], site: Site) -> Any:
-        if head in _RECIPROCALS and len(arguments) == 1:
-            return 1 / _RECIPROCALS[head](arguments[0])
-        return super().call(head, arguments, site)
+    def coefficient(self, expression: Any) -> Any:
+        return expression
 
 
-class _EquationReader(_Reader):
-    """An equation as a SymPy expression in y(x) that is zero."""
+class _Symbols:
+    """What `Constants` is to other readers: parameters and algebraic numbers as SymPy expressions."""
 
-    def __init__(self, y: Any) -> None:
-        super().__init__(None, "the equation", LIMITS)
-        self.y, self.unknown, self.x = y, str(y.func), y.args[0]
+    parameters = ()
 
-    def name(self, name: str) -> Any:
-        return self.y if name == self.unknown else super().name(name)
+    def parameter(self, name: str) -> Any:
+        return sympy.Symbol(name)
 
-    def derivative(self, text: str) -> Any:
-        name = text.rstrip(PRIMES)
-        if name != self.unknown:
-            raise NotLinear(f"{text} is a derivative of something else than {self.unknown}")
-        return self.y.diff(self.x, sum(2 if mark == "″" else 1 for mark in text[len(name) :]))
+    def imaginary_unit(self) -> Any:
+        return sympy.I
 
-    def equation(self, left: Any, right: Any) -> Any:
-        return left - right
+    def algebraic(self, node: Any) -> Any:
+        return node
 
-    def follows_without_sign(self, name: str) -> bool:
-        return name.rstrip(PRIMES) == self.unknown or name in DERIVATIVES
-
-    def call(self, head: str, arguments: list[Any], site: Site) -> Any:
-        if head.rstrip(PRIMES) == self.unknown:
-            return self.derivative(head) if head != self.unknown else self.y
-        return sympy.diff(*arguments) if head in DERIVATIVES else super().call(head, arguments, site)
+    def radical(self, radicand: Poly, n: int, _: str) -> Any:
+        return sympy.root(radicand.to_sympy(sympy.Integer(0)), n)

@@ -10,7 +10,8 @@ sizes before each operation.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, Protocol
 
 from kovacic.algebra.poly import Poly
@@ -19,9 +20,17 @@ from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.reading.constants import Constants, read_with_constants
-from kovacic.reading.given import DEFAULT_VARIABLE, ENERGY, NUMBER_NAMES, UNKNOWN, Parsed
+from kovacic.reading.given import (
+    DEFAULT_VARIABLE,
+    ENERGY,
+    FUNCTION_NAMES,
+    NUMBER_NAMES,
+    TRANSCENDENTAL_HINT,
+    UNKNOWN,
+    Parsed,
+)
 from kovacic.reading.lexer import PRIMES, Tokens, tokenize
-from kovacic.reading.parser import Site, evaluate, shortened
+from kovacic.reading.parser import Site, evaluate, shortened, shown
 
 _SHOWN_DECIMALS = 3
 
@@ -64,11 +73,16 @@ def parse_rational(text: str, *, variable: str | None = None, limits: Limits = D
     _refuse_equations(tokens)
     chosen = variable or _chosen_variable(tokens)
     _refuse_ambiguous_decimals(tokens, chosen)
+    return read_rational(partial(evaluate, tokens), chosen, limits)
+
+
+def read_rational(walk: Callable[[RationalReader], Any], variable: str, limits: Limits) -> Parsed:
+    """The rational function that a walk over a text or a SymPy expression gives to a reader."""
 
     def read(constants: Constants) -> Parsed:
-        reader = RationalReader({chosen: VARIABLE}, chosen, Arithmetic(limits), constants)
-        S = constants.embedded(reader.arithmetic.rational(evaluate(tokens, reader)))
-        return Parsed(S, chosen, (*reader.notices(), *constants.notices()))
+        reader = RationalReader({variable: VARIABLE}, variable, Arithmetic(limits), constants)
+        S = constants.embedded(reader.arithmetic.rational(walk(reader)))
+        return Parsed(S, variable, (*reader.notices(), *constants.notices()))
 
     return read_with_constants(read, limits)
 
@@ -96,23 +110,18 @@ class RationalReader:
         self.variable = variable
         self.arithmetic = arithmetic
         self.constants = constants
-        self._decimals: list[str] = []
-        self._more_decimals = 0
+        self.decimals: list[str] = []
 
     def notices(self) -> list[str]:
         """What the user should know about how the text was read."""
-        if not self._more_decimals:
-            return self._decimals
-        return [*self._decimals, f"{self._more_decimals} more decimals were taken exactly"]
+        more = len(self.decimals) - _SHOWN_DECIMALS
+        return [*self.decimals[:_SHOWN_DECIMALS], *([f"{more} more decimals were taken exactly"] if more > 0 else [])]
 
     def number(self, text: str) -> Value:
         if text.isdigit():
             return self.arithmetic.constant(self.arithmetic.integer(text))
         value = self.arithmetic.decimal(text)
-        if len(self._decimals) < _SHOWN_DECIMALS:
-            self._decimals.append(f"{shortened(text)} was taken exactly, as {shortened(value.to_str())}")
-        else:
-            self._more_decimals += 1
+        self.decimals.append(f"{shortened(text)} was taken exactly, as {shortened(value.to_str())}")
         return value
 
     def name(self, name: str) -> Value:
@@ -159,7 +168,14 @@ class RationalReader:
         if head in self.names:
             hint = f"for a product write {head}*({site.inside()})"
             raise NotRational(f"{head} is followed by a parenthesis like a function", hint=hint)
-        raise NotRational(f"{site.text()} isn't a rational function of {self.variable}")
+        raise NotRational(f"{site.text()} isn't a rational function of {self.variable}", hint=unknown_function(head))
+
+    def other_leaf(self, node: Any) -> Any:
+        """The value of a SymPy expression that is no sum, product, power or algebraic number."""
+        message = f"{shown(node, 60)} isn't a rational"
+        if node.is_number:
+            raise NotRational(f"{message} number, nor known to be an algebraic one", hint=TRANSCENDENTAL_HINT)
+        raise NotRational(f"{message} function of {self.variable}")
 
     def _index(self, value: Value) -> int:
         number = self.arithmetic.number(value)
@@ -200,6 +216,13 @@ class RationalReader:
         if number.denominator > _LARGEST_INDEX:
             raise NotRational(f"{place.text()} isn't an algebraic number of degree {_LARGEST_INDEX} or less")
         return self.arithmetic.power(self._radical(base, number.denominator, place), number.numerator)
+
+
+def unknown_function(name: str) -> str | None:
+    """A hint, where a name is none of the functions."""
+    known = name.rstrip(PRIMES) in {*FUNCTION_NAMES, *ROOTS}
+    known_functions = ", ".join(sorted(FUNCTION_NAMES))
+    return None if known else f"for a product write {name}*(...); the functions are {known_functions}, of one argument"
 
 
 def chosen_variable(names: list[str]) -> str:

@@ -1,23 +1,73 @@
-"""SymPy expressions into a rational function, and SymPy equations into an equation a y'' + b y' + c y = f.
+"""SymPy expressions into exact arithmetic, node by node: what `parser` is for texts, with the same readers.
 
-The expression is walked as it stands, by an explicit stack, and every node becomes exact arithmetic on polynomials.
-SymPy simplifies nothing on the way: its `cancel` and `together` cost more than the whole decision.  This module imports
-SymPy only when it is called, that is when the caller has done so.
+The expression is walked as it stands, by an explicit stack.  SymPy simplifies nothing on the way: its `cancel` and `together`
+cost more than the whole decision.  SymPy is imported only when these functions are called, that is when the caller has done so.
 """
 
 from __future__ import annotations
 
+from fractions import Fraction
+from functools import partial, reduce
+from operator import index
 from typing import Any
 
-from kovacic.errors import InputError, NotLinear, NotRational
+from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Term
-from kovacic.reading.constants import Constants, read_with_constants
-from kovacic.reading.equation import EquationReader
-from kovacic.reading.expression import RationalReader, chosen_variable
-from kovacic.reading.given import EULER, PI, Equation, Parsed
-from kovacic.reading.linear import LinearArithmetic, LinearForm
-from kovacic.reading.walker import Walker
+from kovacic.reading.arithmetic import VARIABLE
+from kovacic.reading.expression import RationalReader, chosen_variable, read_rational
+from kovacic.reading.given import Parsed
+from kovacic.reading.parser import shown
+
+
+class _Node:
+    """The place of an operation, for messages."""
+
+    def __init__(self, node: Any) -> None:
+        self.node = node
+
+    def text(self) -> str:
+        return shown(self.node, 60)
+
+
+def walked(expression: Any, reader: RationalReader) -> Any:
+    """The value of a SymPy expression; children are on the stack `values` before their parent is combined."""
+    arithmetic = reader.arithmetic
+    values: list[Any] = []
+    pending: list[tuple[Any, bool]] = [(expression, False)]
+    while pending:
+        node, ready = pending.pop()
+        if not ready and (node.is_Add or node.is_Mul or node.is_Pow):
+            pending.append((node, True))
+            pending.extend((child, False) for child in reversed(node.args))
+        elif not ready:
+            values.append(_leaf(node, reader))
+        else:
+            arguments = values[-len(node.args) :]
+            del values[1 - len(node.args) :]
+            try:
+                if node.is_Pow:
+                    values[-1] = reader.power(arguments[0], arguments[1], _Node(node))
+                else:
+                    values[-1] = arithmetic.sum(arguments) if node.is_Add else reduce(arithmetic.multiply, arguments)
+            except ZeroDivisionError:
+                raise NotRational(f"division by zero in {shown(node, 60)}") from None
+            except LimitExceeded as error:
+                raise LimitExceeded(f"{shown(node, 60)} would have {error}", limit=error.limit) from None
+    return values[0]
+
+
+def _leaf(node: Any, reader: RationalReader) -> Any:
+    if node.is_Symbol:
+        return VARIABLE if node.name == reader.variable else reader.constants.parameter(node.name)  # type: ignore[union-attr]
+    if node.is_Rational:
+        return reader.arithmetic.constant(Fraction(index(node.p), index(node.q)))
+    if node.is_Float and node.is_finite:
+        sign, mantissa, exponent, _ = node._mpf_
+        exact = Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** int(exponent)
+        reader.decimals.append(f"the float {shown(node, 60)} was taken exactly, as {shown(exact, 60)}")
+        return reader.arithmetic.constant(exact)
+    value = reader.constants.algebraic(node) if node.is_number and node.is_algebraic else None  # type: ignore[union-attr]
+    return reader.other_leaf(node) if value is None else value
 
 
 def parse_sympy(expression: Any, *, variable: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:
@@ -35,60 +85,11 @@ def parse_sympy(expression: Any, *, variable: str | None = None, limits: Limits 
         raise InputError(
             f"{type(expression).__name__!r} isn't a SymPy expression", hint="give S alone, from y'' = S(x) y"
         )
-    names = _names_of(expression)
-    chosen = variable or chosen_variable(names)
-
-    def read(constants: Constants) -> Parsed:
-        reader = RationalReader({chosen: VARIABLE}, chosen, Arithmetic(limits), constants)
-        walker = Walker(reader, constants)
-        S = constants.embedded(reader.arithmetic.rational(walker.value(expression)))
-        return Parsed(S, chosen, (*walker.notices, *constants.notices()))
-
-    return read_with_constants(read, limits)
+    names = names_of(expression)
+    return read_rational(partial(walked, expression), variable or chosen_variable(names), limits)
 
 
-def is_sympy_equation(value: Any) -> bool:
-    """Is it an `Eq` with an undefined function, or an expression with a derivative of one?"""
-    from sympy import Derivative
-
-    return bool(_functions(value)) and (bool(getattr(value, "is_Equality", False)) or value.has(Derivative))
-
-
-def parse_sympy_equation(
-    value: Any, *, variable: str | None = None, unknown: Any = None, limits: Limits = DEFAULT_LIMITS
-) -> tuple[Equation, tuple[str, ...], Any]:
-    """The equation, what the user should know about how it was read, and the function y(x) that occurs in it.
-
-    Read are `Eq(lhs, rhs)` and expressions that are zero, in an applied function such as y(x) and its derivatives; `unknown`
-    is that function, where more than one occurs.  Raises `NotLinear`, `NotRational` and `LimitExceeded`.
-    """
-    from sympy import E, Symbol, pi
-
-    expression = value.lhs - value.rhs if getattr(value, "is_Equality", False) else value
-    function = function_of(expression) if unknown is None else unknown
-    if len(function.args) != 1 or not function.args[0].is_Symbol:
-        raise NotLinear(f"{function} isn't a function of one variable")
-    name = function.args[0].name
-    if variable is not None and name != variable:
-        raise InputError(f"{function} isn't a function of {variable}")
-    names = _names_of(expression)
-    for letter, number in ((PI, pi), (EULER, E)):
-        if letter in names and expression.has(number):
-            raise InputError(f"{letter} is a symbol and a number in one equation", hint="rename the symbol")
-    plain = {symbol: Symbol(symbol.name) for symbol in expression.free_symbols | function.free_symbols}
-    own_expression, own_function = expression.xreplace(plain), function.xreplace(plain)
-
-    def read(constants: Constants) -> tuple[Equation, tuple[str, ...]]:
-        unknown = str(function.func)
-        reader = EquationReader(name, unknown, LinearArithmetic(limits, name, unknown), constants)
-        walker = _EquationWalker(reader, constants, own_function)
-        equation = reader.equation_of(walker.value(own_expression), None)
-        return equation, (*walker.notices, *constants.notices())
-
-    return *read_with_constants(read, limits), function
-
-
-def _names_of(expression: Any) -> list[str]:
+def names_of(expression: Any) -> list[str]:
     """The names of the symbols, in alphabetical order.  Refuses what would be lost in them."""
     symbols = sorted(expression.free_symbols, key=str)
     names = [symbol.name for symbol in symbols]
@@ -101,49 +102,28 @@ def _names_of(expression: Any) -> list[str]:
     return names
 
 
-def _functions(value: Any) -> set[Any]:
+def functions_in(value: Any) -> set[Any]:
+    """The applied undefined functions, such as y(x)."""
     from sympy.core.function import AppliedUndef
 
     return value.atoms(AppliedUndef) if hasattr(value, "atoms") else set()
+
+
+def is_sympy_equation(value: Any) -> bool:
+    """Is it an `Eq` with an undefined function, or an expression with a derivative of one?"""
+    from sympy import Derivative
+
+    return bool(functions_in(value)) and (bool(getattr(value, "is_Equality", False)) or value.has(Derivative))
 
 
 def function_of(expression: Any) -> Any:
     """The unknown function, the only one in the expression or the one that is differentiated."""
     from sympy import Derivative
 
-    functions = _functions(expression)
+    functions = functions_in(expression)
     derived = {d.expr for d in expression.atoms(Derivative)} & functions
     candidates = derived if len(derived) == 1 else functions
     if len(candidates) != 1:
         found = ", ".join(sorted(map(str, functions))) or "none"
         raise NotLinear(f"one unknown function is expected, and there are: {found}", hint="write y(x) for it")
     return candidates.pop()
-
-
-class _EquationWalker(Walker):
-    """The walk over an equation; the unknown function and its derivatives are leaves."""
-
-    reader: EquationReader
-
-    def __init__(self, reader: EquationReader, constants: Constants, function: Any) -> None:
-        super().__init__(reader, constants)
-        self.function = function
-
-    def _leaf(self, node: Any) -> Any:
-        arithmetic = self.reader.arithmetic
-        if node == self.function:
-            return LinearForm({0: Term(1, 0)})
-        if node.is_Derivative:
-            value = self.value(node.expr)
-            for symbol, count in node.variable_count:
-                if symbol.name != self.reader.variable or not getattr(count, "is_Integer", False):
-                    raise NotLinear(f"{node} isn't a derivative with respect to {self.reader.variable}")
-                for _ in range(int(count)):
-                    value = arithmetic.derivative(value)
-            return value
-        try:
-            return super()._leaf(node)
-        except NotRational:
-            if _functions(node):
-                raise NotLinear(f"{self.function} within {node}: the equation isn't linear") from None
-            return arithmetic.opaque(node)

@@ -33,7 +33,7 @@ NUMBER_NAMES = {
 }
 
 _FUNCTIONS = """
-    exp log sin cos tan cot sec csc asin acos atan acot sinh cosh tanh coth asinh acosh atanh erf sqrt cbrt
+    exp log sin cos tan cot sec csc asin acos atan acot sinh cosh tanh coth sech csch asinh acosh atanh erf sqrt cbrt
 """
 
 #: The functions of one argument that expressions and right-hand sides may contain, with SymPy's names.
@@ -164,6 +164,11 @@ def _coefficient(function: RatFunc, variable: str) -> str:
             sign, size = ("-" if number < 0 else ""), str(abs(number))
             terms.append(sign + (factor if size == "1" and factor else f"{size}*{factor}" if factor else size))
     return " + ".join(terms).replace("+ -", "- ") or "0"
+
+
+def over(function: RatFunc, field: Field) -> RatFunc:
+    """The same function over a larger field."""
+    return RatFunc(function.num.over(field), function.den.over(field), reduced=True)
 
 
 def lowered(function: RatFunc) -> RatFunc:

@@ -58,7 +58,8 @@ def _read(S: Any, variable: str | None, limits: Limits) -> Parsed:
     if isinstance(S, Equation):
         return _with_equation(S, ())
     if _is_sympy(S):
-        from kovacic.reading.from_sympy import is_sympy_equation, parse_sympy, parse_sympy_equation
+        from kovacic.reading.equation import parse_sympy_equation
+        from kovacic.reading.from_sympy import is_sympy_equation, parse_sympy
 
         if is_sympy_equation(S):
             equation, notices, _ = parse_sympy_equation(S, variable=variable, limits=limits)
@@ -86,7 +87,7 @@ def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits
         chosen = [s for s in symbols if s.name == (name or DEFAULT_VARIABLE)] or (symbols if name is None else [])
         x = chosen[0] if len(chosen) == 1 else sympy.Symbol(name or DEFAULT_VARIABLE)
         y = sympy.Function("y" if "y" not in {s.name for s in symbols} else "y_")(x)
-        from kovacic.reading.from_sympy import parse_sympy_equation
+        from kovacic.reading.equation import parse_sympy_equation
 
         equation, notices, _ = parse_sympy_equation(a * y.diff(x, 2) + b * y.diff(x) + c * y - f, limits=limits)
         return _with_equation(equation, notices)

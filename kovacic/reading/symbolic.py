@@ -32,6 +32,7 @@ _LARGEST_BITS = 14_000  # Python prints integers of at most 4300 digits
 LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
 
 FUNCTIONS = {name: getattr(sympy, own) for name, own in FUNCTION_NAMES.items()}
+FUNCTIONS |= {"sech": lambda z: 1 / sympy.cosh(z), "csch": lambda z: 1 / sympy.sinh(z)}
 CONSTANTS = {"pi": sympy.pi, "π": sympy.pi, "e": sympy.E, "I": sympy.I}
 
 
