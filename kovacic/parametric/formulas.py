@@ -97,6 +97,41 @@ def _cleared(function: FunctionPoly | RatFunc, letter: str) -> tuple[Any, Any, t
 
 
 @dataclass(frozen=True)
+class Notation:
+    """Text or LaTeX; `letter` is what an integer is called, the `fixed` parameters are those that nothing is solved for."""
+
+    latex: bool = False
+    letter: str = "x"
+    fixed: tuple[str, ...] = ()
+
+    @property
+    def plus_minus(self) -> str:
+        return r" \pm " if self.latex else " +- "
+
+    @property
+    def comma(self) -> str:
+        return r",\ " if self.latex else ", "
+
+    def function(self, function: Poly | RatFunc) -> str:
+        """The shortest form of a function of the parameters and the integer."""
+        known = function if isinstance(function, RatFunc) else over_parameters(function)
+        return written(known, self.letter, latex=self.latex)
+
+    def name(self, name: str) -> str:
+        return symbol(name) if self.latex else name
+
+    def words(self, text: str) -> str:
+        return " " * text.startswith(" ") + rf"\text{{{text}}}" + " " * text.endswith(" ") if self.latex else text
+
+    def member(self, numbers: str) -> str:
+        """That what stands before is an integer (Z), or a natural number (N)."""
+        return rf" \in \mathbb{{{numbers}}}" if self.latex else f" in {numbers}"
+
+    def alternatives(self, texts: Sequence[str]) -> str:
+        return self.words(" or ").join(texts)
+
+
+@dataclass(frozen=True)
 class _Term:
     """A number times powers of polynomials over others, times sqrt(root)/sqrt(under)."""
 

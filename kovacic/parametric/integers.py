@@ -1,5 +1,6 @@
-"""Statements about integers: a function of the parameters lies in given classes modulo a number; a polynomial in N over Q(t)
-has an integer root N in given classes.
+"""Statements about integers: a polynomial in N over Q(t) has a root N in given classes.
+
+For a polynomial of degree 1 that is: a form in the parameters is congruent to one of some rational numbers.
 """
 
 from __future__ import annotations
@@ -17,162 +18,131 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.parametric.assumptions import Assumptions, Coset, common_multiple
-from kovacic.parametric.formulas import written
+from kovacic.parametric.formulas import Notation
 from kovacic.parametric.functions import degrees, over_parameters
-from kovacic.parametric.spectra import LETTERS, classes_text, families, integer_condition
+from kovacic.parametric.spectra import families, integer_condition, kind
 from kovacic.parametric.statements import Point, Statement
 
-
-@dataclass(frozen=True)
-class Classes(Statement):
-    """`form` is a rational number that is congruent to one of `residues` modulo `modulus`."""
-
-    form: FunctionPoly
-    residues: tuple[Fraction, ...]
-    modulus: Fraction
-    letter: str = field(default="n", compare=False)
-
-    @classmethod
-    def make(cls, form: FunctionPoly, residues: Iterable[Fraction], modulus: Fraction) -> Classes:
-        """Normalised: no constant term (in a Laurent series at 0), coprime coefficients, the least modulus."""
-        shift = to_fraction(form.rational_coefficients()[0]) if form else Fraction(0)
-        numerator = [int(c) for c in (form - shift).num.coeffs()]
-        content = gcd(*numerator) * (1 if numerator[0] > 0 else -1)
-        scale = Fraction(gcd(*(int(c) for c in (form - shift).den.coeffs())), content)
-        normal = (form - shift) * scale
-        modulus = abs(modulus * scale)
-        found = {((residue - shift) * scale) % modulus for residue in residues}
-        reduced, smallest = _reduced(found, modulus)
-        return cls(normal, tuple(sorted(reduced)), smallest)
-
-    def _holds(self, point: Point) -> bool:
-        value = rational(point.at(self.form))
-        return value is not None and any((value - residue) % self.modulus == 0 for residue in self.residues)
-
-    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        return Classes.make(change(self.form), self.residues, self.modulus)
-
-    def sample(self, random: Random) -> list[FunctionPoly]:
-        return [self.form - (random.choice(self.residues) + random.randint(-4, 4) * self.modulus)]
-
-    def merged(self, other: Statement) -> Classes | None:
-        if not isinstance(other, Classes) or other.form not in (self.form, -self.form):
-            return None
-        sign = 1 if other.form == self.form else -1
-        common = common_multiple(self.modulus, other.modulus)
-        numbers = [r + k * self.modulus for r in self.residues for k in range(int(common / self.modulus))]
-        numbers += [sign * r + k * other.modulus for r in other.residues for k in range(int(common / other.modulus))]
-        return Classes.make(self.form, numbers, common)
-
-    def decided(self, assumptions: Assumptions) -> bool | None:
-        return assumptions.meets_classes(self.form, [Coset(residue, self.modulus) for residue in self.residues])
-
-    @property
-    def _in_integers(self) -> tuple[FunctionPoly, Fraction] | None:
-        """A form and a number whose difference is said to be an integer; None where it isn't one class of integers."""
-        if len(self.residues) == 1 and self.modulus == 1:
-            return self.form, self.residues[0]
-        if not any(self.residues) and len(self.residues) == 1 and self.modulus.numerator == 1:
-            return self.form * self.modulus.denominator, Fraction(0)
-        return None
-
-    def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
-        return replace(self, letter=free_letter(names))
-
-    def written(self, *, latex: bool) -> str:
-        if self._in_integers:
-            form, residue = self._in_integers
-            text = written(form, latex=latex) + (f" - {residue}" if residue else "")
-            return rf"{text} \in \mathbb{{Z}}" if latex else f"{text} in Z"
-        first, single = self.residues[0], len(self.residues) == 1
-        if single and self.modulus != 1 and (self.modulus != 2 or first.denominator > 1):
-            scale = lcm(first.denominator, self.modulus.denominator)
-            equation = over_parameters(self.form * scale - self.form.field.poly([0, 1]))
-            if sum(map(bool, degrees(equation))) > 1 and families(equation):
-                residues, modulus = [int(first * scale)], int(self.modulus * scale)
-                return integer_condition(equation, residues, modulus, self.letter, latex=latex)
-        text = written(self.form, latex=latex)
-        if self.modulus == 2 and single and first.denominator == 1:
-            kind = classes_text(self.residues, self.modulus)
-            return rf"{text} \text{{ is {kind}}}" if latex else f"{text} is {kind}"
-        classes = ", ".join(map(str, self.residues))
-        return (
-            rf"{text} \equiv {classes} \pmod{{{self.modulus}}}" if latex else f"{text} = {classes} mod {self.modulus}"
-        )
+#: What integers are called, the first that isn't a parameter.
+LETTERS = "nNmMkKjJ"
 
 
 @dataclass(frozen=True)
-class IntegerRoot(Statement):
-    """`equation`, a polynomial in N over Q(t), has an integer root N congruent to one of `residues` modulo `modulus`.
+class Congruence(Statement):
+    """`equation`, a polynomial in N over Q(t), has a rational root N congruent to one of `residues` modulo `modulus`.
 
-    `letter` is what N is called; the `fixed` parameters are constants, for which it isn't solved.
+    The numbers are integers but for degree 1.  N is called `letter`; the `fixed` parameters are constants, for which it isn't
+    solved.
     """
 
     equation: FunctionPoly
-    residues: tuple[int, ...]
-    modulus: int
+    residues: tuple[Fraction, ...]
+    modulus: Fraction
     letter: str = field(default="n", compare=False)
     fixed: tuple[str, ...] = field(default=(), compare=False)
 
     @classmethod
-    def make(cls, equation: FunctionPoly, residues: Iterable[int], modulus: int) -> IntegerRoot:
-        """Normalised: the mean of the roots in (-1, 0] by a shift of N, both signs about it, the least modulus."""
-        classes, shift, Z = set(residues), 0, equation.field.poly([0, 1])
-        mean = equation.field.rational_value(-equation[equation.degree - 1] / (equation.degree * equation.lc))
-        if mean is not None:
-            shift = ceil(mean)
-            equation = over_parameters(equation(Z + shift))
-            classes = {r - shift for r in classes}
-            twice = int(2 * (mean - shift)) if (2 * mean).denominator == 1 else None
-            if twice is not None and equation(twice - Z) == (-1) ** equation.degree * equation:
-                classes |= {twice - r for r in classes}
-        reduced, smallest = _reduced({Fraction(r % modulus) for r in classes}, Fraction(modulus))
-        return cls(equation, tuple(sorted(map(int, reduced))), int(smallest))
+    def make(cls, equation: FunctionPoly, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Congruence:
+        """Normalised, with the least modulus, by N -> a N + b.
 
-    def merged(self, other: Statement) -> IntegerRoot | None:
-        if not isinstance(other, IntegerRoot):
-            return None
-        relation = self._relation(other)
-        if relation is None:
+        A form gets no constant term (in a Laurent series at 0) and coprime coefficients; else the mean of the roots lies in
+        (-1, 0] if it is a number, and the classes are symmetric about it if the equation is.
+        """
+        Z, classes, modulus = equation.field.poly([0, 1]), {Fraction(r) for r in residues}, Fraction(modulus)
+        if equation.degree == 1:
+            form = over_parameters(-equation[0] / equation[1])
+            shift = to_fraction(form.rational_coefficients()[0]) if form else Fraction(0)
+            above, below = ([int(c) for c in part.coeffs()] for part in ((form - shift).num, (form - shift).den))
+            scale = Fraction(gcd(*below), gcd(*above) * (1 if above[0] > 0 else -1))
+            equation, modulus = over_parameters(Z - (form - shift) * scale), abs(modulus * scale)
+            classes = {(residue - shift) * scale for residue in classes}
+        else:
+            mean = equation.field.rational_value(-equation[equation.degree - 1] / (equation.degree * equation.lc))
+            if mean is not None:
+                equation = over_parameters(equation(Z + ceil(mean)))
+                classes, twice = {r - ceil(mean) for r in classes}, 2 * (mean - ceil(mean))
+                if twice.denominator == 1 and equation(twice - Z) == (-1) ** equation.degree * equation:
+                    classes |= {twice - r for r in classes}
+        classes = {residue % modulus for residue in classes}
+        for k in range(len(classes), 1, -1):
+            fewer = {residue % (modulus / k) for residue in classes}
+            if len(fewer) * k == len(classes) and (equation.degree == 1 or modulus % k == 0):
+                classes, modulus = fewer, modulus / k
+                break
+        return cls(equation, tuple(sorted(classes)), modulus)
+
+    @property
+    def form(self) -> FunctionPoly | None:
+        """The form that is congruent to one of the numbers; None for an equation of higher degree."""
+        return over_parameters(-self.equation[0]) if self.equation.degree == 1 else None
+
+    def _contains(self, number: Fraction) -> bool:
+        return any((number - residue) % self.modulus == 0 for residue in self.residues)
+
+    def _holds(self, point: Point) -> bool:
+        return any(map(self._contains, rational_roots(point.at(self.equation))))
+
+    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
+        made = Congruence.make(change(self.equation), self.residues, self.modulus)
+        return replace(made, letter=self.letter, fixed=self.fixed)
+
+    def sample(self, random: Random) -> list[FunctionPoly]:
+        N = random.choice(self.residues) + random.randint(-4, 4) * self.modulus
+        return [over_parameters(self.equation(N))]
+
+    def merged(self, other: Statement) -> Congruence | None:
+        relation = self._relation(other.equation) if isinstance(other, Congruence) else None
+        if relation is None or not isinstance(other, Congruence):
             return None
         sign, shift = relation
-        common = lcm(self.modulus, other.modulus)
-        own = [r + k * self.modulus for r in self.residues for k in range(common // self.modulus)]
-        own += [sign * r + shift for m in other.residues for r in range(m, common, other.modulus)]
-        return IntegerRoot.make(self.equation, own, common)
+        common = common_multiple(self.modulus, other.modulus)
+        numbers = [r + k * self.modulus for r in self.residues for k in range(int(common / self.modulus))]
+        numbers += [
+            sign * (r + k * other.modulus) + shift for r in other.residues for k in range(int(common / other.modulus))
+        ]
+        made = Congruence.make(self.equation, numbers, common)
+        return replace(made, letter=self.letter, fixed=self.fixed)
 
-    def _relation(self, other: IntegerRoot) -> tuple[int, int] | None:
+    def _relation(self, other: FunctionPoly) -> tuple[int, int] | None:
         """`(sign, shift)` where each root N of the other equation is one, sign N + shift, of this one."""
-        if other.equation == self.equation:
+        own, N, k = self.equation, self.equation.field.poly([0, 1]), self.equation.degree
+        if other == own:
             return 1, 0
-        N, k, f = self.equation.field.poly([0, 1]), self.equation.degree, self.equation.field
-        if other.equation.degree != k or other.equation.field != f:
+        if other.degree != k or other.field != own.field:
             return None
-        own, others = (e[k - 1] / (e.lc * -k) for e in (self.equation, other.equation))
         for sign in (1, -1):
-            shift = f.rational_value(own - sign * others)
+            shift = own.field.rational_value((own[k - 1] / own.lc - sign * other[k - 1] / other.lc) / -k)
             if shift is not None and shift.denominator == 1:
-                moved = self.equation(sign * N + int(shift))
-                if moved * other.equation.lc == other.equation * moved.lc:
+                moved = own(sign * N + int(shift))
+                if moved * other.lc == other * moved.lc:
                     return sign, int(shift)
         return None
+
+    def decided(self, assumptions: Assumptions) -> bool | None:
+        cosets = [Coset(residue, self.modulus) for residue in self.residues]
+        return None if self.form is None else assumptions.meets_classes(self.form, cosets)
 
     def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
         return replace(self, letter=free_letter(names), fixed=tuple(fixed))
 
-    def _holds(self, point: Point) -> bool:
-        roots = rational_roots(point.at(self.equation))
-        return any(root.denominator == 1 and int(root) % self.modulus in self.residues for root in roots)
-
-    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        return replace(self, equation=change(self.equation))
-
-    def sample(self, random: Random) -> list[FunctionPoly]:
-        N = random.choice(self.residues) + random.randint(-3, 3) * self.modulus
-        return [over_parameters(self.equation(N))]
-
     def written(self, *, latex: bool) -> str:
-        return integer_condition(self.equation, self.residues, self.modulus, self.letter, self.fixed, latex=latex)
+        n = Notation(latex, self.letter, self.fixed)
+        form, (first, *others), modulus = self.form, self.residues, self.modulus
+        if form is None:
+            return integer_condition(self.equation, [*map(int, self.residues)], int(modulus), n)
+        if not others and modulus == 1:
+            return n.function(form) + (f" - {first}" if first else "") + n.member("Z")
+        if not others and not first and modulus.numerator == 1:
+            return n.function(form * modulus.denominator) + n.member("Z")
+        if not others and modulus == 2 and first.denominator == 1:
+            return n.function(form) + n.words(f" is {kind(self.residues, modulus)[0]}")
+        scale = lcm(first.denominator, modulus.denominator)
+        equation = over_parameters(form * scale - form.field.poly([0, 1]))
+        if not others and sum(map(bool, degrees(equation))) > 1 and families(equation):
+            return integer_condition(equation, [int(first * scale)], int(modulus * scale), replace(n, fixed=()))
+        classes = ", ".join(map(str, self.residues))
+        congruent = rf" \equiv {classes} \pmod{{{modulus}}}" if latex else f" = {classes} mod {modulus}"
+        return n.function(form) + congruent
 
 
 def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:
@@ -190,22 +160,15 @@ def integer_roots(equation: FunctionPoly, residues: Sequence[int], modulus: int)
     statements: list[Statement] = []
     seen: list[Poly] = []
     field = equation.field
-    minus = field.poly([0, -1])
     for factor, _ in field.factor(equation):
-        assert isinstance(factor, FunctionPoly)
-        mirrored = factor(minus).monic()
-        if symmetric and mirrored in seen:
+        if symmetric and factor(field.poly([0, -1])).monic() in seen:
             continue
         seen.append(factor)
-        coefficients = [field.rational_value(c) for c in factor]
-        if all(c is not None for c in coefficients):
-            roots = rational_roots(QQ.poly([c for c in coefficients if c is not None]))
-            if any(root.denominator == 1 and int(root) % modulus in classes for root in roots):
-                return True
-        elif factor.degree == 1:
-            statements.append(Classes.make(-factor[0], [Fraction(r) for r in sorted(classes)], Fraction(modulus)))
-        else:
-            statements.append(IntegerRoot.make(factor, classes, modulus))
+        values = [value for c in factor if (value := field.rational_value(c)) is not None]
+        if len(values) <= factor.degree:
+            statements.append(Congruence.make(over_parameters(factor), classes, modulus))
+        elif any(root % modulus in classes for root in rational_roots(QQ.poly(values))):
+            return True
     return statements
 
 
@@ -216,22 +179,10 @@ def rational_roots(polynomial: Poly) -> list[Fraction]:
         common = polynomial.parts[0]
         for part in polynomial.parts[1:]:
             common = common.gcd(part)
-    if common.degree < 1:
-        return []
-    roots = (rational(-factor[0]) for factor, _ in QQ.factor(common) if factor.degree == 1)
+    roots = (rational(-factor[0]) for factor, _ in QQ.factor(common) if factor.degree == 1) if common.degree > 0 else ()
     return [root for root in roots if root is not None]
 
 
 def rational(constant: Poly) -> Fraction | None:
     """A constant as a rational number, or None."""
     return constant.field.rational_value(constant)
-
-
-def _reduced(residues: set[Fraction], modulus: Fraction) -> tuple[set[Fraction], Fraction]:
-    """The same classes for the least modulus of which the given one is a multiple."""
-    for k in range(len(residues), 1, -1):
-        smaller = modulus / k
-        classes = {residue % smaller for residue in residues}
-        if len(classes) * k == len(residues):
-            return classes, smaller
-    return residues, modulus

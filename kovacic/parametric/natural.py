@@ -25,13 +25,13 @@ from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.assumptions import Assumptions, Coset
-from kovacic.parametric.formulas import equation_written, shown, written
+from kovacic.parametric.formulas import Notation, equation_written, shown, written
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
-from kovacic.parametric.integers import free_letter, rational_roots
+from kovacic.parametric.integers import LETTERS, free_letter, rational_roots
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import UndefinedError, at_point, on_hypersurface, rational_curve
 from kovacic.parametric.search import NaturalNumber, form_conditions, with_degree
-from kovacic.parametric.spectra import LETTERS, alternatives
+from kovacic.parametric.spectra import alternatives
 from kovacic.parametric.statements import Point, Statement
 
 #: The largest number that is tried for an example.
@@ -177,20 +177,18 @@ class Natural(Statement):
         )
 
     def written(self, *, latex: bool) -> str:
-        d, m, factors = self.letter, self.number.m, self.number.factors
+        n, m, factors = Notation(latex, self.letter, self.fixed), self.number.m, self.number.factors
         if not any(k for factor in factors for k in degrees(factor)):
             numbers = " or ".join(written(-f[0] / f[1]) for f in factors)
             what = "a solution" if m == 1 else f"an invariant of degree {m}"
-            text = f"{what} with {numbers} zero{'s' * (numbers != '1')} exists"
-            return rf"\text{{{text}}}" if latex else text
-        which = alternatives(factors, d, self.fixed, latex=latex)
+            return n.words(f"{what} with {numbers} zero{'s' * (numbers != '1')} exists")
+        which = alternatives(factors, n)
         if len(which) > _WRITTEN_OUT:
-            which = f"the exponents allow a natural number {d} of zeros"
-            which = rf"\text{{{which}}}" if latex else which
-        what = "" if m == 1 else f" for an invariant of degree {m}"
+            which = n.words(f"the exponents allow a natural number {self.letter} of zeros")
+        for_invariant = "" if m == 1 else n.words(f" for an invariant of degree {m}")
         if latex:
-            return rf"{which},\ {d} \in \mathbb{{N}},\ \Delta_{{{d}}} = 0" + (rf"\text{{{what}}}" if what else "")
-        return f"{which}, {d} in N, and Delta_{d} = 0{what}"
+            return rf"{which},\ {self.letter} \in \mathbb{{N}},\ \Delta_{{{self.letter}}} = 0{for_invariant}"
+        return f"{which}, {self.letter} in N, and Delta_{self.letter} = 0{for_invariant}"
 
 
 @lru_cache(maxsize=64)

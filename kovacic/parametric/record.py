@@ -21,7 +21,7 @@ from kovacic.decision import Structure
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.parametric.functions import over_parameters
-from kovacic.parametric.integers import Classes, IntegerRoot
+from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.riemann import Schwarz
@@ -39,15 +39,15 @@ def statement_data(statement: Statement) -> dict[str, Any]:
     """A statement as plain values."""
     if isinstance(statement, Vanishes):
         return {"kind": "zero", "function": _text(statement.function)}
-    if isinstance(statement, Classes):
-        form, residues = statement.form, statement.residues
-        if len(residues) == 1:
-            form, residues = over_parameters(form - residues[0]), ()
-        data = {"kind": "lattice", "form": _text(form), "modulus": _number(statement.modulus)}
-        return data | ({"residues": [_number(r) for r in residues]} if residues else {})
-    if isinstance(statement, IntegerRoot):
-        letter, classes = statement.letter, {"residues": list(statement.residues), "modulus": statement.modulus}
-        return {"kind": "integer root", "unknown": letter, "equation": _text(statement.equation, letter), **classes}
+    if isinstance(statement, Congruence):
+        form, residues, modulus = statement.form, [*map(_number, statement.residues)], _number(statement.modulus)
+        if form is not None and len(residues) == 1:
+            form = over_parameters(form - statement.residues[0])
+            return {"kind": "lattice", "form": _text(form), "modulus": modulus}
+        if form is not None:
+            return {"kind": "lattice", "form": _text(form), "modulus": modulus, "residues": residues}
+        equation = {"unknown": statement.letter, "equation": _text(statement.equation, statement.letter)}
+        return {"kind": "integer root", **equation, "residues": residues, "modulus": modulus}
     if isinstance(statement, Natural):
         letter, number = statement.letter, statement.number
         equations = [_text(factor, letter) for factor in number.factors]
@@ -130,11 +130,12 @@ class Reader:
         if kind == "zero":
             return Vanishes(self.polynomial(data["function"]))
         if kind == "lattice":
-            residues = [Fraction(r) for r in data.get("residues", [0])]
-            return Classes.make(self.polynomial(data["form"]), residues, Fraction(data["modulus"]))
+            residues, equation = data.get("residues", [0]), self.field.poly([0, 1]) - self.polynomial(data["form"])
+            return Congruence.make(over_parameters(equation), map(Fraction, residues), Fraction(data["modulus"]))
         if kind == "integer root":
             equation, letter = self.polynomial(data["equation"], data["unknown"]), data["unknown"]
-            return IntegerRoot(equation, tuple(data["residues"]), data["modulus"], letter)
+            residues = tuple(map(Fraction, data["residues"]))
+            return Congruence(equation, residues, Fraction(data["modulus"]), letter)
         if kind == "natural number":
             letter = data["unknown"]
             equations = tuple(self.polynomial(text, letter) for text in data["equations"])

@@ -14,7 +14,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.limits import check_time
 from kovacic.parametric.answer import Condition
 from kovacic.parametric.functions import irreducible_factors, over_parameters, powers_of
-from kovacic.parametric.integers import IntegerRoot
+from kovacic.parametric.integers import Congruence
 from kovacic.parametric.restriction import parametrised
 from kovacic.parametric.spectra import families
 from kovacic.parametric.statements import Statement, Vanishes, both
@@ -26,7 +26,7 @@ def without_empty(regions: Sequence[Condition]) -> list[Condition]:
     """The regions without those that earlier ones cover."""
     kept: list[Condition] = []
     curves: dict[tuple[FunctionPoly, ...], list[FunctionPoly]] = {}
-    roots: list[IntegerRoot] = []
+    roots: list[Congruence] = []
     charts: dict[tuple[FunctionPoly, ...], Chart | None] = {}
     for region in regions:
         check_time()
@@ -38,7 +38,7 @@ def without_empty(regions: Sequence[Condition]) -> list[Condition]:
         except ZeroDivisionError:
             pass  # at the values that solve for one parameter another function isn't defined
         alternatives = _alternatives(region.statement)
-        own = [part for part in alternatives if isinstance(part, IntegerRoot)]
+        own = [part for part in alternatives if isinstance(part, Congruence) and part.form is None]
         if own and len(own) == len(alternatives) and all(any(_implies(a, b) for b in roots) for a in own):
             continue
         roots += own
@@ -87,7 +87,7 @@ def _at(function: FunctionPoly, values: Mapping[str, Poly], field: Field) -> Pol
     return function.value_at([values[name] for name in function.field.names], field)
 
 
-def _implies(family: IntegerRoot, other: IntegerRoot) -> bool:
+def _implies(family: Congruence, other: Congruence) -> bool:
     """Does `other` hold wherever `family` does, which says that a parameter is f(N)?"""
     names, spectra = family.equation.field.names, families(family.equation)
     if not spectra or other.equation.field.names != names:
@@ -105,11 +105,11 @@ def _implies(family: IntegerRoot, other: IntegerRoot) -> bool:
     return True
 
 
-def _is_in_classes(M: FunctionPoly, other: IntegerRoot) -> bool:
+def _is_in_classes(M: FunctionPoly, other: Congruence) -> bool:
     """Is M, as a function of the last parameter, a linear one that takes integers in the classes to such integers?"""
     parts = powers_of(M, len(M.field.names) - 1)
     values = [M.field.rational_value(parts.get(k, 0 * M)) for k in (0, 1)]
     if not M.den.is_one() or set(parts) - {0, 1} or None in values:
         return False
     start, step = (int(v) for v in values if v is not None)
-    return all((start + k * step) % other.modulus in other.residues for k in range(other.modulus))
+    return all((start + k * step) % other.modulus in other.residues for k in range(int(other.modulus)))

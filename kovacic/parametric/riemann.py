@@ -36,7 +36,7 @@ from kovacic.engine.places import Kind, Place, Problem
 from kovacic.parametric.assumptions import common_multiple
 from kovacic.parametric.formulas import root_written, shown
 from kovacic.parametric.functions import degrees, element, over_parameters, powers_of
-from kovacic.parametric.integers import Classes, integer_roots, rational
+from kovacic.parametric.integers import Congruence, integer_roots, rational
 from kovacic.parametric.statements import Point, Statement
 
 _F = Fraction
@@ -324,7 +324,8 @@ def _classes(single: _OneFunction, structure: Structure) -> list[Statement]:
     if not admitted:
         return []
     if single.root is not None:
-        return [Classes.make(single.root, admitted, period)]
+        equation = over_parameters(single.root.field.poly([0, 1]) - single.root)
+        return [Congruence.make(equation, admitted, period)]
     statements: list[Statement] = []
     for denominator in sorted({w.denominator for w in admitted}):
         D = lcm(denominator, period.denominator)
