@@ -11,14 +11,15 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 from itertools import product
-from math import ceil, floor, gcd, lcm
+from math import ceil, floor, gcd
 from random import Random
 from typing import Any
 
-from flint import acb, arb, ctx, fmpq, fmpq_poly
+from flint import arb, ctx, fmpq
 
-from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
+from kovacic.algebra.embedding import approximation
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
@@ -48,9 +49,7 @@ class Coset:
     def is_covered_by(self, cosets: Iterable[Coset]) -> bool:
         """Does each of the numbers lie in one of the cosets?"""
         others = list(cosets)
-        period = self.step
-        for other in others:
-            period = common_multiple(period, other.step)
+        period = reduce(common_multiple, (other.step for other in others), self.step)
         numbers = (self.start + k * self.step for k in range(int(period / self.step)))
         return all(any(other.contains(number) for other in others) for number in numbers)
 
@@ -134,23 +133,14 @@ class Known:
         )
 
     def _bounds_admit(self, value: Poly) -> bool:
-        field = value.field
-        if not isinstance(value, ExtensionPoly) or not isinstance(field, AlgebraicField) or field.approximation is None:
+        if getattr(value.field, "approximation", None) is None:
             return True
         with ctx.workprec(_PRECISION):
-            modulus, parts = (
-                fmpq_poly([fmpq(c.numerator, c.denominator) for c in coefficients])
-                for coefficients in (
-                    [QQ.rational_value(c) or Fraction(0) for c in field.modulus],
-                    [QQ.rational_value(part[0]) or Fraction(0) for part in value.parts],
-                )
+            number, zero = approximation(value), arb(2) ** (-_PRECISION // 2)
+            real = number.real
+            return abs(number.imag) < zero and all(
+                (real - arb(fmpq(b.end.numerator, b.end.denominator))) * b.sign > -zero for b in self.bounds
             )
-            near = acb(*(arb(fmpq(part.numerator, part.denominator)) for part in field.approximation))
-            roots = [root for root, _ in modulus.numer().complex_roots()]
-            root = min(roots, key=lambda root: float(abs(root - near).mid()))
-            ball = sum((acb(c) * root**k for k, c in enumerate(parts)), acb(0))
-            distances = [(ball.real - arb(fmpq(b.end.numerator, b.end.denominator))) * b.sign for b in self.bounds]
-            return ball.imag.contains(0) and not any(distance < 0 for distance in distances)
 
     def sample(self, random: Random) -> Fraction:
         """A small rational number, in the known class if there is one."""
@@ -219,22 +209,19 @@ class Assumptions:
         if value is not None:
             number = value.field.rational_value(value)
             return number is not None and any(coset.contains(number) for coset in classes)
-        values = self._coset_of(form)
+        values, single = self._coset_of(form), _in_one_parameter(form)
         if values is not None:
             if not any(values.meets(coset) for coset in classes):
                 return False
             return True if values.is_covered_by(classes) else None
-        if self._is_irrational(form):
-            return False
-        linear = _linear(form)
-        if linear is not None and len(linear[1]) == 1:
-            ((name, factor),) = linear[1].items()
-            solutions = [Coset((c.start - linear[0]) / factor, c.step / abs(factor)) for c in classes]
+        if single is not None:
+            constant, name, factor = single
+            solutions = [Coset((c.start - constant) / factor, c.step / abs(factor)) for c in classes]
             if "noninteger" in self.of(name).words and all(s.is_covered_by([_INTEGERS]) for s in solutions):
                 return False
             if not any(_has_number_between(s, self.of(name).bounds) for s in solutions):
                 return False
-        return None
+        return False if self._is_irrational(form) else None
 
     def vanishes(self, function: FunctionPoly) -> bool | None:
         """Does the function vanish: True (always), False (never) or None?"""
@@ -248,16 +235,12 @@ class Assumptions:
         if not self.values:
             return None
         field, fixed, names = self.values[0][1].field, dict(self.values), function.field.names
-        if not function:
-            return field.poly([])
         below = element(function.field, function.den)
-        free = [[i for i, k in enumerate(degrees(part)) if k and names[i] not in fixed] for part in (function, below)]
-        if free[1]:
-            return None
-        if not free[0]:
+        above, free = ([i for i, k in enumerate(degrees(f)) if k and names[i] not in fixed] for f in (function, below))
+        if not above and not free:
             return function.value_at([fixed.get(name, 0) for name in names], field)
-        parts = powers_of(function, free[0][0])
-        if any(power and self._value_of(part) != 0 for power, part in parts.items()):
+        parts = powers_of(function, above[0]) if above and not free else {1: function}
+        if free or any(power and self._value_of(part) != 0 for power, part in parts.items()):
             return None
         return self._value_of(parts.get(0, 0 * below) / below)
 
@@ -266,11 +249,9 @@ class Assumptions:
         values = self._coset_of(function)
         if (values is not None and not values.contains(Fraction(0))) or self._is_irrational(function):
             return True
-        linear = _linear(numerator(function))
-        if linear is not None and len(linear[1]) == 1:
-            ((name, factor),) = linear[1].items()
-            if not self.of(name).admits(QQ.poly([-linear[0] / factor])):
-                return True
+        single = _in_one_parameter(numerator(function))
+        if single is not None and not self.of(single[1]).admits(QQ.poly([-single[0] / single[2]])):
+            return True
         terms = function.num.to_dict()
         if len(terms) == 1:
             return all(self.of(name).nonzero for e in terms for name in _powers(function, e))
@@ -290,29 +271,22 @@ class Assumptions:
 
     def _coset_of(self, form: FunctionPoly) -> Coset | None:
         """A class that contains all values of a polynomial."""
-        linear = _linear(form)
-        if linear is not None:
-            cosets = {name: self.of(name).coset for name in linear[1]}
-            known = {name: coset for name, coset in cosets.items() if coset is not None}
-            if len(known) < len(cosets) or not known:
-                return None
-            start = linear[0] + sum(factor * known[name].start for name, factor in linear[1].items())
-            step = Fraction(0)
-            for name, factor in linear[1].items():
-                step = common_divisor(step, abs(factor) * known[name].step)
-            return Coset(start, step)
         names = {name for e in form.num.to_dict() for name in _powers(form, e)}
-        cosets = {name: self.of(name).coset for name in names}
-        if form.den.is_one() and all(c is not None and c.is_covered_by([_INTEGERS]) for c in cosets.values()):
-            return _INTEGERS
-        return None
+        known = {name: coset for name in names if (coset := self.of(name).coset) is not None}
+        linear = _linear(form)
+        if not names or len(known) < len(names):
+            return None
+        if linear is not None:
+            terms = [(factor, known[name]) for name, factor in linear[1].items()]
+            start = linear[0] + sum(factor * coset.start for factor, coset in terms)
+            return Coset(start, reduce(common_divisor, (abs(factor) * coset.step for factor, coset in terms)))
+        integers = form.den.is_one() and all(coset.is_covered_by([_INTEGERS]) for coset in known.values())
+        return _INTEGERS if integers else None
 
     def _is_irrational(self, form: FunctionPoly) -> bool:
         """A linear form in which one parameter is irrational and the others are rational."""
         linear = _linear(form)
-        if linear is None:
-            return False
-        kinds = [self.of(name).rational for name in linear[1]]
+        kinds = [self.of(name).rational for name in (linear[1] if linear else ())]
         return kinds.count(False) == 1 and None not in kinds
 
 
@@ -365,14 +339,12 @@ def _words_of(symbol: Any) -> list[str]:
 
 def common_divisor(a: Fraction, b: Fraction) -> Fraction:
     """The largest number of which both are integral multiples; a and b are not negative."""
-    denominator = lcm(a.denominator, b.denominator)
-    return Fraction(gcd(int(a * denominator), int(b * denominator)), denominator)
+    return Fraction(gcd(a.numerator * b.denominator, b.numerator * a.denominator), a.denominator * b.denominator)
 
 
 def common_multiple(a: Fraction, b: Fraction) -> Fraction:
     """The least positive integral multiple of both; a and b are positive."""
-    denominator = lcm(a.denominator, b.denominator)
-    return Fraction(lcm(int(a * denominator), int(b * denominator)), denominator)
+    return a * b / common_divisor(a, b)
 
 
 def _is_positive(form: FunctionPoly, bounds: Iterable[Bound], or_zero: bool) -> bool:
@@ -396,17 +368,22 @@ def _linear(form: FunctionPoly) -> tuple[Fraction, dict[str, Fraction]] | None:
     """The constant term and the coefficients of a linear form in the parameters; None for anything else."""
     if not form.den.is_constant():
         return None
-    scale = int(form.den.leading_coefficient())
     constant, factors = Fraction(0), {}
     for exponents, coefficient in form.num.to_dict().items():
-        powers = _powers(form, exponents)
+        value, powers = Fraction(int(coefficient), int(form.den.leading_coefficient())), _powers(form, exponents)
         if sum(powers.values()) > 1:
             return None
         if powers:
-            factors[next(iter(powers))] = Fraction(int(coefficient), scale)
+            factors[next(iter(powers))] = value
         else:
-            constant = Fraction(int(coefficient), scale)
+            constant = value
     return constant, factors
+
+
+def _in_one_parameter(form: FunctionPoly) -> tuple[Fraction, str, Fraction] | None:
+    """`(a, t, b)` for the form a + b t."""
+    linear = _linear(form)
+    return None if linear is None or len(linear[1]) != 1 else (linear[0], *next(iter(linear[1].items())))
 
 
 def _powers(form: FunctionPoly, exponents: Any) -> dict[str, int]:
