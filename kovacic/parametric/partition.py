@@ -28,17 +28,10 @@ from kovacic.galois import group_of
 from kovacic.limits import Budget
 from kovacic.parametric import confluent, generic, quotient, riemann
 from kovacic.parametric.answer import Condition, Verdict
-from kovacic.parametric.functions import degrees, denominators, irreducible_factors, over_parameters, union
+from kovacic.parametric.functions import degrees, denominators, irreducible_factors, union
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.restriction import UndefinedError, leading_factors, missed, on_hypersurface, rational_curve
-from kovacic.parametric.search import (
-    NaturalNumber,
-    conditions_in_time,
-    degrees_that_decide,
-    has_constant_rational_exponents,
-    number_of_zeros,
-    search,
-)
+from kovacic.parametric.search import Findings, search
 from kovacic.parametric.solutions import jacobi_solutions, laguerre_solutions
 from kovacic.parametric.statements import Statement, Vanishes, both, either
 from kovacic.solution import Solution
@@ -165,64 +158,36 @@ def _together(regions: list[Condition]) -> bool | str:
 def _by_candidates(problem: Problem, expected: Verdict, settings: Settings) -> Partition:
     regions: list[Condition] = []
     complete: bool | str = True
-    theory = "polynomial conditions"
-    reducible: list[FunctionPoly] = []
-    natural: list[NaturalNumber] = []
+    findings = Findings("polynomial conditions")
     try:
         regions = _degenerate(problem.S, generic.structure_changes(problem), settings)
-        known = [r.statement.function for r in regions if isinstance(r.statement, Vanishes)]
-        if has_constant_rational_exponents(problem):
-            known_degrees = degrees_that_decide(problem)
-            found = {m: conditions_in_time(problem, m) for m in known_degrees}
-            candidates = union([*(c.polynomials for c in found.values()), _discriminants(problem, expected, settings)])
-            natural = [
-                NaturalNumber(
-                    m, (over_parameters(problem.field.poly([-(number_of_zeros(problem, m) or 0), 1])),), structure
-                )
-                for structure in (Structure.REDUCIBLE, Structure.IMPRIMITIVE, Structure.TETRAHEDRAL)
-                for m, conditions in found.items()
-                if not conditions.complete and structure in known_degrees[m]
-            ]
-            theory = "exponents that don't depend on the parameters: invariants of bounded degree"
-            if expected.structure not in (None, Structure.REDUCIBLE, Structure.IMPRIMITIVE):
-                complete = "not proven where the generic group is finite and primitive"
-        else:
-            findings = search(problem)
-            candidates, reducible = findings.candidates, findings.reducible
-            theory = "the exponents, and polynomials of bounded or natural degree"
-            if expected.structure not in (None, Structure.REDUCIBLE, Structure.IMPRIMITIVE):
-                findings.unproven.append("smaller groups than the generic one")
-            if findings.unproven:
-                complete = f"for generic values (not proven: {'; '.join(findings.unproven)})"
-            natural = findings.natural
-        for function in candidates:
-            if function in known:
-                continue
-            settings.budget.check()
-            if function in reducible and max(degrees(function)) > _WRITTEN_OUT:
-                regions.append(Condition(Vanishes(function), Verdict(Structure.REDUCIBLE), omega=_RATIONAL_OMEGA))
-                continue
-            found_there = _pieces(problem.S, function, settings)
-            if any(not r.verdict.known or r.case != expected.case or r.complete is not True for r in found_there):
-                regions += found_there
+        known = {r.statement.function for r in regions if isinstance(r.statement, Vanishes)}
+        findings = search(problem)
+        if expected.structure is Structure.IMPRIMITIVE:
+            findings.candidates += _discriminants(problem, settings)
+        elif expected.structure not in (None, Structure.REDUCIBLE):
+            findings.unproven.append("smaller groups than the generic one")
+        if findings.unproven:
+            complete = f"for generic values (not proven: {'; '.join(findings.unproven)})"
+        for function in dict.fromkeys(findings.candidates):
+            if function not in known:
+                settings.budget.check()
+                found = _pieces(problem.S, function, settings)
+                if any(not r.verdict.known or r.case != expected.case or r.complete is not True for r in found):
+                    regions += found
     except LimitExceeded as limit:
         complete = _as_far_as(limit)
-    for number in natural:
-        if expected.structure not in (number.structure, Structure.REDUCIBLE) and (
-            expected.structure is None or number.structure is Structure.REDUCIBLE
-        ):
-            primitive = "binary tetrahedral, octahedral or icosahedral" if number.structure.case == 3 else None
-            verdict = Verdict(number.structure, family=primitive)
-            regions.append(Condition(Natural(problem.S, number), verdict, omega=_SEMI_INVARIANTS[number.structure]))
-    if complete is True:
-        complete = _together(regions)
-    return Partition(expected, complete, theory, tuple(regions))
+    for number in findings.natural:
+        structure = number.structure
+        if structure is not expected.structure and (expected.structure is None or structure is Structure.REDUCIBLE):
+            primitive = "binary tetrahedral, octahedral or icosahedral" if structure.case == 3 else None
+            verdict = Verdict(structure, family=primitive)
+            regions.append(Condition(Natural(problem.S, number), verdict, omega=_SEMI_INVARIANTS[structure]))
+    return Partition(expected, _together(regions) if complete is True else complete, findings.theory, tuple(regions))
 
 
-def _discriminants(problem: Problem, expected: Verdict, settings: Settings) -> list[FunctionPoly]:
+def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:
     """Where the two solutions in a generic semi-invariant y1 y2 can coincide: where a constant, w^2, vanishes."""
-    if expected.structure is not Structure.IMPRIMITIVE:
-        return []
     riccati = decide(problem.S, settings.budget).riccati
     if riccati is None or riccati.P.field != problem.field:
         return []

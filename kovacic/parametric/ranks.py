@@ -14,14 +14,14 @@ from math import gcd
 from random import Random
 from typing import Any
 
-from flint import fmpq_poly, nmod_mat
+from flint import nmod_mat
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.sparse import by_power
 from kovacic.engine.places import Problem
 from kovacic.limits import check_time
-from kovacic.parametric.functions import denominators, element, irreducible_factors, over_parameters, union
+from kovacic.parametric.functions import element, irreducible_factors, over_parameters
 
 #: Determinants whose common factors are taken.
 _DETERMINANTS = 3
@@ -35,22 +35,18 @@ class RankConditions:
     """Irreducible polynomials that vanish where a rank drops; `complete` False where it may drop elsewhere too.
 
     With several parameters the minors may have common zeros where their common divisor doesn't vanish, unless there is one
-    minor only.  `certain` are those polynomials at whose zeros the rank is known to drop.  Where one unknown is left, it drops
-    exactly at the common zeros of the `system`.  `deficient`: the polynomials are linearly dependent for all values.
+    minor only.  Where one unknown is left, the rank drops exactly at the common zeros of the `system`.  `deficient`: the
+    polynomials are linearly dependent for all values.
     """
 
     polynomials: tuple[FunctionPoly, ...] = ()
-    certain: tuple[FunctionPoly, ...] = ()
     complete: bool = True
     system: tuple[FunctionPoly, ...] = ()
     deficient: bool = False
 
 
-def rank_conditions(images: list[Poly], problem: Problem, *, certify: bool = False) -> RankConditions:
-    """Where do the polynomials over Q(t), or the coordinates of those over an extension, span less than generically?
-
-    With `certify` and one parameter, each of the conditions is examined exactly for being certain.
-    """
+def rank_conditions(images: list[Poly], problem: Problem) -> RankConditions:
+    """Where do the polynomials over Q(t), or the coordinates of those over an extension, span less than generically?"""
     field = problem.field
     assert isinstance(field, FunctionField)
     columns = []
@@ -72,16 +68,9 @@ def rank_conditions(images: list[Poly], problem: Problem, *, certify: bool = Fal
         if determinant.is_constant() and not determinant.is_zero():
             return RankConditions(deficient=deficient)
         common = common.gcd(determinant)
-    factors = irreducible_factors(element(field, common))
-    alone = len(field.names) == 1
-    undefined = union(irreducible_factors(d) for image in images for d in denominators(image))
-    certain = [
-        factor
-        for factor in factors
-        if factor not in undefined and (single or (certify and alone and _rank_at(rows, factor) < rank))
-    ]
     system = tuple(element(field, row[0]) for row in rows) if len(rows[0]) == 1 else ()
-    return RankConditions(tuple(factors), tuple(certain), single or alone, system, deficient)
+    complete = single or len(field.names) == 1
+    return RankConditions(tuple(irreducible_factors(element(field, common))), complete, system, deficient)
 
 
 def _distinct(rows: list[list[Any]]) -> list[list[Any]]:
@@ -106,31 +95,6 @@ def _column(image: Poly) -> dict[int, Any]:
         for k, leaf in enumerate(leaves)
         for power, coefficient in by_power(leaf.num * (common // leaf.den), 0).items()
     }
-
-
-def _rank_at(rows: list[list[Any]], function: FunctionPoly) -> int:
-    """The rank at the zeros of an irreducible polynomial in the only parameter: Gauss's elimination in Q[t]/(f)."""
-    modulus = _in_one_variable(function.num)
-    left = [[_in_one_variable(entry) % modulus for entry in row] for row in rows]
-    rank = 0
-    while left:
-        row = left.pop()
-        k = next((k for k, entry in enumerate(row) if entry), None)
-        if k is None:
-            continue
-        rank += 1
-        inverse = row[k].xgcd(modulus)[1]
-        factors = [other[k] * inverse % modulus for other in left]
-        left = [
-            [(a - f * b) % modulus for a, b in zip(o, row, strict=True)] for o, f in zip(left, factors, strict=True)
-        ]
-    return rank
-
-
-def _in_one_variable(entry: Any) -> fmpq_poly:
-    """A polynomial in the only parameter."""
-    terms = {int(e[1]): int(c) for e, c in entry.to_dict().items()}
-    return fmpq_poly([terms.get(k, 0) for k in range(max(terms, default=-1) + 1)])
 
 
 def without_constant_pivots(columns: list[dict[int, Any]]) -> tuple[list[list[Any]], int]:

@@ -12,9 +12,9 @@ exactly when.  Cases 2 and 3 are treated in the same way through the invariants 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import product
-from math import lcm
+from math import lcm, prod
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
@@ -34,7 +34,6 @@ from kovacic.parametric.ranks import RankConditions, rank_conditions
 _COMBINATIONS = 400
 #: The part of the time that the determinants of one kind of invariant may take.
 _SHARE = 0.2
-_PRIMITIVE_DENOMINATORS = {1, 2, 3, 4, 5}
 
 
 @dataclass(frozen=True)
@@ -50,24 +49,21 @@ class NaturalNumber:
     structure: Structure
 
 
-def has_constant_rational_exponents(problem: Problem) -> bool:
-    """Are all exponent differences rational numbers, without unramified irregular places?"""
-    return all(
-        place.kind in (Kind.ORDINARY, Kind.RAMIFIED) or (place.kind is Kind.REGULAR and place.delta is not None)
-        for place in problem.places
-    )
-
-
-def degrees_that_decide(problem: Problem) -> dict[int, list[Structure]]:
+def _degrees_that_decide(problem: Problem) -> dict[int, list[Structure]] | None:
     """Degrees m such that every Liouvillian equation with these exponents has a rational form of one of them, and its group.
 
     2 and q for the reducible ones, q the common denominator of the exponents: if y1 = prod (x - c)^(e_c) P is the only
-    solution with a rational omega, y1^q is rational; 4 for the imprimitive ones; 12 for the primitive ones.
+    solution with a rational omega, y1^q is rational; 4 for the imprimitive ones; 12 for the primitive ones.  None where an
+    exponent difference isn't a rational number.
     """
+    kinds, differences = {place.kind for place in problem.places}, []
+    for place in problem.places:
+        if place.kind is Kind.UNRAMIFIED or (place.kind is Kind.REGULAR and place.delta is None):
+            return None
+        differences += [(1 + place.delta) / 2] if place.kind is Kind.REGULAR and place.delta is not None else []
     found: dict[int, list[Structure]] = {4: [Structure.IMPRIMITIVE]}
-    if not any(place.kind is Kind.RAMIFIED for place in problem.places):
-        deltas = [place.delta for place in problem.places if place.kind is Kind.REGULAR and place.delta is not None]
-        for m in {2, lcm(*(((1 + delta) / 2).denominator for delta in deltas))}:
+    if Kind.RAMIFIED not in kinds:
+        for m in {2, lcm(*(difference.denominator for difference in differences))}:
             found.setdefault(m, []).append(Structure.REDUCIBLE)
         found.setdefault(12, []).append(Structure.TETRAHEDRAL)
     return dict(sorted(found.items()))
@@ -115,30 +111,35 @@ def conditions_in_time(problem: Problem, m: int) -> RankConditions:
 
 @dataclass
 class Findings:
-    """Candidates for special values, conditions with a natural number, and what limits completeness (sentences).
+    """Candidates for special values, conditions with a natural number, and what limits completeness (sentences)."""
 
-    `reducible` are those among the candidates at which a solution of case 1 is known to exist.
-    """
-
+    theory: str
     candidates: list[FunctionPoly] = field(default_factory=list)
-    reducible: list[FunctionPoly] = field(default_factory=list)
     natural: list[NaturalNumber] = field(default_factory=list)
     unproven: list[str] = field(default_factory=list)
 
     def add(self, found: RankConditions) -> bool:
         """The candidates that a matrix gives; False where there can be more special values."""
         self.candidates += found.polynomials
-        self.reducible += found.certain
         return found.complete
 
 
 def search(problem: Problem) -> Findings:
     """Candidates for the special values of the parameters."""
-    findings = Findings()
-    _reducible(problem, findings)
-    _imprimitive(problem, findings)
-    _primitive(problem, findings)
-    findings.candidates = union([findings.candidates])
+    degrees = _degrees_that_decide(problem)
+    if degrees is None:
+        findings = Findings("the exponents, and polynomials of bounded or natural degree")
+        _reducible(problem, findings)
+        _imprimitive(problem, findings)
+        _primitive(problem, findings)
+        return findings
+    findings = Findings("exponents that don't depend on the parameters: invariants of bounded degree")
+    incomplete = [m for m in degrees if not findings.add(conditions_in_time(problem, m))]
+    for structure in (Structure.REDUCIBLE, Structure.IMPRIMITIVE, Structure.TETRAHEDRAL):
+        for m in incomplete:
+            if structure in degrees[m]:
+                equation = over_parameters(problem.field.poly([-(number_of_zeros(problem, m) or 0), 1]))
+                findings.natural.append(NaturalNumber(m, (equation,), structure))
     return findings
 
 
@@ -184,14 +185,12 @@ def _reducible(problem: Problem, findings: Findings) -> None:
     sums = _signed_sums(differences, field.poly([0, 1]))
     factors: list[FunctionPoly] = []
     for factor, _ in field.factor(sums(field.poly([weights - 2, 2]))):
+        if not _may_be_natural(factor):
+            continue
         root = field.rational_value(-factor[0]) if factor.degree == 1 else None
-        if _may_be_natural(factor) and root is None:
+        found = None if root is None else with_degree(problem, int(root))
+        if found is None or sum(map(findings.add, found)) < len(found):
             factors.append(over_parameters(factor))
-        elif root is not None and _may_be_natural(factor):
-            found = with_degree(problem, int(root))
-            complete = [findings.add(conditions) for conditions in found or ()]
-            if found is None or not all(complete):
-                factors.append(over_parameters(factor))
     if factors:
         findings.natural.append(NaturalNumber(1, tuple(factors), Structure.REDUCIBLE))
 
@@ -221,7 +220,7 @@ def with_degree(problem: Problem, d: int) -> list[RankConditions] | None:
             image = ((P.derivative().derivative() + zeroth * P + 2 * theta * P.derivative()) * common).num
             images += [image] if isinstance(field, FunctionField) else [image, image * field.generator]
             check_time()
-        found.append(rank_conditions(images, problem, certify=True))
+        found.append(rank_conditions(images, problem))
     return found
 
 
@@ -237,19 +236,13 @@ def _roots(problem: Problem) -> tuple[FunctionField | AlgebraicField, list[tuple
     for place in problem.places:
         if place.kind is Kind.ORDINARY:
             continue
-        if place.kind is Kind.REGULAR and (place.degree == 1 or place.at_infinity):
-            square = place.delta_squared
-        else:
-            square = _at_infinity(place, problem.S).lc if place.kind is Kind.UNRAMIFIED and place.degree == 1 else None
-        if square is None:
+        if place.degree > 1:
             return None
-        root = base.sqrt(square)
-        if root is None and isinstance(field, FunctionField):
+        square = place.delta_squared if place.kind is Kind.REGULAR else _at_infinity(place, problem.S).lc
+        root = None if square is None else field.sqrt(square.over(field))
+        if root is None and square is not None and field == base:
             field = AlgebraicField(base, base.poly([-square, 0, 1]), "root")
             root = field.generator
-        elif root is None and isinstance(field, AlgebraicField):
-            quotient = base.sqrt(square / -field.modulus[0])
-            root = None if quotient is None else field.generator * quotient
         if root is None:
             return None
         found.append((place, root))
@@ -294,34 +287,32 @@ def _imprimitive(problem: Problem, findings: Findings) -> None:
 
 
 def _primitive(problem: Problem, findings: Findings) -> None:
-    if any(place.kind in (Kind.UNRAMIFIED, Kind.RAMIFIED) for place in problem.places):
-        return
-    for place in problem.places:
-        if place.delta is not None and place.delta.denominator not in _PRIMITIVE_DENOMINATORS:
-            return
-    if not _forms(problem, 12, findings):
+    excluded = any(
+        place.kind in (Kind.UNRAMIFIED, Kind.RAMIFIED) or (place.delta is not None and place.delta.denominator > 5)
+        for place in problem.places
+    )
+    if not excluded and not _forms(problem, 12, findings):
         findings.unproven.append("case 3")
 
 
 def _forms(problem: Problem, m: int, findings: Findings) -> bool:
     """Conditions for invariants of degree m; False where there are too many combinations of exponents."""
     field = problem.field
-    complete = findings.add(replace(conditions_in_time(problem, m), certain=()))
+    complete = findings.add(conditions_in_time(problem, m))
     variable: list[tuple[Poly, int]] = []  # the square of the difference, and how often it can occur in the sum
-    room, combinations = m, 1
+    room = m
     for place in problem.places:
         v, square = least_valuation(place, m), place.delta_squared
         if place.kind is Kind.REGULAR and square is None:
             return False
         if place.kind is Kind.REGULAR and square is not None and field.rational_value(square) is None:
-            largest = m // 2 * place.degree
-            variable.append((square, largest))
-            room, combinations = room - largest, combinations * (largest + 1)
+            variable.append((square, m // 2 * place.degree))
+            room -= m // 2 * place.degree
         elif v is None:
             return True
         else:
             room -= v * place.degree
-    if combinations > _COMBINATIONS:
+    if prod(largest + 1 for _, largest in variable) > _COMBINATIONS:
         return False
     factors: list[FunctionPoly] = [] if complete else [over_parameters(field.poly([-room, 1]))]
     for choice in product(*(range(largest + 1) for _, largest in variable)):
