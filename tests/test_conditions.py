@@ -22,9 +22,10 @@ from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
 from kovacic.galois.group import Kind
 from kovacic.limits import Limits
-from kovacic.parametric.answer import Conditions, Verdict
+from kovacic.parametric.answer import Conditions
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import without_constant_pivots
+from kovacic.parametric.regions import Verdict
 from kovacic.parametric.restriction import rational_curve
 from kovacic.parametric.riemann import kimura
 from kovacic.views.text import render

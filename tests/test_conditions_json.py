@@ -10,8 +10,8 @@ import pytest
 import sympy
 
 import kovacic
-from kovacic.parametric import sampling
 from kovacic.parametric.answer import Conditions
+from kovacic.parametric.check import Sampler
 from tests.parametric_cases import FAMILIES, hypergeometric
 
 EQUATIONS = {
@@ -34,7 +34,7 @@ def test_conditions_are_read_back(name: str) -> None:
     assert again.to_dict() == answer.to_dict()
     assert again.text(all=True) == answer.text(all=True)
     statements = [region.statement for region in answer.regions]
-    points = sampling.points(statements, answer.constant, answer.parameters, answer.assumptions, Random(3))
+    points = Sampler(answer.constant, answer.parameters, answer.assumptions, Random(3)).points(statements)
     for point in (next(points) for _ in range(30)):
         if point is not None:
             assert again.predicted(point) == answer.predicted(point)

@@ -11,7 +11,7 @@ from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
 from kovacic.cli.options import assume_option, fitted, parse_assumptions, parse_limits, refuse_options
 
 if TYPE_CHECKING:
-    from kovacic.parametric.answer import CheckReport
+    from kovacic.parametric.check import CheckReport
 
 
 @click.command(context_settings={"ignore_unknown_options": True})

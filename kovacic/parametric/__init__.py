@@ -2,11 +2,11 @@
 
 In goes S over Q(t1, ..., tk), out comes `Conditions`: the partition of parameter space into regions, each an exact statement
 with Kovacic's case, and whether the list is proven to be complete.  Read `api` first, then `partition`.
-- `answer`: what is returned, with views, points and the check against the engine; `plot` draws it;
+- `answer`: what is returned, with views and points, made of `regions`; `check` compares it with the engine, `plot` draws it;
 - `assumptions`: what is known about parameters; `functions`: factors of functions of the parameters; `formulas` and `spectra`:
   how these and statements about integers are written;
 - `statements`, `integers`, `natural`: exact conditions on the parameters, which can be evaluated at every algebraic point, and
-  determinants Delta_d; `sampling` finds points where they hold, `redundancy` leaves out what earlier regions cover;
+  determinants Delta_d; `record` writes and reads them as data;
 - `partition`: the theory that applies, regions, their order, and why they are complete;
 - `riemann`: at most three regular singular points (Kimura's theorem with Schwarz's table);
 - `confluent`: one irregular singular point and at most one more, with two or three terms (Whittaker, Bessel, Weber, Airy);

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from itertools import count, islice
 from random import Random
 from typing import Any
@@ -13,155 +13,25 @@ from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.decision import Decision, Status, Structure
+from kovacic.decision import Status
 from kovacic.engine.decide import decide
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
-from kovacic.parametric import sampling
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
+from kovacic.parametric.check import CheckReport, Disagreement, Sampler
 from kovacic.parametric.formulas import as_latex, shown
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
-from kovacic.parametric.record import Reader, constant_data, constant_from, statement_data
+from kovacic.parametric.record import Reader, constant_data, constant_from
+from kovacic.parametric.regions import Condition, Verdict, in_one_line
 from kovacic.parametric.restriction import NO_CONSTANT, UndefinedError, at_point
-from kovacic.parametric.solutions import PolynomialSolution
-from kovacic.parametric.statements import Both, Either, Point, Statement, both, either
+from kovacic.parametric.statements import Point, both
 from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
 
-#: Regions that are written unless all are asked for, and characters up to which statements share a line.
-_SCREEN, _LINE = 24, 100
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """The case (None: no Liouvillian solution), the structure, and whether that is known at all.
-
-    `family` says more about the group than the structure does.
-    """
-
-    structure: Structure | None
-    known: bool = True
-    family: str | None = field(default=None, compare=False)
-
-    @classmethod
-    def of(cls, decision: Decision) -> Verdict:
-        """What the engine's decision says."""
-        return cls(decision.structure, decision.status is not Status.UNDECIDED)
-
-    def to_dict(self) -> dict[str, Any]:
-        return {"structure": self.structure and self.structure.value, "known": self.known, "family": self.family}
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Verdict:
-        structure = data["structure"]
-        return cls(None if structure is None else Structure(structure), data["known"], data["family"])
-
-    @property
-    def case(self) -> int | None:
-        return None if self.structure is None else self.structure.case
-
-    @property
-    def group(self) -> str:
-        """The family of the Galois group."""
-        return (self.family or _GROUPS[self.structure]) if self.known else "not determined"
-
-    def __str__(self) -> str:
-        if not self.known:
-            return "not determined"
-        return "no Liouvillian solution" if self.case is None else f"case {self.case}"
-
-
-_GROUPS = {
-    Structure.REDUCIBLE: "reducible: a subgroup of the triangular group",
-    Structure.IMPRIMITIVE: "imprimitive: dicyclic, or the infinite dihedral group",
-    Structure.TETRAHEDRAL: "binary tetrahedral, order 24",
-    Structure.OCTAHEDRAL: "binary octahedral, order 48",
-    Structure.ICOSAHEDRAL: "binary icosahedral, order 120",
-    None: "SL2(C)",
-}
-
-
-@dataclass(frozen=True)
-class Condition:
-    """One region: where `statement` holds and no earlier region's.
-
-    `case` is Kovacic's case (None: no Liouvillian solution), `group` the family of the Galois group, `complete` True where it
-    is proven that the statement describes all such values and nothing else, else what isn't proven.  `defined` is False where
-    S isn't defined.  `omega` shows what becomes possible, `determinants` the first ones of a statement with a natural number.
-    """
-
-    statement: Statement
-    verdict: Verdict
-    complete: bool | str = True
-    defined: bool = True
-    omega: str | None = None
-    determinants: tuple[str, ...] = ()
-    origin: Callable[[], tuple[PolynomialSolution, ...]] | None = field(default=None, compare=False)
-
-    def solution(self) -> tuple[PolynomialSolution, ...]:
-        """Solutions of y'' = S y for all parameters of the region at once, with the degree d that has to be a natural number.
-
-        They contain Laguerre or Jacobi polynomials of degree d, as SymPy's functions; () where they aren't known.
-
-        >>> import kovacic
-        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").regions[0]
-        >>> bessel.solution()[0].degree
-        -n - 1/2
-        """
-        return () if self.origin is None else self.origin()
-
-    @property
-    def case(self) -> int | None:
-        return self.verdict.case
-
-    @property
-    def group(self) -> str:
-        return self.verdict.group if self.defined else "S isn't defined"
-
-    @property
-    def plain(self) -> bool:
-        """Is there nothing to say beside the statement and the case?"""
-        return self.defined and self.complete is True and self.verdict.known and not self.determinants
-
-    def to_dict(self) -> dict[str, Any]:
-        """The region's part of the JSON object."""
-        names = ("case", "group", "complete", "defined", "omega")
-        data = {"condition": self.statement.text()} | {name: getattr(self, name) for name in names}
-        data |= {"statement": statement_data(self.statement), "verdict": self.verdict.to_dict()}
-        return data | ({"determinants": list(self.determinants)} if self.determinants else {})
-
-    def __str__(self) -> str:
-        known = "" if self.complete is True or not self.defined else f" [{self.complete}]"
-        first = f"{self.statement.text()}: {self.verdict if self.defined else self.group}{known}"
-        return "\n      ".join([first, *self.determinants])
-
-
-@dataclass(frozen=True)
-class Disagreement:
-    """A point at which a region and the engine differ."""
-
-    point: str
-    predicted: int | None
-    found: int | None
-
-
-@dataclass(frozen=True)
-class CheckReport:
-    """The outcome of `Conditions.check`: true when every sample agrees.
-
-    `inside` and `outside` count the points that were solved in a special region and in the generic one; `open` those for
-    which the regions claim nothing.
-    """
-
-    inside: int
-    outside: int
-    open: int
-    disagreements: tuple[Disagreement, ...]
-
-    def __bool__(self) -> bool:
-        return not self.disagreements
+#: Regions that are written unless all are asked for.
+_SCREEN = 24
 
 
 @dataclass(frozen=True)
@@ -205,14 +75,12 @@ class Conditions:
 
         Raises `InputError` for what isn't a natural number, or where no region has such a condition, and `LimitExceeded`.
         """
-        statements = [part for region in self.regions for part in both(region.statement).parts]
-        natural = [statement for statement in statements if isinstance(statement, Natural)]
-        if not natural or isinstance(number, bool) or not isinstance(number, int) or number < 0:
-            raise InputError(
-                f"a natural number is expected, not {number!r}"
-                if natural
-                else "no condition has a natural number in it"
-            )
+        parts = [part for region in self.regions for part in both(region.statement).parts]
+        natural = [part for part in parts if isinstance(part, Natural)]
+        if not natural:
+            raise InputError("no condition has a natural number in it")
+        if isinstance(number, bool) or not isinstance(number, int) or number < 0:
+            raise InputError(f"a natural number is expected, not {number!r}")
         with Budget(self.limits).watched():
             return tuple(determinant for statement in natural for determinant in statement.determinants(number))
 
@@ -283,28 +151,22 @@ class Conditions:
 
         As far as the time limit allows.
         """
-        budget = Budget(self.limits)
-        statements = [region.statement for region in self.regions]
-        inside = outside = unclaimed = 0
+        budget, statements = Budget(self.limits), [region.statement for region in self.regions]
+        counts = {"inside": 0, "outside": 0, "open": 0}
         disagreements: list[Disagreement] = []
-        points = sampling.points(statements, self.constant, self.parameters, self.assumptions, Random(seed))
-        for point in islice(points, 20 * samples):
-            if inside + outside + unclaimed >= samples or not budget.seconds_left:
+        sampler = Sampler(self.constant, self.parameters, self.assumptions, Random(seed))
+        for point in islice(sampler.points(statements), 20 * samples):
+            if sum(counts.values()) >= samples or not budget.seconds_left:
                 break
             predicted = None if point is None else self.predicted(point)
             if point is None or predicted is None:
                 continue
-            if not predicted.known:
-                unclaimed += 1
-                continue
-            if any(statement.holds(point) for statement in statements):
-                inside += 1
-            else:
-                outside += 1
-            decision = decide(at_point(self.S, point), budget, certify=False)
-            if decision.status is not Status.UNDECIDED and decision.case != predicted.case:
+            inside = predicted.known and any(statement.holds(point) for statement in statements)
+            counts["inside" if inside else "outside" if predicted.known else "open"] += 1
+            decision = decide(at_point(self.S, point), budget, certify=False) if predicted.known else None
+            if decision and decision.status is not Status.UNDECIDED and decision.case != predicted.case:
                 disagreements.append(Disagreement(str(point), predicted.case, decision.case))
-        return CheckReport(inside, outside, unclaimed, tuple(disagreements))
+        return CheckReport(**counts, disagreements=tuple(disagreements))
 
     def to_json(self) -> str:
         """One line of JSON: parameters, generic, regions."""
@@ -404,7 +266,7 @@ class Conditions:
         known = f" ({self.assumptions})" if self.assumptions else ""
         lines = [f"y'' = ({shown(self.S, self.variable)}) y, parameters {', '.join(self.parameters)}{known}"]
         lines += [f"  note: {notice}" for notice in self.notices]
-        regions = _together(self.regions)
+        regions = in_one_line(self.regions)
         number = len(regions) if all or len(regions) <= _SCREEN + 1 else _SCREEN
         lines += [f"  {region}" for region in regions[:number]]
         if number < len(regions):
@@ -425,28 +287,6 @@ class Conditions:
 
     def __str__(self) -> str:
         return self.text()
-
-
-def _together(regions: Sequence[Condition]) -> list[Condition]:
-    """The regions, with those in a row that have the same case in one, where that is short."""
-    found: list[Condition] = []
-    for region in regions:
-        last = found[-1] if found else None
-        if last is not None and last.plain and region.plain and last.case == region.case:
-            together = last.statement.merged(region.statement)
-            parts = [*_alternatives(last.statement), *_alternatives(region.statement)]
-            if together is None and len({type(part) for part in parts}) == 1 and not isinstance(parts[0], Both):
-                together = either(parts)
-                together = together if len(together.text()) <= _LINE else None
-            if together is not None:
-                found[-1] = replace(last, statement=together)
-                continue
-        found.append(region)
-    return found
-
-
-def _alternatives(statement: Statement) -> Sequence[Statement]:
-    return statement.parts if isinstance(statement, Either) else (statement,)
 
 
 def _point(names: tuple[str, ...], values: list[Any], constant: Point, limits: Limits) -> Point:

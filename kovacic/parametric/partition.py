@@ -27,9 +27,9 @@ from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget
 from kovacic.parametric import confluent, generic, quotient, riemann
-from kovacic.parametric.answer import Condition, Verdict
 from kovacic.parametric.functions import degrees, denominators, irreducible_factors, union
 from kovacic.parametric.natural import Natural
+from kovacic.parametric.regions import Condition, Verdict
 from kovacic.parametric.restriction import UndefinedError, leading_factors, missed, on_hypersurface, rational_curve
 from kovacic.parametric.search import Findings, search
 from kovacic.parametric.solutions import jacobi_solutions, laguerre_solutions

@@ -1,0 +1,95 @@
+"""Conditions against the engine, at exact points inside and outside of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import count
+from random import Random
+
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.rationals import QQ
+from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.functions import degrees, powers_of
+from kovacic.parametric.statements import Point, Statement
+
+
+@dataclass(frozen=True)
+class Disagreement:
+    """A point at which a region and the engine differ."""
+
+    point: str
+    predicted: int | None
+    found: int | None
+
+
+@dataclass(frozen=True)
+class CheckReport:
+    """The outcome of `Conditions.check`: true when every sample agrees.
+
+    `inside` and `outside` count the points that were solved in a special region and in the generic one; `open` those for
+    which the regions claim nothing.
+    """
+
+    inside: int
+    outside: int
+    open: int
+    disagreements: tuple[Disagreement, ...]
+
+    def __bool__(self) -> bool:
+        return not self.disagreements
+
+
+@dataclass(frozen=True)
+class Sampler:
+    """Points with small coordinates: values of the `names` that the assumptions admit, beside the `start`, which is fixed."""
+
+    start: Point
+    names: Sequence[str]
+    assumptions: Assumptions
+    random: Random
+
+    def points(self, statements: Sequence[Statement]) -> Iterator[Point | None]:
+        """Every other one where one of the statements holds; None where an attempt failed."""
+        for attempt in count(1):
+            chosen = statements[attempt // 2 % len(statements)] if statements and attempt % 2 else None
+            point = self._point(chosen)
+            yield point if point and self.assumptions.admits(zip(point.names, point.values, strict=True)) else None
+
+    def _point(self, statement: Statement | None) -> Point | None:
+        """A point at which the statement holds; None if none was found."""
+        values = dict(zip(self.start.names, self.start.values, strict=True))
+        values |= {name: QQ.poly([self.assumptions.of(name).sample(self.random)]) for name in self.names}
+        field, free = self.start.field, list(self.names)
+        try:
+            for function in reversed(statement.sample(self.random)) if statement else ():
+                field = self._solve_for_zero(function, values, field, free)
+        except (ZeroDivisionError, ValueError):
+            return None
+        point = Point((*self.start.names, *self.names), tuple(value.over(field) for value in values.values()), field)
+        return point if statement is None or statement.holds(point) else None
+
+    def _solve_for_zero(self, function: FunctionPoly, values: dict[str, Poly], field: Field, free: list[str]) -> Field:
+        """Choose one free parameter so that the function vanishes; the field of all values.  `ValueError` if none does it."""
+        names = function.field.names
+        powers = dict(zip(names, degrees(function), strict=True))
+        candidates = [name for name in free if powers.get(name, 0) > 0]
+        self.random.shuffle(candidates)
+        for name in sorted(candidates, key=lambda n: powers[n]):
+            # The numerator as a polynomial in this parameter, the others having their values.
+            known, parts = [values[n].over(field) for n in names], powers_of(function, names.index(name))
+            coefficients = [parts[k].value_at(known, field) if k in parts else 0 for k in range(powers[name] + 1)]
+            equation = field.poly(coefficients)
+            if equation.degree < 1:
+                continue
+            factor = self.random.choice([f for f, _ in field.factor(equation)])
+            value: Poly | None = -factor[0] if factor.degree == 1 else None
+            if value is None and field == QQ and len(free) == len(names) == 1:
+                value = AlgebraicField(QQ, factor, "alpha").generator
+            if value is not None:
+                values[name] = value
+                free.remove(name)
+                return value.field
+        raise ValueError("no parameter can be chosen")

@@ -1,0 +1,232 @@
+"""Regions of parameter space, and which of them say nothing new, because every one of their points lies in an earlier one.
+
+Two tests, both sufficient and exact: polynomials that vanish wherever those of a region do, and values of one parameter,
+f(N) for integers N in given classes, that an earlier family g(M) takes as well, with an M that is linear in N.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from itertools import count
+from typing import Any
+
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.poly import Field, Poly
+from kovacic.decision import Decision, Status, Structure
+from kovacic.limits import check_time
+from kovacic.parametric.functions import irreducible_factors, over_parameters, powers_of
+from kovacic.parametric.integers import Congruence
+from kovacic.parametric.record import statement_data
+from kovacic.parametric.restriction import parametrised
+from kovacic.parametric.solutions import PolynomialSolution
+from kovacic.parametric.spectra import families
+from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both, either
+
+#: Characters up to which statements share a line.
+_LINE = 100
+Chart = tuple[Mapping[str, Poly], Field]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The case (None: no Liouvillian solution), the structure, and whether that is known at all.
+
+    `family` says more about the group than the structure does.
+    """
+
+    structure: Structure | None
+    known: bool = True
+    family: str | None = field(default=None, compare=False)
+
+    @classmethod
+    def of(cls, decision: Decision) -> Verdict:
+        """What the engine's decision says."""
+        return cls(decision.structure, decision.status is not Status.UNDECIDED)
+
+    def to_dict(self) -> dict[str, Any]:
+        return {"structure": self.structure and self.structure.value, "known": self.known, "family": self.family}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Verdict:
+        structure = data["structure"]
+        return cls(None if structure is None else Structure(structure), data["known"], data["family"])
+
+    @property
+    def case(self) -> int | None:
+        return None if self.structure is None else self.structure.case
+
+    @property
+    def group(self) -> str:
+        """The family of the Galois group."""
+        return (self.family or _GROUPS[self.structure]) if self.known else "not determined"
+
+    def __str__(self) -> str:
+        if not self.known:
+            return "not determined"
+        return "no Liouvillian solution" if self.case is None else f"case {self.case}"
+
+
+_GROUPS = {
+    Structure.REDUCIBLE: "reducible: a subgroup of the triangular group",
+    Structure.IMPRIMITIVE: "imprimitive: dicyclic, or the infinite dihedral group",
+    Structure.TETRAHEDRAL: "binary tetrahedral, order 24",
+    Structure.OCTAHEDRAL: "binary octahedral, order 48",
+    Structure.ICOSAHEDRAL: "binary icosahedral, order 120",
+    None: "SL2(C)",
+}
+
+
+@dataclass(frozen=True)
+class Condition:
+    """One region: where `statement` holds and no earlier region's.
+
+    `case` is Kovacic's case (None: no Liouvillian solution), `group` the family of the Galois group, `complete` True where it
+    is proven that the statement describes all such values and nothing else, else what isn't proven.  `defined` is False where
+    S isn't defined.  `omega` shows what becomes possible, `determinants` the first ones of a statement with a natural number.
+    """
+
+    statement: Statement
+    verdict: Verdict
+    complete: bool | str = True
+    defined: bool = True
+    omega: str | None = None
+    determinants: tuple[str, ...] = ()
+    origin: Callable[[], tuple[PolynomialSolution, ...]] | None = field(default=None, compare=False)
+
+    def solution(self) -> tuple[PolynomialSolution, ...]:
+        """Solutions of y'' = S y for all parameters of the region at once, with the degree d that has to be a natural number.
+
+        They contain Laguerre or Jacobi polynomials of degree d, as SymPy's functions; () where they aren't known.
+
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").regions[0]
+        >>> bessel.solution()[0].degree
+        -n - 1/2
+        """
+        return () if self.origin is None else self.origin()
+
+    @property
+    def case(self) -> int | None:
+        return self.verdict.case
+
+    @property
+    def group(self) -> str:
+        return self.verdict.group if self.defined else "S isn't defined"
+
+    @property
+    def plain(self) -> bool:
+        """Is there nothing to say beside the statement and the case?"""
+        return self.defined and self.complete is True and self.verdict.known and not self.determinants
+
+    def to_dict(self) -> dict[str, Any]:
+        """The region's part of the JSON object."""
+        names = ("case", "group", "complete", "defined", "omega")
+        data = {"condition": self.statement.text()} | {name: getattr(self, name) for name in names}
+        data |= {"statement": statement_data(self.statement), "verdict": self.verdict.to_dict()}
+        return data | ({"determinants": list(self.determinants)} if self.determinants else {})
+
+    def __str__(self) -> str:
+        known = "" if self.complete is True or not self.defined else f" [{self.complete}]"
+        first = f"{self.statement.text()}: {self.verdict if self.defined else self.group}{known}"
+        return "\n      ".join([first, *self.determinants])
+
+
+def in_one_line(regions: Sequence[Condition]) -> list[Condition]:
+    """The regions, with those in a row that have the same case in one, where that is short."""
+    found: list[Condition] = []
+    for region in regions:
+        last = found[-1] if found else None
+        if last is not None and last.plain and region.plain and last.case == region.case:
+            together = last.statement.merged(region.statement)
+            parts = [*_alternatives(last.statement), *_alternatives(region.statement)]
+            if together is None and len({type(part) for part in parts}) == 1 and not isinstance(parts[0], Both):
+                together = either(parts)
+                together = together if len(together.text()) <= _LINE else None
+            if together is not None:
+                found[-1] = replace(last, statement=together)
+                continue
+        found.append(region)
+    return found
+
+
+def _alternatives(statement: Statement) -> Sequence[Statement]:
+    return statement.parts if isinstance(statement, Either) else (statement,)
+
+
+def without_empty(regions: Sequence[Condition]) -> list[Condition]:
+    """The regions without those that earlier ones cover."""
+    kept: list[Condition] = []
+    curves: list[tuple[FunctionPoly, ...]] = []
+    roots: list[Congruence] = []
+    for region in regions:
+        check_time()
+        parts, alternatives = both(region.statement).parts, _alternatives(region.statement)
+        functions = tuple(part.function for part in parts if isinstance(part, Vanishes))
+        own = [part for part in alternatives if isinstance(part, Congruence) and part.form is None]
+        implied = len(own) == len(alternatives) and all(any(_implies(a, b) for b in roots) for a in own)
+        if implied or (len(functions) > 1 and _is_covered(functions, curves)):
+            continue
+        roots += own
+        if len(functions) == len(parts):
+            curves.append(functions)
+        kept.append(region)
+    return kept
+
+
+def _is_covered(functions: tuple[FunctionPoly, ...], curves: Sequence[tuple[FunctionPoly, ...]]) -> bool:
+    """Do all functions of an earlier region vanish where these do?"""
+    try:
+        chart = _chart(functions)
+        return chart is not None and any(all(g in functions or not _at(g, *chart) for g in known) for known in curves)
+    except ZeroDivisionError:  # at the values that solve for one parameter another function isn't defined
+        return False
+
+
+@lru_cache(maxsize=256)
+def _chart(functions: tuple[FunctionPoly, ...]) -> Chart | None:
+    """Values of the parameters at which the functions vanish, and their field; None where that isn't one piece."""
+    field = functions[0].field
+    start: Chart = {name: field.generator(name) for name in field.names}, field
+    before = _chart(functions[:-1]) if len(functions) > 1 else start
+    if before is None or not isinstance(before[1], FunctionField):
+        return None
+    factors = irreducible_factors(_at(functions[-1], *before))
+    if len(factors) != 1:
+        return None
+    smaller, chosen = parametrised(factors[0])
+    at = dict(zip(factors[0].field.names, chosen, strict=True))
+    return {name: _at(over_parameters(value), at, smaller) for name, value in before[0].items()}, smaller
+
+
+def _at(function: FunctionPoly, values: Mapping[str, Poly], field: Field) -> Poly:
+    return function.value_at([values[name] for name in function.field.names], field)
+
+
+def _implies(family: Congruence, other: Congruence) -> bool:
+    """Does `other` hold wherever `family` does, which says that a parameter is f(N)?"""
+    names, spectra = family.equation.field.names, families(family.equation)
+    if not spectra or other.equation.field.names != names:
+        return False
+    k = next(name for name in map("k{}".format, count()) if name not in names)
+    field = FunctionField((*names, k))
+    known = {name: field.generator(name) for name in names}
+    for residue in family.residues:
+        check_time()
+        N = field.generator(k) * family.modulus + residue
+        above, below = (_at(over_parameters(part), known, field)(N) for part in (spectra[0][1].num, spectra[0][1].den))
+        equation = _at(other.equation, {**known, spectra[0][0]: above / below}, field)
+        if not any(f.degree == 1 and _is_in_classes(over_parameters(-f[0]), other) for f, _ in field.factor(equation)):
+            return False
+    return True
+
+
+def _is_in_classes(M: FunctionPoly, other: Congruence) -> bool:
+    """Is M, as a function of the last parameter, a linear one that takes integers in the classes to such integers?"""
+    parts = powers_of(M, len(M.field.names) - 1)
+    values = [M.field.rational_value(parts.get(k, 0 * M)) for k in (0, 1)]
+    if not M.den.is_one() or set(parts) - {0, 1} or None in values:
+        return False
+    start, step = (int(v) for v in values if v is not None)
+    return all((start + k * step) % other.modulus in other.residues for k in range(int(other.modulus)))
