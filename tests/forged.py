@@ -18,10 +18,9 @@ def forged_evidence(S: RatFunc, structure: Structure) -> Iterator[tuple[Evidence
     names, m = tuple(point.name for point in inspector.points), INVARIANT_DEGREE[structure]
     primes = [h.p for h, _ in zip(S.field.homomorphisms(), range(2), strict=False)]
     forms, omegas = [NoInvariant(m)], [NoRationalOmega(-1)]
-    bounds, counts = inspector._valuations(m), zero_counts(inspector.points)
-    if bounds is not None:
-        h = next(S.field.homomorphisms())
-        forms += [NoInvariant(m, p, ordinary_point(h(S.den)), bounds[1]) for p in primes]
+    room, counts = inspector.room(m)[1], zero_counts(inspector.points)
+    h = next(S.field.homomorphisms())
+    forms += [NoInvariant(m, p, ordinary_point(h(S.den)), room) for p in primes]
     if counts is not None:
         omegas += [NoRationalOmega(counts.largest), *(NoRationalOmega(counts.largest, primes[0], n) for n in names)]
     rules = [NecessaryCondition(rule, names) for rule in Rule]

@@ -29,34 +29,12 @@ from kovacic.verify import GroupClaim, verify
 from kovacic.verify.evidence import Inspector
 from kovacic.verify.local import zero_counts
 from kovacic.verify.residue import exponent_difference_squared
-from kovacic.verify.series import convolving_recurrence
 
 X = RatFunc(QQ.poly([0, 1]))
 PRIMES = [101, 10007, (1 << 61) - 1]
 
 
 # ------------------------------------------------------------------------------------------- series
-
-
-@given(
-    st.lists(st.integers(0, 100), min_size=1, max_size=5),
-    st.integers(1, 400),
-    st.sampled_from(PRIMES[1:]),
-    st.randoms(use_true_random=False),
-    st.booleans(),
-)
-def test_a_convolving_recurrence_term_by_term(
-    start: list[int], count: int, p: int, rng: random.Random, with_kernel: bool
-) -> None:
-    kernel = [rng.randrange(p) for _ in range(count)] if with_kernel else None
-    factors = [rng.randrange(p) for _ in range(count)]
-    found = convolving_recurrence(start, count, p, lambda a, j, total: factors[j] * total + j + a[j - 1], kernel)
-    a = list(start[:count])
-    for j in range(len(a), count):
-        b = a if kernel is None else kernel
-        total = sum(a[i] * b[j - i] for i in range(1, j))
-        a.append((factors[j] * total + j + a[j - 1]) % p)
-    assert [value % p for value in found] == [value % p for value in a]
 
 
 @given(
@@ -400,7 +378,7 @@ def test_no_evidence_with_the_kernels_own_bounds_excludes_the_structure_of_the_g
 )
 def test_which_places_tell_the_solutions_apart(text: str, expected: dict[str, bool]) -> None:
     inspector = Inspector(kovacic.solve(text).S, Budget())
-    assert {p.name: inspector._tells_solutions_apart(p) for p in inspector.points} == expected
+    assert {p.name: p.tells_solutions_apart for p in inspector.points} == expected
 
 
 @pytest.mark.parametrize(
@@ -418,7 +396,7 @@ def test_a_rational_omega_is_found_from_every_place(omega: RatFunc) -> None:
     counts, prime = zero_counts(inspector.points), next(QQ.homomorphisms()).p
     assert counts is not None
     for point in inspector.points:
-        if inspector._tells_solutions_apart(point):
+        if point.tells_solutions_apart:
             evidence = (NoInvariant(2, prime, 3, 0), NoRationalOmega(counts.largest, prime, point.name))
             assert not inspector._no_rational_omega(evidence[1]), point.name
             assert not inspector.excludes(Structure.REDUCIBLE, evidence)

@@ -54,6 +54,19 @@ class ExtensionHomomorphism(Homomorphism):
         return result
 
 
+def homomorphisms_modulo(field: Any, p: int) -> Iterator[Homomorphism]:
+    """All homomorphisms of a number field to F_p, unramified: simple roots of minimal polynomials that keep their degrees."""
+    if field == QQ:
+        yield RationalHomomorphism(p)
+    elif field.ground == QQ:
+        for base in homomorphisms_modulo(field.base, p):
+            try:
+                roots = simple_roots(base.keeping_degree(field.modulus))
+            except BadPrimeError:
+                continue
+            yield from (ExtensionHomomorphism(base, root) for root in roots)
+
+
 @lru_cache(maxsize=64)
 def splits_rarely(base: Field, modulus: Poly) -> bool:
     """Does none of the first primes split completely in a number field of a large degree?"""

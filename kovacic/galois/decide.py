@@ -27,12 +27,6 @@ from kovacic.galois.group import Ground, Group, Kind
 from kovacic.galois.imprimitive import imprimitive_group
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
-_PRIMITIVE = {
-    Structure.TETRAHEDRAL: Kind.TETRAHEDRAL,
-    Structure.OCTAHEDRAL: Kind.OCTAHEDRAL,
-    Structure.ICOSAHEDRAL: Kind.ICOSAHEDRAL,
-}
-
 
 def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) -> Group | None:
     """The differential Galois group of y'' = S y; None if the equation is undecided, or a limit keeps a reducible group from
@@ -45,10 +39,9 @@ def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) ->
         return None
     if decision.structure is None:
         return Group(Kind.SL2, Ground.NO_LIOUVILLIAN)
-    if decision.structure in _PRIMITIVE:
-        return Group(_PRIMITIVE[decision.structure], Ground.PRIMITIVE)
-    if decision.semi_invariant is None:
-        raise ValueError("the group is found from a certified decision")
+    if decision.structure.case == 3:
+        return Group(Kind(decision.structure.value), Ground.PRIMITIVE)
+    assert decision.semi_invariant is not None
     problem = analyse(S, Budget(limits))
     if decision.structure is Structure.IMPRIMITIVE:
         return imprimitive_group(problem, decision.semi_invariant)
@@ -90,7 +83,7 @@ def rational_residues(theta: RatFunc) -> list[Fraction] | Ground:
     A pole at infinity counts: theta must vanish there.  Residues of c p'/p are constant on p; others aren't rational.
     """
     parts = decompose(theta)
-    residues = [residue.rational for residue in parts.residues]
+    residues = [residue.rational for residue in parts.residues if residue.rational is not None]
     if parts.exact:
         return Ground.EXPONENTIAL
-    return Ground.IRRATIONAL if None in residues else [value for value in residues if value is not None]
+    return residues if len(residues) == len(parts.residues) else Ground.IRRATIONAL

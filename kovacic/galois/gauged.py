@@ -19,14 +19,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd, lcm, prod
 from typing import Any
 
-from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import decompose
-from kovacic.algebra.poly import Field, product
+from kovacic.algebra.poly import product
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import RationalField, to_fraction
+from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.decision import Decision, SemiInvariant
 from kovacic.engine.places import analyse
 from kovacic.galois.decide import rational_residues
@@ -51,10 +50,7 @@ class Torus:
 
     @property
     def order(self) -> int | None:
-        result = 1
-        for n in self.orders:
-            result *= n
-        return None if self.rank else result
+        return None if self.rank else prod(self.orders)
 
 
 @dataclass(frozen=True)
@@ -77,36 +73,31 @@ class EquationGroup:
 
 def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatFunc) -> EquationGroup | None:
     """The group of the equation with the gauge rho; None over a field with parameters if rho isn't zero."""
-    if not _is_number_field(S.field):
-        return (
-            EquationGroup(normal_form, 1, normal_form.name, normal_form.finite, normal_form.order) if not rho else None
-        )
+    if rho and S.field.ground != QQ:
+        return None
     residues = rational_residues(rho)
     N = None if isinstance(residues, Ground) else lcm(1, *(r.denominator for r in residues))
+    kind, f, given = normal_form.kind, decision.semi_invariant, normal_form.name
     if N == 1:
-        return EquationGroup(normal_form, 1, normal_form.name, normal_form.finite, normal_form.order)
-    f, kind = decision.semi_invariant, normal_form.kind
+        return EquationGroup(normal_form, 1, given, normal_form.finite, normal_form.order)
     if kind is Kind.SL2:
         name = "GL2" if N is None else "SL2" if N == 2 else f"SL2 with the scalars mu_{lcm(2, N)}"
         return EquationGroup(normal_form, N, name, False)
     assert f is not None
-    if kind in (Kind.CYCLIC, Kind.MULTIPLICATIVE, Kind.ADDITIVE, Kind.BOREL):
+    if kind in (Kind.ADDITIVE, Kind.BOREL):
         torus = _torus(*_forms(f.theta, rho))
-        unipotent = kind in (Kind.ADDITIVE, Kind.BOREL)
-        name = torus.name
-        if unipotent:
-            name = "G_a" if torus.order == 1 else f"G_a extended by {torus.name}"
-        return EquationGroup(
-            normal_form, N, name, not unipotent and torus.rank == 0, None if unipotent else torus.order
-        )
+        return EquationGroup(normal_form, N, "G_a" if torus.order == 1 else f"G_a extended by {torus.name}", False)
+    if kind in (Kind.CYCLIC, Kind.MULTIPLICATIVE):
+        torus = _torus(*_forms(f.theta, rho))
+        return EquationGroup(normal_form, N, torus.name, torus.rank == 0, torus.order)
     if N is None:
-        return EquationGroup(normal_form, N, f"{normal_form.name} with the scalars G_m", False)
+        return EquationGroup(normal_form, N, f"{given} with the scalars G_m", False)
     if kind is Kind.INFINITE_DIHEDRAL:
         return EquationGroup(normal_form, N, _infinite_dihedral(N, f, rho), False)
     order = _finite_order(S, normal_form, f, rho, N)
-    name = f"{normal_form.name} with scalars" if order is None else f"{normal_form.name} with scalars, order {order}"
+    name = f"{given} with scalars" if order is None else f"{given} with scalars, order {order}"
     if N == 2 and order is not None:  # then it is that of the normal form
-        name = f"{normal_form.name}, twisted by signs"
+        name = f"{given}, twisted by signs"
     return EquationGroup(normal_form, N, name, normal_form.finite, order)
 
 
@@ -120,12 +111,6 @@ def _infinite_dihedral(N: int, f: SemiInvariant, rho: RatFunc) -> str:
     if twisted:
         return "O(2)" if N == 4 else f"N(T) with the scalars mu_{N // 2}, twisted"
     return "N(T)" if N == 2 else f"N(T) with the scalars mu_{lcm(2, N)}"
-
-
-def _is_number_field(field: Field) -> bool:
-    while isinstance(field, AlgebraicField):
-        field = field.base
-    return isinstance(field, RationalField)
 
 
 def _finite_order(S: RatFunc, group: Group, f: SemiInvariant, rho: RatFunc, N: int) -> int | None:
@@ -143,12 +128,8 @@ def _finite_order(S: RatFunc, group: Group, f: SemiInvariant, rho: RatFunc, N: i
         return group.order * N
     if f.P.field != S.field:
         return None
-    problem = analyse(S, Budget())
-    curve = curve_of(problem, f)
-    if curve.genus > 0:
-        return None
-    diagonal = _torus([], _residues_on_curve(curve, rho)).order
-    return None if diagonal is None else 2 * diagonal
+    curve = curve_of(analyse(S, Budget()), f)
+    return None if curve.genus > 0 else 2 * prod(_torus([], _residues_on_curve(curve, rho)).orders)
 
 
 def _is_integral(theta: RatFunc) -> bool:
@@ -158,27 +139,22 @@ def _is_integral(theta: RatFunc) -> bool:
 
 def _residues_on_curve(curve: Curve, rho: RatFunc) -> list[tuple[Fraction, Fraction]]:
     """The residues of lambda_1 and lambda_2 at the points of the curve, up to integers."""
-    field = rho.field
     residues = {part.factor: part.rational or Fraction(0) for part in decompose(rho).residues}
     total = sum((r * factor.degree for factor, r in residues.items()), Fraction(0))
     rows: list[tuple[Fraction, Fraction]] = []
-    quarter, half = Fraction(1, 4), Fraction(1, 2)
 
-    def row(e: int, delta: Fraction, r: Fraction) -> list[tuple[Fraction, Fraction]]:
-        if e % 2:
-            return [(half * e + 2 * r, half * e + 2 * r)]
-        if e == 2:
-            return [
-                (half + half * delta + r, half - half * delta + r),
-                (half - half * delta + r, half + half * delta + r),
-            ]
-        return [(quarter * e + r, quarter * e + r)]
+    def add(e: int, delta: Fraction, r: Fraction) -> None:
+        """At a branch point twice e/4 + r; at the others e/4 + r, where e = 2 with +-delta/2, at the two points over it."""
+        middle, apart = (Fraction(e, 4) + r) * (1 + e % 2), delta / 2 if e == 2 else Fraction(0)
+        rows.extend((middle + sign * apart, middle - sign * apart) for sign in (1, -1))
 
     for point in curve.points:
-        for factor, _ in field.factor(point.factor.over(field)):
-            rows += row(point.e, point.residue, residues.pop(factor, Fraction(0)))
-    rows += [(r, r) for r in residues.values()]
-    return [*rows, *row(curve.infinity.e, curve.infinity.residue, -total)]
+        for factor, _ in rho.field.factor(point.factor.over(rho.field)):
+            add(point.e, point.residue, residues.pop(factor, Fraction(0)))
+    for r in residues.values():
+        add(0, Fraction(0), r)
+    add(curve.infinity.e, curve.infinity.residue, -total)
+    return rows
 
 
 def _forms(theta: RatFunc, rho: RatFunc) -> tuple[list[tuple[Fraction, Fraction]], list[tuple[Fraction, Fraction]]]:

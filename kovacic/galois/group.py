@@ -71,31 +71,19 @@ class _Facts(NamedTuple):
 _FACTS = {
     Kind.CYCLIC: _Facts("mu_{n}", r"\mu_{{{n}}}", "the cyclic group of order {n}"),
     Kind.MULTIPLICATIVE: _Facts("G_m", r"\mathbb{{G}}_m", "the diagonal matrices of determinant 1", 1),
-    Kind.ADDITIVE: _Facts(
-        "G_a extended by mu_{n}", r"\mathbb{{G}}_a \rtimes \mu_{{{n}}}", _UPPER + "c^{n} = 1", 1, None, "mu_{n}"
-    ),
-    Kind.BOREL: _Facts(
-        "Borel", r"\mathbb{{G}}_a \rtimes \mathbb{{G}}_m", "all upper triangular matrices of determinant 1", 2
-    ),
-    Kind.DICYCLIC: _Facts(
-        "dicyclic of order {order}", r"\mathrm{{Dic}}_{{{n}}}", "the dicyclic group of order {order}"
-    ),
-    Kind.INFINITE_DIHEDRAL: _Facts(
-        "N(T)", "N(T)", "the normaliser of the diagonal matrices, the infinite dihedral group", 1, None, "mu_2"
-    ),
-    Kind.IMPRIMITIVE: _Facts(
-        "dicyclic or N(T), order not determined",
-        r"\subseteq N(T)",
-        "a subgroup of N(T), dicyclic if it is finite; its order wasn't determined",
-        None,
-        None,
-        None,
-    ),
+    Kind.ADDITIVE: _Facts("G_a extended by mu_{n}", r"\mathbb{{G}}_a \rtimes \mu_{{{n}}}", _UPPER + "c^{n} = 1", 1, None,
+                          "mu_{n}"),
+    Kind.BOREL: _Facts("Borel", r"\mathbb{{G}}_a \rtimes \mathbb{{G}}_m", "all upper triangular matrices of determinant 1", 2),
+    Kind.DICYCLIC: _Facts("dicyclic of order {order}", r"\mathrm{{Dic}}_{{{n}}}", "the dicyclic group of order {order}"),
+    Kind.INFINITE_DIHEDRAL: _Facts("N(T)", "N(T)", "the normaliser of the diagonal matrices, the infinite dihedral group", 1,
+                                   None, "mu_2"),
+    Kind.IMPRIMITIVE: _Facts("dicyclic or N(T), order not determined", r"\subseteq N(T)", "a subgroup of N(T), dicyclic if it"
+                             " is finite; its order wasn't determined", None, None, None),
     Kind.TETRAHEDRAL: _Facts("SL(2,3)", r"\mathrm{{SL}}(2,3)", "the binary tetrahedral group", 0, 24),
     Kind.OCTAHEDRAL: _Facts("binary octahedral", "2O", "the binary octahedral group", 0, 48),
     Kind.ICOSAHEDRAL: _Facts("SL(2,5)", r"\mathrm{{SL}}(2,5)", "the binary icosahedral group", 0, 120),
     Kind.SL2: _Facts("SL2", r"\mathrm{{SL}}_2(\mathbb{{C}})", "all matrices of determinant 1", 3),
-}
+}  # fmt: skip
 #: Where a small n has a name of its own.
 _SMALL = {
     (Kind.CYCLIC, 1): _Facts("trivial", r"\{{1\}}", "the trivial group"),
@@ -113,18 +101,19 @@ class Group:
     {(c, b; 0, 1/c): c^n = 1}, and a quarter of the order of a dicyclic group.  Kind.IMPRIMITIVE says that the order wasn't
     determined: then n is the least value that wasn't excluded, and the group may be infinite.  `ground` says why; for
     Ground.INVARIANT `form` is a rational form of degree 2n that isn't a power of y1 y2; of a reducible group, the rational
-    form of degree 2, if there is one.
+    form of degree 2, if there is one.  `orders` has primes p with the orders of the divisor of u modulo p that were used.
     """
 
     kind: Kind
     ground: Ground
     n: int | None = None
     form: SemiInvariant | None = field(default=None, compare=False, repr=False)
+    orders: tuple[tuple[int, int], ...] = field(default=(), compare=False, repr=False)
 
     @property
     def claim(self) -> GroupClaim:
         """What the kernel checks."""
-        return GroupClaim(self.kind.value, self.n, self.form)
+        return GroupClaim(self.kind.value, self.n, self.form, self.orders)
 
     @property
     def _facts(self) -> _Facts:

@@ -14,8 +14,8 @@ residues +-Delta (+-1 at an ordinary point, where y1 or y2 vanishes).  So with r
 - genus 0: every divisor of degree 0 is principal, and a differential is determined by its residues, so n = l;
 - genus > 0, no poles: u isn't algebraic;
 - genus > 0: n = l k, k the order of the divisor of l eta in the Jacobian; if it is infinite, N(T).  Reduction modulo a
-  prime of good reduction is injective on torsion, so two different orders prove that k is infinite, and a common order k
-  leaves only n = l k, which the invariants of degree 2n (y1^2n + y2^2n, and (y1 y2)^n for even n) confirm or refute.
+  prime of good reduction is injective on torsion: two different orders prove that k is infinite, and a common order k leaves
+  only n = l k, which the invariants of degree 2n (y1^2n + y2^2n, and (y1 y2)^n for even n) confirm or refute.
 
 References: Kovacic 1986, sec. 4; J. H. Davenport, On the Integration of Algebraic Functions (1981), for the torsion test.
 """
@@ -25,18 +25,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import count
-from math import lcm
+from itertools import count, islice
+from math import lcm, prod
 from typing import Any
 
 from flint import fmpz, nmod_poly
 
-from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.modular import BadPrimeError, simple_roots, square_root
+from kovacic.algebra.modular import BadPrimeError, simple_roots
 from kovacic.algebra.poly import Field, Homomorphism, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import RationalField, RationalHomomorphism
-from kovacic.algebra.splitting import ExtensionHomomorphism
+from kovacic.algebra.splitting import homomorphisms_modulo
 from kovacic.decision import NoInvariant, SemiInvariant
 from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Kind as PlaceKind
@@ -74,8 +72,7 @@ class Curve:
 
     @property
     def genus(self) -> int:
-        branched = sum(point.factor.degree for point in (*self.points, self.infinity) if point.e % 2)
-        return branched // 2 - 1
+        return sum(point.factor.degree for point in (*self.points, self.infinity) if point.e % 2) // 2 - 1
 
     @property
     def residues(self) -> list[Fraction]:
@@ -121,39 +118,37 @@ def curve_of(problem: Problem, f: SemiInvariant) -> Curve:
 
 
 def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: Curve, l: int) -> Group:  # noqa: E741
-    orders: list[int] = []
-    for h in _small_homomorphisms(problem.field, max(curve.genus, 1)):
+    orders: list[tuple[int, int]] = []
+    for h in _small_homomorphisms(problem.field, curve.genus):
         problem.budget.check()
         try:
-            order = _order_modulo(h, problem, f, curve, l)
+            k = _order_modulo(h, curve, l)
         except BadPrimeError:
             continue
-        if order is None:
+        if k is None:
             break
-        if orders and order != orders[0]:
-            return Group(Kind.INFINITE_DIHEDRAL, Ground.NOT_TORSION)
-        orders.append(order)
+        orders.append((h.p, k))
+        if k != orders[0][1]:
+            return Group(Kind.INFINITE_DIHEDRAL, Ground.NOT_TORSION, orders=(orders[0], orders[-1]))
         if len(orders) == _AGREEING_PRIMES:
             break
+    shown = tuple(orders[:1])
     least = max(l, 2)
-    for k in [orders[0]] if orders else range(1, _LARGEST_DEGREE // (20 * l) + 1):
+    for k in [shown[0][1]] if shown else range(1, _LARGEST_DEGREE // (20 * l) + 1):
         n = l * k
         if 2 * n > _LARGEST_DEGREE:
             break
         if (form := form_of_order(problem, f, n)) is not None:
-            return Group(Kind.DICYCLIC, Ground.INVARIANT, n, form)
+            return Group(Kind.DICYCLIC, Ground.INVARIANT, n, form, shown)
         least = n + l
     else:
-        if orders:
-            return Group(Kind.INFINITE_DIHEDRAL, Ground.NO_INVARIANT)
+        if shown:
+            return Group(Kind.INFINITE_DIHEDRAL, Ground.NO_INVARIANT, orders=shown)
     return Group(Kind.IMPRIMITIVE, Ground.UNDETERMINED, least)
 
 
 def form_of_order(problem: Problem, f: SemiInvariant, n: int) -> SemiInvariant | None:
-    """The rational form of degree 2n that a dicyclic group of order 4n, or 4n/j, has beside powers of f = y1 y2.
-
-    For even n the invariants are f^n and y1^(2n) + y2^(2n), for odd n only the latter.  Either answer is proven.
-    """
+    """The rational form of degree 2n, beside f^n for even n, that a dicyclic group of order 4n, or 4n/j, has; proven."""
     space = invariants(problem, 2 * n)
     if isinstance(space, NoInvariant) or len(space) != (1 if n % 2 else 2):
         return None
@@ -163,116 +158,52 @@ def form_of_order(problem: Problem, f: SemiInvariant, n: int) -> SemiInvariant |
 
 
 def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
-    """Homomorphisms to small prime fields, from p = 5 on; smaller ones first, since orders grow like p^genus."""
-    for _, h in zip(range(_PRIMES_TRIED), _homomorphisms(field), strict=False):
+    """Homomorphisms to prime fields, from p = 5 on; smaller ones first, since orders grow like p^genus."""
+    primes = (p for p in count(5) if fmpz(p).is_prime())
+    for h in islice((h for p in primes for h in homomorphisms_modulo(field, p)), _PRIMES_TRIED):
         if h.p**genus > 10**7:
             return
         yield h
 
 
-def _homomorphisms(field: Field) -> Iterator[Homomorphism]:
-    if isinstance(field, RationalField):
-        yield from (RationalHomomorphism(p) for p in count(5) if fmpz(p).is_prime())
-    elif isinstance(field, AlgebraicField):
-        for base in _homomorphisms(field.base):
-            try:
-                modulus = base.keeping_degree(field.modulus)
-            except BadPrimeError:
-                continue
-            yield from (ExtensionHomomorphism(base, root) for root in simple_roots(modulus))
-
-
-def _order_modulo(h: Homomorphism, problem: Problem, f: SemiInvariant, curve: Curve, l: int) -> int | None:  # noqa: E741
+def _order_modulo(h: Homomorphism, curve: Curve, l: int) -> int | None:  # noqa: E741
     """The order of the divisor of l eta in the Jacobian modulo p; None if it exceeds the bound."""
-    p = h.p
-    images = [(h.keeping_degree(point.factor), point) for point in curve.points]
-    for _, point in images:
-        if point.residue.numerator % p == 0 and point.residue:
-            raise BadPrimeError("a residue vanishes")
-    if l % p == 0 or curve.infinity.residue.numerator % p == 0 != curve.infinity.residue.numerator:
+    p, one = h.p, nmod_poly([1], h.p)
+    if any(r.numerator * r.denominator % p == 0 for r in curve.residues):
         raise BadPrimeError("a residue isn't a unit")
-    together = nmod_poly([1], p)
-    for image, _ in images:
-        together = together * image
+    points = [(h.keeping_degree(point.factor), point.e, point.residue) for point in curve.points]
+    together = prod((image for image, _, _ in points), start=one)
     if together.gcd(together.derivative()).degree() > 0:
         raise BadPrimeError("points meet")
-    w = square_root(_squared_wronskian(h, problem, images), p)
-    if not w:
-        raise BadPrimeError("w isn't a non-zero number of F_p")
-    local, scale = _with_branch_point_at_infinity(images, curve, p)
-    # g = scale * branch * Q^2, z^2 = scale * branch: eta = w dx / (z Q), so z = w / (residue * Q') at a pole.
-    branch, above, below = nmod_poly([scale], p), nmod_poly([1], p), nmod_poly([1], p)
-    for image, e, _ in local:
-        if e % 2:
-            branch = branch * image
-        half = e // 2
-        if half > 0:
-            above = above * image**half
-        elif half < 0:
-            below = below * image**-half
-    jacobian = Jacobian(branch)
+    if curve.infinity.e % 2 == 0:
+        points = _moved(points, curve.infinity, p)
+    # g = c b Q^2 with b of the branch points, and eta = dx/(s Q) on s^2 = b/c': s = 1/(residue * Q') at a pole shows c'.
+    branch = prod((image for image, e, _ in points if e % 2), start=one)
+    above = prod((image ** (e // 2) for image, e, _ in points if e > 1), start=one)
+    below = prod((image ** (-(e // 2)) for image, e, _ in points if e < 0), start=one)
+    poles = [
+        (image, r, below * _inverse(above.derivative() * (r.numerator * pow(r.denominator, -1, p) % p), image) % image)
+        for image, _, r in points
+        if r
+    ]
+    image, _, s = poles[0]
+    jacobian = Jacobian(branch * int((s * s * _inverse(branch, image) % image)[0]))
     total = jacobian.zero
-    for image, _, value in local:
-        if value:
-            slope = above.derivative() * _inverse(below, image) % image
-            z = _inverse(slope * int(value.numerator * pow(value.denominator, -1, p) % p), image) * w
-            total = jacobian.add(total, jacobian.multiple(int(2 * l * value), jacobian.point(image, z)))
+    for image, r, s in poles:
+        total = jacobian.add(total, jacobian.multiple(int(2 * l * r), jacobian.point(image, s)))
     return jacobian.order(total, _LARGEST_ORDER)
 
 
-def _squared_wronskian(h: Homomorphism, problem: Problem, images: list[tuple[Any, Point]]) -> int:
-    """w^2 = g (4 S - 2 phi' - phi^2) modulo p, phi = f'/f, for g the product of the monic factors to their powers."""
-    p = h.p
-    num, den = h(problem.S.num), h.keeping_degree(problem.S.den)
-    for x in range(p):
-        if int(den(x)) == 0 or any(int(image(x)) == 0 for image, _ in images):
-            continue
-        g, phi, slope = 1, 0, 0
-        for image, point in images:
-            value, first, second = (int(d(x)) for d in (image, image.derivative(), image.derivative().derivative()))
-            inverse = pow(value, -1, p)
-            half = point.e * pow(2, -1, p)
-            g = g * pow(value, point.e, p) % p
-            phi += half * first * inverse
-            slope += half * (second * inverse - (first * inverse) ** 2)
-        S = int(num(x)) * pow(int(den(x)), -1, p)
-        return g * (4 * S - 2 * slope - phi * phi) % p
-    raise BadPrimeError("every point of F_p is singular")
-
-
-def _with_branch_point_at_infinity(
-    images: list[tuple[Any, Point]], curve: Curve, p: int
-) -> tuple[list[tuple[Any, int, Fraction]], int]:
-    """The points and the leading coefficient of g in a coordinate t = 1/(x - r) for which t = infinity is a branch point.
-
-    With x = r + 1/t, dx/sqrt(g) = -dt/sqrt(t^4 g(r + 1/t)): the valuations stay, and the old infinity is t = 0.
-    """
-    if curve.infinity.e % 2:
-        return [(image, point.e, point.residue) for image, point in images], 1
-    for image, point in images:
-        if point.e % 2:
-            for r in simple_roots(image):
-                return _moved(images, curve, r, p)
-    raise BadPrimeError("no branch point is rational modulo this prime")
-
-
-def _moved(
-    images: list[tuple[Any, Point]], curve: Curve, r: int, p: int
-) -> tuple[list[tuple[Any, int, Fraction]], int]:
-    local, scale = [], 1
-    for image, point in images:
-        moved = image.compose(nmod_poly([r, 1], p)).reverse()
-        lead = int(moved.leading_coefficient())
-        scale = scale * pow(lead, point.e, p) % p
-        if moved.degree() > 0:
-            local.append((moved * pow(lead, -1, p), point.e, point.residue))
-    if curve.infinity.e:
-        local.append((nmod_poly([0, 1], p), curve.infinity.e, curve.infinity.residue))
-    return local, scale
+def _moved(points: list[tuple[Any, int, Fraction]], infinity: Point, p: int) -> list[tuple[Any, int, Fraction]]:
+    """The points in a coordinate t = 1/(x - r), which keeps eta, with a branch point at infinity; the old infinity is 0."""
+    r = next((r for image, e, _ in points if e % 2 for r in simple_roots(image)), None)
+    if r is None:
+        raise BadPrimeError("no branch point is rational modulo this prime")
+    moved = [(image.compose(nmod_poly([r, 1], p)).reverse(), e, residue) for image, e, residue in points]
+    return [*(point for point in moved if point[0].degree()), (nmod_poly([0, 1], p), infinity.e, infinity.residue)]
 
 
 def _inverse(value: Any, modulus: Any) -> Any:
-    common, inverse, _ = (value % modulus).xgcd(modulus)
-    if common.degree() != 0:
-        raise BadPrimeError("not invertible modulo this prime")
+    """The inverse modulo a polynomial without a common root."""
+    common, inverse, _ = value.xgcd(modulus)
     return inverse * pow(int(common[0]), -1, modulus.modulus()) % modulus

@@ -9,13 +9,11 @@ Reference: D. Cantor, "Computing in the Jacobian of a hyperelliptic curve", Math
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from itertools import accumulate, repeat
+from typing import Any, NamedTuple
 
-from flint import nmod_poly
 
-
-@dataclass(frozen=True)
-class DivisorClass:
+class DivisorClass(NamedTuple):
     """(u, v) in Mumford's representation; compared by the coefficients."""
 
     u: Any
@@ -32,26 +30,15 @@ class Jacobian:
 
     h: Any
 
-    def __post_init__(self) -> None:
-        if self.h.degree() % 2 == 0 or self.h.gcd(self.h.derivative()).degree() > 0:
-            raise ValueError("the curve needs a squarefree polynomial of odd degree")
-
-    @property
-    def genus(self) -> int:
-        return int(self.h.degree() - 1) // 2
-
     @property
     def zero(self) -> DivisorClass:
-        p = self.h.modulus()
-        return DivisorClass(nmod_poly([1], p), nmod_poly([], p))
+        return DivisorClass(self.h**0, self.h * 0)
 
     def point(self, u: Any, v: Any) -> DivisorClass:
         """The class of the points (x, v(x)) at the roots of u.  Raises `ValueError` unless they lie on the curve."""
-        u = _monic(u)
-        v = v % u
         if (self.h - v * v) % u:
             raise ValueError("the points don't lie on the curve")
-        return self._reduced(u, v)
+        return self._reduced(_monic(u), v % u)
 
     def add(self, first: DivisorClass, second: DivisorClass) -> DivisorClass:
         """The sum of two classes."""
@@ -76,16 +63,11 @@ class Jacobian:
 
     def order(self, value: DivisorClass, bound: int) -> int | None:
         """The order of a class, or None if it exceeds `bound`."""
-        current = value
-        for k in range(1, bound + 1):
-            if current.is_zero:
-                return k
-            current = self.add(current, value)
-        return None
+        multiples = accumulate(repeat(value, bound), self.add)
+        return next((k for k, multiple in enumerate(multiples, start=1) if multiple.is_zero), None)
 
     def _reduced(self, u: Any, v: Any) -> DivisorClass:
-        genus = self.genus
-        while u.degree() > genus:
+        while 2 * u.degree() >= self.h.degree():
             u = _monic((self.h - v * v) // u)
             v = -v % u
         return DivisorClass(u, v)

@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Status, Structure
 from kovacic.errors import LimitExceeded
@@ -22,17 +21,7 @@ from kovacic.verify.group import GroupClaim, group_holds
 from kovacic.verify.identity import form_numerators, is_power, is_rational
 
 #: The structures in the order of the proof, with the degree of omega.
-_OMEGA_DEGREE = {
-    Structure.REDUCIBLE: 1,
-    Structure.IMPRIMITIVE: 2,
-    Structure.TETRAHEDRAL: 4,
-    Structure.OCTAHEDRAL: 6,
-    Structure.ICOSAHEDRAL: 12,
-}
-#: What the evidence against each structure shows.
-_EXCLUDED = {
-    structure: f"the Galois group isn't {structure.value} (case {structure.case})" for structure in _OMEGA_DEGREE
-}
+_OMEGA_DEGREE = dict(zip(Structure, (1, 2, 4, 6, 12), strict=True))
 
 
 @dataclass(frozen=True)
@@ -81,11 +70,12 @@ def verify(
     if claimed != required:
         checks.append(Check("the structures before the answer's are excluded, each once", False))
     for exclusion in decision.exclusions:
-        passed = inspector.excludes(exclusion.structure, exclusion.evidence)
-        checks.append(Check(_EXCLUDED[exclusion.structure], passed))
+        excluded = exclusion.structure
+        passed = inspector.excludes(excluded, exclusion.evidence)
+        checks.append(Check(f"the Galois group isn't {excluded.value} (case {excluded.case})", passed))
     if group is None or not all(check.passed for check in checks):
         return Verification(tuple(checks))
-    statement, why = "the Galois group is the one that is named", "infinite by the orders of a divisor modulo primes"
+    statement, why = "the Galois group is the one that is named", "its order wasn't determined"
     try:
         holds = group_holds(inspector, decision, group)
     except LimitExceeded as limit:
@@ -99,15 +89,16 @@ def _positive(inspector: Inspector, decision: Decision, structure: Structure) ->
     riccati, form, S = decision.riccati, decision.semi_invariant, inspector.S
     if riccati is None or form is None:
         return [Check("the polynomial of omega is there", False)]
-    degree = _OMEGA_DEGREE[structure]
-    P, field, checks = riccati.P, riccati.P.field, []
+    degree, P, field = _OMEGA_DEGREE[structure], riccati.P, riccati.P.field
+    irreducible = []
     if isinstance(field, AlgebraicField) and field != S.field:
-        checks.append(Check(f"the polynomial of {field.name} is irreducible", _is_irreducible(field)))
-        if not checks[0].passed:
-            return checks
+        irreducible = [Check(f"the polynomial of {field.name} is irreducible", _is_irreducible(field))]
+        if not irreducible[0].passed:
+            return irreducible
     fitting = form.degree == riccati.degree == degree and form.P == P
     numerators = form_numerators(S, form, riccati.D) if fitting else None
-    checks += [
+    return [
+        *irreducible,
         Check(f"omega satisfies a polynomial of degree {degree}", riccati.degree == degree),
         Check("the roots of the polynomial solve omega' + omega^2 = S", numerators == [*riccati.numerators]),
         Check(
@@ -117,7 +108,6 @@ def _positive(inspector: Inspector, decision: Decision, structure: Structure) ->
         Check("P has its zeros at ordinary points", P.degree == 0 or P.gcd(S.den.over(field)).degree == 0),
         Check("the invariant is a rational form", _invariant_holds(S, decision, structure)),
     ]
-    return checks
 
 
 def _invariant_holds(S: RatFunc, decision: Decision, structure: Structure) -> bool:
@@ -125,15 +115,12 @@ def _invariant_holds(S: RatFunc, decision: Decision, structure: Structure) -> bo
     F, f, riccati = decision.invariant, decision.semi_invariant, decision.riccati
     if F is None or f is None or riccati is None:
         return structure is Structure.REDUCIBLE
-    if F.degree != INVARIANT_DEGREE[structure] or not is_rational(F):
-        return False
-    return is_power(F, f) or form_numerators(S, F, riccati.D) is not None
+    rational = F.degree == INVARIANT_DEGREE[structure] and is_rational(F)
+    return rational and (is_power(F, f) or form_numerators(S, F, riccati.D) is not None)
 
 
 def _is_irreducible(field: AlgebraicField) -> bool:
-    modulus: Poly = field.modulus
-    factors = field.base.factor(modulus)
-    return modulus.degree > 1 and len(factors) == 1 and factors[0] == (modulus, 1)
+    return field.modulus.degree > 1 and field.base.factor(field.modulus) == [(field.modulus, 1)]
 
 
 __all__ = ["Check", "GroupClaim", "Verification", "verify"]

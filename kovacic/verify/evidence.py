@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice, zip_longest
@@ -25,25 +25,16 @@ from kovacic.algebra.modular import (
 from kovacic.algebra.poly import Homomorphism
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.decision import (
-    Evidence,
-    NecessaryCondition,
-    NoInvariant,
-    NoRationalOmega,
-    Rule,
-    Structure,
-)
+from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRationalOmega, Rule, Structure
 from kovacic.limits import Budget
 from kovacic.verify.local import (
     Point,
     ZeroCounts,
-    coefficients,
-    laurent_numerators,
+    correction,
     least_valuation,
     points,
     zero_counts,
 )
-from kovacic.verify.series import convolving_recurrence
 
 _ORDERS = {
     Structure.TETRAHEDRAL: {1, 2, 3},
@@ -51,25 +42,11 @@ _ORDERS = {
     Structure.ICOSAHEDRAL: {1, 2, 3, 5},
 }
 #: The degree of the invariant that the structure would have; together with the uniqueness of omega for reducible groups.
-INVARIANT_DEGREE = {
-    Structure.REDUCIBLE: 2,
-    Structure.IMPRIMITIVE: 4,
-    Structure.TETRAHEDRAL: 6,
-    Structure.OCTAHEDRAL: 8,
-    Structure.ICOSAHEDRAL: 12,
-}
+INVARIANT_DEGREE = dict(zip(Structure, (2, 4, 6, 8, 12), strict=True))
 #: How far down the sequence of primes a record may lie.
 _PRIMES = 4096
 #: Primes modulo which a dimension is bounded where no record names one.
 _PRIMES_FOR_A_DIMENSION = 3
-_APPLIES = {
-    Rule.RAMIFIED: {Structure.REDUCIBLE},
-    Rule.LOGARITHM: set(Structure) - {Structure.REDUCIBLE},
-    Rule.TOO_FEW_BRANCH_POINTS: {Structure.IMPRIMITIVE},
-    Rule.IRREGULAR: set(_ORDERS),
-    Rule.EXPONENTS: set(_ORDERS),
-    Rule.NOT_A_SQUARE: {Structure.REDUCIBLE},
-}
 
 
 @dataclass(frozen=True)
@@ -106,35 +83,32 @@ class Inspector:
     def _holds(self, item: Evidence, structure: Structure) -> bool:
         try:
             if isinstance(item, NecessaryCondition):
-                return structure in _APPLIES[item.rule] and self._condition_fails(item, structure)
-            if isinstance(item, NoInvariant):
-                return self._no_invariant(item)
-            return self._no_rational_omega(item)
+                return self._condition_fails(item, structure)
+            return self._no_invariant(item) if isinstance(item, NoInvariant) else self._no_rational_omega(item)
         except BadPrimeError:
             return False
 
     def _condition_fails(self, item: NecessaryCondition, structure: Structure) -> bool:
-        if item.rule is Rule.TOO_FEW_BRANCH_POINTS:
-            return sum(point.factor.degree for point in self.points if _can_branch(point)) < 2
+        rule, reducible = item.rule, structure is Structure.REDUCIBLE
+        if rule is Rule.TOO_FEW_BRANCH_POINTS:
+            branches = sum(point.factor.degree for point in self.points if point.can_branch)
+            return structure is Structure.IMPRIMITIVE and branches < 2
         named = [point for point in self.points if point.name in item.places]
         if not named or len(named) != len(item.places):
             return False
-        if item.rule is Rule.RAMIFIED:
-            return any(point.order > 2 and point.order % 2 for point in named)
-        if item.rule is Rule.LOGARITHM:
-            return any(point.logarithm for point in named)
-        if item.rule is Rule.IRREGULAR:
-            return any(point.order > 2 for point in named)
-        if item.rule is Rule.EXPONENTS:
-            differences = [point.difference for point in named if 0 < point.order <= 2]
-            return any(d is None or d.denominator not in _ORDERS[structure] for d in differences)
-        return zero_counts(named) is None
+        if rule is Rule.NOT_A_SQUARE:
+            return reducible and zero_counts(named) is None
+        if rule is Rule.RAMIFIED:
+            return reducible and any(point.order > 2 and point.order % 2 for point in named)
+        if rule is Rule.LOGARITHM:
+            return not reducible and any(point.logarithm for point in named)
+        if rule is Rule.IRREGULAR:
+            return structure.case == 3 and any(point.order > 2 for point in named)
+        differences = [point.difference for point in named if 0 < point.order <= 2]
+        return structure.case == 3 and any(d is None or d.denominator not in _ORDERS[structure] for d in differences)
 
     def _at_prime(self, p: int, claim: Callable[[Homomorphism], bool]) -> bool:
-        """Does the claim hold under a homomorphism to F_p among the first ones of the field's sequence?
-
-        Over Q(t) several belong to one prime, the parameters taking different values; any of them proves the claim.
-        """
+        """Does the claim hold under any homomorphism to F_p among the first ones (over Q(t), several for one prime)?"""
         ground = self.S.field.ground
         for h in islice(self.S.field.homomorphisms(), _PRIMES):
             try:
@@ -146,42 +120,36 @@ class Inspector:
                 break
         return False
 
-    def _valuations(self, m: int) -> tuple[list[int], int] | None:
-        """The least valuations of a rational form of degree m at the finite places, and the room for a polynomial factor.
-
-        None if one of them can't be an integer, so that there is no such form.
-        """
-        valuations, room = list[int](), m
-        for point in self.points:
-            valuation = least_valuation(point, m)
-            if valuation is None:
-                return None
-            valuations.append(valuation)
-            room -= valuation * point.factor.degree
-        return valuations[:-1], room
+    def room(self, m: int) -> tuple[list[int], int]:
+        """The least valuations of a rational form of degree m at the finite places, and the largest degree of its other factor,
+        negative if there is no such form."""
+        valuations = [least_valuation(point, m) for point in self.points]
+        known = [v for v in valuations if v is not None]
+        if len(known) < len(valuations):
+            return known, -1
+        return known[:-1], m - sum(v * point.factor.degree for v, point in zip(known, self.points, strict=True))
 
     def _no_invariant(self, item: NoInvariant) -> bool:
         """No rational form of degree m: no room for one, or nullity 0 of the linear system modulo the prime."""
         m = item.invariant_degree
         if m not in INVARIANT_DEGREE.values():
             return False
-        bounds = self._valuations(m)
-        if bounds is None or bounds[1] < 0 or item.prime is None:
-            return item.prime is None and (bounds is None or bounds[1] < 0)
-        valuations, room = bounds
+        valuations, room = self.room(m)
+        if room < 0 or item.prime is None:
+            return room < 0 and item.prime is None
         return item.degree == room and self._at_prime(
             item.prime, lambda h: self._nullity(h, item.point, m, valuations, room) == 0
         )
 
     def dimension_is_at_most(self, bound: int, m: int) -> bool:
         """Have the rational forms of degree m at most this dimension, as the nullity modulo one of the first primes proves?"""
-        bounds = self._valuations(m)
-        if bounds is None or bounds[1] < 0:
+        valuations, room = self.room(m)
+        if room < 0:
             return True
-        self.budget.check_degree(bounds[1], f"an invariant of degree {m}")
+        self.budget.check_degree(room, f"an invariant of degree {m}")
         for h in islice(self.S.field.homomorphisms(), _PRIMES_FOR_A_DIMENSION):
             try:
-                if self._nullity(h, ordinary_point(h.keeping_degree(self.S.den)), m, *bounds) <= bound:
+                if self._nullity(h, ordinary_point(h.keeping_degree(self.S.den)), m, valuations, room) <= bound:
                     return True
             except BadPrimeError:
                 continue
@@ -216,7 +184,7 @@ class Inspector:
         if item.prime is None or item.degree != counts.largest:
             return counts.largest < 0 and item.degree == counts.largest
         place = next((point for point in self.points if point.name == item.place), None)
-        if place is None or not self._tells_solutions_apart(place):
+        if place is None or not place.tells_solutions_apart:
             return False
         return self._at_prime(item.prime, lambda h: self._no_omega_at(place, h, counts))
 
@@ -227,80 +195,43 @@ class Inspector:
             return False
         # In the coordinate t of this place; the other end of the chart is x = infinity, or x = 0 for the place at infinity.
         num, den = translate(h(place.num), root), translate(h.keeping_degree(place.den), root)
-        opposite = next((point for point in self.points if self._is_opposite(point, place)), None)
-        growth = den.degree() + max((opposite.order + 1) // 2 if opposite else 1, 1) - 2
+        M, E = place.localised(h, root)
+        origin = self.S.field.poly([0, 1])
+        ends = [q.order for q in self.points if q.at_infinity != place.at_infinity and q.factor == origin]
+        growth = den.degree() + max([1, *((order + 1) // 2 for order in ends)]) - 2
         p, nu = h.p, max(place.order, 2) // 2
         bounds = counts.by_exponent(place)
-        s = laurent_numerators(place, h, root, 2 * counts.largest + growth + 2 + nu)
-        for start in _first_terms(place, s, p):
+        for start in _first_terms(place, M, E):
             self.budget.check()
             degree = counts.largest
             if bounds is not None:
-                possible = [n for e, n in bounds if (start[-1] * e.denominator - e.numerator) % p == 0]
+                possible = [n for e, n in bounds if (int(start[nu - 1]) * e.denominator - e.numerator) % p == 0]
                 if not possible:
                     continue
                 degree = max(possible)
-            if _is_rational(_riccati_series(start, s, nu, 2 * degree + growth + 2, p), num, den, nu, degree, growth):
+            count = 2 * degree + growth + 2
+            u = correction(M, E, start, nu, count)
+            series = start + u.derivative().mul_low(u.inverse_series_trunc(count), count).left_shift(nu)
+            if _is_rational(series.truncate(count), num, den, nu, degree, growth):
                 return False
         return True
 
-    def _is_opposite(self, point: Point, place: Point) -> bool:
-        if place.at_infinity:
-            return not point.at_infinity and point.factor.degree == 1 and not point.factor[0]
-        return point.at_infinity
 
-    def _tells_solutions_apart(self, place: Point) -> bool:
-        if place.order > 2:
-            return place.order % 2 == 0
-        if place.order == 0:
-            return False
-        difference = place.difference
-        return difference is None or difference.denominator != 1 or place.logarithm
-
-
-def _first_terms(place: Point, s: list[int], p: int) -> list[list[int]]:
+def _first_terms(place: Point, M: Any, E: Any) -> list[Any]:
     """The first nu terms of t^nu omega, the last of them the exponent, for every local solution with a rational omega."""
-    nu, half = max(place.order, 2) // 2, pow(2, -1, p)
+    nu, p, difference = max(place.order, 2) // 2, E.modulus(), place.difference
+    s, half = M.mul_low(E.inverse_series_trunc(nu), nu), pow(2, -1, p)
     if nu > 1 and not s[0]:
         raise BadPrimeError("the leading coefficient at an irregular place vanishes")
-    root = square_root(s[0] if nu > 1 else 1 + 4 * s[0], p)
+    root = square_root(int(s[0]) if nu > 1 else 1 + 4 * int(s[0]), p)
     if root is None:
         return []
-    if nu == 1:
-        difference = place.difference
-        if difference is not None:
-            root = difference.numerator * pow(difference.denominator, -1, p)
-        return [[(1 + sign * root) * half % p] for sign in ((1,) if place.logarithm else (1, -1))]
-    starts = []
-    for leading in (root, -root % p):
-        start = coefficients(square_root_series(nmod_poly(s[:nu], p), nu, leading), nu)
-        starts.append([*start[:-1], (start[-1] + nu * half) % p])
-    return starts
-
-
-def _can_branch(point: Point) -> bool:
-    """Can the square root of an invariant branch here?"""
-    if point.order > 2:
-        return point.order % 2 == 1
-    return point.difference is not None and point.difference.denominator == 2
-
-
-def _riccati_series(start: list[int], s: list[int], nu: int, count: int, p: int) -> Any:
-    """w with w/t^nu a solution of omega' + omega^2 = t^(-2 nu) s, from its first terms.
-
-    The terms of t^j give sum_(i=0..j) w_i w_(j-i) + (j - 2 nu + 1) w_(j-nu+1) = s_j.
-    """
-    inverse = pow(2 * start[0], -1, p) if nu > 1 else 0
-
-    def term(w: Sequence[int], j: int, total: int) -> int:
-        if nu > 1:
-            return (s[j] - total - (j - 2 * nu + 1) * w[j - nu + 1]) * inverse
-        pivot = (2 * w[0] + j - 1) % p
-        if not pivot:
-            raise BadPrimeError("the prime meets an exponent")
-        return (s[j] - total) * pow(pivot, -1, p)
-
-    return nmod_poly(convolving_recurrence(start, count, p, term), p)
+    if nu > 1:
+        middle = nmod_poly([nu * half], p).left_shift(nu - 1)
+        return [square_root_series(s, nu, r) + middle for r in (root, -root % p)]
+    if difference is not None:
+        root = difference.numerator * pow(difference.denominator, -1, p)
+    return [nmod_poly([(1 + sign * root) * half], p) for sign in ((1,) if place.logarithm else (1, -1))]
 
 
 def _is_rational(series: Any, num: Any, den: Any, nu: int, degree: int, growth: int) -> bool:

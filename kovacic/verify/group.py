@@ -8,9 +8,10 @@ Reducible, omega = theta + P'/P: y1^n is rational exactly when n theta has simpl
 Imprimitive, f = y1 y2, g = f^2 = prod p^(e_p) P^2: an irregular point, or an irrational exponent difference, makes the group
 infinite; forms with different f over one field belong to the quaternion group.  Otherwise u = y1/y2 = exp(int eta), where
 eta = dx/sqrt(g) up to a constant has simple poles with residues +-Delta at the points with e = 2 on the curve z^2 = g.  On
-a curve of genus 0 the group is dicyclic of order 4n, n the common denominator of these Delta; on others it is infinite if
+a curve of genus 0 the group is dicyclic of order 4n, n the common denominator l of these Delta; on others it is infinite if
 there are none.  If there are, the order 4n rests on a rational form of degree 2n that isn't f^n, and on the absence of
-such forms of the degrees 2n/q, q prime.
+such forms of the degrees 2n/q, q prime.  An infinite group rests on two orders of the divisor of l eta modulo primes; or on
+one, k, and the absence of forms of degree 2 l k, which a finite group would have: see `torsion`.
 
 References: Kovacic 1986, sections 1 and 4; Hendriks & van der Put, J. Symb. Comp. 19 (1995).
 """
@@ -29,6 +30,7 @@ from kovacic.decision import Decision, SemiInvariant, Structure
 from kovacic.verify.evidence import Inspector
 from kovacic.verify.identity import form_numerators, is_rational, rational_residues
 from kovacic.verify.residue import residue
+from kovacic.verify.torsion import order_holds
 
 
 @dataclass(frozen=True)
@@ -36,24 +38,24 @@ class GroupClaim:
     """What is said of the group: the name of its family, as in `kovacic.galois.Kind`, and its parameter n.
 
     `form` is a rational form of degree 2 for a reducible group, where the decision has none; and the one that shows that a
-    dicyclic group on a curve of positive genus is finite.
+    dicyclic group on a curve of positive genus is finite.  `orders` has primes, with orders modulo them, for an infinite one.
     """
 
     family: str
     n: int | None
     form: SemiInvariant | None = None
+    orders: tuple[tuple[int, int], ...] = ()
 
 
 def group_holds(inspector: Inspector, decision: Decision, claim: GroupClaim) -> bool | None:
-    """Is this the group?  None where this module can't tell: an infinite group by the orders of a divisor modulo primes."""
+    """Is this the group?  None for one of which no more is said than that it is imprimitive, where that doesn't decide it."""
     structure = decision.structure
-    if decision.undecided is not None:
-        return False
     if structure is Structure.REDUCIBLE:
         return _reducible(inspector, decision, decision.invariant or claim.form) == (claim.family, claim.n)
     if structure is Structure.IMPRIMITIVE:
         return _imprimitive(inspector, decision, claim)
-    return claim.family == ("SL2" if structure is None else structure.value) and claim.n is None
+    name = "SL2" if structure is None else structure.value
+    return decision.undecided is None and (claim.family, claim.n) == (name, None)
 
 
 def _reducible(inspector: Inspector, decision: Decision, F: SemiInvariant | None) -> tuple[str, int | None] | None:
@@ -99,15 +101,13 @@ def _imprimitive(inspector: Inspector, decision: Decision, claim: GroupClaim) ->
         phi = f.logarithmic_derivative
         return (claim.family, claim.n) == ("dicyclic", 2) and any((*phi.num.parts[1:], *phi.den.parts[1:]))
     residues = dict(rational_residues(f.theta) or [])
-    orders = [2 * residues.get(point.factor, Fraction(0)) for point in points[:-1]]
-    zeros = f.P.degree
-    finite = sum((e * point.factor.degree for e, point in zip(orders, points, strict=False)), Fraction(2 * zeros))
-    orders.append(4 - finite)
-    if any(e.denominator > 1 for e in orders) or set(residues) - {point.factor for point in points[:-1]}:
+    e = [2 * residues.pop(point.factor, Fraction(0)) for point in points[:-1]]
+    e.append(4 - sum((k * point.factor.degree for k, point in zip(e, points, strict=False)), Fraction(2 * f.P.degree)))
+    if residues or any(k.denominator > 1 for k in e):
         return False
-    branches = sum(point.factor.degree for e, point in zip(orders, points, strict=True) if e % 2)
-    differences = [point.difference or Fraction(0) for e, point in zip(orders, points, strict=True) if e == 2]
-    differences += [Fraction(1)] if zeros else []
+    branches = sum(point.factor.degree for k, point in zip(e, points, strict=True) if k % 2)
+    differences = {point.difference or Fraction(0) for k, point in zip(e, points, strict=True) if k == 2}
+    differences |= {Fraction(1)} if f.P.degree else set()
     n = lcm(1, *(difference.denominator for difference in differences))
     if branches == 2:  # genus 0
         return (claim.family, claim.n) == ("dicyclic", n)
@@ -115,16 +115,21 @@ def _imprimitive(inspector: Inspector, decision: Decision, claim: GroupClaim) ->
         return (claim.family, claim.n) == ("infinite dihedral", None)
     if claim.family == "dicyclic" and claim.n is not None:
         return claim.n % n == 0 and _dicyclic(inspector, f, riccati.D, claim.form, claim.n)
-    return None if claim.family in ("infinite dihedral", "imprimitive") else False
+    if claim.family == "infinite dihedral" and claim.n is None:
+        A, B, C = riccati.numerators
+        H, budget = RatFunc(B * B - 4 * A * C, (A * riccati.D) ** 2), inspector.budget
+        if not claim.orders or not all(order_holds(H, differences, p, k, budget) for p, k in claim.orders):
+            return False
+        ks = {k for _, k in claim.orders}
+        return len(ks) > 1 or all(inspector.dimension_is_at_most((n * k + 1) % 2, 2 * n * k) for k in ks)
+    return None if claim.family == "imprimitive" else False
 
 
 def _dicyclic(inspector: Inspector, f: SemiInvariant, D: Poly, form: SemiInvariant | None, n: int) -> bool:
     """Is there a rational form of degree 2n that isn't a multiple of f^n, and none for a proper divisor of n?"""
     if form is None or form.degree != 2 * n or not is_rational(form) or form_numerators(inspector.S, form, D) is None:
         return False
-    difference = form.theta - n * f.theta
-    same = difference + RatFunc(form.P.derivative(), form.P) - n * RatFunc(f.P.derivative(), f.P)
-    if not same:
+    if form.logarithmic_derivative == n * f.logarithmic_derivative:
         return False
     powers = (n // int(q) for q, _ in fmpz(n).factor())
     return all(inspector.dimension_is_at_most((k + 1) % 2, 2 * k) for k in powers)

@@ -38,10 +38,10 @@ def rational_residues(theta: RatFunc) -> list[tuple[Poly, Fraction]] | None:
 
     None if there is another pole, also at infinity (theta dx), or another residue.
     """
-    num, den = theta.num, theta.den
+    num, den, residues = theta.num, theta.den, []
     if num and num.degree >= den.degree:
         return None
-    field, slope, residues = den.field, den.derivative(), []
+    field, slope = den.field, den.derivative()
     for p, order in field.factor(den) if num else []:
         above, below = num % p, slope % p
         residue = above[below.degree] / below.lc if order == 1 else None

@@ -1,56 +1,67 @@
 """Local data, computed anew for the checks: orders, exponent differences, logarithms, and bounds.
 
-Written independently of the search: plain recurrences, bounds that are weaker but simpler.  The formulas are those of
+Written independently of the search: bounds that are weaker but simpler.  The formulas are those of
 Kovacic 1986, section 2.1; at infinity they are applied to S(1/z)/z^4 at z = 0.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import isqrt
 from typing import Any
 
-from kovacic.algebra.modular import BadPrimeError, simple_roots, translate
+from flint import nmod_poly
+
+from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
 from kovacic.algebra.poly import Homomorphism, Poly, remainders, sum_of_cofactors
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
 from kovacic.limits import Budget
 from kovacic.verify.residue import exponent_difference_squared
-from kovacic.verify.series import convolving_recurrence
-
-#: For so many points, or more, all remainders modulo their powers are computed together.
-_MANY_POINTS = 100
 
 
 @dataclass(frozen=True)
 class Point:
-    """All roots of an irreducible factor of den, with S = num/den; or infinity, with S(1/z)/z^4 for S."""
+    """All roots of an irreducible factor p of den, of multiplicity `order`, with S = num/den; or infinity, with S(1/z)/z^4.
+
+    S = N/(p^order q) with these N and q modulo p^order.
+    """
 
     factor: Poly
+    order: int
     num: Poly
     den: Poly
-    order: int
+    N: Poly
+    q: Poly
     budget: Budget
     at_infinity: bool = False
-    known: tuple[Poly, Poly] | None = None
 
-    @property
+    @cached_property
     def near(self) -> tuple[Poly, Poly]:
-        """N and q modulo p^order, for S = N/(p^order q); for a double pole N and p'^2 q modulo p."""
-        if self.known:
-            return self.known
-        if self.order == 2:
-            return self.num % self.factor, self.den.derivative().derivative() / 2 % self.factor
-        power = self.factor**self.order
-        return self.num % power, self.den // power % power
+        """N and q; for a double pole N and p'^2 q modulo p."""
+        p = self.factor
+        return (self.N % p, p.derivative() ** 2 * self.q % p) if self.order == 2 else (self.N, self.q)
 
     @cached_property
     def name(self) -> str:
         return "infinity" if self.at_infinity else str(self.factor)
+
+    @property
+    def can_branch(self) -> bool:
+        """Can the square root of an invariant branch here?"""
+        difference = self.difference
+        return self.order % 2 == 1 if self.order > 2 else difference is not None and difference.denominator == 2
+
+    @property
+    def tells_solutions_apart(self) -> bool:
+        """Is a solution with a rational omega one of finitely many local ones?"""
+        if self.order > 2:
+            return self.order % 2 == 0
+        difference = self.difference
+        return self.order > 0 and (difference is None or difference.denominator != 1 or self.logarithm)
 
     @cached_property
     def difference(self) -> Fraction | None:
@@ -73,10 +84,7 @@ class Point:
 
     @cached_property
     def logarithm(self) -> bool:
-        """Is there a logarithm?  True is proven: for Delta = n a positive integer by an obstruction modulo a prime.
-
-        Nothing is claimed where n exceeds the limit for unknown degrees.
-        """
+        """Is there provably a logarithm?  For Delta = n > 0, up to the limit of degrees, by an obstruction modulo a prime."""
         difference = self.difference
         if self.order == 1 or difference == 0:
             return True
@@ -90,26 +98,31 @@ class Point:
             try:
                 root = next(simple_roots(h.keeping_degree(self.factor)), None)
                 if root is not None:
-                    return _obstruction(laurent_numerators(self, h, root, n + 1), n, h.p) != 0
+                    return _is_obstructed(*self.localised(h, root), n)
             except BadPrimeError:
                 pass
         raise AssertionError("the sequence of primes is infinite")
 
+    def localised(self, h: Homomorphism, root: int) -> tuple[Any, Any]:
+        """M and E with S = M/(t^k E) at a root modulo p, k the order of the pole (2 for order 1)."""
+        den = translate(h.keeping_degree(self.den), root)
+        if any(int(den[i]) for i in range(self.order)) or not int(den[self.order]):
+            raise BadPrimeError("the order of a pole changes")
+        return translate(h(self.num), root).left_shift(max(2 - self.order, 0)), den.right_shift(self.order)
+
 
 def points(S: RatFunc, budget: Budget) -> list[Point]:
     """Every singular place, and infinity even if it is ordinary."""
-    factors = S.field.factor(S.den) if S.den.degree else []
-    known: list[tuple[Poly, Poly] | None] = [None] * len(factors)
-    if len(factors) >= _MANY_POINTS:  # modulo a power, the sum of den // power for all of them is that for this one
+    found, factors = list[Point](), S.field.factor(S.den) if S.den.degree else []
+    if factors:  # modulo a power, the sum of den // power for all of them is that for this one
         powers = [p**k for p, k in factors]
         near = zip(factors, remainders(S.num, powers), remainders(sum_of_cofactors(powers), powers), strict=True)
-        known = [(N % p, p.derivative() ** 2 * q % p) if k == 2 else (N, q) for (p, k), N, q in near]
+        found = [Point(p, k, S.num, S.den, N, q, budget) for (p, k), N, q in near]
     # S(1/z)/z^4 = z^-order num/den, where num and den have the coefficients of S.num and S.den in reversed order.
-    order = S.num.degree - S.den.degree + 4 if S.num else 0
-    num, den = S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0))
-    infinity = Point(S.field.poly([0, 1]), num, den, max(order, 0), budget, at_infinity=True)
-    finite = (Point(p, S.num, S.den, k, budget, known=pair) for (p, k), pair in zip(factors, known, strict=True))
-    return [*finite, infinity]
+    x, order = S.field.poly([0, 1]), S.num.degree - S.den.degree + 4 if S.num else 0
+    num, den, power = S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0)), x ** max(order, 0)
+    found.append(Point(x, max(order, 0), num, den, num % power, den // power % power, budget, at_infinity=True))
+    return found
 
 
 def least_valuation(point: Point, m: int) -> int | None:
@@ -128,29 +141,19 @@ def least_valuation(point: Point, m: int) -> int | None:
     return None
 
 
-def _obstruction(s: list[int], n: int, p: int) -> int:
-    """What y = t^((1-n)/2) sum a_k t^k, k (k - n) a_k = sum_(j=1..k) s_j a_(k-j), meets at k = n, for S = sum s_j t^(j-2)."""
-
-    def term(_: Sequence[int], k: int, total: int) -> int:
-        return (total + s[k]) * (pow(k * (k - n), -1, p) if k < n else 1)
-
-    return convolving_recurrence([1], n + 1, p, term, s)[n]
-
-
-def laurent_numerators(point: Point, h: Homomorphism, root: int, count: int) -> list[int]:
-    """s_0, ..., s_(count-1) with S = t^(-k) sum s_j t^j at a root modulo p, k the order of the pole (2 for order 1)."""
-    k = max(point.order, 2)
-    den = translate(h.keeping_degree(point.den), root)
-    num = translate(h(point.num), root).left_shift(k - point.order)
-    if any(int(den[i]) for i in range(point.order)) or not int(den[point.order]):
-        raise BadPrimeError("the order of a pole changes")
-    return coefficients(num.mul_low(den.right_shift(point.order).inverse_series_trunc(count), count), count)
+def _is_obstructed(M: Any, E: Any, n: int) -> bool:
+    """Is there no y = t^e (1 + O(t)), e = (1-n)/2, with t^2 E y'' = M y?  Its terms below t^n exist; that one has no pivot."""
+    e = (1 - n) * pow(2, -1, E.modulus())
+    u = correction(M, E, nmod_poly([e], E.modulus()), 1, n)
+    slope = u.derivative().left_shift(1)
+    rest = (E * (e * (e - 1))) * u + E * (2 * e * slope + u.derivative().derivative().left_shift(2)) - M * u
+    return bool(rest[n])
 
 
-def coefficients(series: Any, count: int) -> list[int]:
-    """The coefficients of a series modulo p that is known to `count` terms."""
-    terms = [int(term) for term in series.coeffs()]
-    return terms + [0] * (count - len(terms))
+def correction(M: Any, E: Any, start: Any, nu: int, count: int) -> Any:
+    """u = 1 + O(t), to `count` terms, with u exp(int t^-nu start) a solution of t^(2 nu) E y'' = M y, where there is one."""
+    rate = start.derivative().left_shift(nu) - (nu * start).left_shift(nu - 1) + start * start
+    return series_solution(E.left_shift(nu), 2 * start * E, (rate * E - M).right_shift(nu), count)
 
 
 @dataclass(frozen=True)
@@ -201,9 +204,7 @@ def zero_counts(all_points: list[Point]) -> ZeroCounts | None:
 
 def _trace_of_difference(point: Point) -> Fraction | None:
     """The trace over K, up to sign, of Delta, or of b/a at an irregular point; of an irrational trace the first coordinate.
-
-    None if it can be seen that Delta, or a, doesn't lie in K[x]/p.
-    """
+    None if it can be seen that Delta, or a, doesn't lie in K[x]/p."""
     p, k = point.factor, point.order
     num, bottom = point.near
     # Delta^2 = 1 + 4b with b = N/(p'^2 q), up to a square; or a^2 = N/q, up to the squares of q and of powers of p'

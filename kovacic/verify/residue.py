@@ -11,17 +11,13 @@ there, so that no root leaves K; the residue of R/(q p^nu), an element of K[x]/p
 
 from __future__ import annotations
 
+from functools import reduce
+
 from kovacic.algebra.poly import Poly
 
 
 def exponent_difference_squared(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
-    """(2 r)^2 as an element of K[x]/p, for the residue r of sqrt(S) at the class of x; S = N/(p^(2 nu) q).
-
-    >>> from kovacic.algebra.rationals import QQ
-    >>> x, one = QQ.poly([0, 1]), QQ.poly([1])
-    >>> str(exponent_difference_squared(x * 6 + 1, one, x, 2))  # sqrt(S) = 1/x^2 + 3/x + ...
-    '36'
-    """
+    """(2 r)^2 as an element of K[x]/p, for the residue r of sqrt(S) at the class of x: 36 for sqrt(S) = 1/x^2 + 3/x + ..."""
     modulus = p**nu
     q = q % modulus
     radicand = N % modulus * q % modulus
@@ -52,22 +48,17 @@ def _constant(value: Poly, p: Poly, nu: int) -> Poly:
 
 
 def _at(polynomial: Poly, theta: Poly, modulus: Poly) -> Poly:
-    value = theta * 0
-    for power in range(polynomial.degree, -1, -1):
-        value = (value * theta + polynomial[power]) % modulus
-    return value
+    return reduce(lambda value, c: (value * theta + c) % modulus, reversed([*polynomial]), theta * 0)
 
 
 def residue(H: Poly, p: Poly, nu: int) -> Poly:
     """The residue of H/p^nu at the class of x in K[x]/p: B p'/p^e = (-B/((e-1) p^(e-1)))' + B'/((e-1) p^(e-1)) for e > 1."""
     slope = p.derivative()
-    inverse = slope.inverse_modulo(p)
+    inverse, carried = slope.inverse_modulo(p), H * 0
     *digits, last = _digits(H, p, nu)
-    carried = H * 0
     for e, digit in zip(range(nu, 1, -1), digits, strict=True):
-        numerator = digit + carried
-        B = numerator * inverse % p
-        carried = (numerator - B * slope) // p + B.derivative() / (e - 1)
+        B = (digit + carried) * inverse % p
+        carried = (digit + carried - B * slope) // p + B.derivative() / (e - 1)
     return (last + carried) * inverse % p
 
 
