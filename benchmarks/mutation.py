@@ -5,9 +5,9 @@
 
 A fault is a comparison, an arithmetic or a logical operator changed into its neighbour, a whole number raised by one, a
 condition negated, a refusal left out, or a predicate that is always true or always false.  It is killed when a test fails
-or the run takes too much processor time.  Each runs in a process of its own, in which the changed module replaces the
-true one; no file is changed.  Writes benchmarks/results/mutation.md and mutation.json, with every survivor; those in EXPLAINED are faults
-that change no answer, and say why.
+or the run takes too much processor time.  Each runs in a process of its own, in which the changed module replaces the true
+one; no file is changed.  Writes benchmarks/results/mutation.md and mutation.json, with every survivor; those in EXPLAINED
+are faults that change no answer, and say why.
 
 Method: R. DeMillo, R. Lipton and F. Sayward, "Hints on test data selection", Computer 11 (1978).
 """
@@ -49,9 +49,8 @@ PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     ),
     "bounds": (
         tuple(f"kovacic/enclosure/{name}.py" for name in ("t*", "fr*", "exponential", "s*", "recessive")),
-        ("tests/test_enclosure_defect.py", "tests/test_enclosure_constants.py", "tests/test_enclosure_singular.py",
-         "tests/test_enclosure_values.py", "tests/test_enclosure*.py"),
-    ),  # fmt: skip
+        tuple(f"tests/test_enclosure_{name}.py" for name in ("defect", "constants", "singular", "values", "*")),
+    ),
 }
 #: Survivors that change no answer: "file: function: fault", and why.
 EXPLAINED: dict[str, str] = {
