@@ -16,8 +16,9 @@ from hypothesis import strategies as st
 
 from kovacic.algebra import modular
 from kovacic.algebra.extension import AlgebraicField, norm
+from kovacic.algebra.factors import product, remainders
 from kovacic.algebra.lifting import Lifter, prime, rational_reconstruction
-from kovacic.algebra.poly import Poly, product, remainders
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.algebra.recurrence import polynomial_solution
@@ -280,11 +281,11 @@ def test_hermite_and_legendre_polynomials(degree: int) -> None:
         (QQ.poly([1, 0, -1]), QQ.poly([0, -2]), QQ.poly([degree * (degree + 1)]), sympy.legendre(degree, x)),
     ]
     for second, first, zeroth, expected in cases:
-        found = polynomial_solution(second, first, zeroth, degree, lambda: None)
+        found = polynomial_solution(second, first, zeroth, degree)
         reference = [Fraction(int(c.p), int(c.q)) for c in sympy.Poly(expected, x).monic().all_coeffs()[::-1]]
         assert found is not None
         assert list(found.coefficients()) == reference
-        assert polynomial_solution(second, first, zeroth, degree + 1, lambda: None) is None
+        assert polynomial_solution(second, first, zeroth, degree + 1) is None
 
 
 def test_a_resonance_is_resolved() -> None:
@@ -296,11 +297,11 @@ def test_a_resonance_is_resolved() -> None:
     w2 = target * other.derivative() - other * target.derivative()
     w1 = -(target * other.derivative().derivative() - other * target.derivative().derivative())
     w0 = target.derivative() * other.derivative().derivative() - other.derivative() * target.derivative().derivative()
-    found = polynomial_solution(w2, w1, w0, 3, lambda: None)
+    found = polynomial_solution(w2, w1, w0, 3)
     assert found is not None
     assert not w2 * found.derivative().derivative() + w1 * found.derivative() + w0 * found
-    assert polynomial_solution(w2, w1, w0, 1, lambda: None) == other.monic()
-    assert polynomial_solution(w2, w1, w0, 2, lambda: None) is None
+    assert polynomial_solution(w2, w1, w0, 1) == other.monic()
+    assert polynomial_solution(w2, w1, w0, 2) is None
     assert x.degree == 1
 
 

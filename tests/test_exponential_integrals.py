@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from sympy import Ei, erf, erfi, exp
 
 import kovacic
-from kovacic.algebra.combination import combination
+from kovacic.algebra.factors import combination
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.exponential import integrate_composite

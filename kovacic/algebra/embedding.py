@@ -10,10 +10,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import count
-from math import isqrt
 from typing import Any
 
-from flint import acb, arb, ctx, fmpq, fmpq_mat, fmpz, fmpz_poly
+from flint import acb, arb, ctx, fmpq, fmpq_mat, fmpz_poly
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Poly
@@ -23,8 +22,6 @@ from kovacic.algebra.rationals import QQ
 _PRECISION = 512
 #: What is smaller than this is zero, where it is known that one of several candidates is.
 _TINY_BITS = 200
-#: Integers up to this size are factored, to write sqrt(8) as 2*sqrt(2).
-_FACTORED_BITS = 160
 
 
 def approximation(constant: Poly) -> Any:
@@ -100,7 +97,7 @@ def adjoined_root(factor: Poly, target: Any, name: str) -> tuple[Poly, Poly]:
 def element(field: AlgebraicField, coordinates: Sequence[Fraction]) -> Poly:
     """The constant with these coordinates over the field below; those that are missing are 0."""
     padded = [*coordinates, *[Fraction(0)] * (field.dimension - len(coordinates))]
-    return ExtensionPoly.make(field, [field.base.poly([c]) for c in padded])
+    return ExtensionPoly(field, tuple(field.base.poly([c]) for c in padded))
 
 
 def substituted(constant: Poly, theta: Poly) -> Poly:
@@ -154,14 +151,3 @@ def _roots(modulus: Poly, target: Any) -> list[Any]:
 def _fraction(value: Any) -> Fraction:
     mantissa, exponent = value.mid().man_exp()
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-
-
-def square_part(value: Fraction) -> tuple[Fraction, int]:
-    """`(s, d)` with value = s**2 d, d an integer, squarefree where the numbers are small enough to be factored."""
-    d, outer = value.numerator * value.denominator, 1
-    if d.bit_length() <= _FACTORED_BITS:
-        for prime, exponent in fmpz(abs(d)).factor():
-            outer *= int(prime) ** (exponent // 2)
-    elif d > 0 and isqrt(d) ** 2 == d:
-        outer = isqrt(d)
-    return Fraction(outer, value.denominator), d // outer**2

@@ -14,18 +14,14 @@ from fractions import Fraction
 from math import lcm
 from typing import Any
 
-from flint import fmpq, fmpz
+from flint import fmpq
 
 from kovacic.algebra import splitting
-from kovacic.algebra.lattice import Ideals
 from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
-from kovacic.algebra.rationals import QQ, to_fraction
+from kovacic.algebra.rationals import RationalPoly, square_part
 from kovacic.algebra.traces import coefficients_from_traces, power_sums
-
-#: Bits of the primes whose squares are taken out of a radicand.
-_SMOOTH_BITS = 15
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +58,7 @@ class AlgebraicField(Field):
     def generator(self) -> ExtensionPoly:
         """The constant c."""
         zero, one = self.base.poly([]), self.base.poly([1])
-        return ExtensionPoly.make(self, [zero, one, *[zero] * (self.dimension - 2)])
+        return ExtensionPoly(self, (zero, one, *[zero] * (self.dimension - 2)))
 
     def poly(self, coefficients: Iterable[Scalar | Poly]) -> ExtensionPoly:
         parts: list[list[Scalar | Poly]] = [[] for _ in range(self.dimension)]
@@ -74,7 +70,7 @@ class AlgebraicField(Field):
                 parts[0].append(coefficient)
                 for target in parts[1:]:
                     target.append(0)
-        return ExtensionPoly.make(self, [self.base.poly(part) for part in parts])
+        return ExtensionPoly(self, tuple(self.base.poly(part) for part in parts))
 
     def extends(self, other: Field) -> bool:
         return self.base == other or self.base.extends(other)
@@ -83,7 +79,7 @@ class AlgebraicField(Field):
         if polynomial.field != self.base:
             polynomial = self.base.embed(polynomial)
         zero = self.base.poly([])
-        return ExtensionPoly.make(self, [polynomial, *[zero] * (self.dimension - 1)])
+        return ExtensionPoly(self, (polynomial, *[zero] * (self.dimension - 1)))
 
     def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
         remaining = polynomial.monic()
@@ -114,7 +110,7 @@ class AlgebraicField(Field):
         return splitting.bundles(self.base, self.modulus, allowed)
 
     def collector(self, shape: tuple[int, ...]) -> Collector:
-        return Ideals(self.dimension, shape) if self._splits_rarely else self.base.collector(shape)
+        return splitting.Ideals(self.dimension, shape) if self._splits_rarely else self.base.collector(shape)
 
     def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
         if self._splits_rarely:
@@ -123,7 +119,7 @@ class AlgebraicField(Field):
 
     def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
         parts, n = self.base.assemble(coordinates), self.dimension
-        return [ExtensionPoly.make(self, parts[i : i + n]) for i in range(0, len(parts), n)]
+        return [ExtensionPoly(self, tuple(parts[i : i + n])) for i in range(0, len(parts), n)]
 
     def rational_value(self, constant: Poly) -> Fraction | None:
         if not isinstance(constant, ExtensionPoly) or constant.field != self:
@@ -162,13 +158,6 @@ class ExtensionPoly(Poly):
     def __init__(self, field: AlgebraicField, parts: tuple[Poly, ...]) -> None:
         object.__setattr__(self, "_field", field)
         object.__setattr__(self, "parts", parts)
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError("polynomials are immutable")
-
-    @classmethod
-    def make(cls, field: AlgebraicField, parts: Sequence[Poly]) -> ExtensionPoly:
-        return cls(field, tuple(parts))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return ExtensionPoly, (self._field, self.parts)
@@ -324,18 +313,5 @@ def adjoined_square_root(field: Field, value: Poly) -> Poly:
     root = field.sqrt(value)
     if root is not None:
         return root
-    radicand, factor = _without_squares(field, value)
+    factor, radicand = square_part(value.constant()) if isinstance(value, RationalPoly) else (1, value)
     return AlgebraicField(field, field.poly([-radicand, 0, 1])).generator * factor
-
-
-def _without_squares(field: Field, value: Poly) -> tuple[Poly, Poly]:
-    """`(r, f)` with value = r f^2; over Q, r is an integer without the squares of small primes."""
-    one = field.poly([1])
-    if field != QQ:
-        return value, one
-    fraction = to_fraction(value.rational_coefficients()[0])
-    product, radicand, factor = fraction.numerator * fraction.denominator, 1, 1
-    for p, exponent in fmpz(abs(product)).factor_smooth(_SMOOTH_BITS):
-        radicand *= int(p) ** (exponent % 2)
-        factor *= int(p) ** (exponent // 2)
-    return field.poly([radicand if product > 0 else -radicand]), field.poly([factor]) / fraction.denominator

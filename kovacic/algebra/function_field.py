@@ -15,11 +15,12 @@ from typing import Any
 
 from flint import Ordering, fmpz_mpoly_ctx
 
-from kovacic.algebra.embedding import square_part
 from kovacic.algebra.interpolation import Evaluation, Samples
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
-from kovacic.algebra.sparse import by_power, constant_term, factorisation, format_terms, laurent_constant, square_root
+from kovacic.algebra.rationals import square_part
+from kovacic.algebra.sparse import by_power, constant_term, factorisation, laurent_constant, square_root
+from kovacic.algebra.text import joined_monomials
 from kovacic.limits import check_time
 
 #: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.
@@ -165,9 +166,6 @@ class FunctionPoly(Poly):
         object.__setattr__(self, "num", num)
         object.__setattr__(self, "den", den)
 
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError("polynomials are immutable")
-
     def __reduce__(self) -> tuple[Any, ...]:
         return _from_key, (self._field, *self.key())
 
@@ -222,9 +220,8 @@ class FunctionPoly(Poly):
         field, context = self._field, self._field.context
         if other.degree == 0:
             return self._mul(other.inverse()), field.poly([])
-        x, lead, n = context.gen(0), other.lc.num, other.degree
+        x, lead, n = context.gen(0), other._columns()[-1], other.degree
         scale, quotient, remainder = context.constant(1), context.constant(0), self.num
-        lead = other._columns()[-1]
         while not remainder.is_zero() and (degree := int(remainder.degrees()[0])) >= n:
             top = FunctionPoly(field, remainder, scale)._columns()[-1]
             common = top.gcd(lead)
@@ -302,7 +299,10 @@ class FunctionPoly(Poly):
         return max((int(c).bit_length() for c in values), default=0)
 
     def coefficient_strings(self) -> list[str]:
-        return [format_terms(c.num, self._field.names) for c in self]
+        return [
+            joined_monomials({tuple(map(int, e[1:])): int(c) for e, c in one.num.to_dict().items()}, self._field.names)
+            for one in self
+        ]
 
     def value_at(self, values: Sequence[Poly | Scalar], field: Field) -> Poly:
         """The polynomial over `field` in which the parameters have these values, constants of that field.

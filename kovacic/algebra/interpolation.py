@@ -60,11 +60,10 @@ class Samples(Collector):
     A polynomial is proposed as the list of its coefficients, pairs (N, D) of integer coefficients by exponents.
     """
 
-    __slots__ = ("_points", "_shape", "_unknowns", "_values", "primes_used")
+    __slots__ = ("_points", "_unknowns", "_values")
 
     def __init__(self, parameters: int, shape: tuple[int, ...]) -> None:
-        self.primes_used = 0
-        self._shape = shape
+        super().__init__(shape)
         self._points: dict[int, list[_Exponents]] = {}
         self._values: dict[int, list[list[int]]] = {}
         self._unknowns = [_Unknown(parameters) for _ in range(sum(shape))]
@@ -97,7 +96,7 @@ class Samples(Collector):
                 return None
             functions.append(parts)
         following = iter(functions)
-        return [list(islice(following, length)) for length in self._shape]
+        return [list(islice(following, length)) for length in self.shape]
 
 
 class _Unknown:

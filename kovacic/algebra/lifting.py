@@ -1,7 +1,7 @@
 """From images modulo primes back to rational numbers: Chinese remainders and rational reconstruction.
 
 A field reduces its elements to coordinates modulo p (`Field.coordinates`); these are collected (here for Q, in
-`interpolation` and `lattice` for other fields), and the field puts them together again (`Field.assemble`).
+`interpolation` and `splitting` for other fields), and the field puts them together again (`Field.assemble`).
 """
 
 from __future__ import annotations
@@ -89,14 +89,12 @@ class Lifter:
 class Residues(Collector):
     """Rational polynomials modulo the product of the primes so far: the vector of all their coefficients."""
 
-    __slots__ = ("_modulus", "_next_attempt", "_residue", "primes_used", "shape")
+    __slots__ = ("_modulus", "_residue")
 
     def __init__(self, shape: tuple[int, ...]) -> None:
-        self.shape = shape
-        self.primes_used = 0
+        super().__init__(shape)
         self._modulus = 1
         self._residue: Any = fmpz_poly([])
-        self._next_attempt = 1
 
     def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:
         p = homomorphism.p
@@ -109,13 +107,8 @@ class Residues(Collector):
         else:
             self._residue = _to_integers(flat)
         self._modulus *= p
-        self.primes_used += 1
-        if self.primes_used < self._next_attempt:
+        if not self._is_due():
             return None
-        self._next_attempt = self.primes_used + 1 + self.primes_used // 3
-        return self._reconstruct()
-
-    def _reconstruct(self) -> list[Any] | None:
         residues = [int(c) for c in self._residue.coeffs()]
         vector = reconstruct_vector(residues + [0] * (sum(self.shape) - len(residues)), self._modulus)
         if vector is None:

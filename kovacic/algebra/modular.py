@@ -225,19 +225,3 @@ def square_root_series(series: Any, order: int, root: int) -> Any:
 def simple_roots(polynomial: Any) -> Iterator[int]:
     """The simple roots in F_p, in increasing order."""
     return iter(sorted(int(root) for root, multiplicity in polynomial.roots() if multiplicity == 1))
-
-
-def multiplicity(polynomial: Any, factor: Any) -> int:
-    """How often a factor divides a polynomial, by the factor's powers to the exponents 1, 2, 4, ... and back."""
-    powers, found = [factor], 0
-    while True:
-        quotient, rest = divmod(polynomial, powers[-1])
-        if rest:
-            break
-        polynomial, found = quotient, 2 * found + 1
-        powers.append(powers[-1] * powers[-1])
-    for k in range(len(powers) - 2, -1, -1):
-        quotient, rest = divmod(polynomial, powers[k])
-        if not rest:
-            polynomial, found = quotient, found + 2**k
-    return found

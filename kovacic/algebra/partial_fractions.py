@@ -9,7 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from kovacic.algebra.poly import Poly, squarefree_factors
+from kovacic.algebra.factors import squarefree_factors
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import check_time
 

@@ -14,21 +14,25 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
-from functools import reduce
 from math import gcd, lcm
-from operator import mul
 from typing import Any, Self
 
-from kovacic.algebra.modular import BadPrimeError, multiplicity
-from kovacic.limits import check_time
+from kovacic.algebra.modular import BadPrimeError
+from kovacic.algebra.text import joined_terms, quotient_text
 
 Scalar = int | Fraction
 
-#: So many equal factors are removed one after the other; above, it is quicker to find out first how many there are.
-_REMOVED_ONE_BY_ONE = 16
+
+class Immutable:
+    """What is set when it is made, by `object.__setattr__`, stays as it is."""
+
+    __slots__ = ()
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("polynomials and rational functions are immutable")
 
 
-class Poly(ABC):
+class Poly(Immutable, ABC):
     """A polynomial over `self.field`, immutable and hashable; arithmetic with `+ - * ** // % divmod` and scalars.
 
     The degree of the zero polynomial is -1.  A polynomial over a field combines with one over an extension of that field;
@@ -209,19 +213,20 @@ class Poly(ABC):
 
     def exact_quotient(self, divisor: Poly) -> Self | None:
         """`self / divisor` where the division leaves no remainder, else None."""
+        if self.degree < divisor.degree:
+            return None if self else self
         quotient, remainder = divmod(self, divisor)
         return None if remainder else quotient
 
     def remove(self, factor: Poly) -> tuple[Self, int]:
         """`(q, k)` with `self = q * factor**k` and k as large as possible; self must not be zero."""
-        rest, count = self, 0
-        while rest.degree >= factor.degree and (quotient := rest.exact_quotient(factor)) is not None:
-            rest, count = quotient, count + 1
-            if count == _REMOVED_ONE_BY_ONE:
-                more = self.field.multiplicity_bound(rest, factor)
-                at_once = rest.exact_quotient(factor**more)
-                if at_once is not None:
-                    return at_once, count + more
+        rest, count, powers = self, 0, [factor]
+        while (quotient := rest.exact_quotient(powers[-1])) is not None:
+            rest, count = quotient, 2 * count + 1
+            powers.append(powers[-1] * powers[-1])
+        for k in range(len(powers) - 2, -1, -1):
+            if (quotient := rest.exact_quotient(powers[k])) is not None:
+                rest, count = quotient, count + 2**k
         return rest, count
 
     def reversed(self, shift: int = 0) -> Self:
@@ -269,21 +274,7 @@ class Poly(ABC):
 
     def integer_str(self, variable: str) -> str:
         """Python syntax for a polynomial whose coefficients have integer coordinates."""
-        terms: list[str] = []
-        coefficients = self.coefficient_strings()
-        for power in range(len(coefficients) - 1, -1, -1):
-            coefficient = coefficients[power]
-            if coefficient == "0":
-                continue
-            if power == 0:
-                terms.append(coefficient)
-                continue
-            monomial = variable if power == 1 else f"{variable}**{power}"
-            if coefficient in ("1", "-1"):
-                terms.append(coefficient[:-1] + monomial)
-            else:
-                terms.append(f"({coefficient})*{monomial}" if " " in coefficient else f"{coefficient}*{monomial}")
-        return " + ".join(terms).replace("+ -", "- ") if terms else "0"
+        return joined_terms(self.coefficient_strings(), variable)
 
     def __str__(self) -> str:
         return self.to_str()
@@ -295,50 +286,7 @@ class Poly(ABC):
 def quotient_str(num: Poly, den: Poly, variable: str) -> str:
     """`num/den`, in lowest terms, in Python/SymPy syntax with integer coefficients."""
     num, den = num.field.ground.cleared(num, den)
-    above = num.integer_str(variable)
-    if den == 1:
-        return above
-    return f"{_parenthesised(above, ' ')}/{_parenthesised(den.integer_str(variable), ' *')}"
-
-
-def _parenthesised(text: str, separators: str) -> str:
-    return f"({text})" if any(separator in text.lstrip("-").replace("**", "^") for separator in separators) else text
-
-
-def product(factors: Sequence[Poly]) -> Poly:
-    """The product of at least one polynomial, by halves, which is faster for many."""
-    half = len(factors) // 2
-    return product(factors[:half]) * product(factors[half:]) if half > 2 else reduce(mul, factors)
-
-
-def squarefree_factors(polynomial: Poly) -> list[tuple[Poly, int]]:
-    """(p, k): the squarefree product p of the factors of multiplicity k, for k in rising order [Yun 1976]."""
-    found, k, rest = [], 0, polynomial.gcd(polynomial.derivative())
-    radical = polynomial // rest
-    while radical.degree > 0:
-        k, following = k + 1, radical.gcd(rest)
-        if radical.degree > following.degree:
-            found.append((radical // following, k))
-        radical, rest = following, rest // following
-    return found
-
-
-def remainders(polynomial: Poly, moduli: Sequence[Poly]) -> list[Poly]:
-    """The polynomial modulo each of the moduli, by way of their products [Modern Computer Algebra, sec. 10.1]."""
-    check_time()
-    rest = polynomial % product(moduli)
-    half = len(moduli) // 2
-    return [rest] if not half else remainders(rest, moduli[:half]) + remainders(rest, moduli[half:])
-
-
-def sum_of_cofactors(factors: Sequence[Poly]) -> Poly:
-    """The sum of `product(factors) // factor`, which is congruent to that quotient modulo each factor."""
-    half = len(factors) // 2
-    if not half:
-        return factors[0].field.poly([1])
-    check_time()
-    left, right = factors[:half], factors[half:]
-    return sum_of_cofactors(left) * product(right) + product(left) * sum_of_cofactors(right)
+    return quotient_text(num.integer_str(variable), den.integer_str(variable))
 
 
 class Homomorphism(ABC):
@@ -368,13 +316,23 @@ class Homomorphism(ABC):
 class Collector(ABC):
     """Images of polynomials of one shape (how many, and how long), from which their coordinates are guessed."""
 
-    __slots__ = ()
+    __slots__ = ("_next_attempt", "primes_used", "shape")
 
-    primes_used: int
+    def __init__(self, shape: tuple[int, ...]) -> None:
+        self.shape = shape
+        self.primes_used, self._next_attempt = 0, 1
 
     @abstractmethod
     def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:
         """Add the images under a homomorphism; a proposal when one is due and there is one, else None."""
+
+    def _is_due(self) -> bool:
+        """One more prime was used: with which the next guess is made, after a third more of them than for the last one."""
+        self.primes_used += 1
+        if self.primes_used < self._next_attempt:
+            return False
+        self._next_attempt = self.primes_used + 1 + self.primes_used // 3
+        return True
 
 
 class Field(ABC):
@@ -443,15 +401,6 @@ class Field(ABC):
     def homomorphisms(self) -> Iterator[Homomorphism]:
         """One homomorphism for each usable prime."""
         return (bundle[0] for bundle in self.bundles())
-
-    def multiplicity_bound(self, polynomial: Poly, factor: Poly) -> int:
-        """How often a factor divides a polynomial modulo a prime: as often as over the field, or (improbably) oftener."""
-        for h in self.homomorphisms():
-            try:
-                return multiplicity(h.keeping_degree(polynomial), h.keeping_degree(factor))
-            except BadPrimeError:
-                pass
-        raise AssertionError("the sequence of primes is infinite")
 
     def scalar(self, polynomial: Poly, power: int) -> Any:
         """The coefficient of `x**power` (0 for negative powers) in the field's fastest type for `+ - * /` and truth."""

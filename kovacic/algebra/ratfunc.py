@@ -6,11 +6,11 @@ from fractions import Fraction
 from functools import partial
 from typing import Any
 
-from kovacic.algebra.poly import Field, Poly, Scalar, quotient_str
+from kovacic.algebra.poly import Field, Immutable, Poly, Scalar, quotient_str
 from kovacic.limits import check_time
 
 
-class RatFunc:
+class RatFunc(Immutable):
     """`num/den` in lowest terms, den monic; arithmetic with `+ - * / **`, polynomials and scalars.
 
     >>> from kovacic.algebra.rationals import QQ
@@ -46,9 +46,6 @@ class RatFunc:
                 num, den = num * leading, den * leading
         object.__setattr__(self, "num", num)
         object.__setattr__(self, "den", den)
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError("rational functions are immutable")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return partial(RatFunc, reduced=True), (self.num, self.den)
@@ -127,12 +124,9 @@ class RatFunc:
     def __call__(self, point: RatFunc | Poly | Scalar) -> RatFunc:
         """The value at a point, or the composition with a rational function.  Raises ZeroDivisionError at a pole."""
         if not isinstance(point, RatFunc):
-            return RatFunc(self._as_poly(self.num(point)), self._as_poly(self.den(point)))
+            return RatFunc(self.num(point), self.den(point))
         top = max(self.num.degree, self.den.degree)
         return RatFunc(_homogenise(self.num, point, top), _homogenise(self.den, point, top))
-
-    def _as_poly(self, value: Any) -> Poly:
-        return value if isinstance(value, Poly) else self.field.poly([value])
 
     def derivative(self) -> RatFunc:
         num, den = self.num, self.den

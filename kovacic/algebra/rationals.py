@@ -9,7 +9,7 @@ from functools import lru_cache
 from math import inf
 from typing import Any
 
-from flint import fmpq, fmpq_poly, fmpz_poly, nmod_poly
+from flint import fmpq, fmpq_poly, fmpz, fmpz_poly, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.apart import last_of
@@ -26,6 +26,8 @@ _LONG_BITS = 1000
 _ROOT_DEGREE = 50
 #: Above this degree polynomials are factored in a process that can be stopped.
 _LONG_DEGREE = 400
+#: Integers up to this size are factored, to write sqrt(8) as 2*sqrt(2); of larger ones factors of so many bits are found.
+_FACTORED_BITS, _SMOOTH_BITS = 160, 15
 #: FLINT's time for a power per bit of the result, and for a gcd per bit of a coefficient and square of the degree.
 _POWER_SECONDS, _GCD_SECONDS = 1.2e-9, 1.2e-11
 
@@ -40,6 +42,15 @@ def to_fraction(value: Any) -> Fraction:
     return Fraction(int(value.p), int(value.q))
 
 
+def square_part(value: Fraction) -> tuple[Fraction, int]:
+    """`(s, d)` with value = s**2 d, d an integer, squarefree where the numbers are small enough to be factored."""
+    d, outer = fmpz(value.numerator * value.denominator), 1
+    factors = abs(d).factor() if d.bit_length() <= _FACTORED_BITS else abs(d).factor_smooth(_SMOOTH_BITS)
+    for factor, exponent in factors:
+        outer *= int(factor) ** (exponent // 2) * (int(factor.isqrt()) if exponent % 2 and factor.is_square() else 1)
+    return Fraction(outer, value.denominator), int(d) // outer**2
+
+
 class RationalPoly(Poly):
     """A polynomial over the rational numbers, on flint's `fmpq_poly`."""
 
@@ -49,9 +60,6 @@ class RationalPoly(Poly):
 
     def __init__(self, rep: Any) -> None:
         _set_rep(self, rep)
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError("polynomials are immutable")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _rational_poly_from_key, self.key()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import lcm
 from operator import mul
@@ -12,6 +12,7 @@ from flint import fmpq, fmpq_poly, fmpz, fmpz_poly
 
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ, RationalPoly
+from kovacic.limits import check_time
 
 
 class RationalSeries:
@@ -124,22 +125,22 @@ def _operator(second: Poly, first: Poly, zeroth: Poly) -> _Operator:
     )
 
 
-def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int, check: Callable[[], None]) -> Poly | None:
+def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int) -> Poly | None:
     """The monic P of the given degree with `second P'' + first P' + zeroth P = 0`, or None if there is none.
 
     The coefficients follow from the top: L_0(k) p_k = -sum_(j>0) L_j(k+j) p_(k+j).  L_0 vanishes at the degree and at no
     more than one other k; if that is a smaller natural number, a multiple of the solution that begins there may have to
-    be added.  `check` is called now and then, for a time limit.
+    be added.
     """
     operator = _operator(second, first, zeroth)
     if operator.L(0, degree):
         return None
-    main = _descend(operator, degree, check)
+    main = _descend(operator, degree)
     if main is None:
         return None
     P = main.polynomial
     if any(main.remainder):
-        other = None if main.free is None else _descend(operator, main.free, check)
+        other = None if main.free is None else _descend(operator, main.free)
         if other is None:
             return None
         factor = next((-r / q for r, q in zip(main.remainder, other.remainder, strict=True) if q), None)
@@ -158,13 +159,13 @@ class _Descent:
     remainder: list[Any]
 
 
-def _descend(operator: _Operator, start: int, check: Callable[[], None]) -> _Descent | None:
+def _descend(operator: _Operator, start: int) -> _Descent | None:
     """The solution from x^start downwards; None if a free coefficient meets an obstruction."""
     series, width, free = operator.series(), operator.width, None
     remainder: list[Any] = []
     for k in range(start - 1, -width - 1, -1):
         if k % 64 == 0:
-            check()
+            check_time()
         pivot = operator.L(0, k) if k >= 0 else 0
         obstruction = series.extend(pivot, [operator.L(j, k + j) for j in range(1, min(width, start - k) + 1)])
         if k < 0:

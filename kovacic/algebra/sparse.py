@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import gcd, lcm
 from typing import Any
 
@@ -80,22 +79,3 @@ def square_root(polynomial: Any) -> Any | None:
     except DomainError:
         return None
     return -root if int(root.leading_coefficient()) < 0 else root
-
-
-def format_terms(polynomial: Any, names: Sequence[str]) -> str:
-    """A polynomial in the parameters, in Python syntax."""
-    terms: list[str] = []
-    for exponents, coefficient in polynomial.to_dict().items():
-        powers = [
-            name if exponent == 1 else f"{name}**{exponent}"
-            for name, exponent in zip(names, exponents[1:], strict=True)
-            if exponent
-        ]
-        value = int(coefficient)
-        if not powers:
-            terms.append(str(value))
-        elif abs(value) == 1:
-            terms.append(("-" if value < 0 else "") + "*".join(powers))
-        else:
-            terms.append("*".join([str(value), *powers]))
-    return " + ".join(terms).replace("+ -", "- ") if terms else "0"

@@ -2,7 +2,7 @@
 
 A homomorphism of K(c) to F_p is one of K and a root of c's minimal polynomial modulo p.  Where the minimal polynomial splits
 completely, the images under all roots determine an element modulo p.  In a number field of a large degree such primes are
-rare; then one root for each prime has to do, and `lattice` finds the way back.
+rare; then one root for each prime has to do, and lattice reduction finds the way back: `Ideals`.
 """
 
 from __future__ import annotations
@@ -14,15 +14,17 @@ from functools import cache, lru_cache
 from itertools import islice, tee
 from typing import Any
 
-from flint import nmod_mat, nmod_poly
+from flint import fmpq, fmpq_poly, fmpz_mat, nmod_mat, nmod_poly
 
-from kovacic.algebra.lifting import primes
+from kovacic.algebra.lifting import chinese_remainders, primes
 from kovacic.algebra.modular import BadPrimeError, simple_roots
-from kovacic.algebra.poly import Field, Homomorphism, Poly
+from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly
 from kovacic.algebra.rationals import QQ, RationalHomomorphism
 
 #: From this degree on a number field may have too few primes that split completely; so many primes are tried.
 _LARGE_DEGREE, _TRIED_PRIMES = 4, 12
+#: Bits that a reduced vector must leave unused, so that a chance hit is improbable; exactness comes from verification.
+_SLACK_BITS = 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,3 +138,59 @@ def coordinates(
             [sum((column[j] * row[j] for j in range(n)), nmod_poly([], p)) for column in columns for row in inverse]
         )
     return base_bundle, base_images
+
+
+class Ideals(Collector):
+    """Polynomials over Q(c) modulo the product M of prime ideals of degree 1; proposed as n rational coordinates each.
+
+    The integer vectors (d, v) with sum v_j c^j = d a modulo M form a lattice of determinant M, in which that of a small
+    element a = (v_0 + v_1 c + ...)/d is the shortest one [Lenstra, Lenstra & Lovasz 1982].
+    """
+
+    __slots__ = ("_dimension", "_modulus", "_values")
+
+    def __init__(self, dimension: int, shape: tuple[int, ...]) -> None:
+        super().__init__(shape)
+        self._dimension, self._modulus = dimension, 1
+        self._values = [0] * (1 + sum(shape))  # the image of c, and those of all coefficients
+
+    def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:
+        while isinstance(homomorphism, ExtensionHomomorphism) and isinstance(homomorphism.base, ExtensionHomomorphism):
+            homomorphism = homomorphism.base
+        if not isinstance(homomorphism, ExtensionHomomorphism):
+            raise TypeError("a homomorphism of the number field is expected")
+        values = [homomorphism.root, *(int(c) for image in images for c in image.coeffs())]
+        self._values = chinese_remainders(self._values, self._modulus, values, homomorphism.p)
+        self._modulus *= homomorphism.p
+        if not self._is_due():
+            return None
+        root, *values = self._values
+        powers = [pow(root, k, self._modulus) for k in range(self._dimension)]
+        elements: list[list[Any]] = []
+        for value in values:
+            coordinates = self._element(value, powers)
+            if coordinates is None:
+                return None
+            elements.append(coordinates)
+        following = iter(elements)
+        blocks = [list(islice(following, length)) for length in self.shape]
+        return [fmpq_poly([row[j] for row in block]) for block in blocks for j in range(self._dimension)]
+
+    def _element(self, value: int, powers: list[int]) -> list[Any] | None:
+        """The coordinates of the element with this image, or None as long as the modulus is too small for it."""
+        n = len(powers)
+        if value == 0:
+            return [fmpq(0)] * n
+        rows = [[0, self._modulus, *[0] * (n - 1)], [1, value, *[0] * (n - 1)]]
+        for j in range(1, n):
+            row = [0, -powers[j], *[0] * (n - 1)]
+            row[1 + j] = 1
+            rows.append(row)
+        reduced = fmpz_mat(rows).lll()
+        shortest = min(
+            ([int(reduced[i, k]) for k in range(n + 1)] for i in range(n + 1)), key=lambda v: sum(c * c for c in v)
+        )
+        size = max(abs(c) for c in shortest).bit_length()
+        if shortest[0] == 0 or (n + 1) * size + _SLACK_BITS > self._modulus.bit_length():
+            return None
+        return [fmpq(c, shortest[0]) for c in shortest[1:]]

@@ -20,7 +20,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from kovacic.algebra.combination import combination
+from kovacic.algebra.factors import combination
 from kovacic.algebra.partial_fractions import Residue, prime_part, reduce_poles
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc

@@ -18,7 +18,8 @@ from typing import Any
 from flint import acb, acb_poly, acb_series, arb, ctx
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
-from kovacic.algebra.poly import Field, Poly, squarefree_factors
+from kovacic.algebra.factors import squarefree_factors
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.enclosure.problem import Zeros

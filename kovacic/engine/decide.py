@@ -38,17 +38,18 @@ def decide(S: RatFunc, budget: Budget, *, certify: bool = True) -> Decision:
     """
     exclusions: list[Exclusion] = []
     try:
-        problem = analyse(S, budget)
-        impossible = excluded_by_local_data(problem)
-        for structure, decider in _DECIDERS.items():
-            if structure in impossible:
-                exclusions.append(Exclusion(structure, (impossible[structure],)))
-                continue
-            budget.check()
-            outcome = decider(problem)
-            if isinstance(outcome, Found):
-                return _positive(problem, outcome, tuple(exclusions), certify)
-            exclusions += outcome
+        with budget.watched():
+            problem = analyse(S, budget)
+            impossible = excluded_by_local_data(problem)
+            for structure, decider in _DECIDERS.items():
+                if structure in impossible:
+                    exclusions.append(Exclusion(structure, (impossible[structure],)))
+                    continue
+                budget.check()
+                outcome = decider(problem)
+                if isinstance(outcome, Found):
+                    return _positive(problem, outcome, tuple(exclusions), certify)
+                exclusions += outcome
     except LimitExceeded as limit:
         return Decision(None, tuple(exclusions), undecided=str(limit))
     return Decision(None, tuple(exclusions))

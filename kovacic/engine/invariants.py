@@ -163,4 +163,4 @@ def invariants_modulo(h: Homomorphism, problem: Problem, m: int, bound: Bounds, 
 
 def _closes(h: Homomorphism, problem: Problem, m: int, R0: Poly, P: Any) -> bool:
     """Equation (2) of `riccati`, modulo p: is P really an invariant there, beyond the terms that were looked at?"""
-    return not numerators(h(problem.D), h(problem.T), h(R0), P, m, m + 1, problem.budget)[-1]
+    return not numerators(h(problem.D), h(problem.T), h(R0), P, m, m + 1)[-1]

@@ -72,16 +72,8 @@ def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence
     At a regular place Q is an exponent: (1 + Delta)/2 alone if there is a logarithm.  At an unramified irregular place
     Q = +-[sqrt S] + (nu +- b/a)/2 t^(nu-1) [Kovacic 1986, sec. 3.2].  Empty if a square root doesn't exist modulo p.
     """
-    parts = _all_exponential_parts(equation, place)
-    if exponents is None:
-        return parts
     p, nu = equation.p, equation.nu
-    residues = [e.numerator * pow(e.denominator, -1, p) % p for e in exponents]
-    return [Q for Q in parts if int(Q[nu - 1]) in residues]
-
-
-def _all_exponential_parts(equation: LocalEquation, place: Place) -> list[Any]:
-    p, nu = equation.p, equation.nu
+    allowed = None if exponents is None else [e.numerator * pow(e.denominator, -1, p) % p for e in exponents]
     half = pow(2, -1, p)
     ratio = equation.N.mul_low(equation.E.inverse_series_trunc(nu), nu)
     if place.kind is Kind.REGULAR:
@@ -92,7 +84,8 @@ def _all_exponential_parts(equation: LocalEquation, place: Place) -> list[Any]:
         if difference is None:
             return []
         signs = [1] if place.logarithm or difference == 0 else [1, -1]
-        return [nmod_poly([(1 + sign * difference) * half % p], p) for sign in signs]
+        parts = [nmod_poly([(1 + sign * difference) * half % p], p) for sign in signs]
+        return [Q for Q in parts if allowed is None or int(Q[0]) in allowed]
     if not int(ratio[0]):
         raise BadPrimeError("the leading coefficient at an irregular place vanishes")
     root = square_root(int(ratio[0]), p)
@@ -103,7 +96,8 @@ def _all_exponential_parts(equation: LocalEquation, place: Place) -> list[Any]:
         series = square_root_series(ratio, nu, leading)
         # With S = (a + ... + r t^(nu-1))^2 / t^(2 nu) + O(t^-nu): b = 2 a r, so that b/a = 2 r.
         exponent = (nu * half + int(series[nu - 1])) % p
-        parts.append(series.truncate(nu - 1) + nmod_poly([exponent], p).left_shift(nu - 1))
+        if allowed is None or exponent in allowed:
+            parts.append(series.truncate(nu - 1) + nmod_poly([exponent], p).left_shift(nu - 1))
     return parts
 
 

@@ -24,8 +24,9 @@ from typing import Any
 
 from flint import nmod_poly
 
+from kovacic.algebra.factors import product, remainders, sum_of_cofactors
 from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
-from kovacic.algebra.poly import Field, Poly, product, remainders, sum_of_cofactors
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget
 

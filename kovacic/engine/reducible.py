@@ -82,7 +82,7 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     for bundle in field.bundles():
         problem.budget.check()
         try:
-            parts = [_first_factor_modulo(h, problem.D, P, X, Y) for h in bundle]
+            parts = [_first_factor(h(problem.D), h.keeping_degree(P), h(X), h(Y), pow(2, -1, h.p)) for h in bundle]
         except BadPrimeError:
             continue
         degrees = {zeros.degree() for _, zeros in parts}
@@ -97,10 +97,6 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
             if form.P and form.is_form(problem):
                 return form
     raise AssertionError("the sequence of primes is infinite")
-
-
-def _first_factor_modulo(h: Homomorphism, D: Poly, P: Poly, X: Poly, Y: Poly) -> tuple[Any, Any]:
-    return _first_factor(h(D), h.keeping_degree(P), h(X), h(Y), pow(2, -1, h.p))
 
 
 def _first_factor(D: Any, P: Any, X: Any, Y: Any, half: Any) -> tuple[Any, Any]:
@@ -236,4 +232,4 @@ def _polynomial_part(problem: Problem, R: Poly, degree: int) -> Poly | None:
     """The monic P of this degree with omega = R/D + P'/P: D P'' + 2 R P' + ((R' D - R D' + R^2 - T)/D) P = 0."""
     D = problem.D
     zeroth = (R.derivative() * D - R * D.derivative() + R * R - problem.T).exact_quotient(D)
-    return None if zeroth is None else polynomial_solution(D.over(R.field), 2 * R, zeroth, degree, problem.budget.check)
+    return None if zeroth is None else polynomial_solution(D.over(R.field), 2 * R, zeroth, degree)

@@ -23,10 +23,10 @@ from typing import Any
 from kovacic.algebra.poly import Poly
 from kovacic.decision import Exclusion, Structure
 from kovacic.engine.places import Place, Problem
-from kovacic.limits import Budget
+from kovacic.limits import check_time
 
 
-def numerators(D: Any, T: Any, R: Any, P: Any, m: int, last: int, budget: Budget) -> list[Any]:
+def numerators(D: Any, T: Any, R: Any, P: Any, m: int, last: int) -> list[Any]:
     """A_0, ..., A_last of equation (2), over the field or modulo a prime."""
     sequence, slope = [P], D.derivative()
     for k in range(last):
@@ -35,7 +35,7 @@ def numerators(D: Any, T: Any, R: Any, P: Any, m: int, last: int, budget: Budget
         if k:
             following = (following - (m - k + 1) * (T * sequence[-2])) / (k + 1)
         sequence.append(following)
-        budget.check()
+        check_time()
     return sequence
 
 
@@ -50,7 +50,7 @@ class Form:
     def numerators(self, problem: Problem, last: int | None = None) -> list[Poly]:
         """A_0, ..., A_last of equation (2), by default A_(m+1), which is zero exactly when f is a form in the solutions."""
         count = self.degree + 1 if last is None else last
-        return numerators(problem.D, problem.T, self.R, self.P, self.degree, count, problem.budget)
+        return numerators(problem.D, problem.T, self.R, self.P, self.degree, count)
 
     def is_form(self, problem: Problem) -> bool:
         """Is this really a form in the solutions of the equation?"""

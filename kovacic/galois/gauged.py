@@ -22,8 +22,8 @@ from fractions import Fraction
 from math import gcd, lcm, prod
 from typing import Any
 
+from kovacic.algebra.factors import product
 from kovacic.algebra.partial_fractions import decompose
-from kovacic.algebra.poly import product
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.decision import Decision, SemiInvariant

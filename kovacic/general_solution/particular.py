@@ -6,7 +6,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.algebra.combination import combination
+from kovacic.algebra.factors import combination
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, display

@@ -18,14 +18,13 @@ from kovacic.algebra.embedding import (
     element,
     principal_root,
     refined_root,
-    square_part,
     substituted,
     vanishing_factor,
 )
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.rationals import QQ, square_part
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.given import ENERGY

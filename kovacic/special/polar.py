@@ -37,7 +37,7 @@ def root_modulo(v: Poly, p: Poly, n: int, precision: int) -> Poly | None:
         w = root(v % p, n)
     else:
         extension = AlgebraicField(v.field, p, "_a")
-        element = root(ExtensionPoly.make(extension, [(v % p)[k] for k in range(p.degree)]), n)
+        element = root(ExtensionPoly(extension, tuple((v % p)[k] for k in range(p.degree))), n)
         w = None if element is None else v.field.poly([part[0] for part in element.parts])
     known = 1
     while w is not None and known < precision:

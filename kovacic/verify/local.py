@@ -14,8 +14,9 @@ from typing import Any
 
 from flint import nmod_poly
 
+from kovacic.algebra.factors import remainders, sum_of_cofactors
 from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
-from kovacic.algebra.poly import Homomorphism, Poly, remainders, sum_of_cofactors
+from kovacic.algebra.poly import Homomorphism, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root

@@ -95,7 +95,7 @@ class Formulas:
         field = polynomial.field
         if field.name != _SYMBOL or self.symbol == _SYMBOL:  # any other name belongs to the field of S
             return polynomial
-        return ExtensionPoly.make(AlgebraicField(field.base, field.modulus, self.symbol), polynomial.parts)
+        return ExtensionPoly(AlgebraicField(field.base, field.modulus, self.symbol), polynomial.parts)
 
     def math(self, function: RatFunc | Poly) -> Math:
         """A function or a polynomial; of one that fills more than some screens, the degrees in place of the formula."""
