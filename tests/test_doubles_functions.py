@@ -47,18 +47,18 @@ def ball(k: Fraction, D: tuple[Fraction | int, ...]) -> RatFunc:
 # --- double-doubles --------------------------------------------------------------------------------------------------
 
 
-def exact(pair: Any) -> list[Fraction]:
-    return [Fraction(float(h)) + Fraction(float(r)) for h, r in zip(pair[0], pair[1], strict=True)]
+def exact(pair: dd.Pair) -> list[Fraction]:
+    return [Fraction(float(h)) + Fraction(float(r)) for h, r in zip(pair.hi, pair.lo, strict=True)]
 
 
-def numbers(seed: int, spread: int = 9) -> Any:
+def numbers(seed: int, spread: int = 9) -> dd.Pair:
     rng = np.random.default_rng(seed)
     hi = rng.normal(size=200) * 10.0 ** rng.integers(-spread, spread, 200)
     return dd.two_sum(hi, hi * 2.0**-54 * rng.uniform(-1, 1, 200))
 
 
 def test_sums_and_products_of_doubles_are_exact() -> None:
-    a, b = numbers(1)[0], numbers(2)[0]
+    a, b = numbers(1).hi, numbers(2).hi
     assert exact(dd.two_sum(a, b)) == [Fraction(p) + Fraction(q) for p, q in zip(a, b, strict=True)]
     assert exact(dd.two_product(a, b)) == [Fraction(p) * Fraction(q) for p, q in zip(a, b, strict=True)]
 
@@ -66,35 +66,55 @@ def test_sums_and_products_of_doubles_are_exact() -> None:
 def test_arithmetic_of_pairs_is_good_to_a_hundred_bits() -> None:
     a, b = numbers(3), numbers(4)
     for got, wanted in (
-        (dd.multiply(a, b), [p * q for p, q in zip(exact(a), exact(b), strict=True)]),
-        (dd.divide(a, b), [p / q for p, q in zip(exact(a), exact(b), strict=True)]),
-        (dd.add(a, b), [p + q for p, q in zip(exact(a), exact(b), strict=True)]),
+        (a * b, [p * q for p, q in zip(exact(a), exact(b), strict=True)]),
+        (a / b, [p / q for p, q in zip(exact(a), exact(b), strict=True)]),
+        (a + b, [p + q for p, q in zip(exact(a), exact(b), strict=True)]),
+        (a - b, [p - q for p, q in zip(exact(a), exact(b), strict=True)]),
     ):
         assert all(abs(g / w - 1) < Fraction(2) ** -100 for g, w in zip(exact(got), wanted, strict=True))
-    size = (np.abs(a[0]), np.sign(a[0]) * a[1])
+    size = dd.absolute(a)
     assert all(
         abs(r * r / v - 1) < Fraction(2) ** -100 for r, v in zip(exact(dd.square_root(size)), exact(size), strict=True)
     )
 
 
+def test_an_array_less_a_constant_loses_neither_half() -> None:
+    """Beside zeros of factors, in plain arithmetic."""
+    zeta = numbers(8)
+    for hi, lo in zip(zeta.hi, zeta.lo, strict=True):
+        x, exactly = hi * (1 + 2.0**-40 * np.arange(-3, 4)), Fraction(float(hi)) + Fraction(float(lo))
+        found = [(v, Fraction(float(p)) - exactly) for v, p in zip(x - dd.Pair(hi, lo), x, strict=True)]
+        found += [(v, exactly - Fraction(float(p))) for v, p in zip(dd.Pair(hi, lo) - x, x, strict=True)]
+        assert all(abs(Fraction(float(v)) - wanted) <= Fraction(2) ** -52 * abs(wanted) for v, wanted in found)
+
+
+def test_complex_numbers_are_those_of_python_whatever_is_zero() -> None:
+    parts = [2.0, -3.0, 0.5, 7.0]
+    for a, b, c, d in [parts, [2.0, 0.0, 0.5, 7.0], [2.0, -3.0, 0.5, 0.0], [2.0, 0.0, 0.5, 0.0]]:
+        z, w = complex(a, b), complex(c, d)
+        for kind in (np.array, dd.Pair):
+            p, q = (dd.Complex(kind(v.real), kind(v.imag) if v.imag else None) for v in (z, w))
+            for found, wanted in ((p + q, z + w), (p - q, z - w), (p * q, z * w), (p.reciprocal(), 1 / z)):
+                at = complex(dd.double(found.re), 0.0 if found.im is None else dd.double(found.im))
+                assert at == pytest.approx(wanted, rel=1e-15)
+
+
 def test_logarithms_and_angles_are_good_to_a_hundred_bits() -> None:
     a, b = numbers(5, 100), numbers(6)
-    size = (np.abs(a[0]), np.sign(a[0]) * a[1])
     near_one = dd.two_sum(1 + np.linspace(-1e-3, 1e-3, 50), 1e-18)
     with mpmath.workdps(60):
 
-        def mp(pair: Any) -> list[mpmath.mpf]:
-            return [
-                mpmath.mpf(float(h)) + mpmath.mpf(float(r)) for h, r in zip(*np.broadcast_arrays(*pair), strict=True)
-            ]
+        def mp(pair: dd.Pair) -> list[mpmath.mpf]:
+            halves = zip(*np.broadcast_arrays(pair.hi, pair.lo), strict=True)
+            return [mpmath.mpf(float(h)) + mpmath.mpf(float(r)) for h, r in halves]
 
-        for argument in (size, near_one):
+        for argument in (dd.absolute(a), near_one):
             pairs = zip(mp(dd.log(argument)), mp(argument), strict=True)
             assert all(abs(got - mpmath.log(v)) <= mpmath.mpf(2) ** -100 * abs(mpmath.log(v)) for got, v in pairs)
         c = numbers(7)
-        pairs = zip(mp(dd.angle(b, c)), mp(b), mp(c), strict=True)
+        pairs = zip(mp(dd.angle(dd.Complex(c, b))), mp(b), mp(c), strict=True)
         assert all(abs(got - mpmath.atan2(y, x)) < mpmath.mpf(2) ** -100 for got, y, x in pairs)
-    assert dd.log((np.array([0.0]), np.array([0.0])))[0] == -np.inf
+    assert dd.log(dd.Pair(np.array([0.0]), np.array([0.0]))).hi == -np.inf
 
 
 # --- the promise -----------------------------------------------------------------------------------------------------
@@ -381,7 +401,7 @@ def test_an_inaccurate_function_warns_with_its_measured_error(monkeypatch: pytes
     good = lambdify(solution, interval=(-3, 5))
     assert isinstance(good, ProductForm)
     (a, b, *rest) = good.exponent.polynomial
-    wrong = ((a[0][0] * (1 + 1e-11), 0.0), a[1])
+    wrong = dd.Complex(dd.Pair(a.re.hi * (1 + 1e-11)), a.im)
     bad = dataclasses.replace(good, exponent=dataclasses.replace(good.exponent, polynomial=(wrong, b, *rest)))
     monkeypatch.setattr("kovacic.doubles.lambdify.product_form", lambda *arguments: bad)
     with pytest.warns(AccuracyWarning, match=r"median \d.*worst \d"):

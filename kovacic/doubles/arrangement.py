@@ -2,7 +2,7 @@
 
 - Case 1: y = exp(int theta) P; residues are exponents, poles of higher order go into the exponential.
 - Case 2 on a rational curve s^2 = g: y'/y = phi/2 +- kappa r/s with f = y1 y2, phi = f'/f, and
-  r/s = (C s)' + (sum of rho(a)/(x - a) + rest)/s.  In the parameter t of the curve (`kovacic.doubles.factors`) y'/y dx
+  r/s = (C s)' + (sum of rho(a)/(x - a) + rest)/s.  In the parameter t of the curve (`kovacic.doubles.product_form`) y'/y dx
   has simple poles with constant residues, apart from an exact part: a point (a, s_a) has the parameter t_a, its conjugate
   (a, -s_a) has t_a', and x - a is a constant times (t - t_a)(t - t_a')/D(t) with D = 1, t, 1 + t^2 for line, hyperbola and
   ellipse (where a = -M has t_a = infinity: x - a = 2 M/D).  A simple pole a of phi/2 with residue mu contributes
@@ -17,7 +17,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from flint import acb, acb_poly, arb
@@ -25,9 +25,8 @@ from flint import acb, acb_poly, arb
 from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.structure import OnCurve, build
-from kovacic.doubles.double_double import Complex, pair_of
-from kovacic.doubles.factors import Conic, Factor, RationalFunction, Shape
-from kovacic.doubles.product_form import ProductForm
+from kovacic.doubles.double_double import Complex, Pair
+from kovacic.doubles.product_form import Conic, Factor, ProductForm, RationalFunction, Shape
 from kovacic.doubles.region import Region
 from kovacic.enclosure.closed_form import Exponential, certified, exponentials, omega, value
 from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, zeros
@@ -36,9 +35,6 @@ from kovacic.enclosure.problem import NumericProblem
 
 _SAME = 2.0**-60
 """Balls this close together are the same point or exponent: distinct ones were separated at a far higher precision."""
-
-_WHOLE = 16
-"""Natural exponents up to here are multiplied out."""
 
 _MAX_ZEROS = 200
 """Polynomials of a higher degree are not split into their zeros (which takes degree^4 time)."""
@@ -71,15 +67,7 @@ def _exponential(branch: Exponential, region: Region, base: Point) -> ProductFor
     theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
     powers = [(pole.zeta, pole.coefficients[0]) for pole in theta.poles] + [(z, acb(k)) for z, k in zeros(branch.P, c)]
     is_real = region.is_real and _all_real([*theta.num.coeffs(), *theta.den.coeffs(), *P.coeffs()])
-    return ProductForm(
-        region,
-        base,
-        _factors(powers, to_acb(base), is_real),
-        _exponent(theta),
-        RationalFunction((), ()),
-        None,
-        is_real,
-    )
+    return ProductForm(region, base, _factors(powers, to_acb(base), is_real), _exponent(theta), is_real)
 
 
 def _all_real(values: list[acb]) -> bool:
@@ -87,8 +75,8 @@ def _all_real(values: list[acb]) -> bool:
 
 
 def _rational(polynomial: acb_poly, polar: list[tuple[acb, acb, int]]) -> RationalFunction:
-    terms = tuple((_complex(a), _complex(c), k) for a, c, k in polar if not c.is_zero())
-    return RationalFunction(tuple(_complex(v) for v in reversed(polynomial.coeffs())), terms)
+    terms = tuple((Complex.of(a), Complex.of(c), k) for a, c, k in polar if not c.is_zero())
+    return RationalFunction(tuple(Complex.of(v) for v in reversed(polynomial.coeffs())), terms)
 
 
 def _exponent(theta: LogDerivative) -> RationalFunction:
@@ -97,11 +85,6 @@ def _exponent(theta: LogDerivative) -> RationalFunction:
         (pole.zeta, -r / (k - 1), k - 1) for pole in theta.poles for k, r in enumerate(pole.coefficients[1:], start=2)
     ]
     return _rational(theta.primitive, poles)
-
-
-def _complex(z: acb) -> Complex:
-    imag = (0.0, 0.0) if z.imag.contains(0) else pair_of(z.imag)
-    return pair_of(z.real), imag
 
 
 def _factors(powers: Powers, base: acb, is_real: bool) -> tuple[Factor, ...]:
@@ -113,54 +96,27 @@ def _factors(powers: Powers, base: acb, is_real: bool) -> tuple[Factor, ...]:
         d = base - zeta
         turn = acb(1) if d.contains(0) else d / abs(d)
         paired = is_real and not zeta.imag.contains(0)
-        found.append(Factor(_complex(zeta), _complex(power), _complex(turn), _whole(power), paired))
+        found.append(Factor(Complex.of(zeta), Complex.of(power), Complex.of(turn), paired))
     return tuple(found)
 
 
-def _whole(power: acb) -> int | None:
-    k = round(float(power.real.mid()))
-    return k if 1 <= k <= _WHOLE and (power - k).abs_upper() < _SAME else None
+def _parameters(conic: Conic, a: acb) -> tuple[acb, tuple[acb, acb] | None]:
+    """s_a, one of the two square roots of sigma g(a); t_a and t_a', None for a at infinity of the ellipse."""
+    X = a - conic.vertex
+    square = X if conic.shape is Shape.LINE else X * X + conic.m
+    s = square * 0 if square.contains(0) else (square * conic.sigma).sqrt()
+    if conic.shape is not Shape.ELLIPSE:
+        return s, (s, -s) if conic.shape is Shape.LINE else (X + s, X - s)
+    right = a - conic.ends[0]
+    return s, None if right.contains(0) else (s / right, -s / right)
 
 
-@dataclass(frozen=True)
-class ExactConic:
-    """`kovacic.doubles.factors.Conic` with balls, for the parameters of given points."""
-
-    shape: Shape
-    sigma: int
-    vertex: arb
-    m: arb
-
-    def root(self, a: acb) -> acb:
-        """s_a, one of the two square roots of sigma g(a)."""
-        X = a - self.vertex
-        square = X if self.shape is Shape.LINE else X * X + self.m
-        return square * 0 if square.contains(0) else (square * self.sigma).sqrt()
-
-    def parameters(self, a: acb, s: acb) -> tuple[acb, acb] | None:
-        """t_a and t_a'; None for a at infinity of the ellipse."""
-        if self.shape is Shape.LINE:
-            return s, -s
-        X = a - self.vertex
-        if self.shape is Shape.HYPERBOLA:
-            return X + s, X - s
-        M = (-self.m).sqrt()
-        if (M + X).contains(0):
-            return None
-        return s / (M + X), -s / (M + X)
-
-    def rounded(self) -> Conic:
-        """The data for double precision."""
-        if self.shape is Shape.LINE:
-            return Conic(self.shape, self.sigma, pair_of(self.vertex), (0.0, 0.0), (pair_of(self.vertex),))
-        ends: tuple[tuple[float, float], ...] = ()
-        if self.m < 0:
-            M = (-self.m).sqrt()
-            ends = (pair_of(self.vertex - M), pair_of(self.vertex + M))
-        return Conic(self.shape, self.sigma, pair_of(self.vertex), pair_of(self.m), ends)
+def _rounded(conic: Conic) -> Conic:
+    vertex, m, *ends = (Pair.of(v) for v in (conic.vertex, conic.m, *conic.ends))
+    return replace(conic, vertex=vertex, m=m, ends=tuple(ends))
 
 
-def conic_of(g: acb_poly, middle: arb) -> ExactConic | None:
+def conic_of(g: acb_poly, middle: arb) -> Conic | None:
     """The curve whose s is real near `middle`; None for another degree, or coefficients that aren't real."""
     coefficients: list[Any] = g.coeffs()
     if len(coefficients) not in (2, 3) or any(not c.imag.contains(0) for c in coefficients):
@@ -171,9 +127,11 @@ def conic_of(g: acb_poly, middle: arb) -> ExactConic | None:
         return None
     sigma = 1 if value > 0 else -1
     if len(rest) == 1:
-        return ExactConic(Shape.LINE, sigma, -low, low)
+        return Conic(Shape.LINE, sigma, -low, low)
     vertex = -rest[0] / 2
-    return ExactConic(Shape.HYPERBOLA if sigma > 0 else Shape.ELLIPSE, sigma, vertex, low - vertex * vertex)
+    m = low - vertex * vertex
+    ends = (vertex - (-m).sqrt(), vertex + (-m).sqrt()) if m < 0 else ()
+    return Conic(Shape.HYPERBOLA if sigma > 0 else Shape.ELLIPSE, sigma, vertex, m, ends)
 
 
 @dataclass(frozen=True)
@@ -205,7 +163,9 @@ def _on_curve(problem: NumericProblem, which: int, region: Region, base: Point) 
     even = theta / 2 if problem.gauge is None else theta / 2 + problem.gauge
     # Which sign is the solution number `which`?  y'/y = (even part) + kappa r/s for the sign of kappa found here.
     average = value(even, c, z) + value(RatFunc(P.derivative(), P), c, z) / 2
-    odd = kappa * value(form.integral.integrand, c, z) / conic.root(z)
+    root, parameters = _parameters(conic, z)
+    assert parameters is not None
+    odd = kappa * value(form.integral.integrand, c, z) / root
     target = omega(problem, which, base, 200)
     if not (average + odd).overlaps(target):
         kappa, odd = -kappa, -odd
@@ -215,17 +175,9 @@ def _on_curve(problem: NumericProblem, which: int, region: Region, base: Point) 
     places = _places(smooth, P, form.integral.residues, c)
     rest = embed(form.integral.rest, c)(0) if form.integral.rest else z * 0
     is_real = _all_real([kappa]) and _all_real([*embed(P, c).coeffs(), *smooth.num.coeffs()])
-    parameters = conic.parameters(z, conic.root(z))
-    assert parameters is not None
-    return ProductForm(
-        region,
-        base,
-        _factors(_powers(places, conic, kappa, rest), parameters[0], is_real),
-        _exponent(smooth),
-        _sheet(form.integral.exact, kappa * conic.sigma, c),
-        conic.rounded(),
-        is_real,
-    )
+    factors = _factors(_powers(places, conic, kappa, rest), parameters[0], is_real)
+    sheet = _sheet(form.integral.exact, kappa * conic.sigma, c)
+    return ProductForm(region, base, factors, _exponent(smooth), is_real, sheet, _rounded(conic))
 
 
 def _branch_points(theta: RatFunc) -> int:
@@ -257,14 +209,13 @@ def _places(smooth: LogDerivative, P: Any, residues: tuple[Any, ...], c: acb | N
     return merged
 
 
-def _powers(places: list[_Place], conic: ExactConic, kappa: acb, rest: acb) -> Powers:
+def _powers(places: list[_Place], conic: Conic, kappa: acb, rest: acb) -> Powers:
     """The exponents in t of (1)."""
     total, i = acb(0), acb(0, 1)
     found: Powers = []
     for place in places:
-        s = conic.root(place.a)
+        s, parameters = _parameters(conic, place.a)
         total += place.mu
-        parameters = conic.parameters(place.a, s)
         if parameters is None:
             continue
         epsilon = acb(0) if place.rho.is_zero() else kappa * place.rho / s
@@ -279,7 +230,7 @@ def _powers(places: list[_Place], conic: ExactConic, kappa: acb, rest: acb) -> P
 def _sheet(exact: RatFunc, kappa: acb, c: acb | None) -> RationalFunction:
     """kappa C."""
     if not exact:
-        return RationalFunction((), ())
+        return RationalFunction()
     quotient, _ = divmod(exact.num, exact.den)
     parts = LogDerivative.make(exact, c)
     polar = [(pole.zeta, kappa * v, k) for pole in parts.poles for k, v in enumerate(pole.coefficients, start=1)]

@@ -1,12 +1,16 @@
-"""Double-double arithmetic on NumPy arrays: a number is an unevaluated sum hi + lo, good to about 100 bits.
+"""Double-double numbers hi + lo, good to about 100 bits, and complex numbers of them or of plain arrays.
+
+One piece of code serves both arithmetics: its variable is a NumPy array of doubles, and so are its results, or a `Pair` of such
+arrays.  Constants are Pairs of floats; beside an array they count as doubles, but for differences, which subtract both halves
+and so keep their digits near a zero.
 
 Nothing is proven here: the errors are those of the usual analyses (a few units of 2^-104 relative to the result of each
-operation), as long as no product leaves the range of a double; `scaled` brings numbers to size 1 before they are squared.
+operation), as long as no product leaves the range of a double; `split` brings numbers to size 1 before they are squared.
 
 - log(v): v = 2^e m with m in [sqrt(1/2), sqrt(2)), t the multiple of 1/64 next to m, s = (m - t)/(m + t), |s| < 0.006:
   log(v) = e log 2 + log t + 2 (s + s^3/3 + ... + s^13/13).
-- angle(y, x): t = arctan2 in double precision, corrected by (y cos t - x sin t)/(x cos t + y sin t); cos t and sin t by
-  their Taylor series at the multiple of 1/32 next to t.
+- angle(y, x): t the multiple of 1/64 next to arctan2, s = (y cos t - x sin t)/(x cos t + y sin t), |s| < 0.008:
+  angle = t + s - s^3/3 + ... + s^13/13.
 
 References: T. J. Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18 (1971).
 Y. Hida, X. Li and D. Bailey, "Algorithms for quad-double precision floating point arithmetic", ARITH 15 (2001).
@@ -15,35 +19,24 @@ Y. Hida, X. Li and D. Bailey, "Algorithms for quad-double precision floating poi
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
-from flint import arb
+from flint import acb, arb
 
 from kovacic.enclosure.working import working_precision
 
-Pair = tuple[Any, Any]
-"""(hi, lo): arrays or floats."""
-
-Complex = tuple[Pair, Pair]
-"""Real and imaginary part."""
-
 _SPLIT = 134217729.0  # 2^27 + 1
 _WORKING_BITS = 160
-
-
-def pair_of(value: arb) -> tuple[float, float]:
-    """The double-double next to the midpoint of a ball."""
-    hi = float(value.mid())
-    return hi, float((value - arb(hi)).mid())
 
 
 def two_sum(a: Any, b: Any) -> Pair:
     """a + b exactly."""
     s = a + b
     t = s - a
-    return s, (a - (s - t)) + (b - t)
+    return Pair(s, (a - (s - t)) + (b - t))
 
 
 def two_product(a: Any, b: Any) -> Pair:
@@ -52,100 +45,158 @@ def two_product(a: Any, b: Any) -> Pair:
     x, y = _SPLIT * a, _SPLIT * b
     ah, bh = x - (x - a), y - (y - b)
     al, bl = a - ah, b - bh
-    return p, ((ah * bh - p) + ah * bl + al * bh) + al * bl
+    return Pair(p, ((ah * bh - p) + ah * bl + al * bh) + al * bl)
 
 
-def add(a: Pair, b: Pair) -> Pair:
-    """The sum of two pairs, accurate relative to the result (both halves are added exactly first)."""
-    s, e = two_sum(a[0], b[0])
-    t, f = two_sum(a[1], b[1])
-    s, e = two_sum(s, e + t)
-    return two_sum(s, e + f)
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """hi + lo, arrays or floats; an array as the other operand makes the result an array."""
+
+    hi: Any
+    lo: Any = 0.0
+    __array_ufunc__: ClassVar[None] = None  # so that arrays leave operators to this class
+
+    @classmethod
+    def of(cls, value: arb) -> Pair:
+        """The one next to the midpoint of a ball."""
+        hi = float(value.mid())
+        return cls(hi, float((value - arb(hi)).mid()))
+
+    def __add__(self, other: Any) -> Any:
+        if isinstance(other, np.ndarray):
+            return other + self.hi
+        s, t = two_sum(self.hi, other.hi), two_sum(self.lo, other.lo)  # both halves exactly first
+        s = two_sum(s.hi, s.lo + t.hi)
+        return two_sum(s.hi, s.lo + t.lo)
+
+    def __neg__(self) -> Pair:
+        return Pair(-self.hi, -self.lo)
+
+    def __sub__(self, other: Any) -> Any:
+        return (self.hi - other) + self.lo if isinstance(other, np.ndarray) else self + -other
+
+    def __rsub__(self, other: Any) -> Any:
+        difference = other - self.hi
+        return difference - self.lo if self.lo else difference
+
+    def __mul__(self, other: Any) -> Any:
+        if isinstance(other, np.ndarray):
+            return other * self.hi
+        p = two_product(self.hi, other.hi)
+        return two_sum(p.hi, p.lo + (self.hi * other.lo + self.lo * other.hi))
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __truediv__(self, other: Any) -> Any:
+        if isinstance(other, np.ndarray):
+            return self.hi / other
+        q = self.hi / other.hi
+        rest = self - other * Pair(q, 0.0 * q)
+        c = rest.hi / other.hi
+        rest -= other * Pair(c, 0.0 * c)
+        q = two_sum(q, c)
+        return two_sum(q.hi, q.lo + rest.hi / other.hi)
 
 
-def negative(a: Pair) -> Pair:
-    """-a."""
-    return -a[0], -a[1]
+@dataclass(frozen=True, slots=True)
+class Complex:
+    """re + i im, of Pairs or arrays; im is None where it is 0."""
+
+    re: Any
+    im: Any = None
+
+    @classmethod
+    def of(cls, value: acb) -> Complex:
+        """The number next to the midpoint of a ball; real, if the ball meets the real axis."""
+        return cls(Pair.of(value.real), None if value.imag.contains(0) else Pair.of(value.imag))
+
+    def __add__(self, other: Complex) -> Complex:
+        im = self.im if other.im is None else other.im if self.im is None else self.im + other.im
+        return Complex(self.re + other.re, im)
+
+    def __neg__(self) -> Complex:
+        return Complex(-self.re, None if self.im is None else -self.im)
+
+    def __sub__(self, other: Complex) -> Complex:
+        im = self.im if other.im is None else -other.im if self.im is None else self.im - other.im
+        return Complex(self.re - other.re, im)
+
+    def __mul__(self, other: Complex) -> Complex:
+        if other.im is None:
+            return Complex(self.re * other.re, None if self.im is None else self.im * other.re)
+        if self.im is None:
+            return Complex(self.re * other.re, self.re * other.im)
+        return Complex(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
+
+    def conjugate(self) -> Complex:
+        """re - i im."""
+        return Complex(self.re, None if self.im is None else -self.im)
+
+    def reciprocal(self) -> Complex:
+        """1/self."""
+        if self.im is None:
+            return Complex(Pair(1.0) / self.re)
+        square = self.re * self.re + self.im * self.im
+        return Complex(self.re / square, -self.im / square)
 
 
-def subtract(a: Pair, b: Pair) -> Pair:
-    """The difference of two pairs."""
-    return add(a, negative(b))
-
-
-def multiply(a: Pair, b: Pair) -> Pair:
-    """The product of two pairs."""
-    p, e = two_product(a[0], b[0])
-    return two_sum(p, e + (a[0] * b[1] + a[1] * b[0]))
-
-
-def divide(a: Pair, b: Pair) -> Pair:
-    """The quotient of two pairs, by one step of Newton's method and a correction."""
-    q = a[0] / b[0]
-    r = subtract(a, multiply(b, (q, 0.0 * q)))
-    c = r[0] / b[0]
-    r = subtract(r, multiply(b, (c, 0.0 * c)))
-    q, c = two_sum(q, c)
-    return two_sum(q, c + r[0] / b[0])
-
-
-def square_root(a: Pair) -> Pair:
-    """sqrt(a) for a > 0."""
-    s = np.sqrt(a[0])
-    rest = subtract(a, two_product(s, s))
-    return two_sum(s, rest[0] / (2 * s))
-
-
-def scaled(a: Pair, e: Any) -> Pair:
+def scaled(a: Any, e: Any) -> Any:
     """a 2^e, exactly; e is an array of integers."""
-    return np.ldexp(a[0], e), np.ldexp(a[1], e)
+    return Pair(np.ldexp(a.hi, e), np.ldexp(a.lo, e)) if isinstance(a, Pair) else np.ldexp(a, e)
 
 
-def complex_add(a: Complex, b: Complex) -> Complex:
-    """The sum of two complex numbers."""
-    return add(a[0], b[0]), add(a[1], b[1])
+def split(z: Complex) -> tuple[Complex, Any]:
+    """(z 2^-e, e), where 4 divides e and 2^e is about |z|."""
+    size = np.abs(double(z.re)) if z.im is None else np.maximum(np.abs(double(z.re)), np.abs(double(z.im)))
+    e = np.frexp(size)[1]
+    e -= e % 4
+    return Complex(scaled(z.re, -e), None if z.im is None else scaled(z.im, -e)), e
 
 
-def complex_multiply(a: Complex, b: Complex) -> Complex:
-    """The product of two complex numbers."""
-    real = subtract(multiply(a[0], b[0]), multiply(a[1], b[1]))
-    return real, add(multiply(a[0], b[1]), multiply(a[1], b[0]))
+def double(a: Any) -> Any:
+    """The nearest doubles."""
+    return a.hi + a.lo if isinstance(a, Pair) else a
 
 
-def complex_reciprocal(a: Complex) -> Complex:
-    """1/a."""
-    norm = add(multiply(a[0], a[0]), multiply(a[1], a[1]))
-    return divide(a[0], norm), negative(divide(a[1], norm))
+def absolute(a: Any) -> Any:
+    """|a|."""
+    return np.abs(a) if isinstance(a, np.ndarray) else select(a.hi < 0, -a, a)
 
 
-def horner(coefficients: Iterable[Pair], x: Pair) -> Pair:
-    """A real polynomial (coefficients high to low, as pairs) at x."""
-    total: Pair = (0.0 * x[0], 0.0 * x[0])
-    for c in coefficients:
-        total = add(multiply(total, x), c)
-    return total
+def select(condition: Any, a: Any, b: Any) -> Any:
+    """a where the condition holds, else b."""
+    if isinstance(b, np.ndarray):
+        return np.where(condition, a, b)
+    return Pair(np.where(condition, a.hi, b.hi), np.where(condition, a.lo, b.lo))
 
 
-def complex_horner(coefficients: tuple[Complex, ...], x: Complex) -> Complex:
-    """A polynomial (coefficients high to low) at x."""
-    zero = 0.0 * x[0][0]
-    total: Complex = ((zero, zero), (zero, zero))
-    for c in coefficients:
-        total = complex_add(complex_multiply(total, x), c)
-    return total
+def square_root(a: Any) -> Any:
+    """sqrt(a) for a > 0."""
+    if isinstance(a, np.ndarray):
+        return np.sqrt(a)
+    s = np.sqrt(a.hi)
+    return two_sum(s, (a - two_product(s, s)).hi / (2 * s))
 
 
-@cache
-def log_2() -> tuple[float, float]:
-    """log 2."""
-    with working_precision(_WORKING_BITS):
-        return pair_of(arb(2).log())
+def horner(coefficients: Iterable[Any], x: Any) -> Any:
+    """A polynomial (coefficients high to low) at x, of numbers of any kind here."""
+    first, *rest = coefficients
+    for c in rest:
+        first = first * x + c
+    return first
 
 
 def _table(values: list[arb]) -> Pair:
     """Numbers as a pair of arrays."""
-    high, low = zip(*map(pair_of, values), strict=True)
-    return np.array(high), np.array(low)
+    pairs = [Pair.of(v) for v in values]
+    return Pair(np.array([p.hi for p in pairs]), np.array([p.lo for p in pairs]))
+
+
+@cache
+def log_2() -> Pair:
+    """log 2."""
+    with working_precision(_WORKING_BITS):
+        return Pair.of(arb(2).log())
 
 
 @cache
@@ -157,63 +208,45 @@ def _logarithms() -> Pair:
 
 @cache
 def _circle() -> tuple[Pair, Pair]:
-    """cos(k/32) and sin(k/32) for k = -101, ..., 101."""
-    angles = [arb(k) / 32 for k in range(-101, 102)]
+    """cos(k/64) and sin(k/64) for k = -202, ..., 202."""
+    angles = [arb(k) / 64 for k in range(-202, 203)]
     with working_precision(_WORKING_BITS):
         return _table([t.cos() for t in angles]), _table([t.sin() for t in angles])
 
 
 @cache
-def _inverse_factorials(start: int) -> tuple[tuple[float, float], ...]:
-    """(-1)^k/(start + 2k)! for k = 6, ..., 0."""
-    from math import factorial
-
+def _odd_reciprocals(sign: int) -> tuple[Pair, ...]:
+    """sign^k/(2k + 1) for k = 6, ..., 0."""
     with working_precision(_WORKING_BITS):
-        return tuple(pair_of(arb((-1) ** k) / factorial(start + 2 * k)) for k in reversed(range(7)))
+        return tuple(Pair.of(arb(sign**k) / (2 * k + 1)) for k in reversed(range(7)))
 
 
-@cache
-def _odd_reciprocals() -> tuple[tuple[float, float], ...]:
-    """1/(2k + 1) for k = 6, ..., 0."""
-    with working_precision(_WORKING_BITS):
-        return tuple(pair_of(arb(1) / (2 * k + 1)) for k in reversed(range(7)))
-
-
-def log(a: Pair) -> Pair:
+def log(a: Any) -> Any:
     """log(a) for a > 0; -inf for 0."""
-    a = (np.asarray(a[0], dtype=float), np.asarray(a[1], dtype=float))
-    zero = a[0] == 0
-    m, e = np.frexp(np.where(zero, 1.0, a[0]))
+    if isinstance(a, np.ndarray):
+        return np.log(a)
+    zero = a.hi == 0
+    m, e = np.frexp(np.where(zero, 1.0, a.hi))
     low = m < 0.7071067811865476
     m, e = np.where(low, 2 * m, m), np.where(low, e - 1, e)
-    rest = np.ldexp(np.where(zero, 0.0, a[1]), -e)
+    rest = np.ldexp(np.where(zero, 0.0, a.lo), -e)
     k = np.rint(64 * m)
-    t = k / 64
-    table = _logarithms()
-    index = k.astype(np.int64)
-    s = divide(add((m - t, 0.0 * m), (rest, 0.0 * m)), add(two_sum(m, t), (rest, 0.0 * m)))
-    series = multiply((2 * s[0], 2 * s[1]), horner(_odd_reciprocals(), multiply(s, s)))
-    binary = multiply(log_2(), (e.astype(float), 0.0 * m))
-    total = add(add(binary, (table[0][index], table[1][index])), series)
-    return np.where(zero, -np.inf, total[0]), np.where(zero, 0.0, total[1])
+    t, index, nothing = k / 64, k.astype(np.int64), 0.0 * m
+    table = Pair(_logarithms().hi[index], _logarithms().lo[index])
+    s = (Pair(m - t, nothing) + Pair(rest, nothing)) / (two_sum(m, t) + Pair(rest, nothing))
+    series = Pair(2 * s.hi, 2 * s.lo) * horner(_odd_reciprocals(1), s * s)
+    total = log_2() * Pair(e.astype(float), nothing) + table + series
+    return Pair(np.where(zero, -np.inf, total.hi), np.where(zero, 0.0, total.lo))
 
 
-def cos_sin(t: Any) -> tuple[Pair, Pair]:
-    """cos(t) and sin(t) of doubles |t| <= pi."""
-    k = np.rint(32 * t)
-    h = (t - k / 32, 0.0 * t)  # exact
-    square = multiply(h, h)
-    c, s = horner(_inverse_factorials(0), square), multiply(h, horner(_inverse_factorials(1), square))
-    (cos_hi, cos_lo), (sin_hi, sin_lo) = _circle()
-    index = k.astype(np.int64) + 101
-    turn: Complex = ((cos_hi[index], cos_lo[index]), (sin_hi[index], sin_lo[index]))
-    return complex_multiply(turn, (c, s))
-
-
-def angle(y: Pair, x: Pair) -> Pair:
-    """The argument of x + i y in (-pi, pi], for numbers of moderate size; 0 at the origin."""
-    t = np.arctan2(y[0], x[0])
-    c, s = cos_sin(t)
-    cross = subtract(multiply(y, c), multiply(x, s))[0]
-    dot = x[0] * c[0] + y[0] * s[0]
-    return two_sum(t, np.divide(cross, dot, out=np.zeros_like(dot), where=dot != 0))
+def angle(z: Complex) -> Any:
+    """The argument in (-pi, pi], for numbers of moderate size; 0 at the origin."""
+    if isinstance(z.re, np.ndarray):
+        return np.arctan2(double(z.im), z.re)
+    k = np.rint(64 * np.arctan2(z.im.hi, z.re.hi))
+    index = k.astype(np.int64) + 202
+    c, s = (Pair(part.hi[index], part.lo[index]) for part in _circle())
+    turned = z * Complex(c, -s)
+    origin = turned.re.hi == 0
+    tangent = turned.im / select(origin, Pair(1.0), turned.re)
+    return Pair(k / 64, 0.0 * k) + tangent * horner(_odd_reciprocals(-1), tangent * tangent)

@@ -2,22 +2,30 @@
 
     y(x) = constant * prod_k (t - z_k)^(n_k) * prod_j ((t - zeta_j)/turn_j)^(r_j) * exp(E(x) + s F(x)),
 
-t = x itself, or the parameter of a rational curve s^2 = sigma g(x), deg g = 1 or 2, sigma = +-1 so that sigma g > 0, that is
-real on an interval (`kovacic.doubles.factors`).
+t = x itself, or the parameter of a rational curve s^2 = sigma g(x), where sigma = +-1 is such that sigma g > 0: real on an
+interval.  With X = x + g'(0)/2 and g = X^2 + m for deg g = 2 (g is monic):
+
+    LINE       deg g = 1:                t = s,                x = -g(0) + sigma t^2,
+    HYPERBOLA  deg g = 2, sigma = 1:     t = X + s,            X = (t^2 - m)/(2 t),
+    ELLIPSE    deg g = 2, sigma = -1:    t = s/(M + X),        X = M (1 - t^2)/(1 + t^2),      M = sqrt(-m).            (1)
 
 - Polynomial factors stay products over their zeros z_k, which are double-doubles: t - z_k keeps its digits near a zero.
-- Their product is collected with its binary exponent apart, and all powers with other exponents as one logarithm r_j log
-  in double-doubles: huge exponents, and factors that cancel, cost neither range nor digits.
-- E and F are kept as partial fractions with double-double coefficients.
+- Powers that are small multiples of 1/4 are multiplied out, with the binary exponent apart; all others are one logarithm.
+- E and F are kept as partial fractions.
 - |turn_j| = 1, and (t - zeta_j)/turn_j > 0 at the middle of the interval, so that the principal power is the continuous
   one along the straight line from there: a quotient of points on a line that misses 0 never meets the negative real axis.
 
-Nothing is proven about rounding errors here; `kovacic.doubles.lambdify` measures them.
+In the careful variant the arithmetic is that of double-doubles: huge exponents, and factors that cancel, cost neither range nor
+digits.  Plain doubles lose half a unit in the last place for each factor, the rounding error of the exponent times its size,
+and values whose factors leave the range of doubles, although they don't.  Nothing is proven about rounding errors here;
+`kovacic.doubles.lambdify` measures them.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from enum import Enum
 from typing import Any
 
 import numpy as np
@@ -25,22 +33,103 @@ import numpy as np
 from kovacic.doubles.double_double import (
     Complex,
     Pair,
-    add,
+    absolute,
     angle,
-    complex_add,
-    complex_multiply,
+    double,
+    horner,
     log,
     log_2,
-    multiply,
-    negative,
-    scaled,
-    subtract,
-    two_sum,
+    select,
+    split,
+    square_root,
 )
-from kovacic.doubles.factors import Conic, Factor, RationalFunction
-from kovacic.doubles.plain import values
 from kovacic.doubles.region import Measured, Region, in_blocks
 from kovacic.enclosure.points import Point
+
+_MULTIPLIED_OUT = 8
+"""Powers up to here are multiplied out, if they are multiples of 1/4."""
+
+_ROOM = 900.0
+"""Bits that a plain product may grow by before its binary exponent is taken out."""
+
+
+class Shape(Enum):
+    """The three parametrisations (1)."""
+
+    LINE = "line"
+    HYPERBOLA = "hyperbola"
+    ELLIPSE = "ellipse"
+
+
+@dataclass(frozen=True)
+class Conic:
+    """s^2 = sigma g: `vertex` is -g(0) or -g'(0)/2, `m` as in (1), `ends` the real zeros of g for deg g = 2, in order.
+
+    The numbers are Pairs here, and real balls in `kovacic.doubles.arrangement`.
+    """
+
+    shape: Shape
+    sigma: int
+    vertex: Any
+    m: Any = None
+    ends: tuple[Any, ...] = ()
+
+    def coordinates(self, x: Any) -> tuple[Any, Any]:
+        """(t, s) at points with sigma g(x) > 0, Pairs or arrays."""
+        X = x - self.vertex
+        if self.shape is Shape.LINE:
+            s = square_root(X if self.sigma > 0 else -X)
+            return s, s
+        if self.shape is Shape.ELLIPSE:
+            left, right = x - self.ends[0], self.ends[1] - x
+            return square_root(right / left), square_root(left * right)
+        # The differences are exact near a branch point, unlike X^2 + m; for X < 0, X + s would cancel, and m/(s - X) doesn't.
+        s = square_root((x - self.ends[0]) * (x - self.ends[1]) if self.ends else X * X + self.m)
+        far = absolute(X) + s
+        return select(double(X) < 0, self.m / far, far), s
+
+
+@dataclass(frozen=True)
+class Factor:
+    """((t - zeta)/turn)^power; a natural power up to 8 stands without its turn.
+
+    `paired` stands for the product with the complex conjugate factor, which is positive for real t.
+    """
+
+    zeta: Complex
+    power: Complex
+    turn: Complex
+    paired: bool
+
+    @property
+    def reach(self) -> float:
+        """|zeta| at most."""
+        return abs(self.zeta.re.hi) + (0.0 if self.zeta.im is None else abs(self.zeta.im.hi))
+
+    @property
+    def quarters(self) -> int | None:
+        """Four times the power, where that is a small integer."""
+        k = 4 * self.power.re.hi
+        return round(k) if self.power.im is None and abs(k) <= 4 * _MULTIPLIED_OUT and k == round(k) else None
+
+
+@dataclass(frozen=True)
+class RationalFunction:
+    """Polynomial (coefficients high to low) plus the sum of c/(x - a)^k over `polar` = ((a, c, k), ...)."""
+
+    polynomial: tuple[Complex, ...] = ()
+    polar: tuple[tuple[Complex, Complex, int], ...] = ()
+
+    def __call__(self, x: Complex, times: Complex | None = None) -> Complex | None:
+        """The value at x, `times` something; None for the zero function."""
+        terms = [horner(self.polynomial, x)] if self.polynomial else []
+        for a, c, k in self.polar:
+            inverse = (x - a).reciprocal()
+            for _ in range(k):
+                c *= inverse
+            terms.append(c)
+        total = sum(terms[1:], terms[0]) if terms else None
+        return total if total is None or times is None else total * times
 
 
 @dataclass(frozen=True)
@@ -49,121 +138,139 @@ class ProductForm:
     and log |y|, without overflow.
 
     `base` is the point near the middle where powers are positive.  `is_real` says that the function is real; then pairs of
-    conjugate factors are merged.  `careful` stands for double-doubles, else it is plain double arithmetic
-    (`kovacic.doubles.plain`); `measured` is the error that `lambdify` found.
+    conjugate factors are merged.  `careful` stands for double-doubles, else it is plain double arithmetic; `measured` is the
+    error that `lambdify` found.
     """
 
     region: Region
     base: Point
     factors: tuple[Factor, ...]
     exponent: RationalFunction
-    sheet: RationalFunction
-    conic: Conic | None
     is_real: bool
+    sheet: RationalFunction = RationalFunction()
+    conic: Conic | None = None
     careful: bool = True
     measured: Measured | None = None
 
     def __call__(self, x: Any) -> Any:
         """y(x) as doubles, or complex doubles (inf or 0 where the value is beyond their range)."""
-        return in_blocks(self._values if self.careful else self._plain_values, self.region.points(x))
-
-    def _plain_values(self, x: Any) -> Any:
-        return values(x, self.factors, self.exponent, self.sheet, self.conic, self.is_real)
-
-    def _values(self, x: Any) -> Any:
-        mantissa, binary, size, phase = self._parts(x)
-        turns = np.rint(size[0] / log_2()[0])
-        rest = subtract(size, multiply((turns, 0.0 * turns), log_2()))
-        growth = np.exp(rest[0])
-        growth = growth + growth * rest[1]
-        exponent = np.clip(binary + turns, -6000, 6000).astype(np.int64)
-        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-            if phase is None:
-                return np.ldexp(growth * (mantissa[0][0] + mantissa[0][1]), exponent)
-            c, s = np.cos(phase[0]), np.sin(phase[0])
-            unit = ((c, -phase[1] * s), (s, phase[1] * c))
-            (a, a_lo), (b, b_lo) = complex_multiply(mantissa, unit)
-            result = np.empty(np.shape(c), dtype=complex)
-            result.real, result.imag = np.ldexp(growth * (a + a_lo), exponent), np.ldexp(growth * (b + b_lo), exponent)
-            return result[()]
+        with np.errstate(all="ignore"):
+            return in_blocks(self._values, self.region.points(x))
 
     def log(self, x: Any) -> tuple[Any, Any]:
         """(sign, log |y(x)|), or for complex functions (y/|y|, log |y|)."""
-        mantissa, binary, size, phase = self._parts(self.region.points(x))
-        value = mantissa[0][0] if phase is None else mantissa[0][0] + 1j * mantissa[1][0]
-        modulus = np.abs(value)
-        with np.errstate(divide="ignore"):
-            total = add(size, multiply((binary, 0.0 * binary), log_2()))[0] + np.log(modulus)
-        if phase is None:
-            return np.sign(value), total
-        unit = np.divide(value, modulus, out=np.zeros_like(value), where=modulus != 0)
-        return unit * np.exp(1j * phase[0]), total
+        points = self.region.points(x)
+        with np.errstate(all="ignore"):
+            value, binary, growth = self._parts(points.reshape(-1), careful=True)
+            unit = _complex_array(value)
+            total = double(growth.re + log_2() * Pair(0.0 + binary)) + np.log(np.abs(unit))
+            unit = np.sign(unit) * _complex_array(_turn(growth))
+        return unit.reshape(points.shape)[()], total.reshape(points.shape)[()]
 
-    def _parts(self, x: Any) -> tuple[Complex, Any, Pair, Pair | None]:
-        """y = mantissa * 2^binary * exp(size + i phase); phase None for a real function."""
-        zero = 0.0 * x.real
-        point: Complex = ((x.real, zero), (x.imag + zero, zero))
-        t, total = point, self.exponent(point)
+    def _values(self, x: Any) -> Any:
+        value, binary, growth = self._parts(x, self.careful)
+        value = Complex(double(value.re), None if value.im is None else double(value.im))
+        if self.careful:
+            turns = np.rint(growth.re.hi / log_2().hi)
+            rest = growth.re - Pair(turns, 0.0 * turns) * log_2()
+            value *= Complex(np.exp(rest.hi) * (1.0 + rest.lo))
+            binary = np.clip(binary + turns, -6000, 6000).astype(np.int64)
+        elif growth is not None:
+            value *= Complex(np.exp(growth.re))
+        if growth is not None and growth.im is not None:
+            value *= _turn(growth)
+        if np.ndim(binary):
+            value = Complex(np.ldexp(value.re, binary), None if value.im is None else np.ldexp(value.im, binary))
+        return value.re if self.is_real else _complex_array(value)
+
+    def _parts(self, x: Any, careful: bool) -> tuple[Complex, Any, Any]:
+        """y = value * 2^binary * exp(growth); without any growth 0 if careful, else None."""
+        point = Complex(x) if self.region.is_real else Complex(x.real, x.imag)
+        if careful:
+            point = Complex(*(None if part is None else Pair(part, 0.0 * part) for part in (point.re, point.im)))
+        t, growth, size = point, [self.exponent(point)], max(abs(self.region.low), abs(self.region.high))
         if self.conic is not None:
-            parameter, s = self.conic.coordinates(point[0])
-            t = (parameter, (zero, zero))
-            if self.sheet:
-                total = complex_add(total, complex_multiply(self.sheet(point), (s, (zero, zero))))
-        if self.is_real:
-            return self._real_product(t[0], total[0])
-        return self._complex_product(t, total)
-
-    def _real_product(self, t: Pair, size: Pair) -> tuple[Complex, Any, Pair, None]:
-        zero = 0.0 * t[0]
-        mantissa, binary = (zero + 1.0, zero), zero
+            parameter, s = self.conic.coordinates(point.re)
+            t, size = Complex(parameter), np.max(np.abs(double(parameter)), initial=0.0)
+            growth.append(self.sheet(Complex(point.re), Complex(s)))
+        product = _Product(t, careful, size + max((f.reach for f in self.factors), default=0.0))
         for f in self.factors:
-            d = subtract(t, f.zeta[0])
-            e = _exponent(d[0], zero + f.zeta[1][0])
-            d, height = scaled(d, -e), scaled((zero + f.zeta[1][0], zero + f.zeta[1][1]), -e)
-            base = add(multiply(d, d), multiply(height, height)) if f.paired else d
-            double = 2 if f.paired else 1
-            if f.whole is not None:
-                for _ in range(f.whole):
-                    mantissa = multiply(mantissa, base)
-                    shift = np.frexp(mantissa[0])[1]
-                    mantissa, binary = two_sum(*scaled(mantissa, -shift)), binary + shift + double * e
-                continue
-            negated = base[0] < 0
-            logarithm = log((np.abs(base[0]), np.where(negated, -base[1], base[1])))
-            logarithm = add(logarithm, multiply((double * e.astype(float), zero), log_2()))
-            size = add(size, multiply(f.power[0], logarithm))
-            if f.paired and f.power[1][0] != 0.0:
-                turned = complex_multiply((d, negative(height)), _conjugate(f.turn))
-                bend = multiply(f.power[1], angle(turned[1], turned[0]))
-                size = subtract(size, (2 * bend[0], 2 * bend[1]))
-        return (mantissa, (zero, zero)), binary, size, None
-
-    def _complex_product(self, t: Complex, total: Complex) -> tuple[Complex, Any, Pair, Pair]:
-        zero = 0.0 * t[0][0]
-        mantissa: Complex = ((zero + 1.0, zero), (zero, zero))
-        binary, (size, phase) = zero, total
-        for f in self.factors:
-            d: Complex = (subtract(t[0], f.zeta[0]), subtract(t[1], f.zeta[1]))
-            e = _exponent(d[0][0], d[1][0])
-            d = (scaled(d[0], -e), scaled(d[1], -e))
-            if f.whole is not None:
-                for _ in range(f.whole):
-                    mantissa = complex_multiply(mantissa, d)
-                    shift = _exponent(mantissa[0][0], mantissa[1][0])
-                    mantissa, binary = (scaled(mantissa[0], -shift), scaled(mantissa[1], -shift)), binary + shift + e
-                continue
-            norm = log(add(multiply(d[0], d[0]), multiply(d[1], d[1])))
-            modulus = add((norm[0] / 2, norm[1] / 2), multiply((e.astype(float), zero), log_2()))
-            turned = complex_multiply(d, _conjugate(f.turn))
-            term = complex_multiply(f.power, (modulus, angle(turned[1], turned[0])))
-            size, phase = add(size, term[0]), add(phase, term[1])
-        return mantissa, binary, size, phase
+            product.multiply(f, growth)
+        found = [g for g in growth if g is not None]
+        total = sum(found[1:], found[0]) if found else None
+        if total is not None and self.is_real:
+            total = Complex(total.re)
+        zero = 0.0 * x.real
+        if careful:
+            total = Complex(Pair(zero, zero)) + (total or Complex(Pair(0.0)))
+        return product.value or Complex(zero + 1.0), product.binary, total
 
 
-def _conjugate(z: Complex) -> Complex:
-    return z[0], negative(z[1])
+class _Product:
+    """The product of the factors with small powers, value * 2^binary; the others go into the exponent of the form."""
+
+    def __init__(self, t: Complex, careful: bool, reach: float) -> None:
+        self.t, self.careful = t, careful
+        self.value: Complex | None = None
+        self.binary: Any = 0
+        self.bits, self.degree_bits = 0.0, math.log2(reach + 2.0)
+
+    def multiply(self, f: Factor, growth: list[Complex | None]) -> None:
+        """One factor more."""
+        d, power, quarters = self.t - f.zeta, f.power, f.quarters
+        d, e = split(d) if self.careful else (d, 0)
+        if f.paired:
+            if power.im is not None:
+                growth.append(Complex(angle(d * f.turn.conjugate()) * (power.im * Pair(-2.0))))
+            d, e, power = Complex(d.re * d.re + d.im * d.im), 2 * e, Complex(power.re)
+        natural = quarters is not None and quarters > 0 and quarters % 4 == 0
+        if d.im is None and not natural:
+            d = Complex(absolute(d.re))
+        if quarters is None and d.im is None and power.im is None and not self.careful:
+            self._times(Complex(np.power(d.re, power.re.hi)), 0)  # exact but for one rounding, unlike a logarithm
+            return
+        if quarters is None or (d.im is not None and not natural):
+            logarithm = Complex(log(d.re))
+            if d.im is not None:
+                logarithm = Complex(log(d.re * d.re + d.im * d.im) * Pair(0.5), angle(d * f.turn.conjugate()))
+            if self.careful:
+                logarithm += Complex(log_2() * Pair(0.0 + e))
+            growth.append(power * logarithm)
+            return
+        self.binary = self.binary + e * quarters // 4
+        whole, rest = divmod(abs(quarters), 4)
+        pieces = [d] * whole
+        if rest:
+            root = square_root(d.re)
+            pieces += [Complex(root)] * (rest // 2) + [Complex(square_root(root))] * (rest % 2)
+        if quarters < 0:
+            pieces = [math.prod(pieces[1:], start=pieces[0]).reciprocal()]
+        for piece in pieces:
+            self._times(piece, 2 if f.paired else 1)
+
+    def _times(self, piece: Complex, degree: int) -> None:
+        self.bits += degree * self.degree_bits
+        if self.value is None:
+            self.value = piece
+            return
+        if self.careful or self.bits > _ROOM:  # the binary exponent, before the product may leave the range of doubles
+            self.value, shift = split(self.value)
+            self.binary, self.bits = self.binary + shift, degree * self.degree_bits
+        self.value *= piece
 
 
-def _exponent(a: Any, b: Any) -> Any:
-    """The binary exponent of the larger of |a| and |b| (0 for 0)."""
-    return np.frexp(np.maximum(np.abs(a), np.abs(b)))[1]
+def _turn(growth: Complex) -> Complex:
+    """exp(i im)."""
+    if growth.im is None:
+        return Complex(1.0)
+    t, rest = (growth.im.hi, growth.im.lo) if isinstance(growth.im, Pair) else (growth.im, 0.0)
+    c, s = np.cos(t), np.sin(t)
+    return Complex(c - rest * s, s + rest * c)
+
+
+def _complex_array(z: Complex) -> Any:
+    if z.im is None:
+        return double(z.re)
+    result = np.empty(np.broadcast_shapes(np.shape(z.re), np.shape(z.im)), dtype=complex)
+    result.real, result.imag = double(z.re), double(z.im)
+    return result

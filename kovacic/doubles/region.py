@@ -20,8 +20,8 @@ _PREC = 240
 MEDIAN, WORST = 8.0, 1000.0
 """What is promised, in units in the last place."""
 
-BLOCK = 4096
-"""Points that are treated together (measured: from 1,000 to 8,000 about the same)."""
+BLOCK = 16384
+"""Points that are treated together (measured: half as many take a third longer, as many again no less)."""
 
 
 class Measured(NamedTuple):
@@ -86,15 +86,14 @@ class Region:
 
 def in_blocks(function: Callable[[Any], Any], points: Any, block: int = BLOCK) -> Any:
     """The function of the points, so many at a time: what is formed on the way stays in the processor's cache."""
-    if points.size <= block:
-        return function(points)
     flat = points.reshape(-1)
-    result = None
-    for start in range(0, flat.size, block):
-        values = function(flat[start : start + block])
-        result = np.empty(flat.shape, values.dtype) if result is None else result
-        result[start : start + block] = values
-    assert result is not None
+    if flat.size <= block:
+        return function(flat).reshape(points.shape)[()]
+    first = function(flat[:block])
+    result = np.empty(flat.shape, first.dtype)
+    result[:block] = first
+    for start in range(block, flat.size, block):
+        result[start : start + block] = function(flat[start : start + block])
     return result.reshape(points.shape)
 
 

@@ -22,7 +22,7 @@ import numpy as np
 from flint import acb, arb
 
 from kovacic.doubles.arrangement import gauge_form
-from kovacic.doubles.double_double import horner, pair_of, scaled, two_sum
+from kovacic.doubles.double_double import Pair, double, horner, scaled, two_sum
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import BLOCK, Measured, Region, hull, in_blocks, region_of
 from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
@@ -75,7 +75,7 @@ class TabulatedFunction:
     def __call__(self, x: Any) -> Any:
         """y(x) as doubles, or complex doubles; raises InputError outside of the interval."""
         points = self.region.points(x)
-        result = in_blocks(self._values, points, 16 * BLOCK)
+        result = in_blocks(self._values, points, 4 * BLOCK)
         base = float(self.base.re) if self.base.is_real() else complex(self.base)
         return result if self.gauge is None else result * (self.gauge(points) / self.gauge(base))
 
@@ -89,19 +89,9 @@ class TabulatedFunction:
         for k in np.flatnonzero(np.diff(ends)):
             run = slice(ends[k], ends[k + 1])
             u = scaled(two_sum(flat[run], -self.centres[k]), -self.exponents[k])
-            for row, (high, low) in zip(found, self.coefficients[:, :, ::-1, k], strict=True):
-                row[order[run]] = (
-                    sum(horner(zip(high, low, strict=True), u)) if self.careful else _polynomial(high, u[0])
-                )
+            for row, halves in zip(found, self.coefficients[:, :, ::-1, k], strict=True):
+                row[order[run]] = double(horner(map(Pair, *halves), u)) if self.careful else horner(halves[0], u.hi)
         return (found[0] if len(found) == 1 else found[0] + 1j * found[1]).reshape(points.shape)
-
-
-def _polynomial(coefficients: Any, u: Any) -> Any:
-    total = np.zeros(u.shape)
-    for c in coefficients:
-        total *= u
-        total += c
-    return total
 
 
 def tabulate(
@@ -207,9 +197,9 @@ def _assembled(
     table = np.zeros((1 if is_real else 2, 2, max(len(row) for row in rows), len(rows)))
     for k, row in enumerate(rows):
         for n, number in enumerate(row):
-            table[0, :, n, k] = pair_of(number.real)
-            if not is_real:
-                table[1, :, n, k] = pair_of(number.imag)
+            for part, value_ in zip(table, (number.real, number.imag), strict=False):
+                pair = Pair.of(value_)
+                part[:, n, k] = pair.hi, pair.lo
     edges = np.array([float(frame.centre.re + frame.scale) for frame in frames[:-1]])
     centres = np.array([float(frame.centre.re) for frame in frames])
     exponents = np.array([frame.e for frame in frames])
