@@ -53,13 +53,6 @@ def product_form(problem: NumericProblem, which: int, region: Region, base: Poin
     return _on_curve(problem, which, region, base) if region.is_real else None
 
 
-def gauge_form(gauge: RatFunc, region: Region, base: Point) -> ProductForm:
-    """exp(int gauge) as a product, the factor between an equation and its normal form."""
-    form = _exponential(Exponential(gauge, gauge.field.poly([1]), 0), region, base)
-    assert form is not None
-    return form
-
-
 def _exponential(branch: Exponential, region: Region, base: Point) -> ProductForm | None:
     if branch.P.degree > _MAX_ZEROS:
         return None

@@ -119,14 +119,6 @@ def region_of(problem: NumericProblem, interval: tuple[object, object]) -> tuple
     return Region(*corners, singular), near
 
 
-def hull(region: Region, point: Point) -> Region:
-    """The least rectangle that contains the region and the point (to double precision)."""
-    z = complex(point)
-    low = complex(min(region.low.real, z.real), min(region.low.imag, z.imag))
-    high = complex(max(region.high.real, z.real), max(region.high.imag, z.imag))
-    return Region(low, high)
-
-
 def _singular_ends(problem: NumericProblem, low: Point, high: Point) -> tuple[bool, bool]:
     at_low, at_high, a, b = False, False, to_acb(low), to_acb(high)
     systems = [problem.system] if problem.gauge is None else [problem.system, System.of(problem.gauge)]
