@@ -24,7 +24,7 @@ import scipy.special as special
 import sympy
 
 import kovacic
-from kovacic.doubles.lambdify import Start, lambdify, measure
+from kovacic.doubles.lambdify import lambdify, measure
 
 RESULTS = Path(__file__).parent / "results"
 POINTS = 100_000
@@ -40,7 +40,7 @@ class Row:
     interval: tuple[float, float]
     scipy: Callable[[Any], Any]
     sympy: Any
-    start: Start | None = None
+    start: dict[str, Any] | None = None
 
 
 @dataclass(frozen=True)
@@ -93,11 +93,11 @@ def rows() -> list[Row]:
         )
     )
     value, slope = first.subs(X, 2), sympy.diff(first, X).subs(X, 2)
-    start = Start(2, *(str(sympy.N(v, 60)) for v in (value, slope)))
+    start = {"x0": 2, "y0": str(sympy.N(value, 60)), "dy0": str(sympy.N(slope, 60))}
     found.append(
         Row("spherical Bessel 5", bessel, (2, 60), lambda x: special.spherical_jn(5, x), first, start),
     )
-    airy = Start(0, *(str(sympy.N(v, 60)) for v in (sympy.airyai(0), sympy.airyaiprime(0))))
+    airy = {"x0": 0, "which": "decaying", "y0": str(sympy.N(sympy.airyai(0), 60))}
     found.append(Row("Airy", "x", (-30, 2), lambda x: special.airy(x)[0], None, airy))
     return found
 
@@ -115,7 +115,7 @@ def compare(row: Row) -> dict[str, Any]:
     """Times in ms and errors; the errors of the solution that conjugates swap are those of the conjugate."""
     solution = kovacic.solve(row.equation)
     points = np.linspace(*row.interval, POINTS + 2)[1:-1]
-    options: dict[str, Any] = row.start._asdict() if row.start else {}
+    options: dict[str, Any] = row.start or {}
     begin = time.perf_counter()
     ours = lambdify(solution, interval=row.interval, **options)
     result: dict[str, Any] = {"name": row.name, "build": time.perf_counter() - begin, "careful": ours.careful}

@@ -175,19 +175,17 @@ def product_of_zeros(function: Any, k: int) -> Any:
     """(1 - x^2)^(1/4) T_k(x) as a product over its zeros cos((2j - 1) pi/(2k))."""
     from flint import arb, ctx
 
-    from kovacic.doubles.double_double import pair_of
-    from kovacic.doubles.factors import Factor, RationalFunction
-    from kovacic.doubles.product_form import ProductForm
+    from kovacic.doubles.double_double import Complex, Pair
+    from kovacic.doubles.product_form import Factor, ProductForm, RationalFunction
 
-    nothing, one, quarter = (0.0, 0.0), (1.0, 0.0), (0.25, 0.0)
+    one, quarter = Complex(Pair(1.0)), Complex(Pair(0.25))
     with ctx.workprec(200):
-        zeros = [pair_of((arb.pi() * (2 * j - 1) / (2 * k)).cos()) for j in range(1, k + 1)]
-        scale = pair_of(arb(2).log() * (k - 1))  # T_k = 2^(k-1) x^k + ...
-    factors = [Factor((z, nothing), (one, nothing), (one, nothing), 1, False) for z in zeros]
-    factors += [Factor(((z, 0.0), nothing), (quarter, nothing), (one, nothing), None, False) for z in (1.0, -1.0)]
-    empty = RationalFunction((), ())
-    constant = RationalFunction(((scale, nothing),), ())
-    return ProductForm(function.region, function.base, tuple(factors), constant, empty, None, True)
+        zeros = [Pair.of((arb.pi() * (2 * j - 1) / (2 * k)).cos()) for j in range(1, k + 1)]
+        scale = Pair.of(arb(2).log() * (k - 1))  # T_k = 2^(k-1) x^k + ...
+    factors = [Factor(Complex(z), one, one, False) for z in zeros]
+    factors += [Factor(Complex(Pair(z)), quarter, one, False) for z in (1.0, -1.0)]
+    constant = RationalFunction((Complex(scale),))
+    return ProductForm(function.region, function.base, tuple(factors), constant, is_real=True)
 
 
 def markdown(rows: list[dict[str, Any]]) -> str:

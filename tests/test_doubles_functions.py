@@ -14,10 +14,11 @@ import scipy.special
 from published import load
 
 import kovacic
+import kovacic.doubles.tabulate as kovacic_tables
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.doubles import double_double as dd
-from kovacic.doubles.lambdify import Start, _exponentials, lambdify, measure
+from kovacic.doubles.lambdify import _exponentials, lambdify, measure, samples
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import BLOCK, MEDIAN, WORST
 from kovacic.doubles.tabulate import TabulatedFunction, tabulate
@@ -26,7 +27,7 @@ from kovacic.enclosure.closed_form import omega
 from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states
 from kovacic.enclosure.points import as_point
 from kovacic.enclosure.problem import as_problem
-from kovacic.errors import InputError
+from kovacic.errors import InputError, LimitExceeded
 
 TETRAHEDRAL = "(-32*x^2 + 27*x - 27)/(144*x^4 - 288*x^3 + 144*x^2)"
 ICOSAHEDRAL = "(-864*x^2 + 739*x - 675)/(3600*x^4 - 7200*x^3 + 3600*x^2)"
@@ -241,8 +242,8 @@ def test_initial_values_choose_the_solution() -> None:
     assert not airy.careful
     assert airy.measured is not None
     assert airy.measured.keeps_the_promise
-    assert measure(airy, "x", start=Start(0, "0.3", 1)) == airy.measured
-    assert measure(airy, "x", start=Start(0, "0.6", 2)).worst > 1e12  # the factor isn't free
+    assert measure(airy, "x", start={"x0": 0, "y0": "0.3", "dy0": 1}) == airy.measured
+    assert measure(airy, "x", start={"x0": 0, "y0": "0.6", "dy0": 2}).worst > 1e12  # the factor isn't free
 
 
 def logs(*terms: tuple[str, str]) -> str:
@@ -453,3 +454,77 @@ def test_arguments_are_checked(points: Any, words: str) -> None:
     function = lambdify(kovacic.solve("2/(x-1)^2"), interval=(1, 3))
     with pytest.raises(InputError, match=words):
         function(np.array(points))
+
+
+def test_tables_start_as_evaluate_does() -> None:
+    """Algebraic constants, values of parameters, regular singular points, infinity, right-hand sides: known functions."""
+    x = np.linspace(1, 9, 41)
+    j0 = tabulate("x^2*y'' + x*y' + x^2*y = 0", 1, 9, x0=0, which="regular")
+    assert np.max(np.abs(j0(x) - scipy.special.j0(x))) < 1e-15
+    y1 = tabulate("x^2*y'' + x*y' + x^2*y = 0", 1, 9, x0=0, frobenius=(1, 0))  # log(x) J0 + ...
+    known = np.pi / 2 * scipy.special.y0(x) + (np.log(2) - np.euler_gamma) * scipy.special.j0(x)
+    assert np.max(np.abs(y1(x) - known)) < 4e-15
+    ai = tabulate("x", -8, 4, x0=0, y0=1, which="decaying", careful=False)
+    assert np.allclose(ai(x - 5), scipy.special.airy(x - 5)[0] / scipy.special.airy(0)[0], rtol=1e-12, atol=1e-14)
+    for options in ({"equation": "2*sqrt(2)*x"}, {"equation": "n*x", "params": {"n": "2*sqrt(2)"}}):
+        scaled = tabulate(**options, start=-3, stop=3, x0=0, y0=1, dy0=0)  # 2 sqrt(2) = sqrt(2)^3
+        plain = tabulate("x", -5, 5, x0=0, y0=1, dy0=0)
+        assert np.allclose(scaled(x / 4), plain(2**0.5 * x / 4), rtol=1e-14)
+    gauged = tabulate("y'' - 2*sqrt(2)*y' + 2*y = 0", 0, 3, x0=0, y0=1, dy0="sqrt(2)")
+    assert np.allclose(gauged(x / 3), np.exp(2**0.5 * x / 3), rtol=1e-14)
+    forced = tabulate("y'' + y = x", 0, 9, x0=0, y0=1, dy0=2)
+    assert np.allclose(forced(x), np.cos(x) + np.sin(x) + x, rtol=1e-14)
+    with pytest.raises(InputError, match="singular point"):
+        tabulate("x^2*y'' + x*y' + x^2*y = 0", 0, 9, x0=1, y0=1, dy0=0)
+    with pytest.raises(LimitExceeded, match="too inaccurate"):
+        tabulate("-1", 0, 1, x0=0, y0=kovacic.Ball.of(1) / 3 * 3 + evaluate("-1", 1, x0=0, y0=1, dy0=0), dy0=0)
+
+
+def test_a_piece_is_halved_where_its_polynomial_does_not_suffice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The right-hand side has poles at +-i/10, which the first choice of pieces doesn't see: y' = arctan(10 x)/10."""
+    x = np.linspace(-1, 1, 33)
+    known = x * np.arctan(10 * x) / 10 - np.log(1 + 100 * x * x) / 200
+    options = {"equation": "y'' = 1/(100*x^2 + 1)", "start": -1, "stop": 1, "x0": 0, "y0": 0, "dy0": 0}
+    assert np.max(np.abs(tabulate(**options)(x) - known)) < 1e-15
+    counting = kovacic_tables._counting
+    monkeypatch.setattr(kovacic_tables, "_counting", lambda found, kept: counting(found[:-3], kept) or found)
+    assert np.max(np.abs(tabulate(**options)(x) - known)) > 1e-9
+
+
+def test_functions_with_values_of_parameters() -> None:
+    """Hermite's functions: the decision is made at the values."""
+    x, family = np.linspace(-4, 4, 81), kovacic.solve("x^2 - 2*n - 1")
+    f = lambdify(family, interval=(-4, 4), params={"n": 4})
+    assert isinstance(f, ProductForm)
+    known = scipy.special.eval_hermite(4, x) * np.exp(-x * x / 2)
+    assert np.ptp(f(x) / known) < 1e-13 * abs(f(0.0) / known[40])
+    g = lambdify(family, interval=(-4, 4), params={"n": "sqrt(2)"}, x0=0, y0=1, dy0=0)
+    assert g.measured is not None
+    assert g.measured.keeps_the_promise
+    assert g(1.5) == pytest.approx(float(evaluate(family, 1.5, x0=0, y0=1, dy0=0, params={"n": "sqrt(2)"})), rel=1e-14)
+
+
+def test_the_ends_and_both_sides_of_zeros_are_measured() -> None:
+    airy = lambdify("x", interval=(-9, 3), x0=0, y0=1, dy0=0)
+    points = np.sort(samples(airy))
+    assert len(points) == 24
+    assert (points[0], points[-1]) == (-9.0, 3.0)
+    signs, steps = np.sign(airy(points)), np.diff(points)
+    assert np.sum((signs[1:] != signs[:-1]) & (steps < 0.04)) == 3  # the zeros are 1 to 3 apart
+    singular = lambdify(kovacic.solve("2/(x+1)^2"), interval=(-1, 1), check=False)
+    assert min(samples(singular)) == pytest.approx(-0.998)
+
+
+def test_a_function_that_is_wrong_beside_its_zeros_only_is_seen() -> None:
+    good = lambdify("x", interval=(-9, 3), x0=0, y0=1, dy0=0)
+
+    class Shifted:
+        region, base = good.region, good.base
+
+        def __call__(self, x: Any) -> Any:
+            return good(x) + np.where(np.abs(x + 1.986) < 0.05, 1e-14, 0)
+
+    assert measure(good, "x", start={"x0": 0, "y0": 1, "dy0": 0}).keeps_the_promise
+    assert not measure(Shifted(), "x", start={"x0": 0, "y0": 1, "dy0": 0}).keeps_the_promise  # type: ignore[arg-type]
+    even = np.linspace(-8.7, 2.7, 24)  # evenly spread points wouldn't see it
+    assert measure(Shifted(), "x", even, start={"x0": 0, "y0": 1, "dy0": 0}).keeps_the_promise  # type: ignore[arg-type]

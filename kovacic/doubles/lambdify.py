@@ -6,8 +6,8 @@ Which arrangement, by what the certificate says, where no initial values are giv
   real where omega is real, for real or for complex arguments;
 - case 2 on a rational curve s^2 = g, deg g <= 2: the same product in the parameter of the curve, since the integral in
   the exponent is elementary there (`kovacic.doubles.arrangement`); for an interval of the real axis;
-- everything else on the real axis (case 2 on other curves, case 3, P of degree above 200): a table of proven Taylor
-  expansions (`kovacic.doubles.tabulate`).
+- everything else on the real axis (case 2 on other curves, case 3, P of degree above 200): a table
+  (`kovacic.doubles.tabulate`).
 
 The error is measured, not proven, in units in the last place against 50 digits: of the closed form in balls in case 1, else of
 the Taylor route (without initial values a constant factor is free: it is fixed as the median of the quotients).
@@ -17,9 +17,10 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Any
 
 import numpy as np
 from flint import acb
@@ -37,6 +38,7 @@ from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.solution import solve
 
 TINY, HUGE = 2.0**-960, 2.0**1020
 """Where values count."""
@@ -48,36 +50,42 @@ _SLOPE_BITS = 4000
 recessive one."""
 
 _SAMPLES = 24
+_ZEROS = 3
+"""Points at which a function is measured, and zeros that are looked at from both sides."""
+
+Function = ProductForm | TabulatedFunction
 
 
 def lambdify(
     solution: object,
     *,
     interval: tuple[object, object],
-    which: int = 0,
-    x0: object = None,
-    y0: object = None,
-    dy0: object = None,
+    which: int | str = 0,
     careful: bool | None = None,
     check: bool = True,
+    params: Mapping[str, object] | None = None,
     limits: Limits | None = None,
-) -> ProductForm | TabulatedFunction:
+    **start: Any,
+) -> Function:
     """A solution as a NumPy function on an interval without singular points, with its error measured.
 
     `interval` is a pair of real numbers; or two opposite corners of a rectangle of the complex plane, for complex
     arguments (case 1 only).  The solution is
 
-    - the one with y(x0) = y0, y'(x0) = dy0, where these are given: a table, for every S;
+    - the one that starts as `kovacic.evaluate` says it: x0 with y0 and dy0, with frobenius, or with which="regular" or
+      "decaying": a table, for every equation that `evaluate` takes;
     - else the one with the logarithmic derivative number `which`.  In case 1 `which` numbers the conjugates of omega, or the
       two rational ones; in cases 2 and 3 the roots of the polynomial of omega near the middle of the interval, by real and
       then imaginary part.  The constant factor is that of `kovacic.doubles.product_form`; y = 1 near the middle for tables.
-      The ends of a product form may be singular points.
+      The ends of a product form may be singular points.  Constants must be rational, and the values of `params`.
 
-    Real solutions give doubles, others complex doubles.  With `check` the error is measured at 24 points, and stands in
-    `measured`.  The arithmetic is that of plain doubles, unless its error is above 8 units in the last place (median) or 1,000
-    (worst): then it is that of double-doubles, 20 times slower; `careful` True or False chooses.  An AccuracyWarning says
-    where the error is above these bounds after all, or couldn't be measured within 20 s.  A function keeps no state: threads
-    may share it.  Making one sets python-flint's precision, under the package's lock.
+    Real solutions give doubles, others complex doubles.  With `check` the error is measured, in units in the last place of
+    |y|, and stands in `measured`: at 24 points, which are the ends of the interval (if they are singular, a thousandth of its
+    length beside them), a point on either side of up to three zeros of a real solution, at a hundredth of the distance to
+    the next zero, and others in between.  The arithmetic is that of plain doubles, unless this error is above 8 (median) or
+    1,000 (worst): then it is that of double-doubles, 20 times slower; `careful` True or False chooses.  An AccuracyWarning
+    says where the error is above these bounds after all, or couldn't be measured within 20 s.  A function keeps no state:
+    threads may share it.  Making one sets python-flint's precision, under the package's lock.
 
     Raises InputError without a Liouvillian solution and without initial values, for an interval that is empty or has a
     singular point inside, for complex arguments in cases 2 and 3, and for a table up to a singular point.
@@ -86,92 +94,83 @@ def lambdify(
     >>> f = lambdify(kovacic.solve("x^2 + 3"), interval=(0, 2))   # x exp(x^2/2)
     >>> print(f"{f(1.0):.12f}", f.measured.worst < 8)
     1.648721270700 True
-    >>> airy = lambdify("x", interval=(-9, 2), x0=0, y0=1, dy0=0)
+    >>> airy = lambdify("a*x", interval=(-9, 2), params={"a": 1}, x0=0, y0=1, dy0=0)
     >>> print(f"{airy(1.0):.12f}")
     1.172299970058
     """
-    problem = as_problem(solution)
-    budget = Budget(limits or DEFAULT_LIMITS)
-    start = None if x0 is None else Start(x0, y0, dy0)
-    certificate = problem.decision is not None and problem.decision.semi_invariant is not None
-    if start is None and not certificate:
+    problem = as_problem(solution, params, forced=bool(start), constants=bool(start))
+    if isinstance(which, str):
+        start["which"], which = which, 0
+    if not start and params and problem.S is not None:
+        problem = replace(problem, decision=solve(problem.S).decision)
+    if not start and (problem.decision is None or problem.decision.semi_invariant is None):
         raise InputError(
             "lambdify needs a Liouvillian solution, found by kovacic.solve, or initial values",
             hint="x0=, y0= and dy0= serve every S",
         )
+    budget = Budget(limits or DEFAULT_LIMITS)
     with budget.watched():
-        make = _maker(problem, interval, which, start, budget)
-        function = make(bool(careful))
-        if not check:
-            return function
-        found = _measured(function, problem, which, start, budget)
-        if careful is None and isinstance(found, Measured) and not found.keeps_the_promise:
-            function = make(True)
-            found = _measured(function, problem, which, start, budget)
-    _warn(found)
-    return replace(function, measured=found) if isinstance(found, Measured) else function
-
-
-class Start(NamedTuple):
-    """y(x0) = y0 and y'(x0) = dy0."""
-
-    x0: object
-    y0: object
-    dy0: object
-
-
-Maker = Callable[[bool], ProductForm | TabulatedFunction]
-"""The careful variant of a function, or the plain one."""
-
-
-def _maker(
-    problem: NumericProblem, interval: tuple[object, object], which: int, start: Start | None, budget: Budget
-) -> Maker:
-    region, candidates = region_of(problem, interval)
-    form = None
-    if start is None:
-        base = finite_base(problem, which, candidates)
-        with working_precision(_PREC):
-            form = product_form(problem, which, region, base)
-        if form is None:
-            if not region.is_real:
+        region, candidates = region_of(problem, interval)
+        form, given = None, start
+        if not start:
+            base = finite_base(problem, which, candidates)
+            with working_precision(_PREC):
+                form = product_form(problem, which, region, base)
+            if form is None and not region.is_real:
                 raise InputError(
                     "complex arguments need a solution of case 1", hint="evaluate treats every complex point"
                 )
-            start = Start(base, 1, ball_from_flint(omega(problem, which, base, _SLOPE_BITS)))
+            if form is None:
+                given = {"x0": base, "y0": 1, "dy0": ball_from_flint(omega(problem, which, base, _SLOPE_BITS))}
+        make = partial(tabulate, problem, *interval, limits=budget.share(1).limits, **given)
+        variants = (careful,) if careful is not None else (False, True) if check else (False,)
+        for variant in variants:
+            function: Function = replace(form, careful=variant) if form is not None else make(careful=variant)
+            found = _measured(function, problem, which, start, budget) if check else None
+            if not isinstance(found, Measured) or found.keeps_the_promise:
+                break
+    if isinstance(found, Measured) and found.points:
+        if not found.keeps_the_promise:
+            _warn(f"measured error of this function in units in the last place: {found}")
+    elif check:
+        _warn(f"the error of this function couldn't be measured: {found if isinstance(found, str) else _BEYOND}")
+    return replace(function, measured=found) if isinstance(found, Measured) else function
 
-    def make(careful: bool) -> ProductForm | TabulatedFunction:
-        if form is not None:
-            return replace(form, careful=careful)
-        assert start is not None
-        options: dict[str, Any] = {**start._asdict(), "careful": careful, "limits": budget.share(1).limits}
-        return tabulate(problem, *interval, **options)
 
-    return make
+_BEYOND = "all samples are beyond the range of doubles"
+
+
+def _warn(text: str) -> None:
+    warnings.warn(text, AccuracyWarning, stacklevel=4)
 
 
 def measure(
-    function: ProductForm | TabulatedFunction,
+    function: Function,
     equation: object,
     points: Sequence[Any] | Any = None,
     *,
     which: int = 0,
-    start: Start | None = None,
+    start: Mapping[str, Any] | None = None,
     limits: Limits | None = None,
 ) -> Measured:
-    """The errors at `points` (by default 24 of the region) of a function made by `lambdify` with this `which` or start.
+    """The errors at `points` (by default those of `lambdify`) of a function made by it with this `which` or start.
 
     Points where the solution is 0 or beyond the range of doubles don't count; a wrong 0, inf or NaN does.  Raises
     LimitExceeded where the reference isn't found within the limits.
     """
-    problem = as_problem(equation)
-    given = samples(function.region) if points is None else np.atleast_1d(points)
+    problem = as_problem(equation, forced=True, constants=True)
+    given = samples(function) if points is None else np.atleast_1d(points)
     exact = [as_point(complex(x), "x") for x in given]
     found = [complex(v) for v in function(given)]
-    reference = None if start else _exponentials(problem, which, function.base, exact)
+    reference = None
+    if not start:
+        assert function.base is not None
+        reference = _exponentials(problem, which, function.base, exact)
+        slope = ball_from_flint(omega(problem, which, function.base, _SLOPE_BITS)) if reference is None else None
+        begin: Mapping[str, Any] = {"x0": function.base, "y0": 1, "dy0": slope}
+    else:
+        begin = start
     if reference is None:
-        slope = None if start else ball_from_flint(omega(problem, which, function.base, _SLOPE_BITS))
-        begin = (start or Start(function.base, 1, slope))._asdict()
         states = evaluate_states(problem, exact, **begin, digits=_DIGITS, method="taylor", limits=limits)
         if not all(state.reached or state.y.contains_zero() for state in states):
             raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
@@ -208,14 +207,29 @@ def _exponentials(problem: NumericProblem, which: int, base: Point, points: Sequ
     return None
 
 
-def samples(region: Region) -> Any:
-    """The default points: 24 of the interval, or of the rectangle."""
+def samples(function: Function) -> Any:
+    """The points at which a function is measured: see `lambdify`."""
+    region: Region = function.region
+    low, width = region.low.real, region.high.real - region.low.real
     share = (np.arange(_SAMPLES) + 0.5) / (_SAMPLES + 0.13)
-    real = region.low.real + (region.high.real - region.low.real) * share
-    if region.is_real:
-        return real
-    other = (share * 7.3) % 1.0
-    return real + 1j * (region.low.imag + (region.high.imag - region.low.imag) * other)
+    if not region.is_real:
+        return low + width * share + 1j * (region.low.imag + (region.high.imag - region.low.imag) * ((share * 7.3) % 1))
+    inward = (width / 1000, -width / 1000)
+    ends = [
+        z.real + way * sing for z, way, sing in zip((region.low, region.high), inward, region.singular, strict=True)
+    ]
+    x = low + width * (np.arange(200) + 0.5) / 200.13
+    y, beside = function(x), np.empty(0)
+    if not np.iscomplexobj(y):
+        k = np.flatnonzero(np.sign(y[1:]) * np.sign(y[:-1]) < 0)
+        zeros = x[k] + (x[k + 1] - x[k]) / (1 + np.abs(y[k + 1] / y[k]))
+        gaps = np.diff([low, *zeros, region.high.real])
+        chosen = np.unique(np.linspace(0, len(zeros) - 1, _ZEROS).astype(int)) if len(zeros) else []
+        beside = np.concatenate(
+            [zeros[chosen] + way * np.minimum(gaps[:-1], gaps[1:])[chosen] for way in (-0.01, 0.01)]
+        )
+    count = _SAMPLES - len(ends) - len(beside)
+    return np.array([*ends, *beside, *(low + width * (np.arange(count) + 0.5) / (count + 0.13))])
 
 
 def _units(value: complex, exact: acb) -> float | None:
@@ -229,7 +243,7 @@ def _units(value: complex, exact: acb) -> float | None:
 
 
 def _measured(
-    function: ProductForm | TabulatedFunction, problem: NumericProblem, which: int, start: Start | None, budget: Budget
+    function: Function, problem: NumericProblem, which: int, start: Mapping[str, Any], budget: Budget
 ) -> Measured | str:
     """The error on the default points, or why it couldn't be measured."""
     try:
@@ -237,14 +251,3 @@ def _measured(
         return measure(function, problem, which=which, start=start, limits=limits)
     except LimitExceeded as limit:
         return str(limit)
-
-
-def _warn(found: Measured | str) -> None:
-    """An AccuracyWarning where the promise isn't kept or can't be checked."""
-    reason = found if isinstance(found, str) else "" if found.points else "all samples are beyond the range of doubles"
-    if reason:
-        warnings.warn(f"the error of this function couldn't be measured: {reason}", AccuracyWarning, stacklevel=4)
-    elif isinstance(found, Measured) and not found.keeps_the_promise:
-        warnings.warn(
-            f"measured error of this function in units in the last place: {found}", AccuracyWarning, stacklevel=4
-        )

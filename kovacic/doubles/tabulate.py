@@ -2,15 +2,16 @@
 
 For equations of every kind and every start that `kovacic.evaluate` takes.  The interval is covered by pieces [c - H, c + H],
 H = 2^e at most a quarter of the distance from c to the nearest singular point and so small that the solutions grow by at
-most 2^4.  On each piece y is interpolated at Chebyshev's points c + H cos(...) from enclosures of its values,
+most 2^4.  On each piece the polynomial
 
     y(c + H u) = sum a_n u^n,    |u| <= 1,
 
-until the last coefficients are below 2^-110 of the largest one: for a function that is analytic in |u| < 4 the error falls by
-4 + sqrt(15) with every point [Trefethen, Approximation Theory and Approximation Practice, theorem 8.2].  In the careful variant
-coefficients and Horner's scheme are double-doubles, so that the error is some 2^-95 of the largest value on the piece: the
-value itself keeps its digits near zeros, and where it is far smaller than its neighbours.  In plain doubles the error is some
-2^-52 of the largest value there.
+has the values and slopes of y at Chebyshev's points, from enclosures; a piece is halved until its last coefficients don't
+count.  For a function that is analytic in |u| < 4 the error falls by (4 + sqrt(15))^2 with every point [L. N. Trefethen,
+Approximation Theory and Approximation Practice, SIAM 2013, chapters 8 and 11].  In the careful variant coefficients and
+Horner's scheme are double-doubles, so that the error is some 2^-95 of the largest value on the piece: the value itself keeps
+its digits near zeros, and where it is far smaller than its neighbours.  In plain doubles the error is some 2^-52 of the
+largest value there.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from flint import acb, acb_poly, arb
+from flint import acb, acb_mat, arb, arb_mat
 
 from kovacic.doubles.double_double import Pair, double, horner, scaled, two_sum
 from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks, region_of
@@ -48,8 +49,8 @@ class _Variant:
     kept: int
 
 
-_VARIANTS = {True: _Variant(42, 60, 112), False: _Variant(24, 36, 62)}
-"""The careful one, and the plain one; interpolation costs a bit a point."""
+_VARIANTS = {True: _Variant(21, 60, 112), False: _Variant(12, 32, 62)}
+"""The careful one, and the plain one; interpolation costs two bits and a half a point."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,6 +136,11 @@ def _pieces(
     """Pieces that cover the region from left to right; where the points don't suffice, a piece is halved."""
     n = variant.points
     nodes = [Fraction(math.cos(math.pi * (2 * k + 1) / (2 * n))) for k in range(n)]
+    with working_precision(_PREC):
+        at = [to_acb(Point(u)).real for u in nodes]
+        values = [[u**j for j in range(2 * n)] for u in at]
+        slopes = [[j * u ** max(j - 1, 0) for j in range(2 * n)] for u in at]
+        inverse = acb_mat(arb_mat(values + slopes).inv())
     open_, done = _first_pieces(problem, region, budget), list[_Piece]()
     while open_:
         if len(open_) + len(done) > _MAX_PIECES:
@@ -143,10 +149,11 @@ def _pieces(
         states = evaluate_states(problem, points, digits=variant.digits, limits=budget.share(1).limits, **given)
         halves = []
         with working_precision(_PREC):
-            at = [to_acb(Point(u)) for u in nodes]
             for k, piece in enumerate(open_):
                 budget.check()
-                found = _coefficients(at, [ball_to_flint(s.y) for s in states[k * n : k * n + n]], variant.kept)
+                own, unit = states[k * n : k * n + n], acb(arb((1, piece.e)))
+                data = [[ball_to_flint(s.y)] for s in own] + [[ball_to_flint(s.dy) * unit] for s in own]
+                found = _counting((inverse * acb_mat(data)).entries(), variant.kept)
                 if found is not None:
                     done.append(replace(piece, coefficients=found))
                 else:
@@ -176,21 +183,20 @@ def _first_pieces(problem: NumericProblem, region: Region, budget: Budget) -> li
     return found
 
 
-def _coefficients(nodes: list[acb], values: list[acb], kept: int) -> list[acb] | None:
-    """Of the polynomial with these values; None where its degree is too low.
+def _counting(found: list[acb], kept: int) -> list[acb] | None:
+    """The coefficients up to the last that counts; None where the degree is too low.
 
-    The last Chebyshev coefficients are about those of the powers, over 2^degree.
+    The last coefficients for Chebyshev's polynomials are about those of the powers, over 2^degree.
     """
-    found: list[acb] = acb_poly.interpolate(nodes, values, algorithm="newton").coeffs()
     sizes = [abs(v).mid() for v in found]
-    floor = max(sizes, default=arb(0)) * arb((1, -kept))
-    if max((v.real.rad() + v.imag.rad() for v in found), key=float, default=arb(0)) > floor:
+    floor = max(sizes) * arb((1, -kept))
+    if max((v.real.rad() + v.imag.rad() for v in found), key=float) > floor:
         raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
-    if any(size > floor * arb((1, len(nodes) - 2)) for size in sizes[len(nodes) - 3 :]):
+    if any(size > floor * arb((1, len(found) - 2)) for size in sizes[-3:]):
         return None
     while len(found) > 1 and sizes[len(found) - 1] < floor:
         found.pop()
-    return found or [acb(0)]
+    return found
 
 
 def _assembled(region: Region, x0: object, pieces: list[_Piece], careful: bool) -> TabulatedFunction:
