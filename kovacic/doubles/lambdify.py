@@ -224,7 +224,7 @@ def samples(function: Function) -> Any:
         k = np.flatnonzero(np.sign(y[1:]) * np.sign(y[:-1]) < 0)
         zeros = x[k] + (x[k + 1] - x[k]) / (1 + np.abs(y[k + 1] / y[k]))
         gaps = np.diff([low, *zeros, region.high.real])
-        chosen = np.unique(np.linspace(0, len(zeros) - 1, _ZEROS).astype(int)) if len(zeros) else []
+        chosen = np.unique(np.linspace(0, len(zeros) - 1, _ZEROS if len(zeros) else 0).astype(int))
         beside = np.concatenate(
             [zeros[chosen] + way * np.minimum(gaps[:-1], gaps[1:])[chosen] for way in (-0.01, 0.01)]
         )

@@ -104,7 +104,7 @@ class Factor:
     @property
     def reach(self) -> float:
         """|zeta| at most."""
-        return abs(self.zeta.re.hi) + (0.0 if self.zeta.im is None else abs(self.zeta.im.hi))
+        return math.hypot(self.zeta.re.hi, 0.0 if self.zeta.im is None else self.zeta.im.hi)
 
     @property
     def quarters(self) -> int | None:
