@@ -19,8 +19,8 @@ _NAMES = {
     "decision": ("Status", "Structure"),
     "doubles.tabulate": ("tabulate",),
     "enclosure.ball": ("Ball",),
-    "enclosure.evaluate": ("AccuracyWarning", "connection_matrix", "evaluate"),
-    "enclosure.monodromy": ("monodromy",),
+    "enclosure.evaluate": ("AccuracyWarning", "evaluate"),
+    "enclosure.monodromy": ("connection_matrix", "monodromy"),
     "errors": (
         "InputError",
         "KovacicError",

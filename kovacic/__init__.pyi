@@ -5,8 +5,8 @@ from kovacic.decision import Structure as Structure
 from kovacic.doubles.tabulate import tabulate as tabulate
 from kovacic.enclosure.ball import Ball as Ball
 from kovacic.enclosure.evaluate import AccuracyWarning as AccuracyWarning
-from kovacic.enclosure.evaluate import connection_matrix as connection_matrix
 from kovacic.enclosure.evaluate import evaluate as evaluate
+from kovacic.enclosure.monodromy import connection_matrix as connection_matrix
 from kovacic.enclosure.monodromy import monodromy as monodromy
 from kovacic.errors import InputError as InputError
 from kovacic.errors import KovacicError as KovacicError

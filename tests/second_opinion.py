@@ -46,12 +46,11 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.klein import covariants
 from kovacic.decision import SemiInvariant, Structure
-from kovacic.enclosure.closed_form import ClosedForm, closed_form_of, fundamental
-from kovacic.enclosure.exponential import LogDerivative, conjugates, embed
-from kovacic.enclosure.matrices import Matrix, adjugate, multiply, product
+from kovacic.enclosure.closed_form import ClosedForm, closed_form_of
+from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, integral
+from kovacic.enclosure.matrices import Matrix, adjugate, fundamental, multiply, product
 from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.problem import as_problem
-from kovacic.enclosure.quadrature import integral
 from kovacic.limits import Budget
 
 Found = TypeVar("Found")

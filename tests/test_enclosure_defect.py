@@ -8,11 +8,10 @@ from fractions import Fraction
 import pytest
 from flint import arb
 
-from kovacic.enclosure.frame import Parts, make_frame, ray_bound, shift
-from kovacic.enclosure.points import Point
+from kovacic.enclosure.frame import Parts, make_frame, shift
+from kovacic.enclosure.points import Point, working_precision
 from kovacic.enclosure.problem import System
-from kovacic.enclosure.taylor import _cut, _proven_defect, _recurrence_complex, _recurrence_real, error_radii, expand
-from kovacic.enclosure.working import working_precision
+from kovacic.enclosure.taylor import _cut, _proven_defect, _recurrence, error_radii, expand
 from kovacic.limits import Budget
 
 Gauss = tuple[int, int]
@@ -43,7 +42,7 @@ def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, sta
     """With positive coefficients all terms are, and rounded down they end in zeros: there is no other error, and it grows
     like n^3/6."""
     parts: tuple[Parts, Parts] = (p, None), ([q_0], None)
-    re, im = _recurrence_real(*parts, 1500, start, 1, Budget())
+    re, im = _recurrence(*parts, 1500, start, 1, Budget())
     assert len(re) > 100
     bound = _proven_defect(*parts, 0, re, im, 1)
     exact = exact_defect(*parts, re, im)
@@ -66,8 +65,7 @@ def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, sta
 def test_the_last_terms_are_counted(p: Parts, q: Parts, bits: int, start: int) -> None:
     """The recurrence stops at terms below 2^bits, which the defect then contains, times the coefficients and n^2."""
     quiet = bits + 6
-    recurrence = _recurrence_real if p[1] is None else _recurrence_complex
-    re, im = recurrence(p, q, 200, start, 1 << quiet, Budget())
+    re, im = _recurrence(p, q, 200, start, 1 << quiet, Budget())
     exact = exact_defect(p, q, re, im)
     assert exact <= _proven_defect(p, q, 0, re, im, 1 << quiet)
     if bits and len(q[0]) > 1 and p[0]:
@@ -84,7 +82,7 @@ def test_bits_that_are_cut_off_are_counted(which: str, is_complex: bool, start: 
     p: Parts = [(3 << excess) + low_p] * 2, [(1 << excess) + low_p] * 2 if is_complex else None
     q: Parts = [5 << excess, (1 << excess) + low_q], [0, (2 << excess) + low_q] if is_complex else None
     trimmed = _cut(p, excess), _cut(q, excess)
-    re, im = (_recurrence_complex if is_complex else _recurrence_real)(*trimmed, 150, start, 1 << 8, Budget())
+    re, im = _recurrence(*trimmed, 150, start, 1 << 8, Budget())
     exact = exact_defect(p, q, re, im)
     assert exact <= _proven_defect(*trimmed, excess, re, im, 1 << 8)
     assert exact > len(re) ** 3 * q[0][0] << 60  # what was cut off is most of it
@@ -99,11 +97,10 @@ def test_bits_that_are_cut_off_are_counted(which: str, is_complex: bool, start: 
 )
 def test_expansions_know_their_defect(system: System, centre: Point, prec: int) -> None:
     frame = make_frame(system, centre, -2)
-    bound = ray_bound(frame, centre + Point(frame.scale))
-    assert bound is not None
-    expansion = expand(system, frame, prec, bound, Budget())
+    assert frame is not None
+    expansion = expand(frame, prec, Budget())
     p, q = shift(system, centre, Point(frame.scale))
-    assert expansion.q_0 == q[0][0]
+    assert (frame.p, frame.q) == (p, q)
     for (re, im), defect in zip(expansion.columns, expansion.defect, strict=True):
         size = max(len(re), 0 if im is None else len(im))
         columns = [None if f is None else [int(f[n]) for n in range(size)] for f in (re, im)]
@@ -118,11 +115,10 @@ def test_the_error_of_values_and_slopes(k: Fraction, e: int) -> None:
     square = Fraction(k) ** 2
     system, centre = System.make((square.numerator,), (square.denominator,)), Point(Fraction(0))
     frame = make_frame(system, centre, e)
-    bound = ray_bound(frame, Point(frame.scale))
-    assert bound is not None
+    assert frame is not None
     q_0 = shift(system, centre, Point(frame.scale))[1][0][0]
     with working_precision(80):
-        value, slope = error_radii(arb(q_0), q_0, bound)  # the defect's coefficients have the sum q_0: rho = 1
+        value, slope = error_radii(arb(q_0), frame)  # the defect's coefficients have the sum q_0: rho = 1
     k_u = float(k) * 2.0**e  # in the scaled coordinate u, x = 2^e u
     least_value, least_slope = (math.cosh(k_u) - 1) / k_u**2, math.sinh(k_u) / k_u
     assert least_value * (1 - 1e-9) <= float(value) <= 1.3 * least_value

@@ -16,9 +16,9 @@ import kovacic
 from kovacic.doubles.lambdify import lambdify
 from kovacic.doubles.tabulate import tabulate
 from kovacic.enclosure.ball import Ball, ball_to_flint
-from kovacic.enclosure.evaluate import AccuracyWarning, connection_matrix, evaluate
+from kovacic.enclosure.evaluate import AccuracyWarning, evaluate
 from kovacic.enclosure.frame import least_growth
-from kovacic.enclosure.monodromy import monodromy
+from kovacic.enclosure.monodromy import connection_matrix, monodromy
 from kovacic.enclosure.points import Point
 from kovacic.enclosure.problem import System, check_segment
 from kovacic.enclosure.transport import cover

@@ -14,7 +14,8 @@ from flint import acb, arb, ctx, fmpq
 import kovacic
 from kovacic.enclosure import frobenius
 from kovacic.enclosure.ball import Ball, ball_to_flint
-from kovacic.enclosure.evaluate import connection_matrix, evaluate
+from kovacic.enclosure.evaluate import evaluate
+from kovacic.enclosure.monodromy import connection_matrix
 from kovacic.enclosure.points import Point
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.singular import Singular

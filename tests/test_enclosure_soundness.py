@@ -11,7 +11,8 @@ import pytest
 from flint import acb, arb, ctx, fmpq
 
 from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.evaluate import connection_matrix, evaluate_states
+from kovacic.enclosure.evaluate import evaluate_states
+from kovacic.enclosure.monodromy import connection_matrix
 from kovacic.errors import InputError
 
 Function = Callable[[acb], acb]

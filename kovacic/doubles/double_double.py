@@ -26,7 +26,7 @@ from typing import Any, ClassVar
 import numpy as np
 from flint import acb, arb
 
-from kovacic.enclosure.working import working_precision
+from kovacic.enclosure.points import working_precision
 
 _SPLIT = 134217729.0  # 2^27 + 1
 _WORKING_BITS = 160

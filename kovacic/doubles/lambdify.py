@@ -33,9 +33,8 @@ from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
 from kovacic.enclosure.closed_form import exponentials, finite_base, omega
 from kovacic.enclosure.evaluate import AccuracyWarning, evaluate_states
 from kovacic.enclosure.exponential import LogDerivative, embed
-from kovacic.enclosure.points import Point, as_point, to_acb
+from kovacic.enclosure.points import Point, as_point, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem, as_problem
-from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.solution import solve

@@ -10,9 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from kovacic.enclosure.points import Point, as_point, to_acb
+from kovacic.enclosure.points import Point, as_point, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem, System, name_of
-from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 
 _PREC = 240

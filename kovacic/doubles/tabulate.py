@@ -29,9 +29,8 @@ from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks, region_of
 from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.evaluate import evaluate_states
 from kovacic.enclosure.frame import fitting
-from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem, System, as_problem, distance_lower
-from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
@@ -172,8 +171,8 @@ def _first_pieces(problem: NumericProblem, region: Region, budget: Budget) -> li
             if e < _SMALLEST:
                 raise LimitExceeded("no piece of positive size was found for the table", limit="unknown_degree")
             piece = _Piece((position // Fraction(2) ** e + 1) * Fraction(2) ** e, e)
-            centre, unit = Point(piece.centre), Point(piece.scale)
-            fits = fitting(problem.system, centre, e, _SHARE, _GROWTH, (centre - unit, centre + unit)) is not None
+            centre = Point(piece.centre)
+            fits = fitting(problem.system, centre, e, _SHARE, _GROWTH) is not None
             near = distance_lower(gauge, centre) if fits and gauge is not None else None
             if fits and (near is None or near * _SHARE >= arb((1, e))):
                 break

@@ -29,27 +29,19 @@ from itertools import combinations
 
 from flint import acb, acb_mat, arb, fmpq
 
-from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.monodromy import LocalMonodromy, monodromy
+from kovacic.enclosure.points import working_precision
 from kovacic.enclosure.problem import System, as_problem
-from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 from kovacic.galois import Group, Kind
 from kovacic.limits import Limits
 from kovacic.solution import Solution
 
-_LARGEST = 400
-"""The largest finite group that is enumerated."""
-
-_WORDS = 12
-"""The number of products that are compared with one another."""
-
+_LARGEST = 400  # the largest finite group that is enumerated
+_WORDS = 12  # the number of products that are compared with one another
 _BITS = 400
 _TWO = acb(2)
-
-_HIGHEST_ORDER = 120
-"""Eigenvalues are compared with roots of unity up to this order."""
-
+_HIGHEST_ORDER = 120  # eigenvalues are compared with roots of unity up to this order
 _DIAGONAL = (Kind.CYCLIC, Kind.MULTIPLICATIVE)
 _TRIANGULAR = (*_DIAGONAL, Kind.ADDITIVE, Kind.BOREL)
 _IMPRIMITIVE = (Kind.DICYCLIC, Kind.INFINITE_DIHEDRAL, Kind.IMPRIMITIVE)
@@ -103,17 +95,13 @@ def is_fuchsian(system: System) -> bool:
 def compare(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> Agreement:
     """The verdict from the matrices; `fuchsian` says that their Zariski closure is the group."""
     with working_precision(_BITS):
-        generators = [_matrix(item) for item in local]
+        generators = [item.acb_mat() for item in local]
         angles = _angles(group)
         if angles is not None:
             return _enumerate(generators, angles, group)
         if not generators:
             return Agreement(None, "there is no finite singular point, so the monodromy is trivial")
         return _families(_words(generators), group, fuchsian)
-
-
-def _matrix(local: LocalMonodromy) -> acb_mat:
-    return acb_mat([[ball_to_flint(entry) for entry in row] for row in local.matrix])
 
 
 def _inverse(m: acb_mat) -> acb_mat:
@@ -146,7 +134,13 @@ def _enumerate(generators: list[acb_mat], angles: dict[Fraction, int], group: Gr
             if not own:
                 return Agreement(False, f"the monodromy group has an element whose trace isn't one of {group}")
             quotients = [candidate * _inverse(other) for other in elements]
-            equal = [_is_identity(quotient, traces) for quotient in quotients]
+            # is it one of the elements?  None where the ball leaves that open
+            equal = [
+                (True if all(not q.trace().overlaps(v) for angle, v in traces.items() if angle) else None)
+                if q.trace().overlaps(traces[Fraction(0)])
+                else False
+                for q in quotients
+            ]
             if any(same and not _may_be_identity(q) for same, q in zip(equal, quotients, strict=True)):
                 return Agreement(False, f"the monodromy group has a unipotent element, unlike {group}")
             if len(own) > 1 or (None in equal and True not in equal):
@@ -164,34 +158,27 @@ def _enumerate(generators: list[acb_mat], angles: dict[Fraction, int], group: Gr
     return Agreement(True, f"the monodromy group has {order} {plural}, with the traces of {group}")
 
 
-def _is_identity(matrix: acb_mat, traces: dict[Fraction, acb]) -> bool | None:
-    """Is an element of a group with these traces the identity?  None if its ball leaves that open."""
-    trace = matrix.trace()
-    if not trace.overlaps(traces[Fraction(0)]):
-        return False
-    others = any(trace.overlaps(value) for angle, value in traces.items() if angle)
-    return None if others else True
-
-
 def _families(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
     """An infinite group (or a large one): the conditions (1)."""
     commutators = [_commutator(a, b) for a, b in combinations(words, 2)]
     commuting = all(_may_be_identity(c) for c in commutators)
     reducible = all(c.trace().overlaps(_TWO) for c in commutators)
     monomial = all(_may_be_identity(_commutator(a**2, b**2)) for a, b in combinations(words, 2))
-    if group.kind in _TRIANGULAR and not reducible:
-        return Agreement(False, f"the monodromy matrices have no common eigenvector, unlike {group}")
-    if group.kind in _DIAGONAL and not commuting:
-        return Agreement(False, f"the monodromy matrices don't commute, unlike {group}")
-    if group.kind in _IMPRIMITIVE and not monomial:
-        return Agreement(False, f"the squares of the monodromy matrices don't commute, unlike those of {group}")
-    if group.kind in (Kind.CYCLIC, Kind.ADDITIVE) and group.n is not None:
-        if not all((word**group.n).trace().overlaps(_TWO) for word in words):
-            return Agreement(False, f"an eigenvalue of a monodromy matrix isn't a root of unity of {group}")
-        if fuchsian and _is_proper_order(words, group.n):
-            return Agreement(
-                False, f"the eigenvalues of the monodromy matrices have a lower order than those of {group}"
-            )
+    n = group.n if group.kind in (Kind.CYCLIC, Kind.ADDITIVE) else None
+    contradictions = {
+        "the monodromy matrices have no common eigenvector, unlike": group.kind in _TRIANGULAR and not reducible,
+        "the monodromy matrices don't commute, unlike": group.kind in _DIAGONAL and not commuting,
+        "the squares of the monodromy matrices don't commute, unlike those of": group.kind in _IMPRIMITIVE
+        and not monomial,
+        "an eigenvalue of a monodromy matrix isn't a root of unity of": n is not None
+        and not all((word**n).trace().overlaps(_TWO) for word in words),
+        "the eigenvalues of the monodromy matrices have a lower order than those of": n is not None
+        and fuchsian
+        and _is_proper_order(words, n),
+    }
+    for sentence, contradicted in contradictions.items():
+        if contradicted:
+            return Agreement(False, f"{sentence} {group}")
     if group.kind is Kind.SL2:
         longer = [*words, *commutators, *(a * b for a, b in combinations(words, 2))]
         finite = any(all(_may_be_in(word, kind) for word in longer) for kind in _PRIMITIVE)

@@ -22,19 +22,14 @@ from typing import Any
 
 from flint import acb, arb
 
+from kovacic.algebra.rationals import to_fmpq
 from kovacic.enclosure.constants import as_number, to_ball
-from kovacic.enclosure.points import Point, as_point
-from kovacic.enclosure.working import working_precision
-from kovacic.errors import InputError
+from kovacic.enclosure.points import Point, as_point, working_precision
+from kovacic.errors import InputError, LimitExceeded
 
-Dyadic = tuple[int, int]
-"""A dyadic rational (m, e), the number m 2^e; m is odd, or (0, 0) stands for zero."""
-
-_DECIMAL_BITS = 10_000
-"""Largest |exponent| that is written out in decimals."""
-
-_FRACTION_BITS = 10_000_000
-"""Largest |exponent| that is written out as a fraction: 2^(10^12) would fill the memory."""
+Dyadic = tuple[int, int]  # a dyadic rational (m, e), the number m 2^e; m is odd, or (0, 0) stands for zero
+_DECIMAL_BITS = 10_000  # largest |exponent| that is written out in decimals
+_FRACTION_BITS = 10_000_000  # largest |exponent| that is written out as a fraction: 2^(10^12) would fill the memory
 
 
 def dyadic(mantissa: int, exponent: int) -> Dyadic:
@@ -66,6 +61,10 @@ def _to_fraction(number: Dyadic) -> Fraction:
 
 def _log10(number: Dyadic) -> float:
     return (math.log2(abs(number[0])) + number[1]) * math.log10(2)
+
+
+def _operator(compute: Callable[[acb, acb], acb]) -> Callable[[Ball, object], Ball]:
+    return lambda ball, other: ball._combined(other, compute)
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +135,7 @@ class Ball:
         if isinstance(number, Ball):
             return _reaches(self, number, -1)
         point, (re, im) = as_point(number, "the number"), self.midpoint
-        return (point - Point(re, im)).norm_squared() <= _to_fraction(self.rad) ** 2
+        return bool((point - Point(re, im)).norm_squared() <= to_fmpq(_to_fraction(self.rad) ** 2))
 
     def overlaps(self, other: Ball) -> bool:
         """True if the two exact values can be equal; False proves that they differ."""
@@ -220,44 +219,27 @@ class Ball:
     def __abs__(self) -> Ball:
         return self._combined(0, lambda z, _: acb(abs(z)))
 
-    def __add__(self, other: object) -> Ball:
-        return self._combined(other, lambda x, y: x + y)
-
-    def __sub__(self, other: object) -> Ball:
-        return self._combined(other, lambda x, y: x - y)
-
-    def __rsub__(self, other: object) -> Ball:
-        return self._combined(other, lambda x, y: y - x)
-
-    def __mul__(self, other: object) -> Ball:
-        return self._combined(other, lambda x, y: x * y)
-
-    def __truediv__(self, other: object) -> Ball:
-        return self._combined(other, lambda x, y: x / y)
-
-    def __rtruediv__(self, other: object) -> Ball:
-        return self._combined(other, lambda x, y: y / x)
+    __add__ = __radd__ = _operator(lambda x, y: x + y)
+    __sub__, __rsub__ = _operator(lambda x, y: x - y), _operator(lambda x, y: y - x)
+    __mul__ = __rmul__ = _operator(lambda x, y: x * y)
+    __truediv__, __rtruediv__ = _operator(lambda x, y: x / y), _operator(lambda x, y: y / x)
 
     def __pow__(self, other: object) -> Ball:
         """Principal powers; whole ones of anything."""
         return self._combined(other, lambda x, y: x ** (other if isinstance(other, int) else y))
 
-    __radd__, __rmul__ = __add__, __mul__
-
     def __lt__(self, other: object) -> bool | None:
         """True or False where that is certain for all numbers of the balls, else None; so for <=, > and >=."""
         return self._order(other, strict=True)
 
-    def __ge__(self, other: object) -> bool | None:
-        found = self._order(other, strict=True)
-        return None if found is None else not found
-
     def __le__(self, other: object) -> bool | None:
         return self._order(other, strict=False)
 
+    def __ge__(self, other: object) -> bool | None:
+        return None if (found := self < other) is None else not found
+
     def __gt__(self, other: object) -> bool | None:
-        found = self._order(other, strict=False)
-        return None if found is None else not found
+        return None if (found := self <= other) is None else not found
 
     def _order(self, other: object, *, strict: bool) -> bool | None:
         second = other if isinstance(other, Ball) else Ball.of(other)
@@ -343,6 +325,14 @@ def ball_from_flint(value: acb | arb) -> Ball | None:
         a, b = re.rad(), im.rad()
         rad = (a + b if a.is_zero() or b.is_zero() else (a * a + b * b).sqrt()).upper()
     return Ball(_man_exp(re.mid()), _man_exp(im.mid()), _man_exp(rad), False)
+
+
+def finite_ball(value: acb | arb) -> Ball:
+    """The ball around a finite flint ball; raises LimitExceeded where nothing is known."""
+    ball = ball_from_flint(value)
+    if ball is None:
+        raise LimitExceeded("a value has no finite enclosure at this precision", limit="digits")
+    return ball
 
 
 def _man_exp(value: arb) -> Dyadic:

@@ -13,9 +13,8 @@ matrices along the leg, which is carried by the certificate of the decision (E =
 So the zeros of P need not be known, and no leg goes around them.  Other closed forms cost more than Taylor steps (quadratures,
 hypergeometric functions): there is no such route.
 
-`omega` numbers the solutions whose logarithmic derivative is algebraic, in every case: in case 1 the conjugates of omega, or
-the two rational ones; in cases 2 and 3 the roots of the polynomial of omega at the point, by real part and then imaginary
-part.
+`omega` numbers the solutions whose logarithmic derivative is algebraic: in case 1 the conjugates of omega, or the two rational
+ones; in cases 2 and 3 the roots of the polynomial of omega at the point, by real part and then imaginary part.
 """
 
 from __future__ import annotations
@@ -27,27 +26,19 @@ from flint import acb, acb_poly, arb
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import decompose
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision
 from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, sharp_roots
-from kovacic.enclosure.matrices import Matrix, State, adjugate, multiply
-from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.matrices import Matrix, State, adjugate, fundamental, inverse, multiply
+from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem, check_segment
-from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 
-_CHEAP_DEGREE = 60
-"""Degree of P up to which its evaluation costs less than the Taylor steps."""
-
-_LARGEST_SQUARE = 1_000
-"""Degree up to which y1^2 is written out; it may be x^1000000."""
-
-_HIGHEST = 40_000
-"""Bits up to which a logarithmic derivative is computed: the polynomial may cancel as many."""
-
-_SMALL = 60
-"""Degree up to which a second rational omega is sought by integration."""
+_CHEAP_DEGREE = 60  # degree of P up to which its evaluation costs less than the Taylor steps
+_LARGEST_SQUARE = 1_000  # degree up to which y1^2 is written out; it may be x^1000000
+_HIGHEST = 40_000  # bits up to which a logarithmic derivative is computed: the polynomial may cancel as many
+_SMALL = 60  # degree up to which a second rational omega is sought by integration
 
 
 @dataclass(frozen=True)
@@ -58,14 +49,13 @@ class Exponential:
     P: Poly
     embedding: int = 0
 
-    @property
-    def field(self) -> Field:
-        """The field of the constants."""
-        return self.P.field if isinstance(self.P.field, AlgebraicField) else self.theta.field
+    def constants(self) -> list[acb | None]:
+        """The conjugate values of the generator of the field, at the working precision in force."""
+        return conjugates(self.P.field if isinstance(self.P.field, AlgebraicField) else self.theta.field)
 
     def constant(self) -> acb | None:
-        """The value of the generator of the field, at the working precision in force."""
-        return conjugates(self.field)[self.embedding]
+        """The one that is meant."""
+        return self.constants()[self.embedding]
 
     def omega(self, z: acb) -> acb:
         """y'/y at z."""
@@ -90,7 +80,7 @@ class ClosedForm:
     def branches(self) -> tuple[Exponential, ...]:
         """The solutions with conjugate omegas, or with the two rational ones that the certificate has."""
         theta, P = self.first.theta, self.first.P
-        count = len(conjugates(self.first.field))
+        count = len(self.first.constants())
         if count > 1:
             return tuple(Exponential(theta, P, k) for k in range(count))
         assert self.problem.decision is not None
@@ -165,8 +155,36 @@ class ClosedForm:
     def leg(self, a: Point, b: Point) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment, for elementary solutions."""
         check_segment(self.problem.system, a, b)
-        make = _two_exponentials if len(self.branches) == 2 else _integral_leg
-        return make(self, to_acb(a), to_acb(b))
+        return (self._two if len(self.branches) == 2 else self._unique)(to_acb(a), to_acb(b))
+
+    def _two(self, a: acb, b: acb) -> Matrix:
+        """Two omegas: y = E P for either."""
+        ends: tuple[list[State], list[State]] = [], []
+        for branch in self.branches:
+            c = branch.constant()
+            theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
+            for x, growth, states in zip((a, b), (acb(1), theta.growth(a, b)), ends, strict=True):
+                states.append((growth * P(x), growth * (theta.value(x) * P(x) + P.derivative()(x))))
+        return multiply(fundamental(*ends[1]), inverse(fundamental(*ends[0])))
+
+    def _unique(self, a: acb, b: acb) -> Matrix:
+        """A unique omega, equation (1), E^2 rational."""
+        square = self.rational_square
+        assert square is not None
+        theta = LogDerivative.make(self.first.theta, None)
+        exact_A, exact_B = self.reduction
+        P, A = embed(self.first.P, None), embed(exact_A, None)
+        dP, dA = P.derivative(), A.derivative()
+        area = LogDerivative.make(exact_B / square, None).exponent(a, b) * value(square, None, a)
+
+        def states(x: acb, E: acb, I: acb) -> Matrix:  # noqa: E741 - the integral in (1)
+            t, p, alpha = theta.value(x), P(x), A(x)
+            y, dy = E * p, E * (t * p + dP(x))
+            slope = (dA(x) - t * alpha + value(exact_B, None, x) * p) / E + dy * I
+            return fundamental((y, dy), (alpha / E + y * I, slope))
+
+        # the Wronskian of y1 and y2 is 1
+        return multiply(states(b, theta.growth(a, b), area), adjugate(states(a, acb(1), acb(0))))
 
 
 def certified(problem: NumericProblem) -> Decision:
@@ -186,46 +204,6 @@ def closed_form_of(problem: NumericProblem) -> ClosedForm | None:
         return None
     assert decision.semi_invariant is not None
     return ClosedForm(problem, Exponential(decision.semi_invariant.theta, decision.semi_invariant.P))
-
-
-def _two_exponentials(closed: ClosedForm, a: acb, b: acb) -> Matrix:
-    """Two omegas: y = E P for either."""
-    at_a, at_b = [], []
-    for branch in closed.branches:
-        c = branch.constant()
-        theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
-        slope, growth = P.derivative(), theta.growth(a, b)
-        at_a.append((P(a), theta.value(a) * P(a) + slope(a)))
-        at_b.append((growth * P(b), growth * (theta.value(b) * P(b) + slope(b))))
-    start = fundamental(*at_a)
-    m, determinant = multiply(fundamental(*at_b), adjugate(start)), start[0] * start[3] - start[1] * start[2]
-    return m[0] / determinant, m[1] / determinant, m[2] / determinant, m[3] / determinant
-
-
-def _integral_leg(closed: ClosedForm, a: acb, b: acb) -> Matrix:
-    """A unique omega, equation (1), E^2 rational."""
-    square = closed.rational_square
-    assert square is not None
-    theta = LogDerivative.make(closed.first.theta, None)
-    exact_A, exact_B = closed.reduction
-    P, A = embed(closed.first.P, None), embed(exact_A, None)
-    dP, dA = P.derivative(), A.derivative()
-    num, den = embed(exact_B.num, None), embed(exact_B.den, None)
-
-    area = LogDerivative.make(exact_B / square, None).exponent(a, b) * value(square, None, a)
-
-    def states(x: acb, E: acb, I: acb) -> tuple[State, State]:  # noqa: E741 - the integral in (1)
-        t, p, alpha = theta.value(x), P(x), A(x)
-        y, dy = E * p, E * (t * p + dP(x))
-        return (y, dy), (alpha / E + y * I, (dA(x) - t * alpha + num(x) / den(x) * p) / E + dy * I)
-
-    at_a, at_b = fundamental(*states(a, acb(1), acb(0))), fundamental(*states(b, theta.growth(a, b), area))
-    return multiply(at_b, adjugate(at_a))  # the Wronskian of y1 and y2 is 1
-
-
-def fundamental(first: State, second: State) -> Matrix:
-    """The matrix with the states (y, y') of two solutions as its columns."""
-    return first[0], second[0], first[1], second[1]
 
 
 def exponentials(problem: NumericProblem) -> list[Exponential]:
@@ -277,10 +255,8 @@ def omega(problem: NumericProblem, which: int, x0: Point, bits: int) -> acb:
             found = omegas(problem, x0)
             if found and not 0 <= which < len(found):
                 names = "only which = 0" if len(found) == 1 else f"which = 0, ..., {len(found) - 1}"
-                raise InputError(
-                    f"which = {which}: the equation has {names} here",
-                    hint="tabulate gives every solution, by initial values",
-                )
+                hint = "tabulate gives every solution, by initial values"
+                raise InputError(f"which = {which}: the equation has {names} here", hint=hint)
             if found and found[which].is_finite():
                 ball = found[which]
                 if ball.rel_accuracy_bits() >= bits or ball.real.rad() + ball.imag.rad() < arb((1, -bits - 400)):

@@ -82,31 +82,20 @@ def _given_ball(value: Any) -> acb | None:
         return acb(value.to_flint())
     if isinstance(value, arb | acb):
         return acb(value)
-    return _interval(value) if hasattr(value, "_mpi_") or hasattr(value, "_mpci_") else None
+    intervals = getattr(value, "_mpci_", None) or ((value._mpi_,) if hasattr(value, "_mpi_") else ())
+    parts = []
+    for interval in intervals:
+        if any(not mantissa and exponent for _, mantissa, exponent, _ in interval):
+            raise InputError("an interval isn't finite")
+        e = min(exponent for _, _, exponent, _ in interval)
+        low, high = ((-1) ** sign * (int(mantissa) << (exponent - e)) for sign, mantissa, exponent, _ in interval)
+        parts.append(arb((low + high, e - 1), (high - low, e - 1)))
+    return acb(*parts) if parts else None
 
 
 def to_ball(number: Number) -> acb:
     """The ball of the working precision in force."""
     return to_acb(number) if isinstance(number, Point) else number.value()
-
-
-def _interval(value: Any) -> acb:
-    """The ball of an mpmath interval, real or complex."""
-    pairs = value._mpci_ if hasattr(value, "_mpci_") else (value._mpi_,)
-    return acb(*(_between(*map(_mpf, pair)) for pair in pairs))
-
-
-def _between(low: tuple[int, int], high: tuple[int, int]) -> arb:
-    e = min(low[1], high[1])
-    a, b = (m << (k - e) for m, k in (low, high))
-    return arb((a + b, e - 1), (b - a, e - 1))
-
-
-def _mpf(parts: tuple[int, int, int, int]) -> tuple[int, int]:
-    sign, mantissa, exponent, _ = parts
-    if not mantissa and exponent:
-        raise InputError("an interval isn't finite")
-    return (-int(mantissa) if sign else int(mantissa)), int(exponent)
 
 
 def in_balls(expression: Any, values: Mapping[Any, acb], *, analytic: bool = False) -> acb:

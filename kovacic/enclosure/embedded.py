@@ -22,15 +22,13 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.enclosure.constants import Number, to_ball
-from kovacic.enclosure.points import floor
-from kovacic.enclosure.quadrature import integral
-from kovacic.enclosure.working import working_precision
+from kovacic.enclosure.exponential import integral
+from kovacic.enclosure.points import floor, working_precision
 from kovacic.errors import InputError
 from kovacic.limits import Budget
 
+# Bits beyond twice the precision to which the constants are known: the solutions grow in a disc, and poles may be near
 _EXTRA = 256
-"""Bits beyond twice the precision to which the constants are known: the solutions grow in a disc, and poles may be near."""
-
 _UNDEFINED = "the equation isn't defined at these values of the parameters, as far as they are known"
 
 

@@ -1,5 +1,5 @@
 """Exact polynomials and rational functions in balls, and exp(int theta) for rational theta: partial fractions, with powers
-and logarithms followed along straight legs.
+and logarithms followed along straight legs; and rigorous integrals of other functions, that can be stopped.
 
 The guarantee: `growth(a, b)` contains exp(int_a^b theta dx) along the straight segment, if it returns.
 
@@ -12,6 +12,7 @@ Symbols: c, the root of the field's modulus that constants are embedded by.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,7 +23,10 @@ from kovacic.algebra.factors import squarefree_factors
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
-from kovacic.enclosure.problem import Zeros
+from kovacic.errors import LimitExceeded
+from kovacic.limits import Budget, check_duration
+
+_NODES = 3e-11  # seconds that the nodes of a quadrature take, over bits^2.7 (measured): they are computed in one piece
 
 
 def conjugates(field: Field) -> list[acb | None]:
@@ -32,7 +36,7 @@ def conjugates(field: Field) -> list[acb | None]:
     return [root for root, _ in _roots(field.modulus)]
 
 
-def _roots(poly: Poly) -> Zeros:
+def _roots(poly: Poly) -> tuple[tuple[acb, int], ...]:
     """Certified isolation of the zeros of a polynomial over Q."""
     assert isinstance(poly, RationalPoly)
     return tuple((root, int(k)) for root, k in poly.rep.numer().complex_roots())
@@ -129,3 +133,32 @@ def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[ac
     quotient = (acb_series(top, k) / acb_series(bottom, k)).coeffs()
     quotient += [acb(0)] * (k - len(quotient))
     return tuple(quotient[k - 1 - j] for j in range(k))
+
+
+def integral(function: Callable[[acb, bool], acb], a: acb, b: acb, budget: Budget) -> acb:
+    """int_a^b, by flint's rigorous adaptive quadrature; a non-finite ball where it gave up.
+
+    Raises LimitExceeded when the budget is used up.  An exception can't cross flint's C code (python-flint 0.9.0 turns it
+    into a SystemError), so the integrand answers 0 once it was stopped or interrupted, which ends the quadrature at once, and
+    the exception comes after.
+    """
+    stopped: BaseException | None = None
+
+    def guarded(z: acb, analytic: bool) -> acb:
+        nonlocal stopped
+        if stopped is None:
+            try:
+                budget.check()
+                return function(z, analytic)
+            except (LimitExceeded, KeyboardInterrupt) as reason:
+                stopped = reason
+        return acb(0)
+
+    check_duration(_NODES * ctx.prec**2.7, f"a quadrature with {ctx.prec} bits")
+    try:
+        result: acb = acb.integral(guarded, a, b)
+    except SystemError as error:  # the interrupt came between two calls of the integrand
+        raise error.__cause__ or error from None
+    if stopped is not None:
+        raise stopped
+    return result

@@ -22,16 +22,15 @@ from flint import acb, acb_poly, arb
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import in_balls
+from kovacic.enclosure.exponential import integral
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import NumericProblem, System, check_segment
-from kovacic.enclosure.quadrature import integral
 from kovacic.enclosure.taylor import error_radii
 from kovacic.enclosure.transport import Leg
 from kovacic.limits import Budget
 
-_PIECES = 16
-"""Pieces of a way on which |F| is bounded."""
+_PIECES = 16  # pieces of a way on which |F| is bounded
 
 
 @dataclass(frozen=True)
@@ -73,14 +72,14 @@ class Forcing:
         step, half = (stop - start) / _PIECES, arb(0, 0.5)
         pieces = (start + step * acb(arb(2 * k + 1) / 2 + half) for k in range(_PIECES))
         size = sum((abs(source(x, False)) for x in pieces), arb(0)) * abs(step)
-        bound, found = leg.disc.bounds[0].worst(leg.disc.bounds[1]), []
+        found = []
         for poly, defect in zip(polys, expansion.defect, strict=True):
 
             def integrand(x: acb, analytic: bool, poly: acb_poly = poly) -> acb:
                 return poly((x - centre) / h) * source(x, analytic)
 
             area = integral(integrand, start, stop, budget) * unit
-            error = (size * error_radii(arb((defect + 1, -expansion.w)), expansion.q_0, bound)[0]).upper()
+            error = (size * error_radii(arb((defect + 1, -expansion.w)), frame)[0]).upper()
             found.append(acb(area.real + arb(0, error), 0 if real else area.imag + arb(0, error)))
         here = (-found[1] * h, found[0])
         if leg.to_centre is None:

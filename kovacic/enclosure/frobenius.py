@@ -40,30 +40,22 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpq
 
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import Matrix, State
-from kovacic.enclosure.points import Point
+from kovacic.enclosure.points import Point, power_of_two, working_precision
 from kovacic.enclosure.singular import Operator, Singular
-from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget
 
-_STRIDE = 16
-"""Terms between two looks at the tail."""
-
-_GROWTH = 0.2
-"""Growth of the majorant in bits as a share of the working precision, at most."""
-
+_STRIDE = 16  # terms between two looks at the tail
+_GROWTH = 0.2  # growth of the majorant in bits as a share of the working precision, at most
+# The difference of exponents up to which a logarithm that isn't there is noticed: N terms in exact numbers
 _SOUGHT = 400
-"""The difference of exponents up to which a logarithm that isn't there is noticed: N terms in exact numbers."""
-
-Pair = tuple[Any, Any]
-"""u + v log t."""
+Pair = tuple[Any, Any]  # u + v log t
 
 
 @dataclass(frozen=True)
@@ -75,6 +67,16 @@ class Majorant:
     gamma: arb
     inverse: arb
 
+    @classmethod
+    def make(cls, op: Operator, neighbours: list[tuple[acb, int]], rho: arb) -> Majorant:
+        """The bounds, from the coefficients and the other zeros of A."""
+        inverse = 1 / abs(op.A[0])
+        for zeta, k in neighbours:
+            inverse /= (1 - rho / abs(zeta)) ** k
+        rows = ([v - row[0] / op.A[0] * a for v, a in zip(row, op.A, strict=True)] for row in (op.B, op.C))
+        beta, gamma = (sum((abs(v) * rho**j for j, v in enumerate(row) if j), arb(0)) * inverse for row in rows)
+        return cls(rho, beta.upper(), gamma.upper(), inverse.upper())
+
     def growth(self, n: int, delta: arb, size: arb, t: arb) -> tuple[arb, arb]:
         """(1 - t/rho)^(-1 - C/kappa) and kappa for the terms from n on; `size` bounds |lambda|, and `delta` |delta| where its
         real part is negative, else it's 0: then |n + delta| >= n."""
@@ -83,22 +85,8 @@ class Majorant:
         return (1 - t / self.rho) ** (-1 - C / kappa), kappa
 
 
-def _majorant(op: Operator, neighbours: list[tuple[acb, int]], rho: arb) -> Majorant:
-    inverse = 1 / abs(op.A[0])
-    for zeta, k in neighbours:
-        inverse /= (1 - rho / abs(zeta)) ** k
-    rows = ([v - row[0] / op.A[0] * a for v, a in zip(row, op.A, strict=True)] for row in (op.B, op.C))
-    beta, gamma = (sum((abs(v) * rho**j for j, v in enumerate(row) if j), arb(0)) * inverse for row in rows)
-    return Majorant(rho, beta.upper(), gamma.upper(), inverse.upper())
-
-
-def _first(delta: arb) -> int:
-    """Terms before which the bound isn't used."""
-    return int(2 * float(delta.upper())) + 8
-
-
-def radius(point: Singular, prec: int, distance: arb) -> tuple[Fraction, Majorant]:
-    """The radius, at most about `distance`, of the disc |t| <= r in which the series are summed, and the bounds for it.
+def radius(point: Singular, prec: int, distance: arb) -> tuple[int, Majorant]:
+    """The disc |t| <= 2^e in which the series are summed, 2^e at most about `distance`: e, and the bounds for it.
 
     At most half the distance to the next singular point; there A is at least half of A_0 even with absolute values, so that the
     recurrence loses no digits, and the majorant grows by a share of the precision only.
@@ -113,13 +101,17 @@ def radius(point: Singular, prec: int, distance: arb) -> tuple[Fraction, Majoran
     for _ in range(20_000):
         r = arb((1, e))
         if sum((abs(v) * r**j for j, v in enumerate(op.A) if j), arb(0)) <= abs(op.A[0]):
-            bound = _majorant(op, neighbours, r * 3 / 2)
-            start = max(_first(delta), prec // 2)
-            factor, _ = bound.growth(start, delta, size, r)
+            bound = Majorant.make(op, neighbours, r * 3 / 2)
+            factor, _ = bound.growth(max(_first(delta), prec // 2), delta, size, r)
             if factor > 0 and log2(factor) < max(60.0, _GROWTH * prec):
-                return Fraction(2) ** e, bound
+                return e, bound
         e -= 1
     raise LimitExceeded("no disc around the singular point was found", limit="unknown_degree")
+
+
+def _first(delta: arb) -> int:
+    """Terms before which the bound isn't used."""
+    return int(2 * float(delta.upper())) + 8
 
 
 def junction(point: Singular, towards: Point, prec: int) -> tuple[Point, Majorant]:
@@ -128,15 +120,13 @@ def junction(point: Singular, towards: Point, prec: int) -> tuple[Point, Majoran
         t = abs(point.offset(towards))
         if not t.is_finite() or t.contains(0):
             raise InputError(f"{towards} can't be reached: it's a singular point or 0, seen from {point}")
-        r, bound = radius(point, prec, t.upper())
-        if t <= arb(r.numerator) / r.denominator:
+        e, bound = radius(point, prec, t.upper())
+        if t <= arb((1, e)):
             return towards, bound
-        e = math.floor(log2(arb(r.numerator) / r.denominator / t))
-    share = Fraction(2) ** e
+        share = math.floor(log2(arb((1, e)) / t))
     if point.inverted:
-        return towards.scaled(1 / share), bound
-    grain = r.numerator.bit_length() - r.denominator.bit_length() - 20
-    return (point.near + (towards - point.near).scaled(share)).rounded(grain), bound
+        return towards.scaled(power_of_two(-share)), bound
+    return (point.near + (towards - point.near).scaled(power_of_two(share))).rounded(e - 20), bound
 
 
 class Basis:
@@ -187,7 +177,7 @@ class Basis:
 
 def limit(point: Singular, start: State, budget: Budget) -> State:
     """y and y' at the point itself, for coordinates in the basis; raises InputError where one is infinite."""
-    beside = Point(point.near.re + 1, point.near.im)
+    beside = point.near + Point(1)
     last, bound = junction(point, beside, 64)
     needed = [not coordinate.is_zero() for coordinate in start]
     basis = Basis(point, last, beside, bound, max(64, ctx.prec), budget, needed)

@@ -12,72 +12,72 @@ from a regular singular point begins with its Frobenius series.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
+from typing import Any
 
 from flint import acb
 
 from kovacic.enclosure.closed_form import ClosedForm
+from kovacic.enclosure.constants import Number
 from kovacic.enclosure.embedded import EmbeddedGauge
 from kovacic.enclosure.exponential import LogDerivative
 from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.frobenius import Basis, junction, limit
 from kovacic.enclosure.matrices import Product, State, apply, real_part
-from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.points import Point, power_of_two, to_acb
 from kovacic.enclosure.problem import NumericProblem, System, check_segment
 from kovacic.enclosure.singular import Singular
+from kovacic.enclosure.start import Start, middle, spread
 from kovacic.enclosure.transport import walk
 from kovacic.errors import InputError
 from kovacic.limits import Budget
 
 
 @dataclass(frozen=True)
-class Itinerary:
-    """Where to go: the polygon `trunk` from x0, then from its end a straight line to each target, or (`chain`) from
+class Journey:
+    """From the start along the polygon `vertices`, then from its end a straight line to each target, or (`chain`) from
     target to target.  `side` says on which side of the real axis singular points on it are passed ("above", "below")."""
 
-    trunk: tuple[Point | Singular, ...]
-    targets: tuple[Point, ...]
+    problem: NumericProblem
+    start: Start
+    vertices: tuple[Number, ...]
+    targets: tuple[Number, ...]
     chain: bool = False
     side: str | None = None
+    closed: ClosedForm | None = None
 
     @property
-    def start(self) -> Point | Singular:
-        """x0."""
-        return self.trunk[0]
+    def is_exact(self) -> bool:
+        """True if a higher precision makes every ball smaller."""
+        numbers = (self.start.place, *self.start.data, *self.targets)
+        return self.problem.is_exact and not any(getattr(number, "fixed", False) for number in numbers)
 
-    def branches(self) -> list[list[int]]:
-        """The targets in the order of visit: chains that start at the end of the trunk.
+    def states(self, prec: int, budget: Budget) -> list[State]:
+        """The states at the targets, at about so many bits: exact points are travelled, the midpoints of balls."""
+        problem, place = self.problem.at(prec), self.start.place
+        start, stops = self.start.state(problem, prec, budget), [middle(target) for target in self.targets]
+        here = place if isinstance(place, Singular) else middle(place)
+        traveller = Traveller.at(problem, here, self.closed, prec, budget)
+        for vertex in self.vertices:
+            traveller.go([middle(vertex)], start)
+        result: dict[int, State] = {}
+        branches = [[i] for i in range(len(stops))] if self.chain else _branches(traveller.here, stops)
+        for branch in branches:
+            one = traveller if self.chain else traveller.copy()
+            states = one.around([stops[i] for i in branch], start, self.side)
+            result |= zip(branch, states, strict=True)
+        return [spread(problem, target, result[i]) for i, target in enumerate(self.targets)]
 
-        Straight lines to points on one ray from there share their way: on the real axis two chains (right and left).
-        """
-        here, indices = self.trunk[-1], range(len(self.targets))
-        if self.chain:
-            return [[i] for i in indices]
-        origin, inverted = (here.near, here.inverted) if isinstance(here, Singular) else (here, False)
-        keys = {i: _order(t.re) for i, t in enumerate(self.targets) if origin.is_real() and t.is_real()}
-        zero = _order(origin.re)
-        right = sorted((i for i in keys if keys[i] >= zero), key=keys.__getitem__, reverse=inverted)
-        left = sorted((i for i in keys if keys[i] < zero), key=keys.__getitem__, reverse=not inverted)
-        return [chain for chain in (right, left, *([i] for i in indices if i not in keys)) if chain]
 
-
-def carry(
-    problem: NumericProblem, plan: Itinerary, start: State, closed: ClosedForm | None, prec: int, budget: Budget
-) -> list[State]:
-    """The states at the targets; `start` are y(x0), y'(x0), or the coordinates in the Frobenius basis."""
-    traveller = Traveller.at(problem, plan.start, closed, prec, budget)
-    for vertex in plan.trunk[1:]:
-        assert isinstance(vertex, Point)
-        traveller.go([vertex], start)
-    result: dict[int, State] = {}
-    for branch in plan.branches():
-        one = traveller if plan.chain else traveller.copy()
-        states = one.around([plan.targets[i] for i in branch], start, plan.side)
-        result |= zip(branch, states, strict=True)
-    return [result[i] for i in range(len(plan.targets))]
+def _branches(here: Point | Singular, stops: list[Point]) -> list[list[int]]:
+    """The stops in the order of visit: straight lines to points on one ray from here share their way, on the real axis two
+    chains (right and left)."""
+    origin, inverted = (here.near, here.inverted) if isinstance(here, Singular) else (here, False)
+    keys = {i: stop.x for i, stop in enumerate(stops) if origin.is_real() and stop.is_real()}
+    right = sorted((i for i in keys if keys[i] >= origin.x), key=keys.__getitem__, reverse=inverted)
+    left = sorted((i for i in keys if keys[i] < origin.x), key=keys.__getitem__, reverse=not inverted)
+    return [chain for chain in (right, left, *([i] for i in range(len(stops)) if i not in keys)) if chain]
 
 
 @dataclass
@@ -128,19 +128,16 @@ class Traveller:
     def go(self, stops: Sequence[Point], start: State) -> list[State]:
         """Straight on to the last of `stops`; the user's (z, z') at each of them."""
         result: list[State] = []
-        stops = list(stops)
         if isinstance(self.here, Singular):
-            result = self._at_once(self.here, stops, start)
-            if len(result) == len(stops):
+            result = self._leave(self.here, list(stops), start)
+            if isinstance(self.here, Singular):
                 return result
-            result += self._leave(self.here, stops[len(result) :], start)
         here = self.here
-        assert isinstance(here, Point)
         if self.problem.gauge is not None and stops[len(result) :]:
             check_segment(System.of(self.problem.gauge), here, stops[-1])
         while len(result) < len(stops) and stops[len(result)] == here:
-            result.append(self._given(self.product.apply(start), here))
-        rest = stops[len(result) :]
+            result.append(self.state(start))
+        rest = list(stops[len(result) :])
         if rest and self.closed is not None:
             for stop in rest:
                 self.budget.check()
@@ -148,7 +145,7 @@ class Traveller:
                 way.push(real_part(matrix) if here.is_real() and stop.is_real() else matrix)
                 result.append(self._given(way.apply(start), stop))
             self.product = way
-        elif rest and self.forcing is not None:
+        elif self.forcing is not None:
             self._forced(self.forcing, here, rest, start, result)
         elif rest:
             for leg in walk(self.problem.system, here, rest, self.prec, self.budget):
@@ -162,18 +159,17 @@ class Traveller:
 
     def _forced(self, forcing: Forcing, here: Point, stops: list[Point], start: State, result: list[State]) -> None:
         """As the end of `go`, with a right-hand side."""
-        forcing.check(here, stops[-1])
+        forcing.check(here, stops[-1] if stops else here)
+
+        def inverse(x: acb, analytic: bool) -> acb:
+            if not isinstance(self.gauge, LogDerivative) or not isinstance(self.here, Point):
+                return acb(1)
+            return (-self.gauge.exponent(to_acb(self.here), x, analytic=analytic)).exp() / self.growth
+
         for stop in stops:
             for leg in walk(self.problem.system, here, [stop], self.prec, self.budget, expanded=True):
-
-                def inverse(x: acb, analytic: bool) -> acb:
-                    if not isinstance(self.gauge, LogDerivative) or not isinstance(self.here, Point):
-                        return acb(1)
-                    return (-self.gauge.exponent(to_acb(self.here), x, analytic=analytic)).exp() / self.growth
-
                 change = forcing.step(leg, inverse, self.budget)
-                moved = (self.particular[0] + change[0], self.particular[1] + change[1])
-                self.particular = apply(leg.matrix, moved)
+                self.particular = apply(leg.matrix, (self.particular[0] + change[0], self.particular[1] + change[1]))
                 self.product.push(leg.matrix)
             here = stop
             result.append(self._given(self.product.apply(start), stop))
@@ -183,51 +179,57 @@ class Traveller:
         assert isinstance(self.here, Point)
         return self._given(self.product.apply(start), self.here)
 
-    def around(self, stops: Sequence[Point], start: State, side: str | None) -> list[State]:
-        """As `go`, around singular points of the real axis on this side."""
+    def around(self, stops: list[Point], start: State, side: str | None) -> list[State]:
+        """As `go`, around singular points of the real axis on this side.
+
+        A detour is as wide as its distance to the start and to other singular points allows: near an irregular one the
+        solutions are as large as exp(1/distance).  Stops that are nearer to it are reached along the axis from its ends.
+        """
         result: list[State] = []
-        for group, detour in self._stretches(list(stops)) if side else [(list(stops), [])]:
-            result += self.go([*group, *detour[:1]], start)[: len(group)]
-            for vertex in detour[1:]:
-                turned = vertex if side == "above" else Point(vertex.re, -vertex.im)
-                self.go([turned], start)
-        return result
+        for sign, cut, place, unit in self._cuts(stops[-1]) if side else ():
+            first, last = Point(cut - sign * unit), Point(cut + sign * unit)
+            far, near, behind = (
+                [stop for stop in stops if sign * (stop.x - mark) <= 0] for mark in (first.x, place, last.x)
+            )
+            near, behind, stops = near[len(far) :], behind[len(near) :], stops[len(behind) :]
+            result += self.go([*far, first], start)[: len(far)]
+            result += self.copy().go(near, start) if near else []
+            self.go([Point(cut, unit if side == "above" else -unit)], start)
+            self.go([last], start)
+            result += self.copy().go(behind[::-1], start)[::-1] if behind else []
+        return [*result, *(self.go(stops, start) if stops else [])]
 
-    def _stretches(self, stops: list[Point]) -> list[tuple[list[Point], list[Point]]]:
-        """The stops before each singular point of the axis, and the way around it through the upper half-plane."""
-        here = self.here.near if isinstance(self.here, Singular) else self.here
-        singular = self.problem.singular_points(256)
-        if not (here.is_real() and stops[-1].is_real()):
+    def _cuts(self, last: Point) -> Iterator[tuple[int, Any, Any, Any]]:
+        """The detours on the way to `last`: direction, a short number beside the singular point, the point, and radius."""
+        here, singular = self.here, self.problem.singular_points(256)
+        if isinstance(here, Singular) and here.inverted:
+            far = 2 * max(abs(p.x) for p in (last, *singular)) + 1
+            here = Point(far if last.x > 0 else -far)
+        elif isinstance(here, Singular):
+            here = here.near
+        if not (here.is_real() and last.is_real()):
             raise InputError("a side of the real axis needs a start and points on it", hint="path=[v1, v2, ...]")
-        sign = 1 if stops[-1].re > here.re else -1
-        cuts = sorted(
-            {p.re for p in singular if p.is_real() and 0 < sign * (p.re - here.re) < sign * (stops[-1].re - here.re)}
-        )
-        result, done = [], 0
-        for cut in cuts if sign > 0 else reversed(cuts):
-            count = sum(sign * (stop.re - cut) < 0 for stop in stops)
-            near = [here, *stops, *(p for p in singular if p != Point(cut))]
-            square = min(((p - Point(cut)).norm_squared() for p in near if p != Point(cut)), default=Fraction(1))
-            unit = Fraction(2) ** ((square.numerator.bit_length() - square.denominator.bit_length()) // 2 - 3)
-            middle = round(cut / unit * 16) * unit / 16
-            detour = [Point(middle - sign * unit), Point(middle, unit), Point(middle + sign * unit)]
-            result.append((stops[done:count], detour))
-            done = count
-        return [*result, (stops[done:], [])]
-
-    def _at_once(self, point: Singular, stops: list[Point], start: State) -> list[State]:
-        """The states at the stops that are the singular point itself; nothing moves."""
-        count = 0 if point.inverted or not point.exact else sum(stop == point.near for stop in stops)
-        return [limit(point, start, self.budget)] * count if count else []
+        sign = 1 if last.x > here.x else -1
+        cuts = {p.x for p in singular if p.is_real() and 0 < sign * (p.x - here.x) < sign * (last.x - here.x)}
+        for cut in sorted(cuts, reverse=sign < 0):
+            squares = [(p - Point(cut)).norm_squared() / 4 for p in singular if p != Point(cut)]
+            square = min([*squares, (here - Point(cut)).norm_squared()])
+            unit = power_of_two((square.p.bit_length() - square.q.bit_length() - 1) // 2)
+            yield sign, (cut / unit * 16).floor() * unit / 16, cut, unit
 
     def _leave(self, point: Singular, stops: list[Point], start: State) -> list[State]:
-        """Out of the disc around a singular point; the states at the stops inside."""
+        """Out of the disc around a singular point; the states at the stops inside, and before at the point itself."""
+        count = 0 if point.inverted or not point.exact else stops.count(point.near)
+        states = [limit(point, start, self.budget)] * count if count else []
+        if len(stops) == count:
+            return states
         last, bound = junction(point, stops[-1], self.prec)
         needed = [not coordinate.is_zero() for coordinate in start]
-        basis = Basis(point, last, stops[-1], bound, self.prec, self.budget, needed)
-        ahead = stops[-1] - last
-        inside = [stop for stop in stops if _inner(stop - last, ahead) <= 0]
-        states = [apply(basis.at(stop), start) for stop in inside]
+        basis, ahead = Basis(point, last, stops[-1], bound, self.prec, self.budget, needed), stops[-1] - last
+        for stop in stops[count:]:
+            step = stop - last
+            if step.x * ahead.x + step.y * ahead.y <= 0:
+                states.append(apply(basis.at(stop), start))
         self.product.push(basis.at(last))
         self._begin(last)
         return states
@@ -247,14 +249,3 @@ class Traveller:
             return state
         factor = self.growth * self._growth(x)
         return state[0] * factor, (state[1] + self.gauge.value(to_acb(x)) * state[0]) * factor
-
-
-def _inner(a: Point, b: Point) -> Fraction:
-    """The real inner product of two vectors of the plane."""
-    return a.re * b.re + a.im * b.im
-
-
-def _order(value: Fraction) -> tuple[float, Fraction]:
-    """A key that sorts as the number does: first by the nearest double, which is quick to compare."""
-    near = value.numerator.bit_length() - value.denominator.bit_length() < 1000
-    return float(value) if near else math.inf if value > 0 else -math.inf, value

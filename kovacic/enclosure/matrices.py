@@ -7,11 +7,8 @@ from __future__ import annotations
 
 from flint import acb
 
-State = tuple["acb", "acb"]
-"""(y, y')"""
-
-Matrix = tuple["acb", "acb", "acb", "acb"]
-"""(m11, m12, m21, m22)"""
+State = tuple["acb", "acb"]  # (y, y')
+Matrix = tuple["acb", "acb", "acb", "acb"]  # (m11, m12, m21, m22)
 
 
 def multiply(m: Matrix, n: Matrix) -> Matrix:
@@ -30,6 +27,17 @@ def adjugate(m: Matrix) -> Matrix:
     """The inverse of a matrix of determinant 1."""
     a, b, c, d = m
     return d, -b, -c, a
+
+
+def inverse(m: Matrix) -> Matrix:
+    """The inverse of any regular matrix."""
+    determinant = m[0] * m[3] - m[1] * m[2]
+    return m[3] / determinant, -m[1] / determinant, -m[2] / determinant, m[0] / determinant
+
+
+def fundamental(first: State, second: State) -> Matrix:
+    """The matrix with the states (y, y') of two solutions as its columns."""
+    return first[0], second[0], first[1], second[1]
 
 
 def identity() -> Matrix:

@@ -13,18 +13,23 @@ Reference: M. van der Put and M. F. Singer, "Galois Theory of Linear Differentia
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
-from flint import acb, acb_mat, acb_poly, arb
+from flint import acb, acb_mat, acb_poly, arb, fmpq
 
-from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
-from kovacic.enclosure.evaluate import connection_matrix
-from kovacic.enclosure.points import Point, to_acb
-from kovacic.enclosure.problem import System, as_problem
-from kovacic.enclosure.working import working_precision
-from kovacic.errors import LimitExceeded
+from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint, finite_ball
+from kovacic.enclosure.frobenius import Basis, junction
+from kovacic.enclosure.journey import Traveller
+from kovacic.enclosure.matrices import Matrix, fundamental, inverse, multiply
+from kovacic.enclosure.points import Point, as_point, power_of_two, to_acb, working_precision
+from kovacic.enclosure.precision import check_digits, start_bits
+from kovacic.enclosure.problem import NumericProblem, System, as_problem
+from kovacic.enclosure.singular import Singular
+from kovacic.enclosure.start import place_of
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
 BallMatrix = tuple[tuple[Ball, Ball], tuple[Ball, Ball]]
@@ -46,20 +51,21 @@ class LocalMonodromy:
     loop: tuple[Point, ...]
     matrix: BallMatrix
 
+    def acb_mat(self) -> acb_mat:
+        """The matrix as python-flint's, at the working precision in force."""
+        return acb_mat([[ball_to_flint(entry) for entry in row] for row in self.matrix])
+
     @property
     def consistent(self) -> bool:
         """False would disprove the computation: the trace of the matrix and the exponents, and the determinant 1."""
         with working_precision(1000):
-            m = acb_mat([[ball_to_flint(entry) for entry in row] for row in self.matrix])
+            m = self.acb_mat()
             return m.det().contains(1) and (self.trace is None or m.trace().overlaps(ball_to_flint(self.trace)))
 
     def is_identity_to_the_power(self, order: int) -> bool:
         """True if the matrix to this power may be the identity; False proves that it isn't."""
         with working_precision(1000):
-            m, one = (
-                acb_mat([[ball_to_flint(entry) for entry in row] for row in self.matrix]),
-                acb_mat([[1, 0], [0, 1]]),
-            )
+            m, one = self.acb_mat(), acb_mat([[1, 0], [0, 1]])
             t = m.trace() if self.trace is None else ball_to_flint(self.trace)
             before, now = acb(0), acb(1)  # M^n = U_n M - U_(n-1), U_(n+1) = t U_n - U_(n-1) (Cayley and Hamilton)
             for _ in range(order - 1):
@@ -67,12 +73,92 @@ class LocalMonodromy:
             return bool((m * now - one * before).contains(one))
 
 
-def monodromy(
+def connection_matrix(
     equation: object,
+    path: Sequence[object],
     *,
     params: Mapping[str, object] | None = None,
     digits: int = 15,
     limits: Limits | None = None,
+) -> tuple[tuple[Ball, Ball], tuple[Ball, Ball]]:
+    """Balls around the matrix that turns coordinates at the first point of `path` into those at the last one, of the same
+    solution continued along this polygon.
+
+    At an ordinary point the coordinates are (y, y'), at a regular singular one (or "oo") those in its Frobenius basis, as
+    for `evaluate`.  Constants and values of parameters are as there, too; where these are balls, the radii are what they
+    allow.  A path to or from infinity goes along the line through 0 and its neighbour.  The radii are at most
+    10^-digits relative to the largest entry, unless a limit is reached first (then LimitExceeded).
+
+    >>> ((a, b), (c, d)) = connection_matrix(([1], [1]), [0, 1])   # cosh, sinh
+    >>> float(a), float(b)
+    (1.5430806348152437, 1.1752011936438014)
+    >>> legendre = "(1-x^2)*y'' - 2*x*y' + 2*y = 0"                # P1 = x is regular at both ends
+    >>> (_, log_part), (_, regular_part) = connection_matrix(legendre, [-1, 1])
+    >>> log_part.contains(0), regular_part.contains(-1)
+    (True, True)
+
+    Reference: the path and the bases are as in ore_algebra's numerical_transition_matrix.
+    """
+    limits = limits or DEFAULT_LIMITS
+    check_digits(digits, limits)
+    problem = as_problem(equation, params, constants=True)
+    if len(path) < 2:
+        raise InputError("a path needs at least two vertices")
+    ends = [_end(problem, value) for value in (path[0], path[-1])]
+    middle = [as_point(v, "a vertex") for v in path[1:-1]]
+    if len(path) == 2 and isinstance(ends[0], Singular) and isinstance(ends[1], Singular):
+        middle = [_between(ends[0], ends[1])]
+    budget = Budget(limits)
+    prec = start_bits(digits)
+    while True:
+        with working_precision(prec + 40), budget.watched():
+            entries = _connection(problem.at(prec), ends[0], middle, ends[1], prec, budget)
+            goal = max((entry.abs_upper() for entry in entries), key=float) * arb(10) ** -digits
+            sharp = all(entry.real.rad() + entry.imag.rad() <= goal for entry in entries)
+            balls = [ball for ball in map(ball_from_flint, entries) if ball is not None]
+        if len(balls) < 4:
+            prec += prec // 2
+        elif sharp or not problem.is_exact:
+            return (balls[0], balls[1]), (balls[2], balls[3])
+        prec += max(16, prec // 4)
+        budget.check()
+
+
+def _end(problem: NumericProblem, value: object) -> Point | Singular:
+    """An end of a path: a point where the equation is regular stays one."""
+    if problem.embedded is not None:
+        return as_point(value, "an end of the path of an equation whose constants aren't rational")
+    place = place_of(problem, value, "a vertex")
+    return place.near if place.is_ordinary else place
+
+
+def _between(a: Singular, b: Singular) -> Point:
+    """A point of the straight line between two finite singular points."""
+    if a.inverted or b.inverted:
+        raise InputError("a path between a singular point and infinity needs a vertex", hint="e.g. [0, 1j, 'oo']")
+    return (a.near + b.near).scaled(fmpq(1, 2)).rounded(-64)
+
+
+def _connection(
+    problem: NumericProblem, a: Point | Singular, middle: list[Point], b: Point | Singular, prec: int, budget: Budget
+) -> Matrix:
+    """The matrix at about so many bits."""
+    traveller, both = Traveller.at(problem, a, None, prec, budget), (acb(1), acb(1))
+    for vertex in middle:
+        traveller.go([vertex], both)
+    basis, end = None, b
+    if isinstance(end, Singular):
+        here = traveller.here
+        assert isinstance(here, Point)
+        last, bound = junction(end, here, prec)
+        basis, end = Basis(end, last, here, bound, prec, budget).at(last), last
+    traveller.go([end], both)
+    found = fundamental(traveller.state((acb(1), acb(0))), traveller.state((acb(0), acb(1))))
+    return found if basis is None else multiply(inverse(basis), found)
+
+
+def monodromy(
+    equation: object, *, params: Mapping[str, object] | None = None, digits: int = 15, limits: Limits | None = None
 ) -> tuple[LocalMonodromy, ...]:
     """The local monodromy of y'' = S y at every finite singular point, for one base point above all of them.
 
@@ -95,16 +181,16 @@ def monodromy(
     return tuple(result)
 
 
-def _places(system: System) -> list[tuple[Point, Fraction]]:
+def _places(system: System) -> list[tuple[Point, Any]]:
     """Rational approximations of the singular points, each with half the distance to its neighbour (1 if alone)."""
     points, places = system.singular_points(64), []
     for i, p in enumerate(points):
-        gap = min([Fraction(2), *(_root_below((p - q).norm_squared()) for j, q in enumerate(points) if j != i)])
-        places.append((p.rounded(gap.numerator.bit_length() - gap.denominator.bit_length() - 8), gap / 2))
+        gap = min([fmpq(2), *(_root_below((p - q).norm_squared()) for j, q in enumerate(points) if j != i)])
+        places.append((p.rounded(gap.p.bit_length() - gap.q.bit_length() - 8), gap / 2))
     return places
 
 
-def _loops(places: list[tuple[Point, Fraction]]) -> list[tuple[tuple[Point, ...], Point]]:
+def _loops(places: list[tuple[Point, Any]]) -> list[tuple[tuple[Point, ...], Point]]:
     """Loops from one base point with the points that they enclose, in the order of their directions (left ones first).
 
     Each is a segment to a square around the point, the square counter-clockwise, and the segment back.  The squares keep
@@ -116,7 +202,7 @@ def _loops(places: list[tuple[Point, Fraction]]) -> list[tuple[tuple[Point, ...]
     spread = max(abs(p.re - q.re) + abs(p.im - q.im) for p in centres for q in centres)
     top = max(z.im for z in centres) + max(Fraction(1), spread)
     middle = sum((z.re for z in centres), Fraction(0)) / len(centres)
-    best: tuple[Fraction, Point, list[Fraction]] | None = None
+    best: tuple[Any, Point, list[Any]] | None = None
     for shift in (1, -3, 10, -17, 29, -41):
         base = Point(
             (middle + spread * Fraction(shift, 97)).limit_denominator(64) + Fraction(1, 97), top.limit_denominator(64)
@@ -129,7 +215,7 @@ def _loops(places: list[tuple[Point, Fraction]]) -> list[tuple[tuple[Point, ...]
     narrowest, base, radii = best
     if narrowest == 0:
         raise LimitExceeded("no base point was found that sees the singular points apart", limit="unknown_degree")
-    quarter, loops = Point(Fraction(0), Fraction(1)), []
+    quarter, loops = Point(0, 1), []
     for z, radius in zip(centres, radii, strict=True):
         offset = base - z
         corner = offset.scaled(_root_below(radius * radius / offset.norm_squared()))
@@ -140,20 +226,17 @@ def _loops(places: list[tuple[Point, Fraction]]) -> list[tuple[tuple[Point, ...]
     return sorted(loops, key=lambda item: (item[1].re - base.re) / (base.im - item[1].im))
 
 
-def _root_below(square: Fraction) -> Fraction:
-    """A rational number with few digits between half the square root and the square root."""
-    e = (square.numerator.bit_length() - square.denominator.bit_length()) // 2 - 1
-    unit = Fraction(2) ** e
-    return next(unit * k for k in (3, 2, 1) if (unit * k) ** 2 <= square)
+def _root_below(square: Any) -> Any:
+    """A rational number with few digits between half the square root and the square root; 0 for 0."""
+    unit = power_of_two((square.p.bit_length() - square.q.bit_length()) // 2 - 1)
+    return next(unit * k for k in (3, 2, 1, 0) if (unit * k) ** 2 <= square)
 
 
-def _distance_below(point: Point, a: Point, b: Point) -> Fraction:
+def _distance_below(point: Point, a: Point, b: Point) -> Any:
     """A rational number not above the distance of the point from the segment, and above a third of it."""
     step, offset = b - a, point - a
-    t = (offset.re * step.re + offset.im * step.im) / step.norm_squared()
-    nearest = a + step.scaled(min(max(t, Fraction(0)), Fraction(1)))
-    square = (point - nearest).norm_squared()
-    return _root_below(square) if square else Fraction(0)
+    t = (offset.x * step.x + offset.y * step.y) / step.norm_squared()
+    return _root_below((offset - step.scaled(min(max(t, fmpq(0)), fmpq(1)))).norm_squared())
 
 
 def _local(system: System, z: Point, loop: tuple[Point, ...], matrix: BallMatrix, digits: int) -> LocalMonodromy:
@@ -168,13 +251,6 @@ def _local(system: System, z: Point, loop: tuple[Point, ...], matrix: BallMatrix
                 den = acb_poly(list(system.den)).derivative().derivative()
                 b = 2 * acb_poly(list(system.num))(root) / den(root)
             s = (arb(1) / 4 + b).sqrt()
-            exponents = (_ball(arb(1) / 2 + s), _ball(arb(1) / 2 - s))
-            trace = _ball(-2 * (2 * s).cos_pi())
-        return LocalMonodromy(_ball(root), multiplicity, exponents, trace, loop, matrix)
-
-
-def _ball(value: acb) -> Ball:
-    ball = ball_from_flint(value)
-    if ball is None:
-        raise LimitExceeded("a local exponent has no finite enclosure at this precision", limit="digits")
-    return ball
+            exponents = (finite_ball(arb(1) / 2 + s), finite_ball(arb(1) / 2 - s))
+            trace = finite_ball(-2 * (2 * s).cos_pi())
+        return LocalMonodromy(finite_ball(root), multiplicity, exponents, trace, loop, matrix)

@@ -7,18 +7,18 @@ First digits + guard bits, then as many bits more as were missing.  The global p
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import repeat
 from typing import Literal
 
 from flint import acb, arb
 
-from kovacic.enclosure.ball import Ball, ball_from_flint
+from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.frame import log2
+from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.working import working_precision
+from kovacic.enclosure.points import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits
 
@@ -28,8 +28,7 @@ METHODS: tuple[Method, ...] = ("taylor", "closed form")
 
 @dataclass(frozen=True)
 class Run:
-    """What the values of one run have in common: `digits` asked for, the route, the working precision, and how many runs
-    it took (the precision was raised runs - 1 times)."""
+    """`digits` asked for, the route, the working precision, and the number of runs that it took."""
 
     digits: int
     method: Method
@@ -58,22 +57,12 @@ class Evaluation:
     @property
     def y(self) -> Ball:
         """y(x)."""
-        return _ball(self.state[0])
+        return finite_ball(self.state[0])
 
     @property
     def dy(self) -> Ball:
         """y'(x)."""
-        return _ball(self.state[1])
-
-
-def _ball(value: acb) -> Ball:
-    ball = ball_from_flint(value)
-    assert ball is not None
-    return ball
-
-
-Route = Callable[[int, Budget], list[State]]
-"""One way of carrying states along a path: the states (y, y') at each target in turn, at about so many bits."""
+        return finite_ball(self.state[1])
 
 
 def start_bits(digits: int) -> int:
@@ -91,10 +80,8 @@ def check_digits(digits: object, limits: Limits) -> None:
         raise InputError(f"digits = {digits} is beyond the limit of {limits.digits}", hint="raise limits.digits")
 
 
-def raise_precision(
-    route: Route, method: Method, targets: tuple[Number, ...], digits: int, budget: Budget, exact: bool
-) -> tuple[Evaluation, ...]:
-    """Run the route at rising precision until every relative radius is small enough."""
+def raise_precision(journey: Journey, method: Method, digits: int, budget: Budget) -> tuple[Evaluation, ...]:
+    """Make the journey at rising precision until every relative radius is small enough."""
     prec = start_bits(digits)
     highest = 6 * prec + 4000  # a value below 2^-highest isn't told from zero, unless others are as large
     most = int(max(highest, budget.limits.digits * math.log2(10)))
@@ -104,10 +91,10 @@ def raise_precision(
         runs += 1
         try:
             with working_precision(prec + 40):
-                states, run = route(prec, budget), Run(digits, method, prec, runs)
+                states, run = journey.states(prec, budget), Run(digits, method, prec, runs)
                 lacking = [_missing_bits(y, digits, prec) for y, _ in states]
                 finite = all(y.is_finite() and dy.is_finite() for y, dy in states)
-                found = tuple(map(Evaluation, targets, states, lacking, repeat(run))) if finite else None
+                found = tuple(map(Evaluation, journey.targets, states, lacking, repeat(run))) if finite else None
                 missing = max(lacking, default=0)
         except LimitExceeded as limit:
             if previous is None:
@@ -115,8 +102,11 @@ def raise_precision(
             return tuple(result if result.reached else replace(result, note=str(limit)) for result in previous)
         if missing == 0 and found is not None:
             return found
-        stalled = not exact and previous is not None and found is not None and _stalled(previous, found)
-        if exact and found is not None:  # a recessive solution is as small as the others are large
+        # where a higher precision hasn't halved the balls, their size comes from the initial values
+        stalled = bool(not journey.is_exact and previous and found) and all(
+            f.reached or 2 * arb(f.y.rad) > arb(p.y.rad) for p, f in zip(previous or (), found or (), strict=True)
+        )
+        if journey.is_exact and found is not None:  # a recessive solution is as small as the others are large
             highest = max(highest, 2 * max(map(_growth, found)) + 2 * start_bits(digits))
         if prec >= highest or stalled or highest > most:
             if found is None:
@@ -145,11 +135,6 @@ def _lost(y: acb, prec: int) -> int:
 
 def _growth(result: Evaluation) -> int:
     return _lost(result.state[0], result.run.bits) if result.y.contains_zero() else 0
-
-
-def _stalled(previous: tuple[Evaluation, ...], found: tuple[Evaluation, ...]) -> bool:
-    """True if a higher precision hasn't halved the balls: their size comes from the initial values."""
-    return all(f.reached or 2 * arb(f.y.rad) > arb(p.y.rad) for p, f in zip(previous, found, strict=True))
 
 
 def _reason(result: Evaluation) -> str:

@@ -20,33 +20,20 @@ from flint import acb, arb, fmpq_poly, fmpz_poly
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
+from kovacic.algebra.rationals import QQ, RationalPoly, to_fraction
 from kovacic.decision import Decision
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.embedded import Embedded
-from kovacic.enclosure.points import Point, midpoint, to_acb
-from kovacic.enclosure.working import working_precision
+from kovacic.enclosure.points import Point, midpoint, to_acb, working_precision
 from kovacic.errors import InputError
 from kovacic.limits import check_duration
 from kovacic.reading.given import EULER, PI, Equation, parameters_of
 
-_NUMERATOR_ROOTS = 128
-"""Above this degree the zeros of the numerator aren't isolated (its size is then bounded by its coefficients)."""
-
-_ISOLATION = 4e-6
-"""Seconds that it takes to isolate the zeros of a polynomial, over the square of its degree."""
-
-_SHARP = 40
-"""Relative bits to which the distances of singular points are known."""
-
-_SHORT = 10**9
-"""The largest denominator of a singular point that messages name exactly."""
-
-_EXACT = 400
-"""Bits from which on it is worth while to decide exactly whether a point is singular."""
-
-Zeros = tuple[tuple[acb, int], ...]
-"""Zeros with their multiplicities."""
+_ISOLATION = 4e-6  # seconds that it takes to isolate the zeros of a polynomial, over the square of its degree
+_SHARP = 40  # relative bits to which the distances of singular points are known
+_SHORT = 10**9  # the largest denominator of a singular point that messages name exactly
+_EXACT = 400  # bits from which on it is worth while to decide exactly whether a point is singular
+Zeros = tuple[tuple[acb, int], ...]  # zeros with their multiplicities
 
 
 @dataclass(frozen=True)
@@ -96,7 +83,9 @@ class System:
 
     def is_singular(self, point: Point) -> bool:
         """True if the point is a zero of the denominator, decided exactly."""
-        return all(part == 0 for part in along(self.den, point, Point(Fraction(0))))
+        if point.is_real():
+            return bool(fmpz_poly(list(self.den))(point.x) == 0)
+        return all(part == 0 for part in along(self.den, point, Point(0)))
 
 
 @dataclass(frozen=True)
@@ -138,11 +127,7 @@ class NumericProblem:
 
 
 def as_problem(
-    equation: object,
-    params: Mapping[str, object] | None = None,
-    *,
-    forced: bool = False,
-    constants: bool = False,
+    equation: object, params: Mapping[str, object] | None = None, *, forced: bool = False, constants: bool = False
 ) -> NumericProblem:
     """The numerical problem that `equation` stands for, with these values of its parameters; see
     `kovacic.enclosure.evaluate.evaluate` for what is accepted.  Only with `forced` may it have a right-hand side, and only
@@ -234,7 +219,7 @@ def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
 
 def along(coefficients: tuple[int, ...], a: Point, step: Point) -> tuple[fmpq_poly, fmpq_poly]:
     """Real and imaginary part of the polynomial at a + t step, as polynomials in t over Q."""
-    lines = [fmpq_poly([to_fmpq(x) for x in pair]) for pair in ((a.re, step.re), (a.im, step.im))]
+    lines = fmpq_poly([a.x, step.x]), fmpq_poly([a.y, step.y])
     if lines[1] == 0:
         return fmpq_poly(list(coefficients))(lines[0]), fmpq_poly([])
     real, imag = fmpq_poly([]), fmpq_poly([])
@@ -243,20 +228,17 @@ def along(coefficients: tuple[int, ...], a: Point, step: Point) -> tuple[fmpq_po
     return real, imag
 
 
-def offsets(system: System, which: str, centre: Point) -> Zeros | None:
-    """The zeros seen from `centre` (zero - centre), those of the denominator to 40 relative bits at least.
+def offsets(system: System, centre: Point) -> Zeros:
+    """The singular points seen from `centre` (point - centre), to 40 relative bits at least, with their multiplicities.
 
-    None for a numerator whose zeros aren't isolated.  Raises InputError if the centre is a singular point.
+    Raises InputError if the centre is one of them.
     """
-    if which == "num" and len(system.num) - 1 > _NUMERATOR_ROOTS:
-        return None
-    parts = (centre.re.numerator, centre.re.denominator, centre.im.numerator, centre.im.denominator)
-    prec = 64 + min(max(abs(part).bit_length() for part in parts), 1 << 14)
+    prec = 64 + min(max(int(part.height_bits()) for part in (centre.x, centre.y)), 1 << 14)
     while True:
         with working_precision(max(128, prec)):
             here = to_acb(centre)
-            found = tuple((root - here, k) for root, k in system.roots(which, prec))
-        if which == "num" or all(d.rel_accuracy_bits() >= _SHARP for d, _ in found):
+            found = tuple((root - here, k) for root, k in system.roots("den", prec))
+        if all(d.rel_accuracy_bits() >= _SHARP for d, _ in found):
             return found
         if prec > _EXACT and system.is_singular(centre):
             raise InputError(f"the point {centre} is a singular point of the equation")
@@ -266,7 +248,7 @@ def offsets(system: System, which: str, centre: Point) -> Zeros | None:
 def distance_lower(system: System, centre: Point) -> arb | None:
     """A proven lower bound, positive and exact, of the distance to the nearest singular point; None if there is none."""
     with working_precision(64):
-        return min((d.abs_lower() for d, _ in offsets(system, "den", centre) or ()), default=None)
+        return min((d.abs_lower() for d, _ in offsets(system, centre)), default=None)
 
 
 def check_segment(system: System, a: Point, b: Point) -> None:
@@ -281,15 +263,33 @@ def check_segment(system: System, a: Point, b: Point) -> None:
                 f"the {name} {point} of the path is a singular point of the equation (distance 0)",
                 hint="choose a point beside it; the solutions aren't analytic there",
             )
-    hit = _first_hit(system, a, b)
-    if hit is not None:
-        where, distance = hit
-        raise InputError(
-            f"the path from {a} to {b} runs through the singular point {where} "
-            f"(distance 0; {distance:.6g} from the start)",
-            hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
-            "the result depends on the side",
-        )
+    step = b - a
+    with working_precision(128):
+        start, ahead = to_acb(a), to_acb(step)
+        if a == b or not any(_may_meet((root - start) / ahead) for root, _ in system.roots("den", 128)):
+            return
+    real, imaginary = along(system.den, a, step)
+    poly, prec = real.gcd(imaginary).numer(), 128
+    while poly.degree() > 0:
+        with working_precision(prec):
+            inside = [t.real for t, _ in poly.complex_roots() if t.imag.is_zero() and _may_meet(t)]
+            if not inside:
+                return
+            t = min(inside, key=lambda t: float(t.mid()))
+            if not (t.contains(0) or t.contains(1)):  # the ends were excluded exactly: else refine
+                distance = float(t.mid()) * math.sqrt(to_fraction(step.norm_squared()))
+                raise InputError(
+                    f"the path from {a} to {b} runs through the singular point {name_of(system, to_acb(a) + to_acb(step) * t)} "
+                    f"(distance 0; {distance:.6g} from the start)",
+                    hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
+                    "the result depends on the side",
+                )
+        prec *= 2
+
+
+def _may_meet(t: acb) -> bool:
+    """Can t be a number of the interval [0, 1]?"""
+    return t.imag.contains(0) and not (t.real < 0 or t.real > 1)
 
 
 def name_of(system: System, point: acb) -> str:
@@ -300,38 +300,3 @@ def name_of(system: System, point: acb) -> str:
         return str(guess)
     re, im = (part.mid().str(12, radius=False) + "..." for part in (point.real, point.imag))
     return re if point.imag.contains(0) else f"{re} + {im}i"
-
-
-def _first_hit(system: System, a: Point, b: Point) -> tuple[str, float] | None:
-    """The first singular point of the segment, in words, and its distance from a."""
-    step = b - a
-    if step.norm_squared() == 0:
-        return None
-    with working_precision(128):
-        if not any(_may_meet(t) for t in _parameters(system, a, step, 128)):
-            return None
-    common = along(system.den, a, step)
-    poly = common[0].gcd(common[1]).numer() if common[1] else None  # on the axis every singular point has its t
-    prec = 128
-    while poly is None or poly.degree() > 0:
-        with working_precision(prec):
-            found = _parameters(system, a, step, prec) if poly is None else [t for t, _ in poly.complex_roots()]
-            inside = sorted((t.real for t in found if t.imag.is_zero() and _may_meet(t)), key=lambda t: float(t.mid()))
-            if not inside:
-                break
-            t = inside[0]
-            if not (t.contains(0) or t.contains(1)):  # the ends were excluded exactly: else refine
-                where = name_of(system, to_acb(a) + to_acb(step) * t)
-                return where, float(t.mid()) * math.sqrt(step.norm_squared())
-        prec *= 2
-    return None
-
-
-def _parameters(system: System, a: Point, step: Point, prec: int) -> list[acb]:
-    """The numbers t for which a + t step is a singular point."""
-    return [(root - to_acb(a)) / to_acb(step) for root, _ in system.roots("den", prec)]
-
-
-def _may_meet(t: acb) -> bool:
-    """Can t be a number of the interval [0, 1]?"""
-    return t.imag.contains(0) and not (t.real < 0 or t.real > 1)

@@ -9,21 +9,17 @@ by division by the polynomial, irreducible over Q, of which the point is a zero.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
 from flint.utils.flint_exceptions import DomainError
 
-from kovacic.algebra.rationals import to_fmpq
-from kovacic.enclosure.points import Point, midpoint, to_acb
+from kovacic.enclosure.points import Point, midpoint, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem, equation_of
-from kovacic.enclosure.working import working_precision
 from kovacic.errors import InputError
 
-Coefficients = tuple["fmpq_poly", "fmpq_poly", "fmpq_poly"]
-"""a, b, c of a y'' + b y' + c y = 0."""
+Coefficients = tuple["fmpq_poly", "fmpq_poly", "fmpq_poly"]  # a, b, c of a y'' + b y' + c y = 0
 
 
 @dataclass(frozen=True)
@@ -62,10 +58,10 @@ class Singular:
         """
         a, b, c = equation_of(problem)
         if point is None:
-            found = cls(_inverted(a, b, c), fmpq_poly([0, 1]), Point(Fraction(0)), inverted=True)
+            found = cls(_inverted(a, b, c), fmpq_poly([0, 1]), Point(0), inverted=True)
         elif isinstance(point, Point):
-            re, square = to_fmpq(point.re), to_fmpq(point.norm_squared())
-            found = cls((a, b, c), fmpq_poly([-re, 1] if point.is_real() else [square, -2 * re, 1]), point)
+            minimal = [-point.x, 1] if point.is_real() else [point.norm_squared(), -2 * point.x, 1]
+            found = cls((a, b, c), fmpq_poly(minimal), point)
         else:
             found = cls((a, b, c), *_root_in(a, point), exact=False)
         orders = found._orders
@@ -156,7 +152,7 @@ class Singular:
     def operator(self) -> Operator:
         """The operator: rational coefficients at a rational point, else balls of the working precision in force."""
         lines: list[list[Any]] = []
-        here = to_fmpq(self.near.re) if self.is_rational else self.value()
+        here = self.near.x if self.is_rational else self.value()
         for k, poly in enumerate(self.equation):
             if self.is_rational:
                 moved = list(poly(fmpq_poly([here, 1])).coeffs())

@@ -44,37 +44,24 @@ from typing import Any
 
 from flint import acb, acb_mat, arb, arb_mat, fmpz_mat, fmpz_poly
 
-from kovacic.enclosure.frame import Frame, Parts, RayBound, log2, make_frame, norm, ray_to, shift
+from kovacic.enclosure.frame import Frame, Parts, log2, make_frame, norm, shift
 from kovacic.enclosure.matrices import Matrix
-from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.problem import System
 from kovacic.enclosure.taylor import error_radii, expand, transition
-from kovacic.enclosure.working import working_precision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 
-Gauss = tuple[Any, Any]
-"""A matrix, or number, over Z[i]: real and imaginary part (None: zero)."""
-
-LEAF = 8
-"""Steps whose product is formed once, with polynomials in m as entries."""
-
-_BLOCK = 3.0
-"""Length of the integers of a block, by the bits that are still needed (the first block: 1)."""
-
+Gauss = tuple[Any, Any]  # a matrix, or number, over Z[i]: real and imaginary part (None: zero)
+LEAF = 8  # steps whose product is formed once, with polynomials in m as entries
+_BLOCK = 3.0  # length of the integers of a block, by the bits that are still needed (the first block: 1)
 _LOWEST = 3500
 _ENTIRE = 65
-_SINGULAR = 130
-"""Splitting pays above max(3500, factor * order^3) bits; the factor without and with singular points."""
-
-_LEAST = 2000
-"""Bits below which a block isn't shortened any more."""
-
+_SINGULAR = 130  # splitting pays above max(3500, factor * order^3) bits; the factor without and with singular points
+_LEAST = 2000  # bits below which a block isn't shortened any more
+# Bits of the first point of a chain towards a target of many digits; each one has twice as many as the one before
 _BURST = 16
-"""Bits of the first point of a chain towards a target of many digits; each one has twice as many as the one before."""
-
-_FEW = 128
-"""Terms that the last step of a chain may have: it goes term by term."""
+_FEW = 128  # terms that the last step of a chain may have: it goes term by term
 
 
 @dataclass(frozen=True)
@@ -93,9 +80,7 @@ class Run:
     def after(self, first: Run) -> Run:
         """`first`, then this."""
         return Run(
-            _times(self.C, first.C),
-            _plus(_times(self.R, first.C), _times(first.R, (self.D, None))),
-            self.D * first.D,
+            _times(self.C, first.C), _plus(_times(self.R, first.C), _times(first.R, (self.D, None))), self.D * first.D
         )
 
 
@@ -206,24 +191,22 @@ class Series:
     errors: tuple[tuple[arb, arb], tuple[arb, arb]]
 
 
-def _sum_series(
-    system: System, frame: Frame, z: Point, bound: RayBound, mirror: bool, prec: int, budget: Budget
-) -> Series:
+def _sum_series(system: System, frame: Frame, z: Point, mirror: bool, prec: int, budget: Budget) -> Series:
     """Blocks until the bound of the tail is about 2^-prec."""
     steps = Recurrence(*shift(system, frame.centre, z.scaled(frame.scale)))
     leaf, r, m = steps.leaf(mirror), steps.order, 2
-    goal = prec + int(bound.log2_growth) + 20
+    goal = prec + int(frame.bound.log2_growth) + 20
     full = goal + 64
     matrix, number = (arb_mat, arb) if steps.is_real else (acb_mat, acb)
     with working_precision(full):
         V = matrix([[0, 0]] * (r - 2) + [[1, 0], [0, 1]])
         sums = matrix([[1, 1], [0, 1], [1, -1], [0, 1]][: 4 if mirror else 2])
         length = abs(to_acb(z)).upper()
-        scale = 1 / abs(to_acb(z)).lower() ** 2
+        ratio = arb(frame.q[0][0]) / steps.Q[0][0] / abs(to_acb(z)).lower() ** 2
         before: tuple[int, int] | None = None
         while True:
             heights = [sum((V[n, k].abs_upper() for n in range(r)), arb(0)).upper() for k in (0, 1)]
-            radii = [error_radii((h * steps.size(m) * scale).upper(), steps.Q[0][0], bound) for h in heights]
+            radii = [error_radii((h * steps.size(m) * ratio).upper(), frame) for h in heights]
             errors = tuple((e, (slope * length).upper()) for e, slope in radii)
             if all(log2(e) < -goal for pair in errors for e in pair):
                 return Series(sums, errors)  # type: ignore[arg-type]
@@ -265,16 +248,16 @@ def is_split(system: System, prec: int) -> bool:
 
 
 def split_legs(
-    system: System, frame: Frame, target: Point, bound: RayBound, prec: int, budget: Budget, *, mirror: bool = False
+    system: System, frame: Frame, target: Point, prec: int, budget: Budget, *, mirror: bool = False
 ) -> list[Matrix]:
-    """Enclosure of the transition matrix from the centre to `target`, and with `mirror` of that to 2 c - target as well.
+    """Enclosure of the transition matrix from the centre to a `target` in the disc, and with `mirror` of that to 2 c - target.
 
-    `bound` must hold on every ray asked for.  The numbers of centre and target should be short.
+    The numbers of centre and target should be short.
     """
     offset = target - frame.centre
-    series = _sum_series(system, frame, offset.scaled(1 / frame.scale), bound, mirror, prec, budget)
+    series = _sum_series(system, frame, frame.seen(target), mirror, prec, budget)
     real = offset.is_real() and frame.centre.is_real()
-    with working_precision(prec + int(bound.log2_growth) + 84):
+    with working_precision(prec + int(frame.bound.log2_growth) + 84):
         h = to_acb(offset)
         balls = [[arb(0, error) for error in pair] for pair in series.errors]
         matrices = []
@@ -297,28 +280,28 @@ def bit_burst(system: System, frame: Frame, target: Point, prec: int, budget: Bu
     matrices: list[Matrix] = []
     length = step = _BURST
     while target != frame.centre:
-        z = (target - frame.centre).scaled(1 / frame.scale)
+        z = frame.seen(target)
         bits = prec + length  # the slopes are divided by the length of the step
         if _height(z) <= 2 * length:
-            return [*matrices, *split_legs(system, frame, target, ray_to(frame, target), bits, budget)]
+            return [*matrices, *split_legs(system, frame, target, bits, budget)]
         if prec < _FEW * length:
-            bound = ray_to(frame, target)
-            return [*matrices, transition(expand(system, frame, bits, bound, budget), target, bound)]
+            return [*matrices, transition(expand(frame, bits, budget), target)]
         stop = frame.centre + z.rounded(-step).scaled(frame.scale)
         if stop != frame.centre:
-            matrices += split_legs(system, frame, stop, ray_to(frame, stop), bits, budget)
-        frame = make_frame(system, stop, frame.e - step)
+            matrices += split_legs(system, frame, stop, bits, budget)
+        inner = make_frame(system, stop, frame.e - step)
+        assert inner is not None  # the points of the chain lie within 2^-16 scales of a disc without singular points
+        frame = inner
         length, step = 2 * length, length
     return matrices
 
 
 def legs(
-    system: System, frame: Frame, enter: Point, leave: Point, bound: RayBound, prec: int, budget: Budget
+    system: System, frame: Frame, enter: Point, leave: Point, prec: int, budget: Budget
 ) -> tuple[list[Matrix], list[Matrix]]:
-    """The factors, in order, of the matrices from the centre to both junctions of a disc; `bound` holds on both rays."""
-    offset = leave - frame.centre
-    if enter == frame.centre - offset and _height(offset.scaled(1 / frame.scale)) <= 2 * _BURST:
-        stop, start = split_legs(system, frame, leave, bound, prec, budget, mirror=True)
+    """The factors, in order, of the matrices from the centre to both junctions of a disc."""
+    if enter == frame.centre + frame.centre - leave and _height(frame.seen(leave)) <= 2 * _BURST:
+        stop, start = split_legs(system, frame, leave, prec, budget, mirror=True)
         return [start], [stop]
     start_factors, stop_factors = (bit_burst(system, frame, point, prec, budget) for point in (enter, leave))
     return start_factors, stop_factors
@@ -326,4 +309,4 @@ def legs(
 
 def _height(z: Point) -> int:
     """The bits of the longest of the integers that z is made of."""
-    return max(abs(v).bit_length() for x in (z.re, z.im) for v in (x.numerator, x.denominator))
+    return max(int(x.height_bits()) for x in (z.x, z.y))

@@ -15,11 +15,10 @@ Y satisfies
 
     q e'' = p e - r,   e(0) = e'(0) = 0.
 
-Along the ray from 0 to u, |e''| <= sigma |e| + rho with sigma >= |p/q|, rho >= |r/q|, piecewise constant; so |e| and |e'|
-stay below the solution of z'' = sigma z + rho (a Volterra inequality with a positive kernel, iterated).  This majorant
-covers the truncation of the series and every rounding at once, and is sharp where classical majorant series are not: the
-coefficients of 1/q never enter with absolute values.  The bounds of |p/q| and 1/|q| on the pieces come from the enclosed
-zeros.
+Along every ray from 0, |e''| <= sigma |e| + rho with sigma >= |p/q|, rho >= |r/q|, constant on each ring of the disc; so |e|
+and |e'| stay below the solution of z'' = sigma z + rho (a Volterra inequality with a positive kernel, iterated).  This
+majorant covers the truncation of the series and every rounding at once, and is sharp where classical majorant series are
+not: the coefficients of 1/q never enter with absolute values.
 
 Symbols: c centre, H = h 2^e scale, u = (x - c)/H, w bits after the binary point, N the number of terms.
 
@@ -35,37 +34,32 @@ from typing import Any
 
 from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
 
-from kovacic.enclosure.frame import Frame, Parts, RayBound, log2, norm, shift
+from kovacic.enclosure.frame import Frame, Parts, log2, norm
 from kovacic.enclosure.matrices import Matrix, State
-from kovacic.enclosure.points import Point, floor, to_acb
-from kovacic.enclosure.problem import System
-from kovacic.enclosure.working import working_precision
+from kovacic.enclosure.points import Point, floor, to_acb, working_precision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 
-_CHECKED = 64
-"""The clock is read every so many terms."""
+_CHECKED = 64  # the clock is read every so many terms
 
 
 @dataclass(frozen=True)
 class Expansion:
     """Two polynomial approximations Y/2^w (columns of the identity at u = 0) and their defects.
 
-    `defect[k]` bounds sum |r_n| 2^w, the coefficient sum of q Y'' - p Y for column k, and q_0 = q(0).
+    `defect[k]` bounds sum |r_n| 2^w, the coefficient sum of q Y'' - p Y for column k.
     """
 
     frame: Frame
     w: int
     columns: tuple[tuple[fmpz_poly, fmpz_poly | None], tuple[fmpz_poly, fmpz_poly | None]]
     defect: tuple[int, int]
-    q_0: int
 
 
-def expand(system: System, frame: Frame, prec: int, bound: RayBound, budget: Budget) -> Expansion:
-    """Both columns at `frame` so that the error on rays within `bound` should be about 2^-prec (what it is,
-    `transition` says)."""
-    p, q = shift(system, frame.centre, Point(frame.scale))
-    real, q_0 = p[1] is None and q[1] is None, q[0][0]
+def expand(frame: Frame, prec: int, budget: Budget) -> Expansion:
+    """Both columns so that the error in the disc should be about 2^-prec (what it is, `transition` says)."""
+    p, q, bound = frame.p, frame.q, frame.bound
+    q_0 = q[0][0]
     loss = max(0.0, log2(arb(norm(q)) / q_0) - bound.log2_least)
     quiet = 6 + int(loss)  # rounding errors keep the terms above about 2^loss units: they count as zero below 2^quiet
     w = prec + quiet + int(loss + bound.log2_growth) + 12 + 3 * max(6, prec.bit_length() + 1)
@@ -73,7 +67,7 @@ def expand(system: System, frame: Frame, prec: int, bound: RayBound, budget: Bud
     p, q = _cut(p, excess), _cut(q, excess)
     columns, defects = [], []
     for start in (0, 1):
-        re, im = (_recurrence_real if real else _recurrence_complex)(p, q, w, start, 1 << quiet, budget)
+        re, im = _recurrence(p, q, w, start, 1 << quiet, budget)
         columns.append((fmpz_poly(re), None if im is None else fmpz_poly(im)))
         defect = _proven_defect(p, q, excess, re, im, 1 << quiet)
         if frame.blur is not None:  # q Y'' - (p + q (S - S~)) Y: the ray bound holds for the defect over q
@@ -81,7 +75,7 @@ def expand(system: System, frame: Frame, prec: int, bound: RayBound, budget: Bud
                 size = sum(abs(int(v)) for part in (re, im) if part is not None for v in part)
                 defect += floor((frame.blur * q_0 * size).upper()) + 1
         defects.append(defect)
-    return Expansion(frame, w, (columns[0], columns[1]), (defects[0], defects[1]), q_0)
+    return Expansion(frame, w, (columns[0], columns[1]), (defects[0], defects[1]))
 
 
 def _cut(parts: Parts, excess: int) -> Parts:
@@ -98,68 +92,41 @@ def _numbers(values: list[int], w: int) -> list[Any]:
     return [fmpz(v) for v in values]
 
 
-def _recurrence_real(p: Parts, q: Parts, w: int, start: int, small: int, budget: Budget) -> tuple[list[Any], None]:
-    dp, dq = len(p[0]), len(q[0]) - 1
-    p_rev, q_rev, q0 = _numbers(p[0][::-1], w), _numbers(q[0][:0:-1], w), _numbers(q[0][:1], w)[0]
-    one, zero = _numbers([1 << w, 0], w)
-    pad = max(dp, dq) + 2
-    a = [zero] * pad + ([one, zero] if start == 0 else [zero, one])  # a[pad + n] is a_n
-    b = [zero] * (pad + 2)  # b[pad + n] = n (n - 1) a_n
-    n, quiet, cap = 0, 0, 40 * w + 4000
-    while quiet <= pad:
-        if n % _CHECKED == 0:
-            budget.check()
-        i = pad + n
-        total = sum(map(mul, p_rev, a[i - dp + 1 : i + 1])) if dp else zero
-        if dq:
-            total -= sum(map(mul, q_rev, b[i + 2 - dq : i + 2]))
-        k = (n + 1) * (n + 2)
-        term = total // (q0 * k)
-        a.append(term)
-        b.append(term * k)
-        quiet = quiet + 1 if -small < term < small else 0
-        n += 1
-        if n > cap:
-            raise LimitExceeded(f"a Taylor expansion needs more than {cap} terms", limit="unknown_degree")
-    return a[pad:], None
-
-
-def _recurrence_complex(
+def _recurrence(
     p: Parts, q: Parts, w: int, start: int, small: int, budget: Budget
-) -> tuple[list[Any], list[Any]]:
-    p_im, q_im = p[1] or [0] * len(p[0]), q[1] or [0] * len(q[0])
-    dp, dq = len(p[0]), len(q[0]) - 1
-    pr, pi = _numbers(p[0][::-1], w), _numbers(p_im[::-1], w)
-    qr, qi, q0 = _numbers(q[0][:0:-1], w), _numbers(q_im[:0:-1], w), _numbers(q[0][:1], w)[0]
-    one, zero = _numbers([1 << w, 0], w)
+) -> tuple[list[Any], list[Any] | None]:
+    """The coefficients, real and imaginary parts (None: real), up to a run of terms below `small`."""
+    real, dp, dq = p[1] is None and q[1] is None, len(p[0]), len(q[0]) - 1
+    pr, pi = (_numbers((part or [0] * dp)[::-1], w) for part in p)
+    qr, qi = (_numbers((part or [0] * (dq + 1))[:0:-1], w) for part in q)
+    one, zero, q0 = _numbers([1 << w, 0, q[0][0]], w)
     pad = max(dp, dq) + 2
-    ar = [zero] * pad + ([one, zero] if start == 0 else [zero, one])
-    ai = [zero] * (pad + 2)
-    br, bi = [zero] * (pad + 2), [zero] * (pad + 2)
+    ar = [zero] * pad + ([one, zero] if start == 0 else [zero, one])  # ar[pad + n] is Re a_n
+    br = [zero] * (pad + 2)  # br[pad + n] = n (n - 1) Re a_n
+    ai, bi = [zero] * (pad + 2), [zero] * (pad + 2)
     n, quiet, cap = 0, 0, 40 * w + 4000
     while quiet <= pad:
         if n % _CHECKED == 0:
             budget.check()
         i = pad + n
-        x, y = ar[i - dp + 1 : i + 1], ai[i - dp + 1 : i + 1]
-        re = sum(map(mul, pr, x)) - sum(map(mul, pi, y)) if dp else zero
-        im = sum(map(mul, pr, y)) + sum(map(mul, pi, x)) if dp else zero
-        if dq:
-            x, y = br[i + 2 - dq : i + 2], bi[i + 2 - dq : i + 2]
-            re -= sum(map(mul, qr, x)) - sum(map(mul, qi, y))
-            im -= sum(map(mul, qr, y)) + sum(map(mul, qi, x))
-        k = (n + 1) * (n + 2)
-        divisor = q0 * k
-        re, im = re // divisor, im // divisor
-        ar.append(re)
-        ai.append(im)
-        br.append(re * k)
-        bi.append(im * k)
-        quiet = quiet + 1 if -small < re < small and -small < im < small else 0
+        x, y, k = ar[i - dp + 1 : i + 1], br[i + 2 - dq : i + 2], (n + 1) * (n + 2)
+        total, divisor = sum(map(mul, pr, x)) - sum(map(mul, qr, y)), q0 * k
+        if not real:
+            s, t = ai[i - dp + 1 : i + 1], bi[i + 2 - dq : i + 2]
+            total += sum(map(mul, qi, t)) - sum(map(mul, pi, s))
+            term = (
+                sum(map(mul, pr, s)) + sum(map(mul, pi, x)) - sum(map(mul, qr, t)) - sum(map(mul, qi, y))
+            ) // divisor
+            ai.append(term)
+            bi.append(term * k)
+        term = total // divisor
+        ar.append(term)
+        br.append(term * k)
+        quiet = quiet + 1 if -small < term < small and (real or -small < ai[-1] < small) else 0
         n += 1
         if n > cap:
             raise LimitExceeded(f"a Taylor expansion needs more than {cap} terms", limit="unknown_degree")
-    return ar[pad:], ai[pad:]
+    return ar[pad:], None if real else ai[pad:]
 
 
 def _proven_defect(p: Parts, q: Parts, excess: int, re: list[Any], im: list[Any] | None, small: int) -> int:
@@ -178,19 +145,17 @@ def _proven_defect(p: Parts, q: Parts, excess: int, re: list[Any], im: list[Any]
     return int(total) << excess
 
 
-def transition(expansion: Expansion, target: Point, bound: RayBound) -> Matrix:
-    """Enclosure of the transition matrix from the centre to `target`; `bound` must belong to the ray that ends there.
-
-    Called within the caller's `flint.ctx.workprec`; nothing about it is changed here.
-    """
+def transition(expansion: Expansion, target: Point) -> Matrix:
+    """Enclosure of the transition matrix from the centre to a point of the disc."""
     frame = expansion.frame
     with working_precision(expansion.w + 10):
-        offset = target - frame.centre
-        exact = offset.scaled(1 / frame.scale)
+        exact = frame.seen(target)
+        if exact.norm_squared() > 1:
+            raise ArithmeticError("the target lies outside of its disc")
         entries, unit = [], acb(arb((1, -expansion.w)))
         for column, defect in zip(expansion.columns, expansion.defect, strict=True):
             value, slope = _values(column, exact)
-            radii = error_radii(arb((defect + 1, -expansion.w)), expansion.q_0, bound)
+            radii = error_radii(arb((defect + 1, -expansion.w)), frame)
             for number, radius in zip((value, slope), radii, strict=True):
                 ball = arb(0, radius)
                 both = acb(ball) if column[1] is None and exact.is_real() else acb(ball, ball)
@@ -200,8 +165,8 @@ def transition(expansion: Expansion, target: Point, bound: RayBound) -> Matrix:
         return y1, y2 * h, d1 / h, d2
 
 
-def states_at(expansion: Expansion, bound: RayBound, state: State, targets: list[Point]) -> list[State]:
-    """The states at `targets`, on the rays to which `bound` belongs, from the state at the centre."""
+def states_at(expansion: Expansion, state: State, targets: list[Point]) -> list[State]:
+    """The states at points of the disc from the state at the centre."""
     frame = expansion.frame
     distant = max((log2(abs(to_acb(target)).upper()) for target in (frame.centre, targets[-1])), default=0.0) - frame.e
     with working_precision(expansion.w + 10 + (int(distant) if distant > 0 else 0)):
@@ -210,7 +175,7 @@ def states_at(expansion: Expansion, bound: RayBound, state: State, targets: list
         radii = [arb(0), arb(0)]
         for (re, im), factor, defect in zip(expansion.columns, factors, expansion.defect, strict=True):
             total += factor * (acb_poly(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im))
-            errors = error_radii(arb((defect + 1, -expansion.w)), expansion.q_0, bound)
+            errors = error_radii(arb((defect + 1, -expansion.w)), frame)
             radii = [r + abs(factor / unit).upper() * error for r, error in zip(radii, errors, strict=True)]
         us = [(to_acb(target) - centre) / h for target in targets]
         if any(abs(u) > 1 for u in us):
@@ -230,18 +195,19 @@ def _at_all(poly: acb_poly, points: list[acb], real: bool) -> list[acb]:
     return [acb(v) for v in line.evaluate([u.real for u in points], algorithm="iter")]
 
 
-def error_radii(defect: arb, q_0: int, bound: RayBound) -> tuple[arb, arb]:
-    """Bounds of |e| and |de/du| at the end of the ray for a defect q Y'' - p Y whose coefficients have the sum `defect`."""
-    return (defect / q_0 * bound.gain).upper(), (defect / q_0 * bound.slope_gain).upper()
+def error_radii(defect: arb, frame: Frame) -> tuple[arb, arb]:
+    """Bounds of |e| and |de/du| in the disc for a defect q Y'' - p Y whose coefficients have the sum `defect`."""
+    share = defect / frame.q[0][0]
+    return (share * frame.bound.gain).upper(), (share * frame.bound.slope_gain).upper()
 
 
 def _values(column: tuple[fmpz_poly, fmpz_poly | None], u: Point) -> tuple[acb, acb]:
     """Y(u) and Y'(u) in balls: exact sums for u = +-1, rectangular splitting otherwise."""
     re, im = column
     polys = (re, re.derivative()) if im is None else (re, re.derivative(), im, im.derivative())
-    if u.im == 0 and abs(u.re) == 1:
-        sums = [acb(arb(p(int(u.re)))) for p in polys]
-    elif u.im == 0:
+    if u.is_real() and abs(u.x) == 1:
+        sums = [acb(arb(p(int(u.x)))) for p in polys]
+    elif u.is_real():
         sums = [acb(arb_poly(p)(to_acb(u).real)) for p in polys]
     else:
         sums = [acb_poly(p)(to_acb(u)) for p in polys]

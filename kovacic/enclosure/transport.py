@@ -20,9 +20,11 @@ import math
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
+from typing import Any
 
-from kovacic.enclosure.frame import Frame, RayBound, fitting, least_growth, log2
+from flint import fmpq
+
+from kovacic.enclosure.frame import Frame, fitting, least_growth, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import Point, power_of_two
 from kovacic.enclosure.problem import System, check_segment, distance_lower
@@ -31,35 +33,27 @@ from kovacic.enclosure.taylor import Expansion, expand, states_at, transition
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 
+# Scale of a disc as a share of the distance to the nearest singular point, at most (scales are powers of two)
 _RATIO = 0.625
-"""Scale of a disc as a share of the distance to the nearest singular point, at most (scales are powers of two)."""
-
-_GROWTH = 0.2
-"""Growth of the solutions in one disc, as a share of the working precision."""
-
+_GROWTH = 0.2  # growth of the solutions in one disc, as a share of the working precision
 _MANY = 50
+# For so many targets on one way the growth in a disc may be less: shorter polynomials at every target, more discs
 _FEWER_BITS = 12.0
-"""For so many targets on one way the growth in a disc may be less: shorter polynomials at every target, more discs."""
-
 _MAX_DISCS = 200_000
-
-_TRIED = 16
-"""Steps after which the time of the others is known well enough."""
+_TRIED = 16  # steps after which the time of the others is known well enough
 
 
 @dataclass(frozen=True)
 class Disc:
     """One expansion: its frame, the junctions where it is entered and left, and the parameter t in [0, 1] of the latter.
 
-    A junction is a short dyadic point beside the point a + t (b - a) of the piece; the disc contains both.  `bounds` are
-    those of the rays to the two junctions.
+    A junction is a short dyadic point beside the point a + t (b - a) of the piece; the disc contains both.
     """
 
     frame: Frame
     enter: Point
     leave: Point
-    stop: Fraction
-    bounds: tuple[RayBound, RayBound]
+    stop: Any
 
 
 def piece_matrices(system: System, a: Point, b: Point, prec: int, budget: Budget) -> list[Matrix]:
@@ -85,7 +79,7 @@ class Leg:
         if self.expansion is None:
             return [apply(self.matrix, state)] * len(self.stops)
         here = state if self.to_centre is None else apply(self.to_centre, state)
-        return states_at(self.expansion, self.disc.bounds[0].worst(self.disc.bounds[1]), here, self.stops)
+        return states_at(self.expansion, here, self.stops)
 
 
 def walk(
@@ -100,18 +94,17 @@ def walk(
     for part in [[stop] for stop in stops] if split else [list(stops)]:
         b, queue = part[-1], deque(part)
         for disc in cover(system, a, b, prec, budget, growth):
-            frame, served = disc.frame, []
-            while queue and (disc.leave == b or (len(queue) > 1 and _is_between(queue[0], disc.leave, b))):
+            frame, served, ahead = disc.frame, [], b.x > disc.leave.x
+            while queue and (disc.leave == b or (len(queue) > 1 and (queue[0].x <= disc.leave.x) is ahead)):
                 served.append(queue.popleft())
             expansion: Expansion | None = None
             if split:
-                worst = disc.bounds[0].worst(disc.bounds[1])
-                start, stop = legs(system, frame, disc.enter, disc.leave, worst, prec, budget)
+                start, stop = legs(system, frame, disc.enter, disc.leave, prec, budget)
             else:
-                expansion = expand(system, frame, prec, disc.bounds[0].worst(disc.bounds[1]), budget)
+                expansion = expand(frame, prec, budget)
                 start, stop = (
-                    [] if point == frame.centre else [transition(expansion, point, bound)]
-                    for point, bound in zip((disc.enter, disc.leave), disc.bounds, strict=True)
+                    [] if point == frame.centre else [transition(expansion, point)]
+                    for point in (disc.enter, disc.leave)
                 )
             back = adjugate(product(start)) if start else None
             matrix = product(stop) if back is None else multiply(product(stop), back)
@@ -123,11 +116,6 @@ def walk(
             if number > _MAX_DISCS:
                 raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
         a = b
-
-
-def _is_between(stop: Point, leave: Point, end: Point) -> bool:
-    """Does the stop come before the end of the disc, on the way along the axis to `end`?"""
-    return stop.re <= leave.re if leave.re < end.re else stop.re >= leave.re
 
 
 def _refuse(system: System, a: Point, b: Point, prec: int, used: float, budget: Budget) -> None:
@@ -156,13 +144,11 @@ def cover(system: System, a: Point, b: Point, prec: int, budget: Budget, growth:
     if a == b:
         return
     check_segment(system, a, b)
-    piece = Piece(a, b)
-    t, enter = Fraction(0), a
-    allowed = _allowed_growth(prec) if growth is None else growth
-    guess: int | None = None
+    piece = Piece(system, a, b, _allowed_growth(prec) if growth is None else growth)
+    t, enter, guess = fmpq(0), a, None
     while t < 1:
         budget.check()
-        disc = _next_disc(system, piece, t, enter, allowed, guess)
+        disc = piece.next_disc(t, enter, guess)
         if disc is None:  # the junction beside the path is too far from it for a disc that fits: back to the path
             yield from cover(system, enter, piece.at(t), prec, budget)
             enter = piece.at(t)
@@ -173,95 +159,72 @@ def cover(system: System, a: Point, b: Point, prec: int, budget: Budget, growth:
 
 @dataclass(frozen=True)
 class Piece:
-    """The straight piece from a to b."""
+    """The straight piece from a to b, and by how many bits the solutions may grow in a disc."""
 
+    system: System
     a: Point
     b: Point
+    growth: float
 
-    @property
-    def step(self) -> Point:
-        """b - a."""
-        return self.b - self.a
-
-    @property
-    def real(self) -> bool:
-        """True if it lies on the real axis."""
-        return self.a.is_real() and self.b.is_real()
-
-    def at(self, t: Fraction) -> Point:
+    def at(self, t: Any) -> Point:
         """The point a + t (b - a)."""
-        return self.b if t == 1 else self.a + self.step.scaled(t)
+        return self.b if t == 1 else self.a + (self.b - self.a).scaled(t)
 
+    def next_disc(self, t: Any, enter: Point, guess: int | None) -> Disc | None:
+        """The disc that is entered at the parameter t: as large as the singular points and the growth of the solutions allow.
 
-def _next_disc(
-    system: System, piece: Piece, t: Fraction, enter: Point, growth: float, guess: int | None
-) -> Disc | None:
-    """The disc that is entered at the parameter t: as large as the singular points and the growth of the solutions allow.
+        None if the junction `enter` lies off the path and no disc down to an eighth of the last one (`guess`) contains both.
+        """
+        remaining = (1 - t) ** 2 * (self.b - self.a).norm_squared()
+        e = _exponent(remaining)
+        if not _reaches_end(remaining, e):  # a scale at which the last disc never comes would be taken again and again
+            e += 1
+        if guess is not None:
+            e = min(e, guess + 2)
+        near = distance_lower(self.system, enter)
+        if near is not None:  # H <= 5/8 (distance here + H), so H <= 5/3 of the distance here
+            e = min(e, math.ceil(log2(near)) + 1)
+        for _ in range(20_000):
+            disc = self._disc(t, enter, e)
+            if disc is not None:
+                return disc
+            e -= 1
+            if guess is not None and e < guess - 3 and enter != self.at(t):
+                return None
+        raise LimitExceeded("no disc of positive size was found for the next step", limit="unknown_degree")
 
-    None if the junction `enter` lies off the path and no disc down to an eighth of the last one contains both.
-    """
-    remaining = (1 - t) ** 2 * piece.step.norm_squared()
-    e = _exponent(remaining)
-    if not _reaches_end(remaining, e):  # a scale at which the last disc never comes would be taken again and again
-        e += 1
-    if guess is not None:
-        e = min(e, guess + 2)
-    near = distance_lower(system, enter)
-    if near is not None:  # H <= 5/8 (distance here + H), so H <= 5/3 of the distance here
-        e = min(e, math.ceil(log2(near)) + 1)
-    for _ in range(20_000):
-        disc = _try_disc(system, piece, t, enter, growth, e)
-        if disc is not None:
-            return disc
-        e -= 1
-        if guess is not None and e < guess - 3 and enter != piece.at(t):
+    def _disc(self, t: Any, enter: Point, e: int) -> Disc | None:
+        """The disc of scale 2^e entered at t, its centre ahead by one scale (half way to the end if that's within reach);
+        None if it doesn't fit."""
+        step, unit, grain = self.b - self.a, power_of_two(e), power_of_two(e - 4)
+        size = step.norm_squared()
+        if _reaches_end((1 - t) ** 2 * size, e):
+            centre, stop, leave = self.at((1 + t) / 2).rounded(e - 4), fmpq(1), self.b
+        elif self.a.is_real() and self.b.is_real():
+            # rounded towards the junction behind: a nearest point may lie beyond the scale from there
+            sign = 1 if step.x > 0 else -1
+            centre = Point(sign * (((sign * enter.x + unit) / grain).floor() * grain))
+            leave = Point(centre.x + sign * unit)
+            stop = (leave.x - self.a.x) / step.x
+        else:  # short dyadic numbers, just below unit/|step| and twice as much
+            square = unit * unit / size
+            k = _exponent(square)
+            forward = (square / power_of_two(2 * k - 24)).floor().isqrt() * power_of_two(k - 12) * fmpq(15, 16)
+            centre, grain = self.at(t + forward).rounded(e - 4), power_of_two(k - 8)
+            stop = t + (forward * fmpq(31, 16) / grain).floor() * grain
+            leave = self.at(stop).rounded(e - 4)
+        corners = (self.at(t), self.at(stop), enter, leave)
+        if stop <= t or stop > 1 or any((p - centre).norm_squared() > unit * unit for p in corners):
             return None
-    raise LimitExceeded("no disc of positive size was found for the next step", limit="unknown_degree")
+        frame = fitting(self.system, centre, e, _RATIO, self.growth)
+        return None if frame is None else Disc(frame, enter, leave, stop)
 
 
-def _try_disc(system: System, piece: Piece, t: Fraction, enter: Point, growth: float, e: int) -> Disc | None:
-    """The disc of scale 2^e entered at t, its centre ahead by one scale (half way to the end if that's within reach);
-    None if it doesn't fit."""
-    step, unit, grain = piece.step, power_of_two(e), power_of_two(e - 4)
-    size = step.norm_squared()
-    if _reaches_end((1 - t) ** 2 * size, e):
-        centre, stop, leave = piece.at((1 + t) / 2).rounded(e - 4), Fraction(1), piece.b
-    elif piece.real:  # rounded towards the junction behind: a nearest point may lie beyond the scale from there
-        sign = 1 if step.re > 0 else -1
-        centre = Point(sign * ((sign * enter.re + unit) // grain * grain))
-        leave = Point(centre.re + sign * unit)
-        stop = (leave.re - piece.a.re) / step.re
-    else:
-        forward = _ratio_down(unit, size) * Fraction(15, 16)
-        centre = piece.at(t + forward).rounded(e - 4)
-        stop = t + _dyadic_down(2 * forward * Fraction(31, 32))
-        leave = piece.at(stop).rounded(e - 4)
-    corners = (piece.at(t), piece.at(stop), enter, leave)
-    if stop <= t or stop > 1 or any((p - centre).norm_squared() > unit * unit for p in corners):
-        return None
-    found = fitting(system, centre, e, _RATIO, growth, (enter, leave))
-    return None if found is None else Disc(found[0], enter, leave, stop, found[1])
-
-
-def _reaches_end(square: Fraction, e: int) -> bool:
+def _reaches_end(square: Any, e: int) -> bool:
     """Does a disc of scale 2^e contain a way whose length has this square, with room to spare?"""
-    return square <= power_of_two(2 * e + 2) * Fraction(9, 10)
+    return bool(square <= power_of_two(2 * e + 2) * fmpq(9, 10))
 
 
-def _exponent(square: Fraction) -> int:
+def _exponent(square: Any) -> int:
     """An integer e with 2^e within a factor of 2 of the root of `square`."""
-    return (square.numerator.bit_length() - square.denominator.bit_length()) // 2
-
-
-def _ratio_down(unit: Fraction, size: Fraction) -> Fraction:
-    """A short dyadic number just below unit / sqrt(size)."""
-    square = unit * unit / size
-    e = _exponent(square)
-    scaled = square / power_of_two(2 * e - 24)
-    return Fraction(math.isqrt(int(scaled))) * power_of_two(e - 12)
-
-
-def _dyadic_down(value: Fraction) -> Fraction:
-    """A dyadic number of at most 8 significant bits just below a positive value."""
-    e = value.numerator.bit_length() - value.denominator.bit_length() - 8
-    return Fraction(math.floor(value / power_of_two(e))) * power_of_two(e)
+    return int(square.p.bit_length() - square.q.bit_length()) // 2

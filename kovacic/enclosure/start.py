@@ -1,0 +1,141 @@
+"""Where a solution is given: by y and y', by coordinates in a Frobenius basis, or as the one that decays.
+
+The decaying, or recessive, solution becomes smaller than all others as x goes to infinity along the positive real axis.
+Where S > 0 on [X, infinity), positive solutions are convex, and one of them is falling.  It is alone, up to a factor: the
+derivatives of two of them would tend to 0, and with these their constant Wronskian.  So its state at X is a positive multiple
+of (s, -(1 - s)) with 0 < s < 1.  With the transition matrix M, det M = 1, from X to x0, m = M (1, 0) and n = M (0, -1)
+
+    y'/y at x0 = n'/n + s/(n (n + s (m - n))),                                                                          (1)
+
+where both m and n are of the size of the other solutions' growth g: the ball has some 2 log2(g) bits, and X is chosen for
+the bits that are wanted.  Nothing is known of the solution at X but its signs, and nothing else is needed.
+
+Reference: P. Hartman, "Ordinary Differential Equations" (1964), XI.6 (principal solutions).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from flint import acb, acb_poly, arb
+
+from kovacic.enclosure.closed_form import value
+from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
+from kovacic.enclosure.frame import least_growth
+from kovacic.enclosure.matrices import State, product
+from kovacic.enclosure.points import Point, to_acb, working_precision
+from kovacic.enclosure.problem import NumericProblem, System, equation_of
+from kovacic.enclosure.singular import Singular
+from kovacic.enclosure.transport import piece_matrices
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import Budget
+
+
+@dataclass(frozen=True)
+class Start:
+    """A solution: `data` are y and y' at `place`, or its coordinates in the Frobenius basis there; y alone where `decaying`."""
+
+    place: Number | Singular
+    data: tuple[Number, Number]
+    decaying: bool = False
+
+    def state(self, problem: NumericProblem, prec: int, budget: Budget) -> State:
+        """The numbers at the working precision in force, y' of the decaying solution among them."""
+        y, dy = map(to_ball, self.data)
+        if self.decaying:
+            assert not isinstance(self.place, Singular)
+            x, gauge = middle(self.place), problem.gauge
+            slope = logarithmic_derivative(problem.system, x, prec, budget)
+            dy = y * (slope if gauge is None else slope + value(gauge, None, to_acb(x)))
+        return spread(problem, self.place, (y, dy))
+
+
+def middle(number: Number) -> Point:
+    """The point, or the midpoint of its ball."""
+    return number if isinstance(number, Point) else number.point()
+
+
+def spread(problem: NumericProblem, number: Number | Singular, state: State) -> State:
+    """The state at a number in a ball from that at its midpoint: with r the radius and K >= max(1, |b/a| + |c/a|) on the
+    ball, (y, y') changes by at most (exp(K r) - 1) max(|y|, |y'|)."""
+    if not isinstance(number, Constant):
+        return state
+    ball = number.value()
+    if problem.embedded is not None:
+        size = max(arb(1), problem.embedded.bound(ball))
+    else:
+        a, b, c = (acb_poly(poly)(ball) for poly in equation_of(problem))
+        size = max(arb(1), (abs(b / a) + abs(c / a)).upper())
+    change = (size * abs(ball - to_acb(middle(number))).upper()).expm1() * max(abs(v).upper() for v in state)
+    real = all(v.imag.is_zero() for v in (ball, *state))
+    error = acb(arb(0, change.upper()), arb(0, 0 if real else change.upper()))
+    return state[0] + error, state[1] + error
+
+
+def read_start(
+    problem: NumericProblem, x0: object, y0: object, dy0: object, frobenius: Sequence[object] | None, which: str | None
+) -> Start:
+    """The start that the arguments of `evaluate` describe."""
+    if which not in (None, "regular", "decaying"):
+        raise InputError(f"which = {which!r} isn't known", hint="which='regular' or which='decaying'")
+    if which is not None or frobenius is not None:
+        plain = "an equation {} needs y0 and dy0 at a regular point"
+        if problem.right is not None:
+            raise InputError(plain.format("with a right-hand side"))
+        if problem.embedded is not None:
+            raise InputError(plain.format("whose constants aren't rational"))
+    if which == "decaying":
+        if dy0 is not None or frobenius is not None:
+            raise InputError("the decaying solution is given by y0 alone")
+        return Start(as_number(x0, "x0"), (as_number(1 if y0 is None else y0, "y0"), Point(0)), True)
+    if sum((y0 is not None or dy0 is not None, frobenius is not None, which is not None)) != 1:
+        raise InputError("one start is expected", hint="y0= and dy0=, or frobenius=(c1, c2), or which='regular'")
+    if frobenius is None and which is None:
+        if y0 is None or dy0 is None:
+            raise InputError("both y0 and dy0 are needed", hint="or frobenius=(c1, c2), or which='regular'")
+        return Start(as_number(x0, "x0"), (as_number(y0, "y0"), as_number(dy0, "dy0")))
+    place = place_of(problem, x0, "x0")
+    if frobenius is None:
+        if not place.has_regular:
+            raise InputError(f"no solution is smaller than all others at {place}", hint="give frobenius=(c1, c2)")
+        frobenius = (0, 1)
+    if isinstance(frobenius, str) or len(frobenius) != 2:
+        raise InputError("frobenius needs two coordinates", hint="frobenius=(c1, c2), the dominant solution first")
+    first, second = (as_number(value, "a coordinate") for value in frobenius)
+    return Start(place, (first, second))
+
+
+def place_of(problem: NumericProblem, x0: object, name: str) -> Singular:
+    """The regular singular point, ordinary point or infinity ("oo") that the argument stands for."""
+    if str(x0) in ("oo", "inf", "+inf"):
+        return Singular.at(problem, None)
+    number = as_number(x0, name)
+    if isinstance(number, Point):
+        return Singular.at(problem, number)
+    with working_precision(256):
+        return Singular.at(problem, number.value())
+
+
+def logarithmic_derivative(system: System, x0: Point, prec: int, budget: Budget) -> acb:
+    """A ball that contains y'/y at x0 of the recessive solution, to about `prec` bits, by equation (1).
+
+    Raises InputError where no solution of y'' = S y decays in this way: S must be positive for large x, and grow or fall
+    more slowly than 1/x^2.
+    """
+    if not system.num or system.num[-1] * system.den[-1] < 0 or len(system.num) - len(system.den) < -1:
+        raise InputError(
+            "no solution decays for large x: S must be positive there, and x^2 S unbounded",
+            hint="for a regular singular point at infinity: x0='oo', which='regular'",
+        )
+    roots = [root.real for which in ("num", "den") for root, _ in system.roots(which, 64)]
+    first = max(math.ceil(max((float(root.upper()) for root in roots), default=0.0)) + 1, math.ceil(x0.re))
+    step, bits = 1, (prec + 20) * math.log(2) / 2
+    while least_growth(system, Point(first), Point(first + step)) < bits:
+        step *= 2
+        if step > 1 << 200:
+            raise LimitExceeded("no starting point was found for the decaying solution", limit="unknown_degree")
+    m, n, _dm, dn = product(piece_matrices(system, Point(first + step), x0, prec + 20, budget))
+    n, dn = -n, -dn
+    return dn / n + acb(arb(0.5, 0.5)) / (n * (n + acb(arb(0.5, 0.5)) * (m - n)))
