@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import product
-from math import ceil, floor, gcd
+from math import ceil, floor
 from random import Random
 from typing import Any
 
@@ -24,34 +24,11 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
-from kovacic.parametric.functions import degrees, element, numerator, over_parameters, powers_of
+from kovacic.parametric.functions import Coset, common_divisor, degrees, element, numerator, over_parameters, powers_of
 
 #: Bits for the place of an algebraic number.
 _PRECISION = 200
 _DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
-
-
-@dataclass(frozen=True)
-class Coset:
-    """The numbers `start + k step` with integers k; step > 0."""
-
-    start: Fraction
-    step: Fraction
-
-    def contains(self, value: Fraction) -> bool:
-        """Is the value one of them?"""
-        return (value - self.start) % self.step == 0
-
-    def meets(self, other: Coset) -> bool:
-        """Is there a common number?"""
-        return (self.start - other.start) % common_divisor(self.step, other.step) == 0
-
-    def is_covered_by(self, cosets: Iterable[Coset]) -> bool:
-        """Does each of the numbers lie in one of the cosets?"""
-        others = list(cosets)
-        period = reduce(common_multiple, (other.step for other in others), self.step)
-        numbers = (self.start + k * self.step for k in range(int(period / self.step)))
-        return all(any(other.contains(number) for other in others) for number in numbers)
 
 
 _INTEGERS = Coset(Fraction(0), Fraction(1))
@@ -115,22 +92,19 @@ class Known:
 
     @property
     def nonzero(self) -> bool:
-        outside = self.coset is not None and not self.coset.contains(Fraction(0))
-        bounded = not all(bound.admits(Fraction(0)) for bound in self.bounds)
-        return outside or bounded or bool({"nonzero", "noninteger", "irrational"} & set(self.words))
+        return "nonzero" in self.words or not self._admits(Fraction(0))
 
     def admits(self, value: Poly) -> bool:
         """May the parameter have this value?  An algebraic number of which any conjugate may be meant has no sign."""
         number = value.field.rational_value(value)
         if number is None:
             return self.rational is not True and (not self.bounds or self._bounds_admit(value))
-        return not (
-            any(not _COSETS[word].contains(number) for word in self.words if word in _COSETS)
-            or self.rational is False
-            or ("noninteger" in self.words and number.denominator == 1)
-            or (self.nonzero and not number)
-            or not all(bound.admits(number) for bound in self.bounds)
-        )
+        return self._admits(number) and (bool(number) or not self.nonzero)
+
+    def _admits(self, number: Fraction) -> bool:
+        classes = all(_COSETS[word].contains(number) for word in self.words if word in _COSETS)
+        noninteger = "noninteger" not in self.words or number.denominator > 1
+        return classes and noninteger and self.rational is not False and all(b.admits(number) for b in self.bounds)
 
     def _bounds_admit(self, value: Poly) -> bool:
         if getattr(value.field, "approximation", None) is None:
@@ -169,7 +143,6 @@ class Assumptions:
         return dict(self.known).get(name, Known())
 
     def admits(self, values: Iterable[tuple[str, Poly]]) -> bool:
-        """May the parameters have these values?"""
         return all(self.of(name).admits(value) for name, value in values)
 
     def to_dict(self) -> dict[str, str]:
@@ -191,7 +164,7 @@ class Assumptions:
 
         found = {}
         for name, known in self.known:
-            words = [word for word in known.words if word in WORDS and word not in (*_INEQUALITIES, "half-integer")]
+            words = [word for word in known.words if word in {*WORDS} - {*_INEQUALITIES, "half-integer"}]
             words += ["rational", "noninteger"] if "half-integer" in known.words else []
             for bound in known.bounds:
                 if bound.sign * bound.end >= 0:
@@ -246,16 +219,15 @@ class Assumptions:
 
     def _is_nonzero(self, function: FunctionPoly) -> bool:
         """Can the function be proven to vanish nowhere?"""
-        values = self._coset_of(function)
-        if (values is not None and not values.contains(Fraction(0))) or self._is_irrational(function):
+        values, single = self._coset_of(function), _in_one_parameter(numerator(function))
+        if values is not None and not values.contains(Fraction(0)):
             return True
-        single = _in_one_parameter(numerator(function))
         if single is not None and not self.of(single[1]).admits(QQ.poly([-single[0] / single[2]])):
             return True
         terms = function.num.to_dict()
         if len(terms) == 1:
             return all(self.of(name).nonzero for e in terms for name in _powers(function, e))
-        return any(self.is_positive(sign * numerator(function)) for sign in (1, -1))
+        return self._is_irrational(function) or any(self.is_positive(s * numerator(function)) for s in (1, -1))
 
     def is_positive(self, form: FunctionPoly, *, or_zero: bool = False) -> bool:
         """Can a polynomial be proven to be positive, or not negative, everywhere?
@@ -265,9 +237,14 @@ class Assumptions:
         if not form.den.is_constant():
             return False
         names = form.field.names
-        used = set().union(*(_powers(form, exponents) for exponents in form.num.to_dict()))
-        bounds = [self.of(name).bounds if name in used else [_NO_BOUND] for name in names]
-        return any(_is_positive(form, chosen, or_zero) for chosen in product(*bounds))
+        bounds = [self.of(name).bounds if k else [_NO_BOUND] for name, k in zip(names, degrees(form), strict=True)]
+        for chosen in product(*bounds):
+            values = [form.field.generator(n) * b.sign + b.end for n, b in zip(names, chosen, strict=True)]
+            terms = over_parameters(form.value_at(values, form.field)).num.to_dict()
+            strict = or_zero or any(all(b.strict for b, k in zip(chosen, e[1:], strict=True) if k) for e in terms)
+            if strict and all(coefficient > 0 for coefficient in terms.values()):
+                return True
+        return False
 
     def _coset_of(self, form: FunctionPoly) -> Coset | None:
         """A class that contains all values of a polynomial."""
@@ -299,10 +276,7 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     Raises `InputError` for a name that isn't a parameter, and for a word that isn't one of `WORDS` ("real" and "complex" say
     nothing that could be used).
     """
-    found: dict[str, list[str]] = {}
-    for symbol in getattr(S, "free_symbols", ()):
-        if symbol.name in names:
-            found[symbol.name] = _words_of(symbol)
+    found = {s.name: _words_of(s) for s in getattr(S, "free_symbols", ()) if s.name in names}
     if assume is not None and not isinstance(assume, Mapping):
         raise InputError(f"assumptions are a mapping, not {assume!r}", hint='assume={"n": "integer"}')
     for name, what in (assume or {}).items():
@@ -317,11 +291,8 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
                 hint=f"known are {', '.join(WORDS)}, >=1/2, a value",
             )
         found.setdefault(str(name), []).extend(words)
-    pairs = [
-        (name, Known(tuple(w for w in dict.fromkeys(found.get(name, ())) if w not in ("real", "complex"))))
-        for name in names
-    ]
-    return Assumptions(tuple((name, known) for name, known in pairs if known.words))
+    words_of = {name: [w for w in dict.fromkeys(found.get(name, ())) if w not in ("real", "complex")] for name in names}
+    return Assumptions(tuple((name, Known(tuple(words))) for name, words in words_of.items() if words))
 
 
 def _words_of(symbol: Any) -> list[str]:
@@ -335,24 +306,6 @@ def _words_of(symbol: Any) -> list[str]:
     sign = next((word for word in _INEQUALITIES if getattr(symbol, f"is_{word}")), None)
     words += [sign] if sign else []
     return words if Known(tuple(words)).nonzero or symbol.is_zero is not False else [*words, "nonzero"]
-
-
-def common_divisor(a: Fraction, b: Fraction) -> Fraction:
-    """The largest number of which both are integral multiples; a and b are not negative."""
-    return Fraction(gcd(a.numerator * b.denominator, b.numerator * a.denominator), a.denominator * b.denominator)
-
-
-def common_multiple(a: Fraction, b: Fraction) -> Fraction:
-    """The least positive integral multiple of both; a and b are positive."""
-    return a * b / common_divisor(a, b)
-
-
-def _is_positive(form: FunctionPoly, bounds: Iterable[Bound], or_zero: bool) -> bool:
-    chosen = dict(zip(form.field.names, bounds, strict=True))
-    values = [form.field.generator(name) * bound.sign + bound.end for name, bound in chosen.items()]
-    terms = over_parameters(form.value_at(values, form.field)).num.to_dict()
-    strict = any(all(chosen[name].strict for name in _powers(form, exponents)) for exponents in terms)
-    return (strict or or_zero) and all(coefficient > 0 for coefficient in terms.values())
 
 
 def _has_number_between(coset: Coset, bounds: list[Bound]) -> bool:

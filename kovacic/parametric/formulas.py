@@ -10,10 +10,10 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 from typing import Any
 
-from flint import fmpz
-
+from kovacic.algebra.embedding import square_part
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -168,13 +168,9 @@ def _factored(above: Any, below: Any) -> _Term:
 def _without_squares(polynomial: Any) -> tuple[int, tuple[Power, ...], Any]:
     """`(a, factors, r)` with polynomial = (a prod factors)^2 r, r squarefree."""
     content, factors = factorisation(polynomial)
-    number, odd = 1, polynomial.context().constant(-1 if content < 0 else 1)
-    for p, k in fmpz(abs(content)).factor() if abs(content) > 1 else ():
-        number *= int(p) ** (int(k) // 2)
-        odd = odd * (int(p) if k % 2 else 1)
-    for factor, k in factors:
-        odd = odd * (factor if k % 2 else 1)
-    return number, tuple((factor, k // 2) for factor, k in factors if k > 1), odd
+    number, squarefree = square_part(Fraction(content))
+    odd = prod((factor for factor, k in factors if k % 2), start=polynomial.context().constant(squarefree))
+    return int(number), tuple((factor, k // 2) for factor, k in factors if k > 1), odd
 
 
 @dataclass(frozen=True)

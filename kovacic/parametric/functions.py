@@ -1,12 +1,17 @@
-"""Functions of the parameters, elements of Q(t): their parts and their factors."""
+"""What statements are made of: functions of the parameters, elements of Q(t), and classes of rational numbers."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import reduce
+from math import gcd
 from typing import Any
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.rationals import to_fraction
 from kovacic.algebra.sparse import by_power, factorisation
 
 
@@ -53,3 +58,42 @@ def degrees(function: FunctionPoly) -> tuple[int, ...]:
 def powers_of(function: FunctionPoly, i: int) -> dict[int, FunctionPoly]:
     """The coefficients of the powers of parameter number i in the numerator."""
     return {power: element(function.field, part) for power, part in by_power(function.num, 1 + i).items()}
+
+
+def normal_form(function: Poly) -> tuple[FunctionPoly, Fraction, Fraction]:
+    """`(f, a, b)` with function = f/a + b: f has no constant term (in a Laurent series at 0) and coprime coefficients."""
+    shift = to_fraction(function.rational_coefficients()[0]) if function else Fraction(0)
+    form = over_parameters(function - shift)
+    above, below = ([int(c) for c in part.coeffs()] for part in (form.num, form.den))
+    scale = Fraction(gcd(*below), gcd(*above) * (1 if above[0] > 0 else -1)) if above else Fraction(1)
+    return over_parameters(form * scale), scale, shift
+
+
+@dataclass(frozen=True)
+class Coset:
+    """The numbers `start + k step` with integers k; step > 0."""
+
+    start: Fraction
+    step: Fraction
+
+    def contains(self, value: Fraction) -> bool:
+        return (value - self.start) % self.step == 0
+
+    def meets(self, other: Coset) -> bool:
+        return (self.start - other.start) % common_divisor(self.step, other.step) == 0
+
+    def is_covered_by(self, cosets: Sequence[Coset]) -> bool:
+        """Does each of the numbers lie in one of the cosets?"""
+        period = reduce(common_multiple, (other.step for other in cosets), self.step)
+        numbers = (self.start + k * self.step for k in range(int(period / self.step)))
+        return all(any(other.contains(number) for other in cosets) for number in numbers)
+
+
+def common_divisor(a: Fraction, b: Fraction) -> Fraction:
+    """The largest number of which both are integral multiples; a and b are not negative."""
+    return Fraction(gcd(a.numerator * b.denominator, b.numerator * a.denominator), a.denominator * b.denominator)
+
+
+def common_multiple(a: Fraction, b: Fraction) -> Fraction:
+    """The least positive integral multiple of both; a and b are positive."""
+    return a * b / common_divisor(a, b)

@@ -9,17 +9,17 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import chain, count
-from math import ceil, gcd, lcm
+from math import ceil, lcm
 from random import Random
 from typing import Literal
 
 from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.rationals import QQ, to_fraction
-from kovacic.parametric.assumptions import Assumptions, Coset, common_multiple
+from kovacic.algebra.rationals import QQ
+from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.formulas import Notation
-from kovacic.parametric.functions import degrees, over_parameters
+from kovacic.parametric.functions import Coset, common_multiple, degrees, normal_form, over_parameters
 from kovacic.parametric.spectra import families, integer_condition, kind
 from kovacic.parametric.statements import Point, Statement
 
@@ -50,11 +50,8 @@ class Congruence(Statement):
         """
         Z, classes, modulus = equation.field.poly([0, 1]), {Fraction(r) for r in residues}, Fraction(modulus)
         if equation.degree == 1:
-            form = over_parameters(-equation[0] / equation[1])
-            shift = to_fraction(form.rational_coefficients()[0]) if form else Fraction(0)
-            above, below = ([int(c) for c in part.coeffs()] for part in ((form - shift).num, (form - shift).den))
-            scale = Fraction(gcd(*below), gcd(*above) * (1 if above[0] > 0 else -1))
-            equation, modulus = over_parameters(Z - (form - shift) * scale), abs(modulus * scale)
+            form, scale, shift = normal_form(-equation[0] / equation[1])
+            equation, modulus = over_parameters(Z - form), abs(modulus * scale)
             classes = {(residue - shift) * scale for residue in classes}
         else:
             mean = equation.field.rational_value(-equation[equation.degree - 1] / (equation.degree * equation.lc))

@@ -24,9 +24,9 @@ from kovacic.engine.decide import decide
 from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
-from kovacic.parametric.assumptions import Assumptions, Coset
+from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.formulas import Notation, equation_written, shown, written
-from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
+from kovacic.parametric.functions import Coset, degrees, irreducible_factors, over_parameters
 from kovacic.parametric.integers import LETTERS, free_letter, rational_roots
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import UndefinedError, at_point, on_hypersurface, rational_curve
@@ -58,9 +58,7 @@ class Determinant:
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Determinant:
         """The same about other parameters, which `change` puts into its polynomials."""
         factors, system = (
-            None
-            if functions is None
-            else tuple(g for f in functions for g in (irreducible_factors(change(f)) if f else [f]))
+            functions and tuple(g for f in functions for g in (irreducible_factors(change(f)) if f else [f]))
             for functions in (self.factors, self.system)
         )
         return replace(self, factors=factors, system=system)
@@ -119,26 +117,21 @@ class Natural(Statement):
             exists = decide(S, Budget(), certify=False).structure is self.number.structure
             return [Determinant(exponents, (zero,) if exists else ())]
         m, problem = self.number.m, analyse(S, Budget())
-        found = None
+        found: list[RankConditions] | None = None
         if isinstance(problem.S.num, FunctionPoly):
             found = [form_conditions(problem, m)] if m > 1 else with_degree(problem, number)
         determinants = []
         for c in found if found is not None else [RankConditions(complete=False)]:
-            if c.deficient and m == 1:
-                determinants.append(Determinant(exponents, (zero,)))
-            elif c.complete:
-                determinants.append(Determinant(exponents, c.polynomials))
-            else:
-                determinants.append(Determinant(exponents, None, c.system or None))
+            factors = (zero,) if c.deficient and m == 1 else c.polynomials if c.complete else None
+            determinants.append(Determinant(exponents, factors, c.system or None if factors is None else None))
         curve = rational_curve(exponents)
         return determinants if curve is None else [determinant.rewritten(curve.back) for determinant in determinants]
 
     def shown_determinant(self, number: int) -> str:
         """In one line: one polynomial where it is the same for all exponents that give the number."""
-        found: dict[str, list[str]] = {}
+        found: dict[str, dict[str, None]] = {}
         for determinant in self.determinants(number):
-            texts = found.setdefault(equation_written(determinant.exponents), [])
-            texts += [] if str(determinant) in texts else [str(determinant)]
+            found.setdefault(equation_written(determinant.exponents), {})[str(determinant)] = None
         places: dict[str, list[str]] = {}
         for where, texts in found.items():
             places.setdefault(" or ".join(texts), []).append(where)

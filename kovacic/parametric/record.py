@@ -21,7 +21,7 @@ from kovacic.decision import Structure
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.parametric.functions import over_parameters
-from kovacic.parametric.integers import Congruence
+from kovacic.parametric.integers import Congruence, free_letter
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.riemann import Schwarz
@@ -38,40 +38,30 @@ _LIMITS = Limits(degree=10**6, bits=10**8, digits=10**7, text_length=10**8, expo
 def statement_data(statement: Statement) -> dict[str, Any]:
     """A statement as plain values."""
     if isinstance(statement, Vanishes):
-        return {"kind": "zero", "function": _text(statement.function)}
+        return {"kind": "zero", "function": statement.function.to_str("x")}
     if isinstance(statement, Congruence):
         form, residues, modulus = statement.form, [*map(_number, statement.residues)], _number(statement.modulus)
         if form is not None and len(residues) == 1:
             form = over_parameters(form - statement.residues[0])
-            return {"kind": "lattice", "form": _text(form), "modulus": modulus}
+            return {"kind": "lattice", "form": form.to_str("x"), "modulus": modulus}
         if form is not None:
-            return {"kind": "lattice", "form": _text(form), "modulus": modulus, "residues": residues}
-        equation = {"unknown": statement.letter, "equation": _text(statement.equation, statement.letter)}
+            return {"kind": "lattice", "form": form.to_str("x"), "modulus": modulus, "residues": residues}
+        equation = {"unknown": statement.letter, "equation": statement.equation.to_str(statement.letter)}
         return {"kind": "integer root", **equation, "residues": residues, "modulus": modulus}
     if isinstance(statement, Natural):
         letter, number = statement.letter, statement.number
-        equations = [_text(factor, letter) for factor in number.factors]
+        equations = [factor.to_str(letter) for factor in number.factors]
         kind = {"kind": "natural number", "unknown": letter, "equations": equations}
-        x = next(
-            name
-            for name in ("x", "z", "t", *map("x{}".format, range(9)))
-            if name not in parameters_of(statement.S.field)
-        )
+        x = free_letter(parameters_of(statement.S.field), "xzt")
         S = {"variable": x, "S": statement.S.to_str(x)}
         return kind | {"degree": number.m, "structure": number.structure.value} | S
     if isinstance(statement, Schwarz):
         structures = [structure.value for structure in statement.structures]
-        return {"kind": "schwarz", "unknown": "Z", "squares": _text(statement.cubic, "Z"), "structures": structures}
+        return {"kind": "schwarz", "unknown": "Z", "squares": statement.cubic.to_str("Z"), "structures": structures}
     if isinstance(statement, Both | Either):
-        return {
-            "kind": "and" if isinstance(statement, Both) else "or",
-            "parts": [statement_data(part) for part in statement.parts],
-        }
+        parts = [statement_data(part) for part in statement.parts]
+        return {"kind": "and" if isinstance(statement, Both) else "or", "parts": parts}
     raise TypeError(f"{type(statement).__name__} isn't a kind of statement that is written")
-
-
-def _text(function: FunctionPoly, letter: str = "x") -> str:
-    return function.to_str(letter)
 
 
 def _number(value: Fraction) -> int | str:

@@ -16,7 +16,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters, powers_of
+from kovacic.parametric.functions import degrees, element, irreducible_factors, numerator, over_parameters, powers_of
 from kovacic.parametric.statements import Point, Statement
 
 #: The point of no algebraic constant.
@@ -107,23 +107,19 @@ class Curve:
 def rational_curve(function: FunctionPoly) -> Curve | None:
     """The parametrisation of a curve with two terms; None for any other."""
     names, terms = function.field.names, function.num.to_dict()
-    if len(terms) != 2:
+    powers = [(k, int(n), int(c)) for e, c in terms.items() for k, n in enumerate(e[1:]) if n]
+    if [sum(map(bool, e)) for e in terms] != [1, 1]:
         return None
-    (i, p, A), (j, q, B) = (
-        (next((k for k, n in enumerate(e[1:]) if n), 0), sum(map(int, e)), int(c)) for e, c in terms.items()
-    )
-    single = all(sum(1 for n in e if n) == 1 for e in terms)
-    if not single or i == j or min(p, q) < 2 or gcd(p, q) > 1:
+    (i, p, A), (j, q, B) = powers
+    if i == j or min(p, q) < 2 or gcd(p, q) > 1:
         return None
     name = next(t for k in count() if (t := f"T{k or ''}") not in names)
     field = FunctionField((*(n for k, n in enumerate(names) if k not in (i, j)), name))
     T, s = field.generator(name), pow(p, -1, q)
     r = -s % q
     # A alpha^p + B beta^q = 0 with alpha = A^r (-B)^s, beta = A^((1 + r p)/q) (-B)^((s p - 1)/q).
-    alpha, beta = (
-        Fraction(A) ** r * Fraction(-B) ** s,
-        Fraction(A) ** ((1 + r * p) // q) * Fraction(-B) ** ((s * p - 1) // q),
-    )
+    alpha = Fraction(A) ** r * Fraction(-B) ** s
+    beta = Fraction(A) ** ((1 + r * p) // q) * Fraction(-B) ** ((s * p - 1) // q)
     values: list[Poly] = [field.generator(n) if n in field.names else T for n in names]
     values[i], values[j] = T**q * alpha, T**p * beta
     u, v = (function.field.generator(names[k]) for k in (i, j))
@@ -178,8 +174,8 @@ def with_free_constant(S: RatFunc) -> tuple[RatFunc, RatFunc, Point]:
     for factor, power in field.factor(S.den):
         den = den * _free(factor, larger) ** power
     lifted = RatFunc(_free(S.num, larger), den * _free(field.poly([S.den.lc]), larger))
-    coefficients = [base.rational_value(c) for c in field.modulus]
-    numbers = AlgebraicField(QQ, QQ.poly([c for c in coefficients if c is not None]), field.name, field.approximation)
+    modulus = QQ.poly([base.rational_value(c) or 0 for c in field.modulus])
+    numbers = AlgebraicField(QQ, modulus, field.name, field.approximation)
     shown = RatFunc(_free(S.num, larger), _free(S.den, larger))
     return lifted, shown, Point((name,), (numbers.generator,), numbers)
 
@@ -196,19 +192,14 @@ def _free(polynomial: Poly, larger: FunctionField) -> Poly:
 
 def reduced(statement: Statement, constant: Point) -> Statement:
     """The same statement, with high powers of the constant replaced by means of its minimal polynomial."""
-    if not constant.names:
-        return statement
-    return statement.rewritten(lambda function: _reduced(function, constant))
+    return statement.rewritten(lambda function: _reduced(function, constant)) if constant.names else statement
 
 
 def _reduced(function: FunctionPoly, constant: Point) -> FunctionPoly:
     """The numerator in lowest powers of the constant, the last parameter of its field."""
-    field, numbers = function.field, constant.field
+    field, base, numbers = function.field, FunctionField(function.field.names[:-1]), constant.field
     assert isinstance(numbers, AlgebraicField)
-    alpha, total = field.generator(field.names[-1]), field.poly([])
-    for power, coefficient in powers_of(function, len(field.names) - 1).items():
-        value = numbers.generator**power
-        total = (
-            total + sum((part[0].over(field) * alpha**k for k, part in enumerate(value.parts)), 0 * alpha) * coefficient
-        )
-    return field.make(total.num, total.den * function.den)
+    extension = AlgebraicField(base, base.poly([QQ.rational_value(c) or 0 for c in numbers.modulus]))
+    values = [*(extension.embed(base.generator(name)) for name in base.names), extension.generator]
+    total = _free(numerator(function).value_at(values, extension), field)
+    return over_parameters(total / element(field, function.den))

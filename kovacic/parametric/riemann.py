@@ -29,14 +29,12 @@ from typing import Literal
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.rationals import QQ
 from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.decision import Structure
-from kovacic.engine.places import Kind, Place, Problem
-from kovacic.parametric.assumptions import common_multiple
+from kovacic.engine.places import Kind, Place, Problem, rational_square_root
 from kovacic.parametric.formulas import root_written, shown
-from kovacic.parametric.functions import degrees, element, over_parameters, powers_of
-from kovacic.parametric.integers import Congruence, integer_roots, rational
+from kovacic.parametric.functions import common_multiple, normal_form, over_parameters
+from kovacic.parametric.integers import Congruence, integer_roots
 from kovacic.parametric.statements import Point, Statement
 
 _F = Fraction
@@ -59,8 +57,8 @@ _SCHWARZ: dict[int, tuple[Structure, tuple[Fraction, Fraction, Fraction], bool]]
 }
 
 
-def kimura(differences: tuple[Fraction | None, Fraction | None, Fraction | None]) -> Structure | None:
-    """The structure for three exponent differences (None: not rational) that aren't reducible.
+def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
+    """The structure for three exponent differences (None, or missing: not rational) that aren't reducible.
 
     >>> kimura((Fraction(1, 2), Fraction(1, 3), Fraction(1, 4)))
     <Structure.OCTAHEDRAL: 'octahedral'>
@@ -70,8 +68,7 @@ def kimura(differences: tuple[Fraction | None, Fraction | None, Fraction | None]
     known = [d for d in differences if d is not None]
     if len(known) < 3 or any(d.denominator > 5 for d in known):
         return None
-    first, second, third = sorted(int(60 * d) % 120 for d in known)
-    return _table().get((first, second, third))
+    return _table().get(tuple(sorted(int(60 * d) % 120 for d in known)))
 
 
 @lru_cache(maxsize=1)
@@ -99,11 +96,9 @@ class Schwarz(Statement):
         value = point.at(self.cubic)
         differences: list[Fraction | None] = []
         for factor, multiplicity in value.field.factor(value):
-            square = rational(-factor[0]) if factor.degree == 1 else None
-            difference = None if square is None else _square_root(square)
+            difference = rational_square_root(-factor[0]) if factor.degree == 1 else None
             differences += [difference] * (multiplicity * factor.degree)
-        first, second, third = differences
-        return kimura((first, second, third)) in self.structures
+        return kimura(differences) in self.structures
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         return replace(self, cubic=change(self.cubic))
@@ -122,8 +117,9 @@ class Schwarz(Statement):
         return rf"\text{{{self._in_rows().replace('^', chr(92) + '^{}')}}}" if latex else self._in_rows()
 
     def merged(self, other: Statement) -> Schwarz | None:
-        same = isinstance(other, Schwarz) and other.cubic == self.cubic
-        return Schwarz(self.cubic, (*self.structures, *other.structures)) if same else None  # type: ignore[attr-defined]
+        if isinstance(other, Schwarz) and other.cubic == self.cubic:
+            return Schwarz(self.cubic, (*self.structures, *other.structures))
+        return None
 
     def _in_rows(self) -> str:
         names = _names_of_differences(self.cubic)
@@ -138,12 +134,10 @@ def _two_half_integers(names: list[str]) -> str:
     """That two of the exponent differences are half-integers."""
     constants = [name for name in names if re.fullmatch(r"[\d/]+", name)]
     free = [name for name in names if name not in constants]
-    missing = 2 - sum(1 for name in constants if name.endswith("/2"))
-    twice = next((name for name in free if free.count(name) > 1), None)
-    if missing == 2 and twice is not None:
-        return f"{twice} is a half-integer"
-    different = list(dict.fromkeys(free))
-    if missing == 1:
+    twice = [name for name in free if free.count(name) > 1]
+    needed = 2 - sum(name.endswith("/2") for name in constants)
+    different = twice[:1] if needed == 2 and twice else list(dict.fromkeys(free))
+    if needed == 1 or len(different) == 1:
         return f"{'one of ' * (len(different) > 1)}{', '.join(different)} is a half-integer"
     return f"{'two of ' * (len(different) > 2)}{(' and ' if len(different) == 2 else ', ').join(different)} are half-integers"
 
@@ -237,19 +231,19 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Literal[True] | li
     if reducible:
         yield Structure.REDUCIBLE, reducible
     constants, _ = _split(cubic)
-    always = _only_structure(constants)
+    always, single = kimura(constants), _one_function(cubic)
     if always is not None:
         yield always, True
     if always is not None or len(constants) == 3:
         return
-    single = _one_function(cubic)
+    residues = {int(60 * d) % 120 if d is not None and d.denominator <= 5 else None for d in constants}
     for structure in (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL):
+        rows = (set(row) for row, known in _table().items() if known is structure)
+        statements: list[Statement] = []
         if single is not None:
             statements = _classes(single, structure)
-        elif structure is Structure.IMPRIMITIVE or _in_some_row(constants, structure):
+        elif structure is Structure.IMPRIMITIVE or any(residues <= row for row in rows):
             statements = [Schwarz(cubic, (structure,))]
-        else:
-            statements = []
         if statements:
             yield structure, statements
 
@@ -262,9 +256,14 @@ class _OneFunction:
     root: FunctionPoly | None
     lines: tuple[tuple[Fraction, Fraction] | None, ...]
 
-    def at(self, w: Fraction) -> tuple[Fraction | None, Fraction | None, Fraction | None]:
-        first, second, third = (None if line is None else line[0] * w + line[1] for line in self.lines)
-        return first, second, third
+    def structure(self, w: Fraction) -> Structure | None:
+        """By Kimura's theorem, with this value of the function."""
+        differences = [None if line is None else line[0] * w + line[1] for line in self.lines]
+        if None not in differences:
+            l, m, n = (d for d in differences if d is not None)  # noqa: E741
+            if any((l + s * m + t * n) % 2 == 1 for s, t in product((1, -1), repeat=2)):
+                return Structure.REDUCIBLE
+        return kimura(differences)
 
 
 def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
@@ -280,7 +279,7 @@ def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     for square, k in factors:
         number = field.rational_value(square)
         if number is not None:
-            constant = _square_root(number)
+            constant = rational_square_root(square)
             lines += [None if constant is None else (_F(0), constant)] * k
             continue
         line = _line(square, first, root)
@@ -294,20 +293,14 @@ def _line(square: Poly, first: FunctionPoly, root: Poly | None) -> tuple[Fractio
     """`(a, b)` with sqrt(square) = +-(a w + b), w^2 = first; b is 0 where w isn't rational (`root` is None)."""
     field = first.field
     if root is None:
-        ratio = field.rational_value(square / first)
-        a = None if ratio is None else _square_root(ratio)
-        return None if a is None else (a, _F(0))
+        ratio = rational_square_root(square / first)
+        return None if ratio is None else (ratio, _F(0))
     own = field.sqrt(square)
     if own is None:
         return None
-    name = next(i for i, k in enumerate(degrees(over_parameters(root))) if k)
-    slopes = [powers_of(over_parameters(form), name).get(1, field.poly([])) for form in (own, root)]
-    if not slopes[1]:
-        return None
-    above, below = (element(field, over_parameters(form).den) for form in (root, own))
-    a = field.rational_value(slopes[0] * above / (slopes[1] * below))
-    b = None if a is None else field.rational_value(own - a * root)
-    return None if a is None or b is None else (a, b)
+    (form, scale, shift), (other, other_scale, other_shift) = map(normal_form, (own, root))
+    a = other_scale / scale
+    return (a, shift - a * other_shift) if form == other else None
 
 
 def _classes(single: _OneFunction, structure: Structure) -> list[Statement]:
@@ -320,7 +313,7 @@ def _classes(single: _OneFunction, structure: Structure) -> list[Statement]:
             step = abs(2 / a)
             found |= {((value - b) / a + j * step) % period for j in range(int(period / step))}
     # w and -w are the same where only w^2 is known.
-    admitted = [w for w in sorted(found) if kimura(single.at(w)) is structure and not _reducible(single.at(w))]
+    admitted = [w for w in sorted(found) if single.structure(w) is structure]
     if not admitted:
         return []
     if single.root is not None:
@@ -338,26 +331,6 @@ def _classes(single: _OneFunction, structure: Structure) -> list[Statement]:
     return statements
 
 
-def _reducible(differences: tuple[Fraction | None, Fraction | None, Fraction | None]) -> bool:
-    """Kimura's first condition."""
-    l, m, n = differences  # noqa: E741
-    if l is None or m is None or n is None:
-        return False
-    return any((l + s * m + t * n - 1) % 2 == 0 or (-l + s * m + t * n - 1) % 2 == 0 for s in (1, -1) for t in (1, -1))
-
-
-def _only_structure(constants: Sequence[Fraction | None]) -> Structure | None:
-    """The structure that constant exponent differences determine, if the equation isn't reducible."""
-    first, second, third = (*constants, None, None, None)[:3]
-    return kimura((first, second, third))
-
-
-def _in_some_row(constants: Sequence[Fraction | None], structure: Structure) -> bool:
-    """Do the constant exponent differences (one at most) occur in a row with this structure?"""
-    residues = {int(60 * d) % 120 if d is not None and d.denominator <= 5 else None for d in constants}
-    return any(residues <= set(row) for row, known in _table().items() if known is structure)
-
-
 def _split(cubic: FunctionPoly) -> tuple[list[Fraction | None], Poly | None]:
     """The constant exponent differences (None: irrational), and the square of the other one if there is exactly one."""
     field = cubic.field
@@ -368,15 +341,7 @@ def _split(cubic: FunctionPoly) -> tuple[list[Fraction | None], Poly | None]:
         if any(c is None for c in coefficients):
             variable += [-factor[0]] * multiplicity if factor.degree == 1 else [factor] * (2 * multiplicity)
         elif factor.degree == 1 and coefficients[0] is not None:
-            square = -coefficients[0]
-            constants += [_square_root(square)] * multiplicity
+            constants += [rational_square_root(-factor[0])] * multiplicity
         else:
             constants += [None] * (factor.degree * multiplicity)
     return constants, variable[0] if len(variable) == 1 else None
-
-
-def _square_root(value: Fraction) -> Fraction | None:
-    """The square root of a rational number that isn't negative, if it is rational."""
-    root = QQ.sqrt(QQ.poly([value]))
-    number = None if root is None else rational(root)
-    return None if number is None else abs(number)
