@@ -64,12 +64,10 @@ def conditions(
     given = parsed
     S, parsed, assume = with_values(S, parsed, assume, limits)
     names = parameters_of(parsed.S.field)
-    if not names and parsed is not given:
-        raise InputError("every parameter has a value", hint="solve decides equations without parameters")
     if not names:
         used = f": {parsed.variable} is taken for the variable" if var is None and parsed.S.degree else ""
-        hint = "solve decides equations without parameters; var= says which name is the variable"
-        raise InputError(f"S has no parameters{used}", hint=hint)
+        what = "every parameter has a value" if parsed is not given else f"S has no parameters{used}"
+        raise InputError(what, hint="solve decides equations without parameters; var= says which name is the variable")
     if isinstance(max_degree, bool) or not isinstance(max_degree, int) or max_degree < 0:
         raise InputError(f"max_degree is a natural number, not {max_degree!r}")
     return conditions_of(parsed, read_assumptions(assume, S, names), max_degree, limits)
@@ -83,42 +81,31 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     budget = Budget(bounded)
     with budget.watched():
         result = partition(lifted, Settings(budget, parsed.variable, only_theorems=max_degree is None))
-    different: dict[str, Condition] = {}
     names = (parsed.variable, *parameters_of(lifted.field))
+    different: dict[str, Condition] = {}
     for region in result.regions:
         statement = reduced(region.statement, constant).avoiding(names, constant.names)
-        region = replace(region, statement=statement)
-        different.setdefault(region.statement.text(), region)
+        different.setdefault(statement.text(), replace(region, statement=statement))
     distinct = [*different.values()]
     with budget.watched(), suppress(LimitExceeded):
         distinct = without_empty(distinct)
-    regions = [region for region in distinct if region.statement.decided(assumptions) is not False]
-    regions = [replace(region, statement=region.statement.narrowed(assumptions)) for region in regions]
-    always = next((k for k, r in enumerate(regions) if r.statement.decided(assumptions) is True), None)
-    generic, complete = result.generic, result.complete
-    if always is not None:
-        generic, complete, regions = regions[always].verdict, regions[always].complete, regions[:always]
-        complete = next((region.complete for region in regions if region.complete is not True), complete)
-        if not generic.known:
-            generic = Verdict.of(decide(parsed.S, budget, certify=False))
+    generic, complete, regions = result.generic, result.complete, list[Condition]()
+    for region in distinct:
+        decided = region.statement.decided(assumptions)
+        if decided is True:
+            generic = region.verdict if region.verdict.known else Verdict.of(decide(parsed.S, budget, certify=False))
+            complete = next((r.complete for r in (*regions, region) if r.complete is not True), True)
+            break
+        if decided is None:
+            regions.append(replace(region, statement=region.statement.narrowed(assumptions)))
     while complete is True and regions and regions[-1].plain and regions[-1].verdict == generic == Verdict(None):
         regions.pop()
     if max_degree is not None:
         with budget.watched():
             regions = [_with_determinants(region, max_degree) for region in regions]
-    return Conditions(
-        shown,
-        parsed.variable,
-        parameters_of(parsed.S.field),
-        generic,
-        tuple(regions),
-        complete,
-        result.theory,
-        limits,
-        tuple(_renamed(notice, constant) for notice in parsed.notices if "parameter" not in notice),
-        known,
-        constant,
-    )
+    notices = tuple(_renamed(notice, constant) for notice in parsed.notices if "parameter" not in notice)
+    claim = (generic, tuple(regions), complete, result.theory)
+    return Conditions(shown, parsed.variable, parameters_of(parsed.S.field), *claim, limits, notices, known, constant)
 
 
 def _with_determinants(region: Condition, largest: int) -> Condition:

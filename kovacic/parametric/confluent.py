@@ -101,10 +101,10 @@ def recognise(problem: Problem, variable: str) -> Confluent | None:
     if center:
         S = S(x + center)
         coordinate = f"{coordinate} - ({shown(RatFunc(center))})"
-    terms = _laurent(S)
-    if terms is None:
+    shift, zero = S.den.degree, field.poly([])
+    if shift > 2 or S.den != field.poly([0] * shift + [1]):
         return None
-    zero = field.poly([])
+    terms = {power - shift: c for power, c in enumerate(S.num) if c}
     b = terms.pop(-2, zero)
     if not terms:
         return None
@@ -115,24 +115,12 @@ def recognise(problem: Problem, variable: str) -> Confluent | None:
     return None if terms else Confluent(n, b, r, q, coordinate, not irregular[0].at_infinity)
 
 
-def _laurent(S: RatFunc) -> dict[int, Poly] | None:
-    """The coefficients of a Laurent polynomial with a pole of order at most 2 at 0; None for anything else."""
-    shift = S.den.degree
-    if shift > 2 or S.den != S.field.poly([0] * shift + [1]):
-        return None
-    return {power - shift: c for power, c in enumerate(S.num) if c}
-
-
 def solvable(form: Confluent) -> tuple[Structure, Literal[True] | list[Statement]]:
     """The structure, and when it occurs: True for always, and [] for never."""
-    delta_squared, field = 1 + 4 * form.b, form.b.field
-    if form.q:
-        beta_squared = form.r * form.r / form.q
-        z = field.poly([0, 0, 1])
-        structure, equation = (
-            Structure.REDUCIBLE,
-            (z - beta_squared - delta_squared) ** 2 - 4 * beta_squared * delta_squared,
-        )
-    else:
-        structure, equation = Structure.IMPRIMITIVE, field.poly([-4 * delta_squared, 0, 1])
+    delta_squared, z = 1 + 4 * form.b, form.b.field.poly([0, 0, 1])
+    beta_squared = form.r * form.r / form.q if form.q else 0 * delta_squared
+    equation = (
+        (z - beta_squared - delta_squared) ** 2 - 4 * beta_squared * delta_squared if form.q else z - 4 * delta_squared
+    )
+    structure = Structure.REDUCIBLE if form.q else Structure.IMPRIMITIVE
     return structure, integer_roots(over_parameters(equation), [form.n], 2 * form.n)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from kovacic.algebra.extension import ExtensionPoly, norm
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Poly, product
 from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.limits import Budget
@@ -32,9 +32,7 @@ def undefined(problem: Problem) -> list[FunctionPoly]:
 
 def confluence(problem: Problem) -> list[FunctionPoly]:
     """Where poles merge or go to infinity."""
-    radical: Poly = problem.field.poly([1])
-    for place in problem.finite_places:
-        radical = radical * place.factor
+    radical = product([problem.field.poly([1]), *(place.factor for place in problem.finite_places)])
     return union([undefined(problem), _common_zeros(radical, radical.derivative())])
 
 
@@ -79,14 +77,9 @@ def generic_conditions(solution: Solution) -> GenericConditions:
             changes += [irreducible_factors(_down(d)) for d in denominators(polynomial)]
     if constants is not None:
         changes.append(_common_zeros(constants, constants.derivative()))
-    squares = [
-        _down(place.delta_squared)
-        for place in problem.places
-        if place.kind is Kind.REGULAR
-        and place.delta_squared is not None
-        and field.rational_value(place.delta_squared) is None
-    ]
-    return GenericConditions(tuple(union(changes)), tuple(union([squares])))
+    squares = [p.delta_squared for p in problem.places if p.kind is Kind.REGULAR and p.delta_squared is not None]
+    irrational = [_down(square) for square in squares if field.rational_value(square) is None]
+    return GenericConditions(tuple(union(changes)), tuple(union([irrational])))
 
 
 def _common_zeros(first: Poly, second: Poly) -> list[FunctionPoly]:

@@ -55,22 +55,14 @@ def plot(
         figure = Figure(figsize=(6.5, 5.5), layout="constrained")
         FigureCanvasAgg(figure)
         axes = figure.add_subplot()
-    edges = [
-        [float(column[0] - step / 2 + k * step) for k in range(len(column) + 1)]
-        for column in values
-        for step in [column[1] - column[0]]
-    ]
-    strip = len(chosen) == 1
-    axes.pcolormesh(
-        edges[0], [0, 1] if strip else edges[1], table, cmap=ListedColormap(_COLOURS), norm=BoundaryNorm(range(7), 6)
-    )
+    halves = [(column[1] - column[0]) / 2 for column in values]
+    edges = [[float(v) for v in (c[0] - half, *(v + half for v in c))] for c, half in zip(values, halves, strict=True)]
+    colours: dict[str, Any] = {"cmap": ListedColormap(_COLOURS), "norm": BoundaryNorm(range(7), 6)}
+    axes.pcolormesh(*edges, *([[0, 1]] if len(chosen) == 1 else []), table, **colours)
     present = sorted({case for row in table for case in row})
     handles = [Patch(facecolor=_COLOURS[k], edgecolor="#666666", label=LABELS[k]) for k in present]
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
-    axes.set_xlabel(chosen[0])
-    if strip:
-        axes.set_yticks([])
-    else:
-        axes.set_ylabel(chosen[1])
+    second: dict[str, Any] = {"ylabel": chosen[1]} if len(chosen) == 2 else {"yticks": []}
+    axes.set(xlabel=chosen[0], **second)
     axes.set_title(title, fontsize="medium")
     return axes

@@ -8,7 +8,7 @@ changes a rank by the same number at all values.
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter
 from dataclasses import dataclass
 from math import gcd
 from random import Random
@@ -26,8 +26,6 @@ from kovacic.parametric.functions import element, irreducible_factors, over_para
 #: Determinants whose common factors are taken.
 _DETERMINANTS = 3
 _PRIME = 2**61 - 1
-#: A sparse matrix: the entries that aren't zero, by row and column.
-Sparse = dict[int, dict[int, Any]]
 
 
 @dataclass(frozen=True)
@@ -54,7 +52,7 @@ def rank_conditions(images: list[Poly], problem: Problem) -> RankConditions:
         check_time()
         columns.append(_column(image))
     rows, eliminated = without_constant_pivots(columns)
-    rows = _distinct(rows)
+    rows = [*{tuple(map(str, row)): row for row in map(_normalised, rows)}.values()]
     rank = _generic_rank(rows, field)
     deficient = eliminated + rank < len(images)
     if rank == 0:
@@ -73,15 +71,11 @@ def rank_conditions(images: list[Poly], problem: Problem) -> RankConditions:
     return RankConditions(tuple(irreducible_factors(element(field, common))), complete, system, deficient)
 
 
-def _distinct(rows: list[list[Any]]) -> list[list[Any]]:
-    """The rows without multiples of others by a number."""
-    known: dict[tuple[str, ...], list[Any]] = {}
-    for row in rows:
-        content = gcd(*(int(c) for entry in row for c in entry.coeffs()))
-        leading = next(entry for entry in row if entry).leading_coefficient()
-        reduced = [entry // (content if int(leading) > 0 else -content) for entry in row]
-        known.setdefault(tuple(map(str, reduced)), reduced)
-    return list(known.values())
+def _normalised(row: list[Any]) -> list[Any]:
+    """The multiple by a number with coprime coefficients, the leading one positive."""
+    reduced = _primitive(dict(enumerate(row)))
+    sign = 1 if int(next(e for e in row if e).leading_coefficient()) > 0 else -1
+    return [sign * entry for entry in reduced.values()]
 
 
 def _column(image: Poly) -> dict[int, Any]:
@@ -104,64 +98,35 @@ def without_constant_pivots(columns: list[dict[int, Any]]) -> tuple[list[list[An
     among them the one that touches the fewest entries is chosen [Markowitz 1957].  A matrix for a polynomial P is banded,
     so that this is the elimination of its coefficients by their recurrence.
     """
-    rows: Sparse = defaultdict(dict)
-    for k, column in enumerate(columns):
-        for i, entry in column.items():
-            if entry:
-                rows[i][k] = entry
-    where: dict[int, set[int]] = defaultdict(set)
-    for i, row in rows.items():
-        for k in row:
-            where[k].add(i)
-    eliminated = 0
+    used = sorted({i for column in columns for i in column})
+    rows = [{k: column[i] for k, column in enumerate(columns) if column.get(i)} for i in used]
     while True:
-        pivots = (
-            (len(row) * len(where[k]), i, k)
-            for i, row in rows.items()
-            for k, entry in row.items()
-            if entry.is_constant()
+        weights = Counter(k for row in rows for k in row)
+        places = (
+            (len(row) * weights[k], i, k) for i, row in enumerate(rows) for k, e in row.items() if e.is_constant()
         )
-        best = min(pivots, default=None)
+        best = min(places, default=None)
         if best is None:
             break
-        _, i, k = best
-        _clear(rows, where, i, k)
-        eliminated += 1
-    used = sorted({k for row in rows.values() for k in row})
-    zero = next((0 * entry for row in rows.values() for entry in row.values()), 0)
-    return [[row.get(k, zero) for k in used] for _, row in sorted(rows.items()) if row], eliminated
+        chosen = rows.pop(best[1])
+        rows = [_cleared(row, best[2], chosen) if best[2] in row else row for row in rows]
+    zero = next((0 * entry for row in rows for entry in row.values()), 0)
+    left = sorted({k for row in rows for k in row})
+    return [[row.get(k, zero) for k in left] for row in rows if row], len(used) - len(rows)
 
 
-def _clear(rows: Sparse, where: dict[int, set[int]], i: int, k: int) -> None:
-    """Clear column k by the pivot in row i, and leave them out."""
-    chosen = rows.pop(i)
-    pivot = chosen.pop(k)
-    for j in chosen:
-        where[j].discard(i)
-    for other in where.pop(k) - {i}:
-        check_time()
-        row = rows[other]
-        factor = row.pop(k)
-        for j in row:
-            row[j] = row[j] * pivot
-        for j, entry in chosen.items():
-            value = row.pop(j, 0) - factor * entry
-            where[j].discard(other)
-            if value:
-                row[j] = value
-                where[j].add(other)
-        _divide_by_content(row)
+def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, Any]:
+    """The row with its entry in column k cleared by the chosen one, without its content."""
+    check_time()
+    pivot, factor = chosen[k], row[k]
+    combined = {j: pivot * row.get(j, 0) - factor * chosen.get(j, 0) for j in row.keys() | chosen.keys() if j != k}
+    return _primitive({j: entry for j, entry in combined.items() if entry})
 
 
-def _divide_by_content(row: dict[int, Any]) -> None:
-    """Without it the pivots would grow exponentially."""
-    content = 0
-    for entry in row.values():
-        content = gcd(content, *(int(c) for c in entry.coeffs()))
-        if content == 1:
-            return
-    for j in row:
-        row[j] = row[j] // content
+def _primitive(row: dict[int, Any]) -> dict[int, Any]:
+    """A multiple with coprime coefficients: otherwise pivots would grow exponentially."""
+    content = gcd(*(int(c) for entry in row.values() for c in entry.coeffs()))
+    return {j: entry // content for j, entry in row.items()} if content > 1 else row
 
 
 def _generic_rank(rows: list[list[Any]], field: FunctionField) -> int:

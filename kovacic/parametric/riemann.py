@@ -122,12 +122,12 @@ class Schwarz(Statement):
         return None
 
     def _in_rows(self) -> str:
-        names = _names_of_differences(self.cubic)
-        if self.structures == (Structure.IMPRIMITIVE,) and names is not None:
+        names = _differences(self.cubic)
+        if self.structures == (Structure.IMPRIMITIVE,) and len(names) == 3:
             return _two_half_integers(names)
         rows = [k for k, row in _SCHWARZ.items() if row[0] in self.structures]
         which = f"rows {rows[0]}-{rows[-1]}" if rows else "row 1 (two half-integers)"
-        return f"the exponent differences {_shown_differences(self.cubic)} are in Schwarz's {which}"
+        return f"the exponent differences {', '.join(names)} are in Schwarz's {which}"
 
 
 def _two_half_integers(names: list[str]) -> str:
@@ -142,16 +142,11 @@ def _two_half_integers(names: list[str]) -> str:
     return f"{'two of ' * (len(different) > 2)}{(' and ' if len(different) == 2 else ', ').join(different)} are half-integers"
 
 
-def _shown_differences(cubic: FunctionPoly) -> str:
-    names = _names_of_differences(cubic)
-    return f"(the square roots of the roots of {shown(cubic, 'Z')})" if names is None else ", ".join(names)
-
-
-def _names_of_differences(cubic: FunctionPoly) -> list[str] | None:
-    """The exponent differences, as far as they are square roots over Q(t)."""
+def _differences(cubic: FunctionPoly) -> list[str]:
+    """The exponent differences where they are square roots over Q(t), else one text that says what they are."""
     factors = cubic.field.factor(cubic)
     if any(factor.degree > 1 for factor, _ in factors):
-        return None
+        return [f"(the square roots of the roots of {shown(cubic, 'Z')})"]
     return [root_written(-factor[0]) for factor, k in factors for _ in range(k)]
 
 
@@ -186,7 +181,7 @@ def _difference_squared(place: Place) -> Poly:
 def omega(problem: Problem, variable: str) -> str:
     """What a solution of case 1 looks like: its exponents, and the degree of its polynomial part."""
     general = f"omega = sum of (1 +- Delta_c)/(2 ({variable} - c)) + P'/P"
-    differences = _shown_differences(squares_of_differences(problem)).split(", ")
+    differences = _differences(squares_of_differences(problem))
     if len(differences) != 3:
         return f"{general}, P a polynomial"
     signs = "".join(f" +- ({d})" if " " in d else f" +- {d}" for d in differences)
@@ -205,7 +200,7 @@ def group(problem: Problem, structure: Structure) -> str | None:
     if structure is Structure.REDUCIBLE:
         if None not in constants and len(constants) >= 2:
             return "mu_n, or G_a extended by mu_n"  # a third difference is rational because their sum is
-        where = f"where {_shown_differences(cubic)} are rational"
+        where = f"where {', '.join(_differences(cubic))} are rational"
         return f"mu_n, or G_a extended by mu_n, {where}; else G_m, or the Borel group"
     if structure is not Structure.IMPRIMITIVE:
         return None
