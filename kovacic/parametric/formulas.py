@@ -13,10 +13,10 @@ from fractions import Fraction
 from math import prod
 from typing import Any
 
-from kovacic.algebra.embedding import square_part
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import square_part
 from kovacic.algebra.sparse import by_power, factorisation
 from kovacic.parametric.functions import over_parameters
 

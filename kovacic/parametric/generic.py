@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from kovacic.algebra.extension import ExtensionPoly, norm
+from kovacic.algebra.factors import product
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Poly, product
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.limits import Budget
