@@ -274,7 +274,7 @@ def _kill_later(pool: Pool, times: int) -> None:
         while len(killed) < times:
             time.sleep(0.05)
             child = pool._children[0]
-            if child.pid not in killed and any(item.text == SLOW for item in list(child.assigned)[:1]):
+            if child.pid not in killed and child.item and child.item.text == SLOW:
                 killed.add(child.pid)
                 os.kill(child.pid, signal.SIGKILL)
 

@@ -12,7 +12,6 @@ import sys
 import tempfile
 import threading
 import time
-from collections import deque
 from contextlib import suppress
 from queue import SimpleQueue
 from typing import IO, cast
@@ -29,10 +28,10 @@ Event = tuple["Child", bytes | None] | None
 
 
 class Child:
-    """A worker process.  `assigned` are the items that it hasn't answered, the one that it works on first."""
+    """A worker process, and the item that it works on."""
 
     def __init__(self, job: Job, events: SimpleQueue[Event]) -> None:
-        self.assigned: deque[Item] = deque()
+        self.item: Item | None = None
         self.ready = False
         self.busy_since = time.monotonic()
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed by kill()
@@ -49,16 +48,9 @@ class Child:
         self._send(job.dumps() + "\n")
 
     def give(self, item: Item) -> None:
-        """Append an item to what the process has to do; a process that is gone reports itself through its events."""
-        if not self.assigned:
-            self.busy_since = time.monotonic()
-        self.assigned.append(item)
+        """What the process has to do next; a process that is gone reports itself through its events."""
+        self.item, self.busy_since = item, time.monotonic()
         self._send(encode_item(item))
-
-    def finished_one(self) -> Item:
-        """The item that the process has just answered."""
-        self.busy_since = time.monotonic()
-        return self.assigned.popleft()
 
     def kill(self) -> None:
         """End the process at once and wait for it; its reader thread ends as well."""

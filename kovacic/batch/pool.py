@@ -1,12 +1,10 @@
 """A pool of worker processes that can be killed: every item gets exactly one record.
 
-One loop in the caller's thread waits for events (a record, the end of a process, an item from a stream) and for the next
-deadline.  A busy process has one more short item waiting in its pipe, which is given to another process when that one has
-nothing to do.  A record counts only if it comes from the item's owner.
+One loop in the caller's thread gives each process an item at a time, and waits for events (a record, the end of a process, an
+item from a stream) and for the next deadline.
 
 A process that is over its time is killed, and its item gets a record.  So does the item of a process that has ended with an
-exception; one whose process was killed by somebody else gets another one, up to three times.  What was waiting behind the
-item goes back to the front.
+exception; one whose process was killed by somebody else gets another one, up to three times.
 """
 
 from __future__ import annotations
@@ -39,12 +37,6 @@ ORDERED_WINDOW = 10_000
 # Items that are read from a stream before they are needed.
 _AHEAD = 256
 
-# More text could fill the pipe of a busy process, and make the parent wait.
-_WAITING_CHARACTERS = 30_000
-
-# What waits behind an item that takes longer than this is given to an idle process.
-_PATIENCE_SECONDS = 0.1
-
 # The last words of Python, GMP, flint and the C++ library.
 _OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_alloc", re.IGNORECASE)
 
@@ -62,7 +54,6 @@ class Pool(AbstractContextManager["Pool"]):
         self._job, self._jobs = job, jobs
         self._events: SimpleQueue[Event] = SimpleQueue()
         self._children: list[Child] = []
-        self._owners: dict[int, Child] = {}  # of the items without an answer, by their numbers
         self._again: deque[Item] = deque()
         self._losses: Counter[int] = Counter()
         self._failed_starts = 0
@@ -75,7 +66,7 @@ class Pool(AbstractContextManager["Pool"]):
         """Kill the processes; `run` would start new ones."""
         for child in self._children:
             child.kill()
-        for kept in (self._children, self._owners, self._again, self._losses):
+        for kept in (self._children, self._again, self._losses):
             kept.clear()
 
     def pids(self) -> list[int]:
@@ -113,53 +104,26 @@ class Pool(AbstractContextManager["Pool"]):
             self._children.append(Child(self._job, self._events))
         exhausted = False
         while True:
-            for depth in (0, 1):
-                for child in self._children:
-                    while child.ready and len(child.assigned) == depth:
-                        try:
-                            item = self._again.popleft() if self._again else None if exhausted else next(feed)
-                        except StopIteration:
-                            exhausted = True
-                            break
-                        if item is None:
-                            break
-                        if item.error is not None:
-                            yield refused(item, item.error)
-                        elif depth and len(item.text) > _WAITING_CHARACTERS:
-                            self._again.appendleft(item)
-                            break
-                        else:
-                            self._give(child, item)
-            if exhausted and not self._owners and not self._again:
-                return
-            self._share_waiting()
-            yield from self._handle(self._wait())
-
-    def _give(self, child: Child, item: Item) -> None:
-        self._owners[item.number] = child
-        child.give(item)
-
-    def _share_waiting(self) -> None:
-        """Give what waits behind a slow item to a process that has nothing to do."""
-        patient = time.monotonic() - _PATIENCE_SECONDS
-        for idle in self._idle():
             for child in self._children:
-                if (waiting := self._waiting(child)) and child.busy_since <= patient:
-                    self._give(idle, waiting[0])
-                    break
-
-    def _idle(self) -> list[Child]:
-        return [child for child in self._children if child.ready and not child.assigned]
-
-    def _waiting(self, child: Child) -> list[Item]:
-        return [item for item in list(child.assigned)[1:] if self._owners.get(item.number) is child]
+                while child.ready and child.item is None:
+                    try:
+                        item = self._again.popleft() if self._again else None if exhausted else next(feed)
+                    except StopIteration:
+                        exhausted = True
+                        break
+                    if item is None:
+                        break
+                    if item.error is None:
+                        child.give(item)
+                    else:
+                        yield refused(item, item.error)
+            if exhausted and not self._again and all(child.item is None for child in self._children):
+                return
+            yield from self._handle(self._wait())
 
     def _wait(self) -> list[Event]:
         """The events that have arrived, at least one unless a deadline comes first."""
-        moments = [self._deadline(child) for child in self._children]
-        if self._idle():
-            moments += [child.busy_since + _PATIENCE_SECONDS for child in self._children if self._waiting(child)]
-        deadline = min(moments)
+        deadline = min(map(self._deadline, self._children))
         events: list[Event] = []
         try:
             wait = None if deadline == math.inf else max(0.0, deadline - time.monotonic())
@@ -172,7 +136,7 @@ class Pool(AbstractContextManager["Pool"]):
     def _deadline(self, child: Child) -> float:
         if not child.ready:
             return child.busy_since + _START_SECONDS
-        if self._job.timeout is None or not child.assigned:
+        if self._job.timeout is None or child.item is None:
             return math.inf
         return child.busy_since + self._job.timeout + GRACE_SECONDS
 
@@ -187,31 +151,19 @@ class Pool(AbstractContextManager["Pool"]):
                 child.ready = True
                 self._failed_starts = 0
             else:
-                record = decode_record(line.decode())
-                item = child.finished_one()
-                assert record.number == item.number, (record, item)
-                if self._released(item, child):
-                    yield record
+                child.item = None
+                yield decode_record(line.decode())
         if not events:
             now = time.monotonic()
             for child in [child for child in self._children if self._deadline(child) <= now]:
-                yield from self._over_time(child)
+                yield self._over_time(child)
 
-    def _released(self, item: Item, child: Child) -> bool:
-        """Takes the item off its owner; was it this one?"""
-        owned = self._owners.get(item.number) is child
-        if owned:
-            del self._owners[item.number]
-        return owned
-
-    def _over_time(self, child: Child) -> Iterator[Record]:
-        if not child.ready:
+    def _over_time(self, child: Child) -> Record:
+        if child.item is None:
             raise KovacicError(f"a worker process hasn't started within {_START_SECONDS:g} s")
-        item = child.assigned[0]
-        if self._released(item, child):
-            seconds = time.monotonic() - child.busy_since
-            yield stopped(item, f"the time limit of {self._job.timeout:g} s is used up (process killed)", seconds)
+        reason = f"the time limit of {self._job.timeout:g} s is used up (process killed)"
         self._replace(child)
+        return stopped(child.item, reason, time.monotonic() - child.busy_since)
 
     def _died(self, child: Child) -> Iterator[Record]:
         status, words = child.last_words()
@@ -219,14 +171,16 @@ class Pool(AbstractContextManager["Pool"]):
             self._failed_starts += 1
             if self._failed_starts >= _START_ATTEMPTS:
                 raise KovacicError(f"worker processes can't be started: {_cause(status, words)}\n{words}")
-        head = child.assigned[0] if child.assigned else None
-        if head is not None and self._owners.get(head.number) is child:
-            seconds, limit = time.monotonic() - child.busy_since, self._limit_behind(status, words)
-            self._losses[head.number] += 1
-            if limit is not None or self._losses[head.number] >= _processes_for(status):
-                del self._owners[head.number]
-                yield lost(head, _cause(status, words), seconds) if limit is None else stopped(head, limit, seconds)
         self._replace(child)
+        if (item := child.item) is not None:
+            seconds, limit = time.monotonic() - child.busy_since, self._limit_behind(status, words)
+            self._losses[item.number] += 1
+            if limit is not None:
+                yield stopped(item, limit, seconds)
+            elif self._losses[item.number] >= _processes_for(status):
+                yield lost(item, _cause(status, words), seconds)
+            else:
+                self._again.append(item)
 
     def _limit_behind(self, status: int, words: str) -> str | None:
         """Which limit the end of a process means; None for another reason."""
@@ -237,9 +191,7 @@ class Pool(AbstractContextManager["Pool"]):
         return None
 
     def _replace(self, child: Child) -> None:
-        """Kill a process, put what it still owns back to the front, and start another one."""
-        again = [item for item in child.assigned if self._released(item, child)]
-        self._again.extendleft(reversed(again))
+        """Kill a process and start another one."""
         child.kill()
         self._children[self._children.index(child)] = Child(self._job, self._events)
         self.replaced += 1
