@@ -29,8 +29,6 @@ from kovacic.batch.records import Item, Record, label_of
 from kovacic.errors import InputError, LimitExceeded, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
-_SUFFIXES = {".jsonl": "jsonl", ".ndjson": "jsonl", ".csv": "csv"}
-
 # Names of the column or key with the expression, in the order in which they are looked for.
 _EXPRESSION_KEYS = ("S", "input", "expression")
 
@@ -50,8 +48,8 @@ def guess_format(name: str) -> str | None:
     >>> guess_format("cases.jsonl.gz"), guess_format("table.CSV"), guess_format("-")
     ('jsonl', 'csv', None)
     """
-    path = Path(name.lower().removesuffix(".gz"))
-    return _SUFFIXES.get(path.suffix)
+    suffix = Path(name.lower().removesuffix(".gz")).suffix
+    return {".jsonl": "jsonl", ".ndjson": "jsonl", ".csv": "csv"}.get(suffix)
 
 
 @contextmanager
@@ -91,14 +89,11 @@ def read_items(
         try:
             text = raw.decode("utf-8").strip()
         except UnicodeDecodeError as error:
-            shown = raw.decode("utf-8", errors="backslashreplace").strip()
-            yield Item(
-                number, shown, error=ParseError(f"the line isn't UTF-8 text: byte {error.start} is {error.reason}")
-            )
+            shown, why = raw.decode("utf-8", errors="backslashreplace").strip(), f"byte {error.start} is {error.reason}"
+            yield Item(number, shown, error=ParseError(f"the line isn't UTF-8 text: {why}"))
             continue
-        if form == "jsonl":
-            if text:
-                yield _json_item(number, text, var)
+        if text and form == "jsonl":
+            yield _json_item(number, text, var)
         elif text and not text.startswith("#"):
             yield Item(number, text, var)
 
@@ -147,9 +142,9 @@ def _lines(stream: BinaryIO, longest: int) -> Iterator[_Line]:
 def _sniffed(lines: Iterator[_Line]) -> tuple[str, Iterator[_Line]]:
     """The format that the first line with anything in it shows, and all the lines."""
     seen = []
-    for entry in lines:
-        seen.append(entry)
-        if not isinstance(entry[1], bytes) or entry[1].strip():
+    for _, raw in lines:
+        seen.append((_, raw))
+        if isinstance(raw, LimitExceeded) or raw.strip():
             break
     first = seen[-1][1] if seen else b""
     form = "jsonl" if isinstance(first, bytes) and first.lstrip()[:1] in (b"{", b'"') else "lines"
@@ -190,18 +185,17 @@ def _csv_items(lines: Iterable[_Line], var: str | None) -> Iterator[Item]:
 
     reader = csv.reader(texts())
     header: list[str] | None = None
-    last_line, first = 0, True
+    first = True
     while True:
-        number = last_line + 1
+        number = reader.line_num + 1
         try:
-            row = next(reader, None)
+            row = next(reader)
+        except StopIteration:
+            return
         except csv.Error as error:
             yield Item(number, "", var, error=ParseError(f"the row isn't CSV: {error}"))
-            last_line, first = reader.line_num, False
+            first = False
             continue
-        last_line = reader.line_num
-        if row is None:
-            return
         if not any(cell.strip() for cell in row):
             continue
         if first and any(cell.strip() in _EXPRESSION_KEYS for cell in row):
@@ -237,18 +231,15 @@ class Answers(AbstractContextManager["Answers"]):
     def write(self, record: Record) -> None:
         self._stream.write(record.json + "\n")
         self._stream.flush()
-        if time.monotonic() - self._synced > _SYNC_SECONDS:
-            self._sync()
-
-    def _sync(self) -> None:
-        if self._on_disk:
+        if self._on_disk and time.monotonic() - self._synced > _SYNC_SECONDS:
             os.fsync(self._stream.fileno())
-        self._synced = time.monotonic()
+            self._synced = time.monotonic()
 
     def __exit__(self, *error: object) -> None:
         with self._stream:
             self._stream.flush()
-            self._sync()
+            if self._on_disk:
+                os.fsync(self._stream.fileno())
 
 
 @dataclass(frozen=True)

@@ -77,10 +77,7 @@ def _edges(grid: Grid) -> list[float]:
     values = [value for value in grid if isinstance(value, Fraction)]
     if len(values) < len(grid):
         raise InputError(f"the values of {grid.name} aren't all rational, and a map needs that")
-    if len(values) == 1:
-        values = [values[0] - Fraction(1, 2), values[0], values[0] + Fraction(1, 2)]
-        return [float((a + b) / 2) for a, b in pairwise(values)]
-    steps = [b - a for a, b in pairwise(values)]
+    steps = [b - a for a, b in pairwise(values)] or [Fraction(1)]
     if not (all(step > 0 for step in steps) or all(step < 0 for step in steps)):
         raise InputError(f"the values of {grid.name} aren't in order, and a map needs that")
     middles = [(a + b) / 2 for a, b in pairwise(values)]

@@ -125,7 +125,7 @@ class Job:
     @classmethod
     def loads(cls, text: str) -> Job:
         data = json.loads(text)
-        return cls(timeout=data["timeout"], memory=data["memory"], group=data["group"], limits=Limits(**data["limits"]))
+        return cls(**{**data, "limits": Limits(**data["limits"])})
 
 
 def solved(item: Item, solution: Solution, job: Job) -> Record:
@@ -161,16 +161,17 @@ def refused(item: Item, error: KovacicError, seconds: float = 0.0) -> Record:
     """The record of an input that isn't an equation or is too large, or of a failed self-check."""
     if isinstance(error, LimitExceeded):
         return stopped(item, str(error), seconds)
-    details: dict[str, Any] = {"type": type(error).__name__}
-    if isinstance(error, InputError):
-        details |= {"message": error.message, "position": error.position, "hint": error.hint}
-        return _without_answer(item, ERROR, details, seconds)
-    return _without_answer(item, FAILED, details | {"message": str(error)}, seconds)
+    details: dict[str, Any] = {"type": type(error).__name__, "message": str(error)}
+    if not isinstance(error, InputError):
+        return _without_answer(item, FAILED, {"status": "error", "error": details}, seconds)
+    details |= {"message": error.message, "position": error.position, "hint": error.hint}
+    return _without_answer(item, ERROR, {"status": "error", "error": details}, seconds)
 
 
 def lost(item: Item, message: str, seconds: float) -> Record:
     """The record of an equation whose process was lost for a reason that isn't a limit."""
-    return _without_answer(item, FAILED, {"type": _PROCESS_LOST, "message": message}, seconds)
+    error = {"type": _PROCESS_LOST, "message": message}
+    return _without_answer(item, FAILED, {"status": "error", "error": error}, seconds)
 
 
 def stopped(item: Item, reason: str, seconds: float) -> Record:
@@ -179,27 +180,21 @@ def stopped(item: Item, reason: str, seconds: float) -> Record:
     `S` is the text as it was given, because nothing has been heard from the process that read it.
     """
     data = {
-        "line": item.number,
-        **item.extra,
-        "schema": 1,
-        "input": item.text,
         "variable": item.var or "x",
         "S": item.text.strip(),
-        "status": "undecided",
-        "case": None,
-        "riccati": None,
-        "constants": None,
+        "status": UNDECIDED,
+        **dict.fromkeys(("case", "riccati", "constants")),
         "verified": False,
         "proof": {"structure": None, "semi_invariant": None, "invariant": None, "excluded": [], "undecided": reason},
         "notices": [],
         "seconds": round(seconds, 6),
     }
-    return Record(item.number, UNDECIDED, seconds, json.dumps(data))
+    return _without_answer(item, UNDECIDED, data, seconds)
 
 
-def _without_answer(item: Item, label: str, error: Mapping[str, Any], seconds: float) -> Record:
-    data = {"line": item.number, **item.extra, "schema": 1, "input": item.text, "status": "error", "error": error}
-    return Record(item.number, label, seconds, json.dumps(data))
+def _without_answer(item: Item, label: str, data: Mapping[str, Any], seconds: float) -> Record:
+    head = {"line": item.number, **item.extra, "schema": 1, "input": item.text}
+    return Record(item.number, label, seconds, json.dumps({**head, **data}))
 
 
 class Summary:

@@ -29,23 +29,17 @@ _LARGEST_GRID = 10**9
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """The values of one parameter, in the order in which they are taken: numerators over one denominator.
-
-    Where some aren't rational, `algebraic` has them all, those as text.
-    """
+    """The values of one parameter, in the order in which they are taken: numbers over one denominator, or texts."""
 
     name: str
-    numerators: Sequence[int]
-    denominator: int
-    algebraic: tuple[Fraction | str, ...] = ()
+    numerators: Sequence[Fraction | int | str]
+    denominator: int = 1
 
     def __len__(self) -> int:
-        return len(self.algebraic or self.numerators)
+        return len(self.numerators)
 
     def __iter__(self) -> Iterator[Fraction | str]:
-        if self.algebraic:
-            return iter(self.algebraic)
-        return (Fraction(numerator, self.denominator) for numerator in self.numerators)
+        return (k if isinstance(k, str) else Fraction(k, self.denominator) for k in self.numerators)
 
 
 def parse_grid(text: str) -> Grid:
@@ -65,12 +59,9 @@ def parse_grid(text: str) -> Grid:
     if not separator or not name.isidentifier():
         raise InputError(f"{text!r} isn't a grid", hint="NAME=START:STOP:STEP or NAME=VALUE,VALUE: n=0:10:1/4")
     parts = re.split("[:,]" if ":" in rest else ",", rest)
-    if ":" not in rest and not all(map(_NUMBER.fullmatch, map(str.strip, parts))):
-        return Grid(name, (), 1, tuple(_algebraic(part, text) for part in parts))
-    values = [_number(part, text) for part in parts]
     if ":" not in rest:
-        denominator = lcm(*(value.denominator for value in values))
-        return Grid(name, [int(value * denominator) for value in values], denominator)
+        return Grid(name, tuple(_value(part, text) for part in parts))
+    values = [_number(part, text) for part in parts]
     if "," in rest or len(values) > 3:
         raise InputError(f"{text!r} has more than START:STOP:STEP", hint="n=0:10:1/4")
     start, stop, step = (*values, Fraction(1))[:3]
@@ -84,7 +75,7 @@ def parse_grid(text: str) -> Grid:
     return Grid(name, range(first, first + count * difference, difference), denominator)
 
 
-def _algebraic(part: str, text: str) -> Fraction | str:
+def _value(part: str, text: str) -> Fraction | str:
     with suppress(InputError):
         return _number(part, text)
     with suppress(InputError):
@@ -109,10 +100,9 @@ def points(grids: Sequence[Grid]) -> Iterator[dict[str, Fraction | str]]:
     if not grids:
         yield {}
         return
-    first, *others = grids
-    for value in first:
-        for rest in points(others):
-            yield {first.name: value, **rest}
+    for value in grids[0]:
+        for rest in points(grids[1:]):
+            yield {grids[0].name: value, **rest}
 
 
 def scan_items(expression: Any, grids: Sequence[Grid], *, var: str | None = None) -> Iterator[Item]:

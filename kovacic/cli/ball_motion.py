@@ -19,16 +19,11 @@ _SENSITIVE = 1e-3
 
 
 def simulate(
-    sphere: BallOnSphere,
-    *,
-    gravity: str | None,
-    potential: str | None,
-    start: Sequence[str],
-    end: str,
-    plot: Path | None,
+    sphere: BallOnSphere, *, start: Sequence[str], end: str, plot: Path | None, **force: str | None
 ) -> dict[str, Any]:
     """What `--json` shows of the motion from `start` = (u, u', v', n) up to the time `end`; writes the picture.
 
+    `force` has `gravity` and `potential`.
     Raises `InputError` for what isn't a start, a time or a potential, `LimitExceeded` for more than 10^5 oscillations and for
     asymptotic motions, `click.ClickException` where a library is missing and where the picture can't be written.
     """
@@ -45,7 +40,7 @@ def simulate(
     time = as_float(end, "the time")
     if time <= 0:
         raise InputError(f"the time must be positive, not {time:g}")
-    motion = solve_motion(sphere, State(*start), gravity=gravity, potential=potential)
+    motion = solve_motion(sphere, State(*start), **force)
     motion.u(time)  # refuses too long a time before the many
     oscillations = time / motion.period if motion.period else 0
     times = np.linspace(0.0, time, min(_MOST, _SAMPLES + int(_PER_OSCILLATION * oscillations)))
@@ -78,29 +73,22 @@ def lines(motion: dict[str, Any]) -> list[str]:
     """The same as text."""
     low, high = motion["turning_points"]
     until = f"t <= {motion['time']:g}"
-    result = [f"{'potential:':<20}V = {motion['potential']}"]
+    rows = [("potential", f"V = {motion['potential']}")]
     if motion["period"] is None:
-        result.append(f"{'steady motion:':<20}u = {low:.12g} stays constant")
+        rows.append(("steady motion", f"u = {low:.12g} stays constant"))
     else:
-        result.append(f"{'turning points:':<20}u = {low:.12g} and {high:.12g}")
-        result.append(f"{'period:':<20}{motion['period']:.15g}")
-    result.append(f"{'contact point:':<20}({', '.join(f'{value:.12g}' for value in motion['contact'])}) at the end")
+        rows += [("turning points", f"u = {low:.12g} and {high:.12g}"), ("period", f"{motion['period']:.15g}")]
+    rows.append(("contact point", f"({', '.join(f'{value:.12g}' for value in motion['contact'])}) at the end"))
     if motion["least_reaction"] is not None:
-        result.append(f"{'normal reaction:':<20}at least {motion['least_reaction']:.6g} ({until})")
-    if motion["pulled_from"] is not None:
-        result.append(
-            f"{'':<20}from t = {motion['pulled_from']:.6g} on it has to pull at times: a ball that isn't held"
-        )
-        result.append(f"{'':<20}leaves the surface there; here it is held")
+        rows.append(("normal reaction", f"at least {motion['least_reaction']:.6g} ({until})"))
+    if (pulls := motion["pulled_from"]) is not None:
+        rows.append(("", f"from t = {pulls:.6g} on it has to pull at times: a ball that isn't held"))
+        rows.append(("", "leaves the surface there; here it is held"))
     for name, value in motion["difference"].items():
-        result.append(
-            f"{'difference ' + name + ':':<20}{value:.2e} (closed form against the integrated motion, {until})"
-        )
-    result.append(f"{'energy drift:':<20}{motion['energy_drift']:.2e}")
+        rows.append((f"difference {name}", f"{value:.2e} (closed form against the integrated motion, {until})"))
+    rows.append(("energy drift", f"{motion['energy_drift']:.2e}"))
     if motion["approach"] < _SENSITIVE:
-        result.append(
-            f"{'':<20}digits are lost: it comes as near as {motion['approach']:.1g} to an unstable steady motion"
-        )
+        rows.append(("", f"digits are lost: it comes as near as {motion['approach']:.1g} to an unstable steady motion"))
     if motion["plot"]:
-        result.append(f"{'picture:':<20}{motion['plot']}")
-    return result
+        rows.append(("picture", motion["plot"]))
+    return [f"{f'{label}:' if label else '':<20}{text}" for label, text in rows]
