@@ -179,7 +179,7 @@ def stopped(item: Item, reason: str, seconds: float) -> Record:
 
     `S` is the text as it was given, because nothing has been heard from the process that read it.
     """
-    data = {
+    data: dict[str, Any] = {
         "variable": item.var or "x",
         "S": item.text.strip(),
         "status": UNDECIDED,

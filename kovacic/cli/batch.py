@@ -5,12 +5,15 @@ from __future__ import annotations
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from kovacic.cli.many import already_answered, answer_all, batch_options, write_line
-from kovacic.cli.options import OutputFile, parse_limits, var_option
+from kovacic.cli.options import OutputFile, var_option
+
+if TYPE_CHECKING:
+    from kovacic.limits import Limits
 
 
 @click.command()
@@ -28,7 +31,7 @@ def command(
     resume: bool,
     form: str | None,
     var: str | None,
-    limits: tuple[str, ...],
+    limits: Limits,
     **run: Any,
 ) -> int:
     """Decide every equation of FILE; "-" is standard input.
@@ -47,10 +50,10 @@ def command(
     """
     from kovacic.batch.files import Answers, count_items, guess_format, opened, read_items
 
-    chosen, done = parse_limits(limits), already_answered(output, resume)
+    done = already_answered(output, resume)
     form = form or guess_format(file)
     with ExitStack() as stack:
-        items = read_items(stack.enter_context(opened(file)), form=form, var=var, limits=chosen)
+        items = read_items(stack.enter_context(opened(file)), form=form, var=var, limits=limits)
         write = write_line if output is None else stack.enter_context(Answers(output)).write
         count = None if file == "-" else partial(count_items, file, form=form)
-        return answer_all(items, write, count=count, done=done, limits=chosen, stream=file == "-", **run)
+        return answer_all(items, write, count=count, done=done, limits=limits, stream=file == "-", **run)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
-from kovacic.cli.options import assume_option, fitted, parse_assumptions, parse_limits, refuse_options
+from kovacic.cli.options import assume_option, fitted, limit_option, refuse_options
 
 if TYPE_CHECKING:
     from kovacic.parametric.check import CheckReport
@@ -24,18 +24,9 @@ if TYPE_CHECKING:
 @click.option("--all", "everything", is_flag=True, help="All regions, however many.")
 @click.option("--explain", "explained", is_flag=True, help="What each region follows from, and its solutions.")
 @click.option("--check", "samples", metavar="N", type=int, help="Solve at N exact points, and compare.")
-@click.option("--limit", "limits", metavar="NAME=VALUE", multiple=True, help="Change a limit, such as seconds.")
+@limit_option
 def command(
-    equation: str,
-    as_json: bool,
-    as_latex: bool,
-    var: str | None,
-    assume: tuple[str, ...],
-    max_degree: int,
-    everything: bool,
-    explained: bool,
-    samples: int | None,
-    limits: tuple[str, ...],
+    equation: str, as_json: bool, as_latex: bool, everything: bool, explained: bool, samples: int | None, **given: Any
 ) -> int:
     """For which values of its parameters does y'' = S(x) y have Liouvillian solutions?
 
@@ -46,8 +37,7 @@ def command(
     from kovacic.parametric.api import conditions
 
     refuse_options((equation,))
-    assumptions = parse_assumptions(assume)
-    answer = conditions(equation, var=var, assume=assumptions, max_degree=max_degree, limits=parse_limits(limits))
+    answer = conditions(equation, **given)
     report = None if samples is None else answer.check(samples)
     shown = answer.explain() if explained else answer.text(all=everything)
     print(answer.to_json() if as_json else answer.latex() if as_latex else fitted(shown))

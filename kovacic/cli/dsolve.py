@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import sys
+from typing import TYPE_CHECKING
 
 import click
 
 from kovacic.cli.main import DECIDED, UNDECIDED
-from kovacic.cli.options import (
-    EQUATIONS,
-    fitted,
-    ics_option,
-    limit_option,
-    parse_limits,
-    refuse_options,
-    var_option,
-)
+from kovacic.cli.options import EQUATIONS, fitted, ics_option, limit_option, refuse_options, var_option
+
+if TYPE_CHECKING:
+    from kovacic.limits import Limits
 
 
 @click.command(context_settings=EQUATIONS)
@@ -24,7 +20,7 @@ from kovacic.cli.options import (
 @ics_option
 @var_option
 @limit_option
-def command(equation: str, latex: bool, ics: tuple[str, ...], var: str | None, limits: tuple[str, ...]) -> int:
+def command(equation: str, latex: bool, ics: str, var: str | None, limits: Limits) -> int:
     """The general solution of a linear equation of second order; with --ics the one that has these values.
 
     The right-hand side may contain exp, log, sin, cos and the like.  Where nothing is Liouvillian, special functions are
@@ -39,11 +35,10 @@ def command(equation: str, latex: bool, ics: tuple[str, ...], var: str | None, l
     from kovacic.solution import solve
 
     refuse_options((equation,))
-    values, chosen = ", ".join(ics), parse_limits(limits)
     try:
-        found = dsolve(equation, ics=values, var=var, limits=chosen)
+        found = dsolve(equation, ics=ics, var=var, limits=limits)
     except NotImplementedError as reason:
-        answer = solve(equation, var=var, limits=chosen)
+        answer = solve(equation, var=var, limits=limits)
         if answer.status is Status.NONE_EXISTS and not answer.special:
             print(fitted(str(reason)))
             return DECIDED

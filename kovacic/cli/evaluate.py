@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from kovacic.cli.options import EQUATIONS, limit_option, parse_limits, refuse_options
+from kovacic.cli.options import EQUATIONS, limit_option, refuse_options
 
 
 @click.command(context_settings=EQUATIONS)
@@ -21,9 +21,7 @@ from kovacic.cli.options import EQUATIONS, limit_option, parse_limits, refuse_op
 @click.option("--digits", default=15, show_default=True, type=click.IntRange(min=1), help="Proven digits.")
 @click.option("--path", type=click.Choice(["above", "below"]), help="The side on which singular points are passed.")
 @limit_option
-def command(
-    equation: str, points: tuple[str, ...], frobenius: str | None, limits: tuple[str, ...], **options: Any
-) -> None:
+def command(equation: str, points: tuple[str, ...], frobenius: str | None, **options: Any) -> None:
     """Values of one solution of y'' = S(x) y, or of an equation with y'' in it, and of its derivative.
 
     The exact value differs from what is printed by at most the bound after it; that is proven.  Numbers are exact: integers,
@@ -39,7 +37,7 @@ def command(
     refuse_options((equation,))
     places = [place for text in points for place in listed(text)]
     basis = None if frobenius is None else listed(frobenius)
-    found = evaluate_states(equation, places, frobenius=basis, limits=parse_limits(limits), **options)
+    found = evaluate_states(equation, places, frobenius=basis, **options)
     for place, state in zip(places, found, strict=True):
         print(f"y({place}) = {state.y}", flush=True)
         print(f"y'({place}) = {state.dy}", flush=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -27,15 +27,7 @@ if TYPE_CHECKING:
 @var_option
 @assume_option
 @limit_option
-def command(
-    equations: tuple[str, ...],
-    form: str,
-    cite: bool,
-    no_solutions: bool,
-    var: str | None,
-    assume: tuple[str, ...],
-    limits: tuple[str, ...],
-) -> int:
+def command(equations: tuple[str, ...], form: str, cite: bool, no_solutions: bool, **given: Any) -> int:
     """Explain the answer for y'' = S(x) y, or for an equation with y'' in it; "-" reads one a line.
 
     \b
@@ -49,4 +41,4 @@ def command(
         text = answer.explain(format=form, solutions=not no_solutions).rstrip("\n")
         return (fitted(text) if form == "text" else text,)
 
-    return answer_each(equations, show, var=var, limits=limits, assume=assume, gap="\n")
+    return answer_each(equations, show, gap="\n", **given)

@@ -19,25 +19,6 @@ if TYPE_CHECKING:
     from kovacic.limits import Limits
     from kovacic.solution import Solution
 
-#: Options that commands share; equations that begin with - aren't options.
-EQUATIONS = {"ignore_unknown_options": True}
-var_option = click.option(
-    "--var", metavar="NAME", help="The name of the variable; by default the only symbol of S, or x."
-)
-assume_option = click.option(
-    "--assume", metavar="NAME=WHAT", multiple=True, help="What is known about a parameter: n=integer, n>=0, n=3."
-)
-ics_option = click.option(
-    "--ics", metavar="VALUES", multiple=True, help='Initial values at one point: "y(0)=1, y\'(0)=0".'
-)
-limit_option = click.option(
-    "--limit",
-    "limits",
-    metavar="NAME=VALUE",
-    multiple=True,
-    help="Change a limit: seconds, degree, bits, digits, exponent, text_length, unknown_degree.",
-)
-
 
 class OutputFile(click.Path):
     """A file that can be made: its folder is there, and its suffix one of those that are possible (any, by default)."""
@@ -97,14 +78,43 @@ def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
     return found or None
 
 
+#: Options that commands share; equations that begin with - aren't options.
+EQUATIONS = {"ignore_unknown_options": True}
+var_option = click.option(
+    "--var", metavar="NAME", help="The name of the variable; by default the only symbol of S, or x."
+)
+assume_option = click.option(
+    "--assume",
+    metavar="NAME=WHAT",
+    multiple=True,
+    callback=lambda _, __, settings: parse_assumptions(settings),
+    help="What is known about a parameter: n=integer, n>=0, n=3.",
+)
+ics_option = click.option(
+    "--ics",
+    metavar="VALUES",
+    multiple=True,
+    callback=lambda _, __, values: ", ".join(values),
+    help='Initial values at one point: "y(0)=1, y\'(0)=0".',
+)
+limit_option = click.option(
+    "--limit",
+    "limits",
+    metavar="NAME=VALUE",
+    multiple=True,
+    callback=lambda _, __, settings: parse_limits(settings),
+    help="Change a limit: seconds, degree, bits, digits, exponent, text_length, unknown_degree.",
+)
+
+
 def answer_each(
     equations: Sequence[str],
     show: Callable[[Solution], Iterable[str]],
     *,
     var: str | None,
-    limits: Sequence[str],
-    assume: Sequence[str] = (),
-    gap: str = "",
+    limits: Limits,
+    assume: dict[str, str] | None,
+    gap: str,
 ) -> int:
     """Solve every equation and print the lines that `show` makes of it, each when it is there.
 
@@ -115,12 +125,11 @@ def answer_each(
     from kovacic.solution import solve
 
     refuse_options(equations)
-    chosen, assumptions = parse_limits(limits), parse_assumptions(assume)
     outcomes = [DECIDED]
     between = ""
     for text in _expressions(equations):
         try:
-            answer = solve(text, var=var, assume=assumptions, limits=chosen)
+            answer = solve(text, var=var, assume=assume, limits=limits)
             outcomes.append(UNDECIDED if answer.status is Status.UNDECIDED else DECIDED)
             for line in show(answer):
                 print(between + line, flush=True)

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from kovacic.cli.options import EQUATIONS, PICTURE, limit_option, parse_limits, refuse_options
+from kovacic.cli.options import EQUATIONS, PICTURE, limit_option, refuse_options
 
 
 @click.command(context_settings=EQUATIONS)
@@ -23,7 +23,7 @@ from kovacic.cli.options import EQUATIONS, PICTURE, limit_option, parse_limits, 
     "--digits", default=8, show_default=True, type=click.IntRange(1, 1000), help="Proven digits of each value."
 )
 @limit_option
-def command(equation: str, start: str, stop: str, output: Path, limits: tuple[str, ...], **numbers: Any) -> None:
+def command(equation: str, start: str, stop: str, output: Path, **options: Any) -> None:
     """Draw the solution of y'' = S(x) y, or of an equation with y'' in it, with y(x0) = y0, y'(x0) = dy0.
 
     Every sample is the midpoint of an enclosure whose error is proven.  Singular points on the axis are marked; beyond
@@ -38,7 +38,7 @@ def command(equation: str, start: str, stop: str, output: Path, limits: tuple[st
 
     refuse_options((equation,))
     with needs("plot", "a picture"):
-        plot(equation, start, stop, title=_title(equation), output=output, limits=parse_limits(limits), **numbers)
+        plot(equation, start, stop, title=_title(equation), output=output, **options)
     click.echo(f"wrote {output}")
 
 

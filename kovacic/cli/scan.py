@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from kovacic.cli.many import already_answered, answer_all, batch_options, write_line
-from kovacic.cli.options import EQUATIONS, PICTURE, OutputFile, parse_limits, refuse_options
+from kovacic.cli.options import EQUATIONS, PICTURE, OutputFile, refuse_options
 
 if TYPE_CHECKING:
     from kovacic.batch.records import Record
     from kovacic.batch.scan import Grid
+    from kovacic.limits import Limits
 
 
 @click.command(context_settings=EQUATIONS)
@@ -38,7 +39,7 @@ def command(
     form: str | None,
     picture: Path | None,
     var: str | None,
-    limits: tuple[str, ...],
+    limits: Limits,
     **run: Any,
 ) -> int:
     """Decide y'' = S(x) y for every combination of parameter values.
@@ -63,7 +64,7 @@ def command(
     if resume and form == "csv":
         raise click.UsageError("--resume needs --output FILE.jsonl, the file of the interrupted scan")
     done = already_answered(output, resume)
-    labels, chosen = dict(done.labels), parse_limits(limits)
+    labels = dict(done.labels)
     items = scan_items(expression, grids, var=var)
     with ExitStack() as stack:
         write = _writer(stack, output, form, grids)
@@ -73,7 +74,7 @@ def command(
             if picture is not None:
                 labels[record.number] = record.label
 
-        status = answer_all(items, noted, count=lambda: prod(map(len, grids)), done=done, limits=chosen, **run)
+        status = answer_all(items, noted, count=lambda: prod(map(len, grids)), done=done, limits=limits, **run)
     if picture is not None:
         draw_map(expression, (grids[0], grids[1]), labels, picture)
     return status

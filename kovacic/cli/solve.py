@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -40,10 +40,8 @@ def command(
     latex: bool,
     explain: bool,
     no_solutions: bool,
-    ics: tuple[str, ...],
-    var: str | None,
-    assume: tuple[str, ...],
-    limits: tuple[str, ...],
+    ics: str,
+    **given: Any,
 ) -> int:
     """Decide y'' = S(x) y for every S, or an equation with y'' in it; "-" reads one a line from standard input.
 
@@ -58,8 +56,7 @@ def command(
     """
     from kovacic.views.text import render, solution_lines
 
-    values = ", ".join(ics)
-    if values and (as_json or latex or explain or no_solutions):
+    if ics and (as_json or latex or explain or no_solutions):
         raise click.UsageError("--ics belongs to the solutions as text (kovacic dsolve --latex has the others)")
 
     def show(answer: Solution) -> Iterable[str]:
@@ -70,11 +67,10 @@ def command(
         if explain:
             return (fitted(answer.explain().rstrip("\n")),)
         homogeneous = answer.equation is None or answer.equation.is_homogeneous
-        solutions = solution_lines(answer) if homogeneous and not values else general_lines(answer, values)
+        solutions = solution_lines(answer) if homogeneous and not ics else general_lines(answer, ics)
         return map(fitted, render(answer, style=styled, solutions=None if no_solutions else solutions))
 
-    gap = "" if as_json or latex else "\n"
-    return answer_each(equations, show, var=var, limits=limits, assume=assume, gap=gap)
+    return answer_each(equations, show, gap="" if as_json or latex else "\n", **given)
 
 
 def general_lines(answer: Solution, values: str) -> Iterator[str]:
