@@ -24,6 +24,7 @@ from kovacic.limits import Budget
 from kovacic.views.explain import rational_form
 from kovacic.views.families import Search, is_natural, search
 from kovacic.views.formula import latex_ratfunc, latex_text
+from kovacic.views.numbers import settled
 
 EQUATIONS = [
     "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0",
@@ -354,3 +355,57 @@ def test_a_page_has_a_picture_beside_an_irregular_singular_point() -> None:
     """Kovacic's Example 1; solutions are as large as exp(1/x) at 0."""
     page = kovacic.solve("(4*x^6-8*x^5+12*x^4+4*x^3+7*x^2-20*x+4)/(4*x^4)").explain(format="html")
     assert "<svg" in page
+
+
+def test_families_with_parameters() -> None:
+    """omega = a/x + b/(x-1): one family for generic a and b, with P = 1, and no other sum is a number."""
+    answer = kovacic.solve("(a^2-a)/x^2 + (b^2-b)/(x-1)^2 + 2*a*b/(x*(x-1))", var="x")
+    found, (a, b, x) = searched(answer, 1), sympy.symbols("a b x")
+    assert (found.total, found.natural) == (8, 1)
+    (success,) = [family for family in found.families or () if family.P is not None]
+    assert (success.d, success.P) == (0, 1)
+    assert sympy.simplify(success.theta - a / x - b / (x - 1)) == 0
+    assert "d is a natural number for 1 for generic parameters" in answer.explain(solutions=False)
+
+
+@pytest.mark.parametrize(
+    ("text", "tried"),
+    [
+        ("n/x^2", True),  # alpha has sqrt(4n + 1)
+        ("(4*n^2 - 1)/(4*x^2) - 1", True),
+        ("-3/(16*x^2) + n/x", True),
+        ("n^2*x^2 + 3*n", True),
+        ("n^2*x^2 + m", True),
+        ("sqrt(2)/x^2", True),
+        ("2*x^2 + 3*sqrt(2)", True),
+        ("sqrt(2)/(x^2 + 1)^2", True),
+        ("sqrt(1 + sqrt(2))*x^2 + 1", True),  # a root of a polynomial of degree 4, which is called alpha
+        ("sqrt(2)*n/x^2 + 1", True),
+        ("-3/(16*x^2) + (sqrt(2) + n)/x", True),
+        ("1/(x^2 - n)^2", False),  # sqrt(n) and sqrt(n^2 + n)
+    ],
+)
+def test_the_steps_agree_with_the_engine_over_larger_fields(text: str, tried: bool) -> None:
+    """The first degree with a solution is that of omega, and omega = theta + P'/P solves the Riccati equation."""
+    answer = kovacic.solve(text, var="x")
+    x, degree = sympy.Symbol("x"), None if answer.riccati is None else answer.riccati.degree
+    ramified = any(place.order in (3, 5) for place in analyse(answer.S, Budget()).places)
+    for m in range(2 if ramified else 1, (degree or 2) + 1):
+        found = searched(answer, m)
+        natural = [family for family in found.families or () if is_natural(family.d)]
+        assert found.complete
+        assert found.found == (tried and degree == m)
+        assert all((family.theta is not None) == tried for family in natural if family.P is not None or m == 1)
+        for family in natural:
+            if m == 1 and family.P is not None:
+                omega = family.theta + sympy.diff(family.P, x) / family.P
+                S = sympy.sympify(text.replace("^", "**"), locals={"n": sympy.Symbol("n")})
+                residue = sympy.diff(omega, x) + omega**2 - S
+                values = {"n": sympy.Rational(7, 5), "m": sympy.Rational(3, 7), "x": sympy.Rational(5, 3)}
+                assert abs(sympy.N(residue.subs(values), 30)) < 1e-25
+    assert "CRootOf" not in answer.explain(solutions=False)
+
+
+def test_nested_square_roots_that_cancel_are_an_integer() -> None:
+    assert settled(sympy.sqrt(9 + 9 * sympy.sqrt(2)) - 3 * sympy.sqrt(1 + sympy.sqrt(2)) + 2) == 2
+    assert not settled(sympy.sqrt(9 + 9 * sympy.sqrt(2)) - sympy.sqrt(1 + sympy.sqrt(2))).is_Integer

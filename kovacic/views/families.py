@@ -13,8 +13,9 @@ so that every line of the paper can be compared.  With r = S, and m = 1, 2, 4, 6
   That is the paper's equation of second order for P (m = 1), its equation of third order (m = 2), and the recursion of
   section 5.1 with P_(m-k) = (-1)^(k+1) D^k L_k, D the product of the x - c.
 
-Domain: r has rational coefficients.  Poles of degree 1 or 2 over Q are taken one by one, with exact square roots; where more
-are conjugate, only families in which these have equal exponents are tried.
+The coefficients of r may be algebraic numbers and parameters, which have generic values.  Poles of degree 1 or 2 over their
+field K are taken one by one, with exact square roots; where more are conjugate, only families in which these have equal
+exponents are tried.  No family is tried where its numbers have square roots of two different functions of parameters.
 
 Reference: J. Kovacic, J. Symb. Comp. 2 (1986), sections 3.1, 4.1 and 5.1.
 """
@@ -29,19 +30,21 @@ from itertools import product
 from math import prod
 from typing import Any
 
-from sympy import Add, Integer, Mul, Poly, Rational, Symbol, oo, roots, sqrt, symbols
-from sympy.polys.constructor import construct_domain
+from sympy import Add, Integer, Mul, Rational, Symbol, expand, oo, symbols
+from sympy.polys.domains import EX
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.rings import ring
 
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.engine.places import Kind, Place
+from kovacic.views.numbers import domain, number, root, settled
 
 _MOST_FAMILIES = 4096
 _FEW_FAMILIES = 8
 _MOST_POINTS = 24
 _HIGHEST_ORDER = 40
+_HIGHEST_DEGREE = 6
 #: Multiplications of coefficients.
 _MOST_WORK = 200_000
 #: d = scale * (value at infinity - sum of the values at the poles), and theta has the residues scale * value.
@@ -109,10 +112,10 @@ class Search:
 def search(S: RatFunc, places: Sequence[Place], variable: str, m: int) -> Search | None:
     """Steps 1 to 3 for omega of degree m; of many families they try those up to the first that succeeds.
 
-    `places` end with infinity.  None outside the domain: coefficients outside Q, exponents that are no square roots of
-    rational numbers, or poles of high order.
+    `places` end with infinity.  None outside the domain: exponents that are no square roots of constants, constants of a
+    high degree, poles of a high order.
     """
-    if S.field != QQ or max(place.order for place in places) > _HIGHEST_ORDER:
+    if max(place.order for place in places) > _HIGHEST_ORDER or S.field.absolute_degree > _HIGHEST_DEGREE:
         return None
     points = [Point(places[-1], oo), *(point for place in places[:-1] for point in _points(place))]
     options = [_choices(point, m) for point in points]
@@ -124,7 +127,8 @@ def search(S: RatFunc, places: Sequence[Place], variable: str, m: int) -> Search
     if prod(map(len, choices)) <= _MOST_FAMILIES:
         all_families = [Family(family, _degree(family, points, m)) for family in product(*choices)]
         natural = [family for family in all_families if is_natural(family.d) and not _all_even(family, m)]
-        tried = _Trial(S, points, choices, m, variable).of(natural)
+        trial = _Trial.of_all(S, points, choices, m, variable) if natural else None
+        tried = {} if trial is None else trial.of(natural)
         families = tuple(all_families if m == 1 and total <= 8 else natural)
         families = tuple(tried.get(id(family), family) for family in families)
     return Search(m, tuple(points), tuple(choices), total, _naturals(choices, points, m), families)
@@ -138,13 +142,15 @@ def is_natural(d: Any) -> bool:
 def _points(place: Place) -> list[Point]:
     if place.degree > 2 or (place.degree == 2 and place.order > 2):
         return [Point(place, None, place.degree)]
-    x = Symbol("x")
-    return [Point(place, root) for root in roots(place.factor.to_sympy(x), x)]
+    if place.degree == 1:
+        return [Point(place, -number(place.factor[0]))]
+    middle, half = place.factor[1] / -2, root(place.factor[1] * place.factor[1] / 4 - place.factor[0])
+    return [Point(place, number(middle) + sign * half) for sign in (-1, 1)]
 
 
 def _degree(choices: Sequence[Choice], points: Sequence[Point], m: int) -> Any:
     finite = Add(*(point.count * choice.value for point, choice in zip(points[1:], choices[1:], strict=True)))
-    return SCALE[m] * (choices[0].value - finite)
+    return settled(SCALE[m] * (choices[0].value - finite))
 
 
 def _all_even(family: Family, m: int) -> bool:
@@ -165,11 +171,11 @@ def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[Point], m: i
             sums = following
             if len(sums) > _MOST_FAMILIES:
                 return None
-    return sum(count for (value, even), count in sums.items() if is_natural(SCALE[m] * value) and not even)
+    return sum(count for (value, even), count in sums.items() if is_natural(settled(SCALE[m] * value)) and not even)
 
 
 def _choices(point: Point, m: int) -> tuple[Choice, ...] | None:
-    """Step 1; None where the exponents aren't square roots of rational numbers."""
+    """Step 1; None where the exponents aren't square roots of constants."""
     place = point.place
     if place.kind is Kind.ORDINARY or (place.at_infinity and place.order == 1):
         return tuple(Choice(Integer(e)) for e in ((0, 1) if m == 1 else (0, 2, 4) if m == 2 else range(13)))
@@ -180,10 +186,9 @@ def _choices(point: Point, m: int) -> tuple[Choice, ...] | None:
             return (Choice(Integer(4 - place.order if place.at_infinity else place.order)),)
         return _irregular(place) if m == 1 and place.degree == 1 and place.order % 2 == 0 else None
     if m == 1:
-        square = None if place.delta_squared is None else QQ.rational_value(place.delta_squared)
-        if square is None:
+        if place.delta_squared is None:
             return None
-        delta = sqrt(_rational(square))
+        delta = root(place.delta_squared)
         return tuple(Choice((1 + sign * delta) / 2) for sign in ((1, -1) if delta else (1,)))
     if place.delta is None:
         return (Choice(Integer(2 if m == 2 else 6)),)
@@ -198,58 +203,65 @@ def _irregular(place: Place) -> tuple[Choice, ...]:
     """
     nu, sign = (place.order // 2, 1) if not place.at_infinity else (place.order // 2 - 2, -1)
     count = place.order // 2  # of the terms up to w_k
-    shift = QQ.poly([-place.factor[0], 1])
-    top, bottom = ([to_fraction(c) for c in part(shift).rational_coefficients()] for part in (place.num, place.den))
-    bottom = bottom[place.order :]
-    u, w = list[Fraction](), [Fraction(1)]
+    shift = place.num.field.poly([0, 2]) - place.factor
+    top, bottom = place.num(shift), place.den(shift)
+    u, w = list[Poly](), [place.num.field.poly([1])]
+    zero = place.num.field.poly([])
     for k in range(count):
-        known = sum((bottom[i] * u[k - i] for i in range(1, min(k, len(bottom) - 1) + 1)), Fraction(0))
-        u.append(((top[k] if k < len(top) else 0) - known) / bottom[0])
+        known = sum((bottom[place.order + i] * u[k - i] for i in range(1, k + 1)), zero)
+        u.append((top[k] - known) / bottom[place.order])
         if k:
-            w.append((u[k] / u[0] - sum((w[i] * w[k - i] for i in range(1, k)), Fraction(0))) / 2)
-    a = sqrt(_rational(u[0]))
-    terms = tuple((sign * (k - nu), a * _rational(w[k])) for k in range(count - 1))
-    return tuple(
-        Choice((s * 2 * a * _rational(w[-1]) + sign * nu) / 2, tuple((power, s * c) for power, c in terms if c))
-        for s in (1, -1)
-    )
-
-
-def _rational(value: Fraction) -> Any:
-    return Rational(value.numerator, value.denominator)
+            w.append((u[k] / u[0] - sum((w[i] * w[k - i] for i in range(1, k)), zero)) / 2)
+    a = root(u[0])
+    terms = tuple((sign * (k - nu), expand(a * number(w[k]))) for k in range(count - 1))
+    last = expand(2 * a * number(w[-1]))
+    return tuple(Choice((s * last + sign * nu) / 2, tuple((power, s * c) for power, c in terms if c)) for s in (1, -1))
 
 
 class _Trial:
     """Step 3, in the ring K[x], K the field of all numbers that occur; everything over the common denominator D."""
 
-    def __init__(
-        self, S: RatFunc, points: Sequence[Point], choices: Sequence[Sequence[Choice]], m: int, variable: str
-    ) -> None:
-        self.m, self.points, self.x = m, points, Symbol(variable)
+    @classmethod
+    def of_all(cls, S: RatFunc, points: Any, choices: Any, m: int, variable: str) -> _Trial | None:
+        """None for numbers outside every `_domain`."""
+        chosen = [choice for options in choices for choice in options]
         numbers = [point.at for point in points if point.at not in (None, oo)]
-        numbers += [choice.value for chosen in choices for choice in chosen]
-        numbers += [c for chosen in choices for choice in chosen for _, c in choice.singular]
-        self.field, _ = construct_domain([Integer(1), *numbers], extension=True, field=True)
-        self.ring, X = ring("x", self.field)
+        numbers += [choice.value for choice in chosen] + [c for choice in chosen for _, c in choice.singular]
+        numbers += [number(part[k]) for part in (S.num, S.den) for k in range(part.degree + 1)]
+        field = domain([Integer(1), *numbers])
+        return None if field is None else cls(S, points, m, variable, field)
+
+    def __init__(self, S: RatFunc, points: Sequence[Point], m: int, variable: str, field: Any) -> None:
+        self.m, self.x, self.field = m, Symbol(variable), field
+        self.ring, X = ring("x", field)
         self.factors = [
-            X - self.field.from_sympy(point.at) if point.at is not None else self._polynomial(point.place.factor)
+            X - field.from_sympy(point.at) if point.at is not None else self._polynomial(point.place.factor)
             for point in points[1:]
         ]
-        powers = [f**point.place.weight for f, point in zip(self.factors, points[1:], strict=True)]
-        self.D = prod(powers, start=self.ring.one)
-        self.D2r = (self.D**2 * self._polynomial(S.num)).exquo(self._polynomial(S.den))
+        self.weights = [point.place.weight for point in points[1:]]
+        self.D = self._product(self.weights)
+        rest = self._product([2 * point.place.weight - point.place.order for point in points[1:]])
+        self.D2r = rest * self._polynomial(S.num / S.den.lc)
 
-    def _polynomial(self, polynomial: Any) -> Any:
+    def _product(self, powers: Sequence[int]) -> Any:
+        return prod((f**k for f, k in zip(self.factors, powers, strict=True)), start=self.ring.one)
+
+    def _without(self, index: int, power: int) -> Any:
+        """D over this power of a factor."""
+        return self._product([k - power * (i == index) for i, k in enumerate(self.weights)])
+
+    def _polynomial(self, polynomial: Poly) -> Any:
         return self.ring.from_list(
-            [self.field.from_sympy(c) for c in Poly(polynomial.to_sympy(self.x), self.x).all_coeffs()]
+            [self.field.from_sympy(number(polynomial[k])) for k in range(polynomial.degree, -1, -1)]
         )
 
     def of(self, families: Sequence[Family]) -> dict[int, Family]:
         """The families that were tried, by their ids: all of few, else those up to the first success."""
         tried, work, degree = {}, 0, self.D.degree()
+        most = _MOST_WORK if self.field != EX else _MOST_WORK // 100
         for family in families:
             work += (family.d + 1) * self.m * (self.m * degree + family.d) * (degree + 1)
-            if work > _MOST_WORK:
+            if work > most:
                 break
             tried[id(family)] = result = self._tried(family)
             if result.P is not None and len(families) > _FEW_FAMILIES:
@@ -259,11 +271,11 @@ class _Trial:
     def _tried(self, family: Family) -> Family:
         D, scale, convert = self.D, SCALE[self.m], self.field.from_sympy
         theta, Dtheta = [], self.ring.zero
-        for choice, f in zip(family.choices[1:], self.factors, strict=True):
-            Dtheta += D.exquo(f) * f.diff(0) * convert(scale * choice.value)
+        for index, (choice, f) in enumerate(zip(family.choices[1:], self.factors, strict=True)):
+            Dtheta += self._without(index, 1) * f.diff(0) * convert(scale * choice.value)
             theta.append(Mul(scale * choice.value, f.diff(0).as_expr(self.x) / f.as_expr(self.x)))
             for power, c in choice.singular:
-                Dtheta += D.exquo(f**-power) * convert(c)
+                Dtheta += self._without(index, -power) * convert(c)
                 theta.append(c * f.as_expr(self.x) ** power)
         for power, c in family.choices[0].singular:
             Dtheta += D * self.ring.gens[0] ** power * convert(c)

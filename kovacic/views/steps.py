@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from kovacic.decision import Status
 from kovacic.engine.places import Kind, Place, analyse
 from kovacic.limits import Budget
+from kovacic.reading.given import parameters_of
 from kovacic.views.document import Block, Formula, Heading, Sentence, Table, say
 from kovacic.views.formula import Math, latex_text, of_sympy
 from kovacic.views.sentences import formulas_of
@@ -113,9 +114,7 @@ class Steps:
             yield Heading(f"Case {case}{f', n = {m}' if case == 3 else ''}: Kovacic's steps")
             found = search(solution.S, self.places, solution.variable, m)
             if found is None:
-                domain = (
-                    "rational coefficients, exponents that are square roots of rational numbers, and poles of low order"
-                )
+                domain = "exponents that are square roots, constants of low degree, and poles of low order"
                 yield say(f"The steps are written out for {domain} only.")
             else:
                 yield from self._search(found, case)
@@ -125,7 +124,8 @@ class Steps:
         many = f"{search.total} famil{'y' if search.total == 1 else 'ies'} of exponents"
         natural = "" if search.natural is None else f", d is a natural number for {search.natural}"
         parity = " (with an odd e)" if case == 2 and natural else ""
-        yield say("Step 2: ", DEGREE[case], f"; {many}{natural}{parity}.")
+        generic = " for generic parameters" if parameters_of(self.formulas.field) else ""
+        yield say("Step 2: ", DEGREE[case], f"; {many}{natural}{parity}{generic}.")
         if search.families is None:
             yield say(
                 "They are too many to be listed; the engine finds omega, or proves that there is none, without them."
@@ -138,12 +138,14 @@ class Steps:
             head = [*map(self._point, search.points), Math("d", "d"), Math("P", "P")]
             rows: list[list[Sentence]] = []
             for family in shown:
-                values = [of_sympy(choice.value) for choice in family.choices]
-                rows.append([*([value] for value in values), [of_sympy(family.d)], [self._outcome(family)]])
+                values = [self._shown(choice.value) for choice in family.choices]
+                rows.append([*([value] for value in values), [self._shown(family.d)], [self._outcome(family)]])
             yield Table(head, rows)
         if len(search.families) > _MOST_SHOWN:
             yield say(f"and {len(search.families) - _MOST_SHOWN} more.")
         tried = [family for family in search.families if family.theta is not None]
+        if search.natural and not tried:
+            yield say("Step 3 isn't written out: its numbers have too many square roots.")
         if tried:
             yield say("Step 3: P of degree d, with")
             yield from map(Formula, _EQUATIONS[case])
@@ -156,10 +158,10 @@ class Steps:
 
         rows: list[list[Sentence]] = []
         for point, choices in zip(search.points, search.choices, strict=True):
-            values = [of_sympy(choice.value) for choice in choices]
+            values = [self._shown(choice.value) for choice in choices]
             if case == 1:
                 t = Symbol(self.solution.variable) - (0 if point.place.at_infinity or point.at is None else point.at)
-                singular = of_sympy(Add(*(c * t**power for power, c in choices[0].singular)))
+                singular = self._shown(Add(*(c * t**power for power, c in choices[0].singular)))
                 rows.append([[self._point(point)], [singular], [values[0]], [values[-1]]])
             else:
                 inside = ", ".join(value.text for value in values)
@@ -169,31 +171,34 @@ class Steps:
             ("place", Math("[sqrt S]", r"[\sqrt{S}]"), *alphas) if case == 1 else ("place", Math("E", "E")), rows
         )
 
+    def _shown(self, expression: Any) -> Math:
+        from kovacic.views.numbers import shown
+
+        return of_sympy(shown(expression, self.formulas.field))
+
     def _point(self, point: Point) -> Math:
         if point.at is None or point.place.at_infinity:
             return self.formulas.place(str(point.place))
-        at = of_sympy(point.at)
+        at = self._shown(point.at)
         return Math(f"{self.solution.variable} = {at.text}", f"{latex_text(self.solution.variable)} = {at.latex}")
 
-    @staticmethod
-    def _outcome(family: Family) -> str | Math:
+    def _outcome(self, family: Family) -> str | Math:
         if family.P is not None:
-            return of_sympy(family.P)
+            return self._shown(family.P)
         if family.theta is not None:
             return "none"
         return "not tried" if family.d.is_Integer and family.d >= 0 else ""
 
-    @staticmethod
-    def _trial(family: Family) -> Iterator[Block]:
-        theta, d = of_sympy(family.theta), family.d
+    def _trial(self, family: Family) -> Iterator[Block]:
+        theta, d = self._shown(family.theta), family.d
         yield Formula(Math(f"theta = {theta.text}", rf"\theta = {theta.latex}"))
         impossible = next((condition for condition in family.conditions if condition.is_number), None)
-        conditions = [of_sympy(condition) for condition in family.conditions[:6]]
+        conditions = [self._shown(condition) for condition in family.conditions[:6]]
         if family.P is not None:
-            P = of_sympy(family.P)
+            P = self._shown(family.P)
             yield say(f"d = {d}: ", Math(f"P = {P.text}", f"P = {P.latex}"), " is a solution.")
         elif impossible is not None:
-            yield say(f"d = {d}: no solution, for a coefficient is ", of_sympy(impossible), ", which isn't 0.")
+            yield say(f"d = {d}: no solution, for a coefficient is ", self._shown(impossible), ", which isn't 0.")
         elif conditions:
             system = ", ".join(f"{c.text} = 0" for c in conditions), r",\; ".join(f"{c.latex} = 0" for c in conditions)
             yield say(
