@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from kovacic.algebra import modular
 from kovacic.algebra.extension import AlgebraicField, norm
-from kovacic.algebra.factors import product, remainders
+from kovacic.algebra.factors import _remainders, expansions, product, products
 from kovacic.algebra.lifting import Lifter, prime, rational_reconstruction
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -211,7 +211,27 @@ def test_series_at_a_singular_point_satisfy_the_equation(degree: int, order: int
 @given(st.lists(polynomials.filter(lambda f: f.degree > 0), min_size=1, max_size=9), polynomials)
 def test_remainders_by_a_tree_are_those_of_divisions(moduli: list[RationalPoly], a: RationalPoly) -> None:
     assert product(moduli) == prod(moduli, start=QQ.poly([1]))
-    assert remainders(a**5, moduli) == [a**5 % modulus for modulus in moduli]
+    assert _remainders(a**5, products(moduli)) == [a**5 % modulus for modulus in moduli]
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 49, 50, 67])
+@pytest.mark.parametrize("long", [False, True])
+def test_expansions_are_those_of_the_quotient(count: int, long: bool) -> None:
+    """Known sums of partial fractions, and a numerator whose expansions have long coefficients."""
+    rng = random.Random(f"{count} {long}")
+    factors = [(QQ.poly([-c, 1]), rng.randint(1, 6)) for c in range(count - count // 3)]
+    factors += [(QQ.poly([c, 0, 1]), rng.randint(1, 6)) for c in range(2, count // 3 + 2)]
+    den = product([p**k for p, k in factors])
+    leading = [QQ.poly([rng.randint(1, 9) for _ in range(max(k // 2, 1) * p.degree)]) for p, k in factors]
+    parts = [(N + p ** max(k // 2, 1)) * (den // p**k) for N, (p, k) in zip(leading, factors, strict=True)]
+    num = QQ.poly([rng.randint(1, 9) for _ in range(5)]) if long else sum(parts, QQ.poly([]))
+    for (N, q), known, (p, k) in zip(expansions(num, factors), leading, factors, strict=True):
+        modulus = p ** max(k // 2, 1)
+        assert q.gcd(p) == 1
+        assert (N * (den // p**k) - num * q) % modulus == 0
+        assert N.degree < modulus.degree
+        if not long:
+            assert (N - known * q) % modulus == 0
 
 
 @given(st.lists(small, min_size=1, max_size=5), st.lists(small, min_size=1, max_size=5), st.integers(2, 40))

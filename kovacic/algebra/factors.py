@@ -1,19 +1,33 @@
-"""Several polynomials at once: products, squarefree factors, remainders modulo many, linear combinations."""
+"""Several polynomials at once: products, squarefree factors, expansions at the factors of a denominator, combinations."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import reduce
+from itertools import islice
 from operator import mul
+from typing import Any
 
+from kovacic.algebra.lifting import Lifter
+from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Poly
 from kovacic.limits import check_time
 
+#: From so many factors of a denominator on, leading terms are tried that are short enough for so many primes.
+_MANY_FACTORS, _PRIMES = 50, 6
+
 
 def product(factors: Sequence[Poly]) -> Poly:
-    """The product of at least one polynomial, by halves, which is faster for many."""
-    half = len(factors) // 2
-    return product(factors[:half]) * product(factors[half:]) if half > 2 else reduce(mul, factors)
+    """The product of at least one polynomial."""
+    return products(factors)[-1][0]  # type: ignore[no-any-return]
+
+
+def products(factors: Sequence[Any]) -> list[list[Any]]:
+    """The factors, the products of two each, of four each, ..., the product of all."""
+    levels = [[*factors]]
+    while len(levels[-1]) > 1:
+        left, right = levels[-1][::2], levels[-1][1::2]
+        levels.append([*map(mul, left, right), *left[len(right) :]])
+    return levels
 
 
 def squarefree_factors(polynomial: Poly) -> list[tuple[Poly, int]]:
@@ -28,22 +42,80 @@ def squarefree_factors(polynomial: Poly) -> list[tuple[Poly, int]]:
     return found
 
 
-def remainders(polynomial: Poly, moduli: Sequence[Poly]) -> list[Poly]:
-    """The polynomial modulo each of the moduli, by way of their products [Modern Computer Algebra, sec. 10.1]."""
-    check_time()
-    rest = polynomial % product(moduli)
-    half = len(moduli) // 2
-    return [rest] if not half else remainders(rest, moduli[:half]) + remainders(rest, moduli[half:])
+def expansions(num: Poly, factors: Sequence[tuple[Poly, int]]) -> list[tuple[Poly, Poly]]:
+    """(N, q) for each factor p^k of den, the product of them all: num/den = N/(p^k q) + O(p^(nu - k)), nu = k/2 or 1.
+
+    >>> from kovacic.algebra.rationals import QQ
+    >>> x = QQ.poly([0, 1])
+    >>> [(str(N), str(q)) for N, q in expansions(x + 2, [(x, 1), (x - 1, 2)])]
+    [('2', '1'), ('3', '1')]
+    """
+    moduli = [p ** max(k // 2, 1) for p, k in factors]
+    one, tree = num.field.poly([1]), products([p**k for p, k in factors])
+    simple = _leading_terms(num, factors, moduli, tree) if len(factors) >= _MANY_FACTORS else None
+    if simple is not None:
+        return [(N, one) for N in simple]
+    cofactors, of_moduli = _combined([one] * len(factors), tree), products(moduli)
+    return list(zip(_remainders(num, of_moduli), _remainders(cofactors, of_moduli), strict=True))
 
 
-def sum_of_cofactors(factors: Sequence[Poly]) -> Poly:
-    """The sum of `product(factors) // factor`, which is congruent to that quotient modulo each factor."""
-    half = len(factors) // 2
-    if not half:
-        return factors[0].field.poly([1])
-    check_time()
-    left, right = factors[:half], factors[half:]
-    return sum_of_cofactors(left) * product(right) + product(left) * sum_of_cofactors(right)
+def _leading_terms(
+    num: Poly, factors: Sequence[tuple[Poly, int]], moduli: Sequence[Poly], tree: list[list[Poly]]
+) -> list[Poly] | None:
+    """The leading terms N, with q = 1, of the partial fractions, if they have small coefficients; else None.
+
+    They are found modulo a few primes: the remainders of num itself would be very long numbers.  They are right because num
+    and the sum of N den/p^k have the same remainder modulo all p^nu.
+    """
+    lifters, found = [Lifter(num.field) for _ in factors], list[Poly | None]([None] * len(factors))
+    for bundle in islice(num.field.bundles(), _PRIMES):
+        try:
+            images = [
+                _leading_terms_modulo(h(num), [h(p) ** k for p, k in factors], [h(m) for m in moduli]) for h in bundle
+            ]
+            new = [
+                i
+                for i, N in enumerate(found)
+                if N is None or any(h(N) != image[i] for h, image in zip(bundle, images, strict=True))
+            ]
+        except BadPrimeError:
+            continue
+        for i in new:
+            proposal = lifters[i].add(bundle, [[image[i]] for image in images])
+            found[i] = proposal[0] if proposal else None
+        leading = [N for N in found if N is not None]
+        if not new and not (num - _combined(leading, tree)) % product(moduli):
+            return leading
+    return None
+
+
+def _leading_terms_modulo(num: Any, powers: Sequence[Any], moduli: Sequence[Any]) -> list[Any]:
+    """num/(den/p^k) modulo p^nu for all powers p^k, whose product den is, modulo a prime."""
+    tree, terms = products(powers), list[Any]()
+    cofactors = _combined([powers[0] ** 0] * len(powers), tree)
+    for N, q, modulus in zip(_remainders(num, tree), _remainders(cofactors, tree), moduli, strict=True):
+        common, inverse, _ = (q % modulus).xgcd(modulus)
+        if common.degree() > 0:
+            raise BadPrimeError("factors meet modulo this prime")
+        terms.append(N * inverse % modulus)
+    return terms
+
+
+def _combined(values: Sequence[Any], tree: list[list[Any]]) -> Any:
+    """The sum of value * (product of all factors)/factor."""
+    for level in tree[:-1]:
+        check_time()
+        pairs = [values[i] * level[i + 1] + values[i + 1] * level[i] for i in range(0, len(level) - 1, 2)]
+        values = [*pairs, *values[2 * len(pairs) :]]
+    return values[0]
+
+
+def _remainders(polynomial: Any, tree: list[list[Any]]) -> list[Any]:
+    """The polynomial modulo each of the factors."""
+    rests = [polynomial]
+    for level in reversed(tree):
+        rests = [rests[i // 2] % factor for i, factor in enumerate(level)]
+    return rests
 
 
 def combination(target: Poly, polynomials: Sequence[Poly]) -> list[Poly] | None:

@@ -24,14 +24,11 @@ from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.factors import product, remainders, sum_of_cofactors
+from kovacic.algebra.factors import expansions, product
 from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget
-
-#: From so many factors of a denominator on, remainders modulo all of them are quicker by a tree.
-_MANY_FACTORS = 100
 
 
 class Kind(Enum):
@@ -47,7 +44,8 @@ class Kind(Enum):
 class Place:
     """All roots of one irreducible factor, or infinity (the root 0 in the coordinate z = 1/x).
 
-    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den.
+    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den; `near` has N and q with
+    S = N/(factor^order q) to as many terms as the exponents depend on, order/2 or 1.
     """
 
     factor: Poly
@@ -55,16 +53,8 @@ class Place:
     order: int
     num: Poly
     den: Poly
+    near: tuple[Poly, Poly]
     budget: Budget
-    known: tuple[Poly, Poly] | None = None
-
-    @cached_property
-    def near(self) -> tuple[Poly, Poly]:
-        """N and q modulo p^nu with S = N/(p^order q), nu = order/2 or 1: as much of S as the exponents depend on."""
-        if self.known is not None:
-            return self.known
-        modulus = self.factor ** max(self.order // 2, 1)
-        return self.num % modulus, self.den // self.factor**self.order % modulus
 
     @cached_property
     def delta_squared(self) -> Poly | None:
@@ -179,18 +169,15 @@ class Problem:
 def analyse(S: RatFunc, budget: Budget) -> Problem:
     """The singular places of y'' = S y and their local data."""
     factors = S.field.factor(S.den) if S.den.degree > 0 else []
-    known: list[tuple[Poly, Poly] | None] = [None] * len(factors)
-    if len(factors) >= _MANY_FACTORS:
-        powers = [factor**order for factor, order in factors]
-        moduli = [factor ** max(order // 2, 1) for factor, order in factors]
-        known = list(zip(remainders(S.num, moduli), remainders(sum_of_cofactors(powers), moduli), strict=True))
     places = [
-        Place(factor, False, order, S.num, S.den, budget, near)
-        for (factor, order), near in zip(factors, known, strict=True)
+        Place(factor, False, order, S.num, S.den, near, budget)
+        for (factor, order), near in zip(factors, expansions(S.num, factors) if factors else [], strict=True)
     ]
     num, den, order = at_infinity(S)
     z = S.field.poly([0, 1])
-    return Problem(S, (*places, Place(z, True, order, num, den, budget)), budget)
+    end = z ** max(order // 2, 1)
+    places.append(Place(z, True, order, num, den, (num % end, den // z**order % end), budget))
+    return Problem(S, tuple(places), budget)
 
 
 def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:

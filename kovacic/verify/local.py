@@ -14,7 +14,7 @@ from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.factors import remainders, sum_of_cofactors
+from kovacic.algebra.factors import expansions
 from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
 from kovacic.algebra.poly import Homomorphism, Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -28,7 +28,7 @@ from kovacic.verify.residue import exponent_difference_squared
 class Point:
     """All roots of an irreducible factor p of den, of multiplicity `order`, with S = num/den; or infinity, with S(1/z)/z^4.
 
-    S = N/(p^order q) with these N and q modulo p^order.
+    S = N/(p^order q) with these N and q modulo p^nu, nu = order/2 or 1.
     """
 
     factor: Poly
@@ -115,10 +115,9 @@ class Point:
 def points(S: RatFunc, budget: Budget) -> list[Point]:
     """Every singular place, and infinity even if it is ordinary."""
     found, factors = list[Point](), S.field.factor(S.den) if S.den.degree else []
-    if factors:  # modulo a power, the sum of den // power for all of them is that for this one
-        powers = [p**k for p, k in factors]
-        near = zip(factors, remainders(S.num, powers), remainders(sum_of_cofactors(powers), powers), strict=True)
-        found = [Point(p, k, S.num, S.den, N, q, budget) for (p, k), N, q in near]
+    if factors:
+        near = zip(factors, expansions(S.num, factors), strict=True)
+        found = [Point(p, k, S.num, S.den, N, q, budget) for (p, k), (N, q) in near]
     # S(1/z)/z^4 = z^-order num/den, where num and den have the coefficients of S.num and S.den in reversed order.
     x, order = S.field.poly([0, 1]), S.num.degree - S.den.degree + 4 if S.num else 0
     num, den, power = S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0)), x ** max(order, 0)
