@@ -143,6 +143,30 @@ def test_right_hand_sides() -> None:
     assert abs(left.evalf(20) - sympy.exp(sympy.Rational(2, 5)).evalf(20)) < 1e-12
 
 
+@pytest.mark.parametrize(
+    ("S", "T", "same"),
+    [
+        ("exp(x + c)", "exp(c + x)", "exp(x)"),
+        ("exp(2*(x + 1/2)) - exp(x + 1/2)", "exp(x + 1/2)", "exp(2*x) - exp(x)"),
+        ("sin(2*x + 1)", "tan(x + 1/2)", "sin(2*x)"),
+        ("exp(2*x)*exp(3)", "exp(2*x)", "e^3*exp(2*x)"),
+    ],
+)
+def test_a_constant_in_the_exponent_is_a_shift_of_x_or_a_power_of_e(S: str, T: str, same: str) -> None:
+    found, other = (read_input(f"y'' = ({text})*y", exponentials=True) for text in (S, same))
+    assert found.S == other.S
+    assert found.equation is not None
+    assert found.equation.change is not None
+    assert found.equation.change.expression == T
+
+
+def test_the_answer_of_a_shifted_equation_solves_it() -> None:
+    c = sympy.Symbol("c")
+    answer = kovacic.solve("exp(2*x + 2*c) + exp(x + c)")
+    y = answer.solutions[0]
+    assert sympy.simplify(y.diff(x, 2) / y - sympy.exp(2 * x + 2 * c) - sympy.exp(x + c)) == 0
+
+
 def test_special_functions_come_back_in_x() -> None:
     """y'' = (e^(2x) - nu^2) y: Bessel functions of e^x."""
     found = kovacic.dsolve("y'' = (exp(2*x) + 9)*y").rhs
@@ -160,7 +184,8 @@ def test_rates_are_parameters_and_radicals() -> None:
 @pytest.mark.parametrize(
     ("S", "message"),
     [
-        ("x*exp(x)", "beside exp"),
+        ("x*exp(x)", "x beside exp\\(x\\): that isn't rational in one exponential"),
+        ("exp(2*x + c) + exp(x)", "has a constant in its exponent"),
         ("exp(x) + exp(sqrt(2)*x)", "no rational quotient"),
         ("exp(x)*cos(x)", "no rational quotient"),
         ("exp(x^2)", "multiple of x"),

@@ -16,7 +16,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.product import Factor, Product, grouped, merged
-from kovacic.reading.symbolic import chosen_root
+from kovacic.reading.linear import chosen_root
 
 Expr = Any  # SymPy publishes no types
 

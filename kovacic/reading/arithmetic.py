@@ -10,6 +10,8 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TypeVar
 
+from flint import fmpz
+
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
@@ -24,7 +26,8 @@ _TOTAL_FACTOR = 100
 # Above this size, flint's numbers are faster than Python's.
 _SMALL_BITS = 2048
 
-_ONE = QQ.poly([1])
+# Python reads integers of at most 4300 digits, flint longer ones too.
+_LONG = 2000
 
 
 class Term:
@@ -38,8 +41,6 @@ class Term:
 
 
 VARIABLE = Term(1, 1)
-
-
 Value = Term | Poly | RatFunc
 
 
@@ -62,7 +63,7 @@ class Arithmetic:
         """The integer with these decimal digits."""
         if len(digits) > self.limits.digits:
             raise LimitExceeded(f"{len(digits)} digits, above the limit of {self.limits.digits}", limit="digits")
-        return _integer(digits)
+        return int(digits) if len(digits) <= _LONG else int(fmpz(digits))
 
     def signed_integer(self, text: str) -> int:
         """The integer that a sign, or none, and decimal digits denote."""
@@ -113,18 +114,12 @@ class Arithmetic:
         if coefficients:
             polynomials.insert(0, QQ.poly([coefficients.get(k, 0) for k in range(max(coefficients) + 1)]))
         if not fractions:
-            return self._total(polynomials, self._poly_sum)
-        fraction = self._total(fractions, self._ratfunc_sum)
-        polynomial = self._total(polynomials, self._poly_sum) if polynomials else None
-        if polynomial:
+            return _total(polynomials, self._poly_sum)
+        fraction = _total(fractions, self._ratfunc_sum)
+        if polynomials and (polynomial := _total(polynomials, self._poly_sum)):
             num = self._poly_sum(fraction.num, self._product(polynomial, fraction.den))
             fraction = RatFunc(num, fraction.den.over(num.field), reduced=True)
         return fraction.num if fraction.is_polynomial else fraction
-
-    def _total(self, parts: Sequence[T], add: Callable[[T, T], T]) -> T:
-        """The sum of at least one part, by halves."""
-        half = len(parts) // 2
-        return add(self._total(parts[:half], add), self._total(parts[half:], add)) if half else parts[0]
 
     def multiply(self, left: Value, right: Value) -> Value:
         if isinstance(left, Term) and isinstance(right, Term):
@@ -139,11 +134,11 @@ class Arithmetic:
 
     def divide(self, left: Value, right: Value) -> Value:
         if isinstance(left, Term) and isinstance(right, Term) and right.coefficient:
+            quotient = Fraction(left.coefficient, right.coefficient)
             if right.power == 0:
-                return _term(Fraction(left.coefficient, right.coefficient), left.power)
-            if left.power == 0 and left.coefficient:
+                return _term(quotient, left.power)
+            if left.power == 0 and quotient:
                 self._check(0, _bits(left.coefficient) + _bits(right.coefficient) + 1)
-                quotient = Fraction(left.coefficient, right.coefficient)
                 return RatFunc(_monomial(quotient, 0), _monomial(1, right.power), reduced=True)
         left, right = self.closed(left), self.closed(right)
         if not right:
@@ -177,7 +172,7 @@ class Arithmetic:
             return Term(1, 0)
         if not isinstance(base, RatFunc):
             power = self._poly_power(base, abs(n))
-            return power if n > 0 else self.divide(_ONE, power)
+            return power if n > 0 else self.divide(Term(1, 0), power)
         num, den = (base.num, base.den) if n > 0 else (base.den, base.num)
         num, den = self._poly_power(num, abs(n)), self._poly_power(den, abs(n))
         leading = den.lc.inverse()
@@ -221,12 +216,11 @@ class Arithmetic:
             raise LimitExceeded(f"a degree of up to {degree}, above the limit of {limits.degree}", limit="degree")
         if bits > limits.bits:
             raise LimitExceeded(f"coefficients of up to {bits} bits, above the limit of {limits.bits}", limit="bits")
-        if (degree + 1) * bits > _TOTAL_FACTOR * limits.bits:
-            raise LimitExceeded(
-                f"up to {degree + 1} coefficients of up to {bits} bits, above the limit of "
-                f"{_TOTAL_FACTOR * limits.bits} bits for all together",
-                limit="bits",
+        if (degree + 1) * bits > (most := _TOTAL_FACTOR * limits.bits):
+            said = (
+                f"up to {degree + 1} coefficients of up to {bits} bits, above the limit of {most} bits for all together"
             )
+            raise LimitExceeded(said, limit="bits")
         if self._budget is not None:
             self._budget.check()
 
@@ -239,12 +233,10 @@ class Arithmetic:
         return number.numerator
 
 
-def _integer(digits: str) -> int:
-    """`int(digits)` without Python's limit on the number of digits, and in less than quadratic time."""
-    if len(digits) <= 2000:
-        return int(digits)
-    half = len(digits) // 2
-    return _integer(digits[:-half]) * int(10**half) + _integer(digits[-half:])
+def _total(parts: Sequence[T], add: Callable[[T, T], T]) -> T:
+    """The sum of at least one part, by halves."""
+    half = len(parts) // 2
+    return add(_total(parts[:half], add), _total(parts[half:], add)) if half else parts[0]
 
 
 def _bits(value: int | Fraction) -> int:

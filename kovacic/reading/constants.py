@@ -54,14 +54,14 @@ class Constants:
     @property
     def field(self) -> Field:
         """Q(t1, ..., tk)(theta)."""
-        base: Field = QQ
-        if self.parameters:
-            from kovacic.algebra.function_field import FunctionField
-
-            base = FunctionField(self.parameters)
         numbers = self.numbers
-        if base == QQ or not isinstance(numbers, AlgebraicField):
-            return numbers if base == QQ else base
+        if not self.parameters:
+            return numbers
+        from kovacic.algebra.function_field import FunctionField
+
+        base = FunctionField(self.parameters)
+        if not isinstance(numbers, AlgebraicField):
+            return base
         return AlgebraicField(base, base.embed(numbers.modulus), numbers.name, numbers.approximation)
 
     def parameter(self, name: str) -> Poly:
@@ -83,10 +83,10 @@ class Constants:
         value = self._number(radicand)
         if value is None:
             return radicand.field.sqrt(radicand) if n == 2 else None
-        if n == 2 and radicand.field == QQ and radicand.height_bits() > _LARGEST_RADICAND:
+        if n == 2 and radicand.field == QQ and (bits := radicand.height_bits()) > _LARGEST_RADICAND:
             root = QQ.sqrt(radicand)
             if root is None:
-                said = f"a root of a number of {radicand.height_bits()} bits, above the limit of {_LARGEST_RADICAND}"
+                said = f"a root of a number of {bits} bits, above the limit of {_LARGEST_RADICAND}"
                 raise LimitExceeded(said, limit="bits")
             return root.over(self.field)
         if not value:
@@ -96,27 +96,19 @@ class Constants:
             outer, rest = square_part(rational)
             rational, value = Fraction(rest), self.numbers.poly([rest])
             label = "I" if rest == -1 else f"sqrt({rest})"
-        if n == 2 and rational == 1:
-            root = self.numbers.poly([1])
-        else:
-            root = next((c for q, k, c in self.radicals if k == n and q == rational), None)
+        one = (Fraction(1), 2, self.numbers.poly([1]))
+        root = next((c for q, k, c in (one, *self.radicals) if k == n and q == rational), None)
         if root is None:
             equation = self.numbers.poly([-value, *[0] * (n - 1), 1])
             root = self._root(equation, principal_root(value, n), label, () if rational is None else ((rational, n),))
         return self._with_parameters(root * outer)
-
-    def imaginary_unit(self) -> Poly:
-        """I."""
-        root = self.radical(QQ.poly([-1]), 2, "I")
-        assert root is not None
-        return root
 
     def algebraic(self, node: Any) -> Poly | None:
         """An algebraic number that SymPy has in any other form, through its minimal polynomial; None where it finds none."""
         import sympy
 
         if node is sympy.I:
-            return self.imaginary_unit()
+            return self.radical(QQ.poly([-1]), 2, "I")
         exact = node.as_expr() if isinstance(node, sympy.AlgebraicNumber) else node
         try:
             is_root = isinstance(exact, sympy.CRootOf)
@@ -178,25 +170,17 @@ class Constants:
         """What the user should know about the field."""
         found = []
         if self.parameters:
-            names = ", ".join(self.parameters)
-            one = len(self.parameters) == 1
-            found.append(
-                f"{names} {'is taken as a parameter' if one else 'are taken as parameters'} with generic values"
-            )
+            taken = "is taken as a parameter" if len(self.parameters) == 1 else "are taken as parameters"
+            found.append(f"{', '.join(self.parameters)} {taken} with generic values")
         for name, meaning in ((ENERGY, "a parameter here, an energy"), ("e", "a parameter here")):
             if name in self.parameters:
                 found.append(f"{name} is {meaning}; Euler's number, being transcendental, is one of its generic values")
         numbers = self.numbers
         if isinstance(numbers, AlgebraicField) and numbers.name == "alpha":
-            where = _shown(*numbers.approximation)  # type: ignore[misc]
+            real, imaginary = map(float, numbers.approximation or ())
+            where = f"{real:.6g}" + (f" {'-' if imaginary < 0 else '+'} {abs(imaginary):.6g}*I" if imaginary else "")
             found.append(f"alpha is the root of {numbers.modulus.to_str('alpha')} near {where}")
         return found
-
-
-def _shown(real: Fraction, imaginary: Fraction) -> str:
-    """A complex number, to a few digits."""
-    size = f"{abs(float(imaginary)):.6g}"
-    return f"{float(real):.6g}" + (f" {'-' if imaginary < 0 else '+'} {size}*I" if imaginary else "")
 
 
 class Enlarged(Exception):

@@ -21,9 +21,10 @@ from math import gcd
 from typing import Any
 
 import sympy
+from sympy.functions.elementary.hyperbolic import HyperbolicFunction
+from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import NotLinear, NotRational
 from kovacic.limits import Limits
@@ -38,7 +39,7 @@ from kovacic.reading.equation import (
 from kovacic.reading.expression import RationalReader, chosen_variable, tokens_of
 from kovacic.reading.from_sympy import is_sympy_equation, walked
 from kovacic.reading.given import ENERGY, EULER, NUMBER_NAMES, UNKNOWN, Change, Equation, Parsed, lowered, over
-from kovacic.reading.linear import REST
+from kovacic.reading.linear import REST, Symbols
 from kovacic.reading.parser import evaluate
 from kovacic.reading.symbolic import read_expression
 
@@ -54,25 +55,25 @@ def in_exponentials(given: Any, *, variable: str | None, limits: Limits) -> Pars
     if equation is None:
         return None
     parts, x, reader = equation
-    rewritten = [sympy.expand_power_exp(parts.get(k, sympy.Integer(0)).rewrite(sympy.exp)) for k in (2, 1, 0, REST)]
+    rewritten = [_in_exponentials(parts.get(k, sympy.Integer(0)), x) for k in (2, 1, 0, REST)]
     exponentials = {e for part in rewritten for e in part.atoms(sympy.exp) if e.has(x)}
     if not exponentials:
         return None
     T = sympy.Dummy("T")
-    k, powers = _powers(exponentials, x, T)
+    k, offset, powers = _powers(exponentials, x, T)
     a, b, c, rest = (part.xreplace(powers) for part in rewritten)
     if any(part.has(x) for part in (a, b, c, rest)):
-        raise NotRational(f"{x} beside exp({k * x})", hint=_HINT)
+        raise NotRational(f"{x} beside exp({k * x}): that isn't rational in one exponential function", hint=_HINT)
     unknown = reader.unknown or UNKNOWN
     names = {s.name for part in (a, b, c, rest, k) for s in part.free_symbols} | {x.name, unknown}
     t = sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
     Y = sympy.Function(f"{unknown}_")(t)
     whole = k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y + rest
     read, notices, _ = parse_sympy_equation(whole.xreplace({T: t}), limits=limits)
-    monic, expression = _best(read, k, x)
-    change = Change(x.name, expression)
-    a, b, c, f = _cleared(*monic)
-    result = Equation(a, b, c, f, None, t.name, unknown, change)
+    (p, q, f), expression = _best(read, k, x + offset)
+    denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
+    p, q, f = p * denominator, q * denominator, f * denominator
+    result = Equation(denominator, p, q, f, None, t.name, unknown, Change(x.name, expression))
     return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *reader.notices(), *notices), result)
 
 
@@ -99,9 +100,9 @@ def in_terms_of(change: Change, expression: Any, variable: str) -> Any:
 def solution_in_terms_of(change: Change, solution: Any, variable: str) -> Any:
     """The same for a solution, up to a number as a factor."""
     result = in_terms_of(change, solution, variable)
-    number, rest = (
-        result.as_independent(*result.free_symbols, as_Add=False) if result.free_symbols else (result, result)
-    )
+    if not result.free_symbols:
+        return result
+    number, rest = result.as_independent(*result.free_symbols, as_Add=False)
     return rest if number.is_number else result
 
 
@@ -114,33 +115,43 @@ def _hyperbolic(e: Any) -> Any:
     return 2 * sympy.exp(half) * (sympy.cosh(half) if e.args[0] == 1 else sympy.sinh(half))
 
 
-def _powers(exponentials: set[Any], x: Any, T: Any) -> tuple[Any, dict[Any, Any]]:
-    """k, and each exponential as a power of T = exp(k x), times a number."""
+def _in_exponentials(expression: Any, x: Any) -> Any:
+    """The expression with exp(k x) in the place of sin(x), tanh(x), 2^x, ..."""
+
+    def is_such(e: Any) -> bool:
+        return isinstance(e, TrigonometricFunction | HyperbolicFunction) or bool(e.is_Pow and e.exp.has(x))
+
+    return expression.replace(is_such, lambda e: e.rewrite(sympy.exp, deep=False))
+
+
+def _powers(exponentials: set[Any], x: Any, T: Any) -> tuple[Any, Any, dict[Any, Any]]:
+    """k and c, and each exponential as a power of T = exp(k (x + c)), times a number; c leaves as few exp(n) as can be."""
     rates: dict[Any, tuple[Any, Any]] = {}
-    for e in exponentials:
+    for e in sorted(exponentials, key=str):
         argument = sympy.expand(e.exp)
         rate, shift = argument.coeff(x, 1), argument.coeff(x, 0)
-        constant = sympy.exp(shift)
         if sympy.expand(argument - rate * x - shift) != 0 or rate.has(x):
             raise NotRational(f"{e} isn't the exponential function of a multiple of {x}", hint=_HINT)
-        if constant.has(sympy.exp):
-            raise NotRational(
-                f"{e} has a constant in its exponent", hint=f"shift {x}, or write a letter for the factor"
-            )
-        rates[e] = rate, constant
+        rates[e] = rate, shift
     first = next(iter(rates.values()))[0]
     ratios = {e: sympy.cancel(rate / first) for e, (rate, _) in rates.items()}
     if not all(ratio.is_Rational for ratio in ratios.values()):
         raise NotRational(f"exponentials of {x} whose rates have no rational quotient", hint=_HINT)
-    unit = sympy.Rational(gcd(*(int(r.p * _lcm(ratios) // r.q) for r in ratios.values())), _lcm(ratios))
+    common = int(sympy.ilcm(*(r.q for r in ratios.values()), 1))
+    unit = sympy.Rational(gcd(*(int(r.p * common // r.q) for r in ratios.values())), common)
     k = sympy.expand(first * unit)
     if k.could_extract_minus_sign():
         k, unit = -k, -unit
-    return k, {e: constant * T ** (ratios[e] / unit) for e, (_, constant) in rates.items()}
 
+    def constants(offset: Any) -> dict[Any, Any]:
+        return {e: sympy.exp(sympy.expand(shift - rate * offset)) for e, (rate, shift) in rates.items()}
 
-def _lcm(ratios: dict[Any, Any]) -> int:
-    return int(sympy.ilcm(*(r.q for r in ratios.values()), 1))
+    offsets = [sympy.Integer(0), *(sympy.expand(shift / rate) for rate, shift in rates.values())]
+    offset = min(offsets, key=lambda offset: sum(c.has(sympy.exp, sympy.E) for c in constants(offset).values()))
+    for e, constant in constants(offset).items():
+        if any(not power.exp.is_Integer for power in constant.atoms(sympy.exp)):
+            raise NotRational(f"{e} has a constant in its exponent", hint=f"write a letter for the factor {constant}")
+    return k, offset, {e: constant * T ** (ratios[e] / unit) for e, constant in constants(offset).items()}
 
 
 Monic = tuple[RatFunc, RatFunc, RatFunc]
@@ -150,51 +161,46 @@ def _best(equation: Equation, k: Any, x: Any) -> tuple[Monic, str]:
     """Y'' + p Y' + q Y = f in the variable that has real coefficients if one has, and then the fewest singular points."""
     kappa = sympy.expand(-sympy.I * k)
     trigonometric = not kappa.has(sympy.I)
+    rate = kappa if trigonometric else k
     field, i = equation.a.field, None
     if trigonometric:
         i = field.sqrt(field.poly([-1]))
         if i is None and not isinstance(field, AlgebraicField):
             field = AlgebraicField(field, field.poly([1, 0, 1]), "I")
             i = field.generator
-    parts = [part / equation.a for part in (equation.b, equation.c, equation.f)]
     T = RatFunc(field.poly([0, 1]))
+    p, q, f = (over(part / equation.a, field) for part in (equation.b, equation.c, equation.f))
     # With theta = T d/dT: theta^2 Y + P theta Y + Q Y = F.
-    P, Q, F = (over(part, field) for part in parts)
-    P, Q, F = P * T - 1, Q * T * T, F * T * T
-    g = gcd(*(i for part in (P, Q, F) for poly in (part.num, part.den) for i, c in enumerate(poly) if c)) or 1
-    found: list[tuple[Monic, str]] = []
+    theta = p * T - 1, q * T * T, f * T * T
+    g = gcd(*(i for part in theta for poly in (part.num, part.den) for i, c in enumerate(poly) if c)) or 1
+    found: list[tuple[Monic, Any]] = []
     for h in (g, g // 2) if g % 2 == 0 else (g,):
-        powers = _deflated(P, h) / h, _deflated(Q, h) / h**2, _deflated(F, h) / h**2
+        P, Q, F = (_deflated(part, h) / scale for part, scale in zip(theta, (h, h * h, h * h), strict=True))
         if h == g:
-            found.append(
-                (_over_base((powers[0] + 1) / T, powers[1] / T**2, powers[2] / T**2), str(sympy.exp(g * k * x)))
-            )
+            found.append((((P + 1) / T, Q / T**2, F / T**2), sympy.exp(sympy.expand(g * k * x))))
         for sign, name in ((1, "cos"), (-1, "sin")):
-            quotient = _quotient(*powers, sign)
-            if quotient is None or (trigonometric and i is None and sign == -1):
+            quotient = _quotient(P, Q, F, sign)
+            if quotient is not None and trigonometric and sign == -1:  # (T - 1/T)/2 = i sin
+                quotient = None if i is None else _substituted(quotient, T * i)
+            if quotient is None:
                 continue
-            if trigonometric and i is not None and sign == -1:  # (T - 1/T)/2 = i sin
-                p, q, f = quotient
-                quotient = p(T * i) * i, -q(T * i), -f(T * i)
             function = getattr(sympy, name if trigonometric else f"{name}h")
-            found.append((_over_base(*quotient), str(function(h * (kappa if trigonometric else k) * x))))
-    if i is not None and trigonometric:
-        p, q, f = (over(part, field) for part in found[0][0])
-        M, slope, curvature = (1 + T * i) / (1 - T * i), 2 * i / (1 - T * i) ** 2, 2 * i / (1 - T * i)
-        found.append(
-            (_over_base(p(M) * slope - curvature, q(M) * slope**2, f(M) * slope**2), str(sympy.tan(g * kappa * x / 2)))
-        )
-    return min(
-        found,
-        key=lambda pair: (isinstance(pair[0][0].field, AlgebraicField), _singular_points(*pair[0])),
-    )
+            found.append((quotient, function(sympy.expand(h * rate * x))))
+    if i is not None:
+        found.append((_substituted(found[0][0], (1 + T * i) / (1 - T * i)), sympy.tan(sympy.expand(g * rate * x / 2))))
+    below = [(_over_base(*monic), str(expression)) for monic, expression in found]
+    return min(below, key=lambda pair: (isinstance(pair[0][0].field, AlgebraicField), _singular_points(*pair[0])))
+
+
+def _substituted(equation: Monic, M: RatFunc) -> Monic:
+    """The equation in w where its variable is M(w)."""
+    slope = M.derivative()
+    p, q, f = (part(M) for part in equation)
+    return p * slope - slope.derivative() / slope, q * slope**2, f * slope**2
 
 
 def _quotient(P: RatFunc, Q: RatFunc, F: RatFunc, sign: int) -> Monic | None:
-    """The equation in w = (T + sign/T)/2, where it is invariant under T -> sign/T.
-
-    theta w = v = (T - sign/T)/2, theta^2 w = w, v^2 = w^2 - sign.
-    """
+    """The equation in w = (T + sign/T)/2, where it is invariant under T -> sign/T; theta w is (T - sign/T)/2."""
     T = RatFunc(P.field.poly([0, 1]))
     parts = [_invariant(part, sign) for part in (P * (T * T - sign) / (2 * T), Q, F)]
     if None in parts:
@@ -221,7 +227,7 @@ def _invariant(function: RatFunc, sign: int) -> RatFunc | None:
 
 
 def _singular_points(p: RatFunc, q: RatFunc, _: RatFunc) -> int:
-    """How many singular points the normal form has."""
+    """How many singular points the normal form has, infinity included."""
     S = p.derivative() / 2 + p * p / 4 - q
     den = S.den
     finite = den.degree - den.gcd(den.derivative()).degree
@@ -242,12 +248,6 @@ def _deflated(function: RatFunc, g: int) -> RatFunc:
     return RatFunc(function.field.poly(num), function.field.poly(den), reduced=True)
 
 
-def _cleared(p: RatFunc, q: RatFunc, f: RatFunc) -> tuple[RatFunc, RatFunc, RatFunc, RatFunc]:
-    """a y'' + b y' + c y = f with polynomials a, b, c."""
-    a = p.den * (q.den // p.den.gcd(q.den))
-    return RatFunc(a), p * a, q * a, f * a
-
-
 def _symbolic(given: Any, variable: str | None, limits: Limits) -> tuple[dict[int, Any], Any, _Reader] | None:
     """The coefficients of the derivatives and `REST`, as SymPy expressions, x, and the reader."""
     walk: Callable[[RationalReader], Any]
@@ -258,7 +258,9 @@ def _symbolic(given: Any, variable: str | None, limits: Limits) -> tuple[dict[in
         if is_equation(given):
             x, y = names_in_equation(tokens, variable)
         else:
-            x = variable or chosen_variable([n for n in tokens.names() if n not in {*NUMBER_NAMES, ENERGY, EULER}])
+            x = variable or chosen_variable(
+                [n for n in tokens.names() if n not in {*NUMBER_NAMES, ENERGY, UNKNOWN, EULER}]
+            )
     elif is_sympy_equation(given):
         expression, function = sympy_equation(given, variable, None)
         walk, x, y = partial(walked, expression), function.args[0].name, str(function.func)
@@ -266,7 +268,7 @@ def _symbolic(given: Any, variable: str | None, limits: Limits) -> tuple[dict[in
         walk, x = partial(walked, given), variable or chosen_variable(sorted(s.name for s in given.free_symbols))
     else:
         return None
-    reader = _Reader(x, y, limits, _Symbols())  # type: ignore[arg-type]
+    reader = _Reader(x, y, limits, Symbols())  # type: ignore[arg-type]
     value = walk(reader)
     parts = {2: Term(1, 0), 0: reader.arithmetic.negate(value)} if not y else getattr(value, "parts", {})
     found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
@@ -280,21 +282,3 @@ class _Reader(EquationReader):
 
     def coefficient(self, expression: Any) -> Any:
         return expression
-
-
-class _Symbols:
-    """What `Constants` is to other readers: parameters and algebraic numbers as SymPy expressions."""
-
-    parameters = ()
-
-    def parameter(self, name: str) -> Any:
-        return sympy.Symbol(name)
-
-    def imaginary_unit(self) -> Any:
-        return sympy.I
-
-    def algebraic(self, node: Any) -> Any:
-        return node
-
-    def radical(self, radicand: Poly, n: int, _: str) -> Any:
-        return sympy.root(radicand.to_sympy(sympy.Integer(0)), n)

@@ -129,7 +129,7 @@ class RationalReader:
         if value is not None:
             return value
         if self.constants is not None and name == "I":
-            return self.constants.imaginary_unit()
+            return self.constants.radical(QQ.poly([-1]), 2, name)  # type: ignore[return-value]
         if self.constants is not None and name not in NUMBER_NAMES and name != UNKNOWN:
             return self.constants.parameter(name)
         if name in NUMBER_NAMES:

@@ -39,6 +39,7 @@ _FUNCTIONS = """
 #: The functions of one argument that expressions and right-hand sides may contain, with SymPy's names.
 FUNCTION_NAMES = {name: name for name in _FUNCTIONS.split()}
 FUNCTION_NAMES |= {"Heaviside": "Heaviside", "DiracDelta": "DiracDelta"}
+RECIPROCALS = {"sech": "cosh", "csch": "sinh"}
 FUNCTION_NAMES |= {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan"}
 
 #: Transcendental numbers, which are parameters where they occur in a coefficient: what holds for generic values holds for one.

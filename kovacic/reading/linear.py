@@ -1,23 +1,33 @@
-"""Arithmetic on expressions that are linear in an unknown function and its derivatives.
+"""Arithmetic beyond rational functions: SymPy expressions, and what is linear in an unknown function and its derivatives.
 
-A value is what `arithmetic` knows, or a SymPy expression that isn't rational (right-hand sides contain exponentials), or a
-`LinearForm` sum_k c_k y^(k) + r, with c_k and r of these kinds.
+A value is what `arithmetic` knows, or a SymPy expression that isn't a number (right-hand sides contain exponentials), or a
+`LinearForm` sum_k c_k y^(k) + r, with c_k and r of these kinds.  The operations on SymPy's expressions are SymPy's own.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property
+from fractions import Fraction
+from functools import reduce
 from typing import Any
 
+from kovacic.algebra.embedding import real_root_index
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.errors import NotLinear, NotRational
-from kovacic.limits import Limits
+from kovacic.algebra.rationals import QQ
+from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
+from kovacic.limits import DEFAULT_LIMITS, Limits, check_duration
 from kovacic.reading.arithmetic import Arithmetic, Term
+from kovacic.reading.expression import RationalReader
+from kovacic.reading.given import FUNCTION_NAMES, RECIPROCALS, parameters_of
+from kovacic.reading.lexer import tokenize
+from kovacic.reading.parser import evaluate
 
-#: The largest integer power of an expression that isn't rational.
-_LARGEST_POWER = 1000
+#: Bits of a number in SymPy's expressions: Python prints integers of at most 4300 digits.
+_LARGEST_BITS = 14_000
+#: The largest power that SymPy is asked for.
+_LARGEST_EXPONENT = 1000
 
 #: The key of the part r of a linear form.
 REST = -1
@@ -44,25 +54,39 @@ class LinearArithmetic(Arithmetic):
     `coefficient` and `Arithmetic` raise.
     """
 
-    def __init__(self, limits: Limits, variable: str, unknown: str, coefficient: Callable[[Any], Any]) -> None:
+    def __init__(
+        self, limits: Limits, variable: str = "", unknown: str = "", coefficient: Callable[[Any], Any] | None = None
+    ) -> None:
         super().__init__(limits)
         self.variable = variable
         self.unknown = unknown
         self.coefficient = coefficient
 
-    @cached_property
-    def _symbolic(self) -> Any:
-        from kovacic.reading.symbolic import SymbolicArithmetic
-
-        return SymbolicArithmetic(self.limits)
-
     def expression(self, value: Any) -> Any:
         """A value without the unknown function as a SymPy expression."""
-        from kovacic.reading.symbolic import expression_of
+        import sympy
 
         if isinstance(value, LinearForm):
             raise NotLinear(f"the unknown function {self.unknown} within a function or a power")
-        return expression_of(self.rational(value), self.variable) if is_rational(value) else value
+        if not is_rational(value):
+            return value
+        function = self.rational(value)
+        bits = max(function.num.height_bits(), function.den.height_bits())
+        if bits > _LARGEST_BITS:
+            raise LimitExceeded(f"coefficients of {bits} bits, above the limit of {_LARGEST_BITS}", limit="bits")
+        number, field = self.number(value) if function else Fraction(0), function.field
+        if number is not None:
+            return sympy.Rational(number)
+        names = {name: sympy.Symbol(name) for name in (*parameters_of(field), self.variable)}
+        if isinstance(field, AlgebraicField) and field.name.isidentifier() and field.name != "I":
+            # Any other name is that of a radical.
+            names[field.name] = chosen_root(sympy.Poly(field.modulus.to_sympy(sympy.Symbol("t"))), field)
+        reader = RationalReader(names, self.variable, LinearArithmetic(DEFAULT_LIMITS), Symbols())  # type: ignore[arg-type]
+        return evaluate(tokenize(function.to_str(self.variable)), reader)
+
+    def _checked(self, value: Any) -> Any:
+        """A result of SymPy, a number in our own form."""
+        return self.constant(Fraction(int(value.p), int(value.q))) if value.is_Rational else value
 
     def negate(self, value: Any) -> Any:
         if isinstance(value, LinearForm):
@@ -80,17 +104,18 @@ class LinearArithmetic(Arithmetic):
         if len(rational) == len(terms):
             return super().sum(rational)
         others = [term for term in terms if not is_rational(term)]
-        return self._symbolic.sum([*others, *([self.expression(super().sum(rational))] if rational else [])])
+        known = [self.expression(super().sum(rational))] if rational else []
+        return self._checked(reduce(lambda total, term: total + term, [*others, *known]))
 
     def multiply(self, left: Any, right: Any) -> Any:
         if is_rational(left) and is_rational(right):
             return super().multiply(left, right)
         if not isinstance(left, LinearForm) and not isinstance(right, LinearForm):
-            return self._symbolic.multiply(self.expression(left), self.expression(right))
+            return self._checked(self.expression(left) * self.expression(right))
         if isinstance(left, LinearForm) and isinstance(right, LinearForm):
             raise NotLinear(f"a product of {self.unknown} or its derivatives: the equation isn't linear")
         form, factor = (left, right) if isinstance(left, LinearForm) else (right, left)
-        factor = self.closed(factor) if is_rational(factor) else self.coefficient(factor)
+        factor = self.closed(factor) if is_rational(factor) else self.coefficient(factor)  # type: ignore[misc]
         return LinearForm({k: self.multiply(c, factor) for k, c in form.parts.items()})
 
     def divide(self, left: Any, right: Any) -> Any:
@@ -100,27 +125,54 @@ class LinearArithmetic(Arithmetic):
             return self.multiply(left, self.divide(self.constant(1), right))
         if is_rational(left) and is_rational(right):
             return super().divide(left, right)
-        return self._symbolic.divide(self.expression(left), self.expression(right))
+        denominator = self.expression(right)
+        if denominator.is_zero:
+            raise ZeroDivisionError("division by zero")
+        return self._checked(self.expression(left) / denominator)
 
     def power(self, base: Any, exponent: Any) -> Any:
         n = exponent if isinstance(exponent, int) else self._integer_value(exponent)
         if is_rational(base):
             return super().power(base, n)
         if not isinstance(base, LinearForm):
-            if abs(n) > _LARGEST_POWER:
-                raise NotRational(f"the power {n} of {base}")
-            return self._symbolic.power(base, self._symbolic.constant(n))
+            return self.symbolic_power(base, self.constant(n))
         if n != 1:
             raise NotLinear(f"a power of {self.unknown} or of a derivative: the equation isn't linear")
         return base
 
     def symbolic_power(self, base: Any, exponent: Any) -> Any:
-        """`base ** exponent` as a SymPy expression."""
-        return self._symbolic.power(self.expression(base), self.expression(exponent))
+        """`base ** exponent` by SymPy."""
+        base, exponent = self.expression(base), self.expression(exponent)
+        self._check_exponent(exponent)
+        if base.is_zero and exponent.is_nonpositive:
+            raise ZeroDivisionError("0 has no powers with exponent zero or below")
+        factor = base.as_coeff_Mul()[0]
+        if exponent.is_Rational and factor.is_Rational:
+            self._check(0, abs(int(exponent.p)) * max(int(factor.p).bit_length(), int(factor.q).bit_length()))
+        return self._checked(base**exponent)
+
+    def _check_exponent(self, exponent: Any) -> None:
+        """Refuses numbers as exponents, and as factors of logarithms in exponents, that are too large."""
+        from sympy import Rational, log
+
+        largest = min(self.limits.exponent, _LARGEST_EXPONENT)
+        numbers = exponent.atoms(Rational) if exponent.is_Rational or exponent.has(log) else ()
+        if any(abs(number) > largest for number in numbers):
+            raise LimitExceeded(f"an exponent above the limit of {largest}", limit="exponent")
 
     def applied(self, head: str, argument: Any) -> Any:
-        """An elementary function of a value without the unknown function."""
-        return self._symbolic.applied(head, self.expression(argument))
+        """One of the functions of `FUNCTION_NAMES`, by SymPy.  Raises `InputError` where it isn't finite."""
+        import sympy
+
+        if head in RECIPROCALS:
+            return self.divide(Term(1, 0), self.applied(RECIPROCALS[head], argument))
+        argument = self.expression(argument)
+        if head == "exp":
+            self._check_exponent(argument)
+        value = getattr(sympy, FUNCTION_NAMES[head])(argument)
+        if value.has(sympy.zoo, sympy.nan, sympy.oo):
+            raise InputError(f"{head}({argument}) isn't finite")
+        return self._checked(value)
 
     def derivative(self, value: Any) -> Any:
         """The derivative with respect to the variable."""
@@ -137,3 +189,38 @@ class LinearArithmetic(Arithmetic):
         if not is_rational(value):
             raise NotRational(f"this isn't a rational function of {self.variable}")
         return super().rational(value)
+
+
+class Symbols:
+    """What `Constants` is to readers of rational functions: here parameters and algebraic numbers are SymPy expressions."""
+
+    parameters = ()
+
+    def parameter(self, name: str) -> Any:
+        from sympy import Symbol
+
+        return Symbol(name)
+
+    def algebraic(self, node: Any) -> Any:
+        return node
+
+    def radical(self, radicand: Poly, n: int, _: str) -> Any:
+        from sympy import Rational, root
+
+        return root(Rational(radicand.field.rational_value(radicand)), n)
+
+
+def chosen_root(polynomial: Any, field: AlgebraicField) -> Any:
+    """The root of the modulus, as SymPy's polynomial, that the field means, or SymPy's first one."""
+    import sympy
+
+    if field.approximation is None or field.ground != field.base:
+        return sympy.CRootOf(polynomial, 0)
+    values = [field.base.rational_value(c) for c in field.modulus]
+    index = real_root_index(QQ.poly([v for v in values if v is not None]), field.approximation)
+    if index is not None:
+        return sympy.CRootOf(polynomial, index)
+    real, imaginary = (float(part) for part in field.approximation)
+    check_duration(1.5**field.dimension / 20, f"isolating the roots of a polynomial of degree {field.dimension}")
+    roots = [sympy.CRootOf(polynomial, k) for k in range(field.dimension)]
+    return min(roots, key=lambda root: abs(complex(root.evalf(15)) - complex(real, imaginary)))
