@@ -24,11 +24,14 @@ from kovacic.decision import NoInvariant, NoRationalOmega, SemiInvariant, Struct
 from kovacic.engine.degree_bound import irregular_difference_squared
 from kovacic.engine.places import analyse
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
+from kovacic.galois import Ground
+from kovacic.galois.jacobian import Jacobian
 from kovacic.limits import Budget, Limits
 from kovacic.verify import GroupClaim, verify
 from kovacic.verify.evidence import Inspector
 from kovacic.verify.local import zero_counts
 from kovacic.verify.residue import exponent_difference_squared
+from kovacic.verify.torsion import order_holds
 
 X = RatFunc(QQ.poly([0, 1]))
 PRIMES = [101, 10007, (1 << 61) - 1]
@@ -466,3 +469,172 @@ def test_a_residue_of_the_inverse_square_makes_a_logarithm(omega: RatFunc, famil
     decision = replace(answer.decision, invariant=SemiInvariant(2, 2 * omega, QQ.poly([1])))
     assert verify(S, decision, GroupClaim(family, n))
     assert not verify(S, decision, GroupClaim(other, n))
+
+
+# ------------------------------------------------------------------------------------------- orders modulo primes
+
+
+def through(h: RatFunc, at: int, value: int, residue: Fraction = Fraction(1)) -> RatFunc:
+    """H for which sqrt(H) dx on y^2 = h has the residues +-residue over x = at, where y = +-value, and no other ones."""
+    return residue * residue * value * value / (h * (X - at) ** 2)
+
+
+TORSION = [
+    (through(X**3 + 1, 2, 3), 3),  # P = (2, 3) has order 6, and 2 P - 2 infinity is P less its conjugate
+    (through(X**3 + 1, 0, 1), 3),
+    (through(X**3 + 4 * X, 2, 4), 2),  # order 4
+    (through(X**5 + 1, 0, 1), 5),  # y - 1 has the divisor 5 P - 5 infinity
+    (through(X**7 + 9, 0, 3), 7),
+    (through(X**6 + 1, 0, 1), 3),  # (y - 1)/x^3 has the divisor 3 P less its conjugate
+    ((X**2 + 3) ** 2 / (X**6 + 1), 3),  # residues over infinity, where y + x^3 has its zeros and poles
+    (X**2 / (X**4 + 3), 2),  # y + x^2
+]
+
+
+@pytest.mark.parametrize(("H", "order"), TORSION, ids=str)
+def test_orders_of_torsion_are_the_same_modulo_every_good_prime(H: RatFunc, order: int) -> None:
+    def primes_with(k: int, residue: Fraction = Fraction(1)) -> list[int]:
+        return [p for p in range(62) if order_holds(H * residue**2, {residue}, p, k, Budget())]
+
+    good = primes_with(order)
+    assert good[-9:] == [23, 29, 31, 37, 41, 43, 47, 53, 59, 61][-9:]
+    assert primes_with(order, Fraction(1, 2)) == good  # l = 2: the same divisor
+    assert not any(primes_with(k) for k in range(2 * order + 1) if k != order)
+
+
+def test_infinite_order_is_seen_from_two_primes() -> None:
+    """P = (3, 5) on y^2 = x^3 - 2 isn't torsion; the orders of its multiples, modulo p, by chords and tangents."""
+    orders = {}
+    for p in (7, 11, 13, 17, 19, 23, 29, 31):
+        x, y, n = 3, 5, 1
+        while x is not None:
+            n += 1
+            if (x, y) == (3, 5):
+                slope = 3 * x * x * pow(2 * y, -1, p)
+            elif x == 3:
+                break
+            else:
+                slope = (y - 5) * pow(x - 3, -1, p)
+            new = (slope * slope - x - 3) % p
+            x, y = new, (slope * (3 - new) - 5) % p
+        orders[p] = n if n % 2 else n // 2
+        for residue in (Fraction(1), Fraction(1, 3)):
+            H = through(X**3 - 2, 3, 5, residue)
+            assert [k for k in range(3 * p) if order_holds(H, {residue}, p, k, Budget())] == [orders[p]]
+    assert len(set(orders.values())) > 2
+
+
+@settings(max_examples=30)
+@given(
+    st.lists(st.integers(-5, 5), min_size=4, max_size=6),
+    st.integers(1, 9),
+    st.sampled_from([5, 7, 11, 13, 17, 19, 23]),
+    st.fractions(Fraction(1, 4), 3, max_denominator=4),
+)
+def test_the_orders_of_the_kernel_are_those_of_cantors_arithmetic(
+    inner: list[int], value: int, p: int, residue: Fraction
+) -> None:
+    """Genus 1 to 3: P = (0, value) on y^2 = x^n + ... + value^2, for n odd; over P there is residue * denominator times D."""
+    h = QQ.poly([value * value, *inner, *([1] if len(inner) % 2 == 0 else [0, 1])])
+    image = nmod_poly([int(c) for c in h.coefficients()], p)  # type: ignore[attr-defined]
+    good = image.gcd(image.derivative()).degree() == 0 and value % p != 0
+    assume(residue.numerator * residue.denominator % p)
+    H = through(RatFunc(h), 0, value, residue)
+    claimed = {k for k in range(1, 60) if order_holds(H, {residue}, p, k, Budget())}
+    if not good:
+        assert not claimed
+        return
+    curve = Jacobian(image)
+    point = curve.point(nmod_poly([0, 1], p), nmod_poly([value], p))
+    order = curve.order(curve.multiple(2 * residue.numerator, point), 59)
+    assert claimed == ({order} if order else set())
+
+
+INFINITE = [
+    ((X**4 + X + 1) / (X + 2) ** 2, Ground.NOT_TORSION),
+    ((X**6 + X + 1) / (X**2 + 2) ** 2, Ground.NOT_TORSION),  # genus 2
+    (1 / through(X**5 - X + 4, 0, 2, Fraction(2, 3)), Ground.NOT_TORSION),
+    (1 / through(X**3 + 1, 2, 3), Ground.NO_INVARIANT),  # a differential of the first kind is left
+    (1 / through(X**5 + (X + 1) ** 2, 0, 1, Fraction(1, 2)), Ground.NO_INVARIANT),
+]
+
+
+@pytest.mark.parametrize(("g", "ground"), INFINITE, ids=str)
+def test_an_infinite_group_on_a_curve_of_positive_genus_needs_its_orders(g: RatFunc, ground: Ground) -> None:
+    import transform
+
+    S = transform.from_squared_product(g, 1)
+    answer = kovacic.solve((S.num.coefficients(), S.den.coefficients()))  # type: ignore[attr-defined]
+    group = answer.group
+    assert group is not None
+    assert (str(group), group.ground) == ("N(T)", ground)
+    claim, ((p, k), *others) = group.claim, group.orders
+    verification = verify(S, answer.decision, claim)
+    assert verification
+    assert not verification.unchecked
+    forged: list[Any] = [(), ((p, k + 1), *others), ((p, 2 * k), *others), ((4, k), *others), ((2, k), *others)]
+    forged += [((q, k), *others) for q in (1, 0, -5, 9, 15, p * p, 2**61 + 1)] + [
+        ((p, 0),),
+        ((p, -k),),
+        ((p, 1), (p, 2)),
+    ]
+    if others:
+        forged += [((p, others[0][1]), (others[0][0], k)), ((p, k), (p, others[0][1]))]
+    for orders in forged:
+        if orders != ((p, k),):
+            assert not verify(S, answer.decision, replace(claim, orders=orders)), orders
+    for n in (1, 2, k, 2 * k):
+        assert not verify(S, answer.decision, replace(claim, family="dicyclic", n=n))
+        assert not verify(S, answer.decision, replace(claim, n=n))
+
+
+@pytest.mark.parametrize(("residue", "n"), [(1, 5), (Fraction(1, 2), 10), (Fraction(1, 3), 15), (Fraction(5, 2), 2)])
+def test_a_finite_order_on_a_curve_of_genus_two(residue: Fraction, n: int) -> None:
+    """On y^2 = x^5 + 1 the differential 5 dx/(x y) is d log((y - 1)/(y + 1)), a function whose divisor is 5 D."""
+    import transform
+
+    S = transform.from_squared_product(1 / through(X**5 + 1, 0, 1, Fraction(residue)), 1)
+    answer = kovacic.solve((S.num.coefficients(), S.den.coefficients()))  # type: ignore[attr-defined]
+    assert answer.group is not None
+    assert (answer.group.kind.value, answer.group.n) == ("dicyclic", n)
+    assert answer.verify()
+    k = n // Fraction(residue).denominator
+    assert not verify(S, answer.decision, GroupClaim("infinite dihedral", None, None, ((7, k),)))
+
+
+def test_true_orders_dont_make_a_finite_group_infinite() -> None:
+    """The units of Pell's equation: the form of degree 2 n is there, whatever orders are shown."""
+    import transform
+
+    A = X**3 - 3 * X + 5
+    S = transform.from_squared_product((A * A - 3) / A.derivative() ** 2, Fraction(4, 25))
+    answer = kovacic.solve((S.num.coefficients(), S.den.coefficients()))  # type: ignore[attr-defined]
+    group, decision = answer.group, answer.decision
+    assert group is not None
+    assert group.order == 20
+    f, riccati = decision.semi_invariant, decision.riccati
+    assert f is not None
+    assert riccati is not None
+    a, b, c = riccati.numerators
+    H = RatFunc(b * b - 4 * a * c, (a * riccati.D) ** 2)
+    for k in range(1, 7):  # (A + z)^(2/5), and A + z has the divisor 3 D/6 for the points at infinity
+        orders = tuple((p, k) for p in range(3, 40) if order_holds(H, {Fraction(6, 5)}, p, k, Budget()))
+        assert bool(orders) is (k == 1)
+        assert not orders or not verify(S, decision, GroupClaim("infinite dihedral", None, None, orders[:2]))
+
+
+def test_orders_over_a_number_field() -> None:
+    """y1 y2 = (x^4 + x + sqrt(2))^(1/2)/(x + 2), w = 1: two orders modulo primes that split."""
+    numerator = (
+        "6*x^6 + 10*x^5 + x^4*(15*sqrt(2)/4 + 19/2) + x^3*(12 + 12*sqrt(2)) + x^2*(133/16 + 18*sqrt(2))"
+        " + x*(11/4 + 37*sqrt(2)/4) + 3/4 + 7*sqrt(2)/2"
+    )
+    answer = kovacic.solve(f"({numerator})/((x + 2)^2*(x^4 + x + sqrt(2))^2)")
+    group = answer.group
+    assert group is not None
+    assert (str(group), group.ground) == ("N(T)", Ground.NOT_TORSION)
+    assert all(p % 8 in (1, 7) for p, _ in group.orders)
+    assert answer.verify()
+    p, k = group.orders[0]
+    assert not verify(answer.S, answer.decision, replace(group.claim, orders=((5, k), group.orders[1])))
+    assert not verify(answer.S, answer.decision, replace(group.claim, orders=((p, k + 1), group.orders[1])))

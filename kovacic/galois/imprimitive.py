@@ -139,7 +139,7 @@ def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: Curve, l: int)
         if 2 * n > _LARGEST_DEGREE:
             break
         if (form := form_of_order(problem, f, n)) is not None:
-            return Group(Kind.DICYCLIC, Ground.INVARIANT, n, form, shown)
+            return Group(Kind.DICYCLIC, Ground.INVARIANT, n, form)
         least = n + l
     else:
         if shown:

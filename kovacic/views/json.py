@@ -8,7 +8,8 @@
 Coefficients run from low to high, in Python/SymPy syntax in the variable and the symbol of the constants; the last one is
 "1".  `proof` has what a check needs beside the polynomial: the semi-invariant of omega as prod D^... exp(int theta) P, the
 rational invariant that was found, the evidence against everything excluded, and the reason of an undecided equation.
-`group`, on request, has the name, the order, and the family of the group with its parameter n.
+`group`, on request, has the name, the order, and the family of the group with its parameter n; on a curve of positive genus
+also the form of degree 2n that shows a finite group, or the orders modulo primes that show an infinite one.
 Keys may be added within schema 1; none is removed or changes its meaning.
 """
 
@@ -39,6 +40,7 @@ from kovacic.decision import (
     Structure,
 )
 from kovacic.errors import InputError, LimitExceeded
+from kovacic.galois.group import Kind
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.expression import parse_with
@@ -129,12 +131,17 @@ def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
 
 
 def group_dict(solution: Solution) -> dict[str, Any] | None:
-    """The name, the order (None if infinite) and the finiteness of the group; None if undecided."""
+    """The name, the order (None if infinite), the finiteness, family and evidence of the group; None if undecided."""
     group = solution.group
     if group is None:
         return None
-    kept = {"name": group.name, "order": group.order, "finite": group.finite}
-    return {**kept, "family": group.kind.value, "n": group.n}
+    data: dict[str, Any] = {"name": group.name, "order": group.order, "finite": group.finite}
+    data |= {"family": group.kind.value, "n": group.n}
+    if group.form is not None and group.kind is Kind.DICYCLIC:
+        data["form"] = _form(group.form, Formulas(solution.variable, solution.S.field))
+    if group.orders:
+        data["orders"] = [{"prime": p, "order": k} for p, k in group.orders]
+    return data
 
 
 def from_dict(data: Mapping[str, Any]) -> Solution:
