@@ -52,6 +52,12 @@ def _to_float(number: Dyadic) -> float:
     return value
 
 
+def _above(number: Dyadic) -> float:
+    """The double at or next above m 2^e."""
+    value = float(arb(number))
+    return value if arb(value) >= arb(number) else math.nextafter(value, math.inf)
+
+
 def _to_fraction(number: Dyadic) -> Fraction:
     mantissa, exponent = number
     if abs(exponent) > _FRACTION_BITS:
@@ -105,8 +111,7 @@ class Ball:
     @property
     def radius(self) -> float:
         """An upper bound of the radius as a double (inf beyond their range); `rad` is the radius itself."""
-        value = float(arb(self.rad))
-        return value if arb(value) >= arb(self.rad) else math.nextafter(value, math.inf)
+        return _above(self.rad)
 
     @property
     def mid(self) -> complex:
@@ -192,9 +197,7 @@ class Ball:
     def upper(self) -> float:
         """The smallest double that isn't below any number of a real ball."""
         self._demand_real()
-        end = arb(_ends(self.re, self.rad)[1])
-        value = float(end)
-        return value if end <= arb(value) else math.nextafter(value, math.inf)
+        return _above(_ends(self.re, self.rad)[1])
 
     def _demand_real(self) -> None:
         if not self.real:
@@ -246,9 +249,9 @@ class Ball:
         self._demand_real()
         second._demand_real()
         (low, high), (other_low, other_high) = _ends(self.re, self.rad), _ends(second.re, second.rad)
-        if _less(high, other_low) or (not strict and high == other_low):
+        if arb(high) < arb(other_low) or (not strict and high == other_low):
             return True
-        return False if _less(other_high, low) or (strict and other_high == low) else None
+        return False if arb(other_high) < arb(low) or (strict and other_high == low) else None
 
     def equals(self, other: object) -> bool | None:
         """Is the exact value that number?  False if the balls are apart, True if both are exact and the same, else None."""
@@ -282,10 +285,6 @@ def _ends(middle: Dyadic, rad: Dyadic) -> tuple[Dyadic, Dyadic]:
         raise OverflowError("midpoint and radius are too far apart to be added")
     m, r = middle[0] << (middle[1] - e), rad[0] << (rad[1] - e)
     return dyadic(m - r, e), dyadic(m + r, e)
-
-
-def _less(a: Dyadic, b: Dyadic) -> bool:
-    return bool(arb(a) < arb(b))
 
 
 def _decimal(number: Dyadic) -> Decimal:

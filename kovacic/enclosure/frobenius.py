@@ -157,7 +157,7 @@ class Basis:
             balls, delta = op.in_balls(), abs(acb(upper) - lower).upper()
             cases = ((lower, delta, resonance, start), (upper, arb(0), None, (1, 0)))
             self.solutions = tuple(
-                _expand(balls, *case, length, bound, prec, budget) if wanted else None
+                _expand(balls, case, length, bound, prec, budget) if wanted else None
                 for case, wanted in zip(cases, needed, strict=True)
             )
 
@@ -250,22 +250,22 @@ class Expansion:
         real, size = value.imag.is_zero() and slope.imag.is_zero(), max(arb(1), abs(log).upper())
         balls = [arb(0, (error * size).upper()) for error in self.errors]
         tails = [acb(ball) if real else acb(ball, ball) for ball in balls]
-        power = _power(self.exponent, t, log)
+        whole = isinstance(self.exponent, fmpq) and self.exponent.q == 1
+        power = t ** int(self.exponent.p) if whole else (acb(self.exponent) * log).exp()
         return (value + tails[0]) * power, (slope + tails[1]) * power
 
 
 def _expand(
     op: Operator,
-    exponent: Any,
-    delta: arb,
-    resonance: int | None,
-    start: tuple[int, int],
+    case: tuple[Any, arb, int | None, tuple[int, int]],
     length: arb,
     bound: Majorant,
     prec: int,
     budget: Budget,
 ) -> Expansion:
-    """The solution that starts with t^exponent (u + v log t), (u, v) = start, for |t| <= length."""
+    """The solution that starts with t^exponent (u + v log t), (u, v) = start, for |t| <= length; `case` has the exponent, the
+    difference to the other one, the resonance of `_next`, and the start."""
+    exponent, delta, resonance, start = case
     with working_precision(64):
         size = abs(acb(exponent)).upper()
     first, order = max(_first(delta), len(op.A), abs(resonance or 0) + 1), len(op.A) - 1
@@ -284,9 +284,8 @@ def _expand(
             defect = arb(0)
             for m in range(order):
                 pairs = [_apply(op, j, lam + (n + m - j), terms[n + m - j]) for j in range(m + 1, order + 1)]
-                defect += (
-                    sum((abs(sum(part, kind(0))).upper() for part in zip(*pairs, strict=True)), arb(0)) * length**m
-                )
+                u, v = (abs(sum(part, kind(0))).upper() for part in zip(*pairs, strict=True))
+                defect += (u + v) * length**m
             factor, kappa = bound.growth(n, delta, size, length)
             F = (factor * bound.inverse * defect * length**n / (kappa * n)).upper()
         if arb((1, -prec - 20)) > F:
@@ -294,11 +293,3 @@ def _expand(
             return Expansion(exponent, lam, U, V, ((F / n).upper(), (F * (1 + (size + 1) / n)).upper()))
         if n > cap:
             raise LimitExceeded(f"a Frobenius expansion needs more than {cap} terms", limit="unknown_degree")
-
-
-def _power(exponent: Any, t: acb, log: acb) -> acb:
-    """t^exponent, real where it is."""
-    if isinstance(exponent, fmpq) and exponent.q == 1:
-        return t ** int(exponent.p)
-    power: acb = (acb(exponent) * log).exp()
-    return power

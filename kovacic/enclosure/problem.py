@@ -69,9 +69,8 @@ class System:
                 "numerical evaluation needs S with rational coefficients (no parameters, no algebraic constants)"
             )
         p, q = num.rep, den.rep
-        return cls.make(
-            *(tuple(int(c) for c in part.coeffs()) for part in (p.numer() * q.denom(), q.numer() * p.denom()))
-        )
+        whole = (p.numer() * q.denom(), q.numer() * p.denom())
+        return cls.make(*(tuple(int(c) for c in part.coeffs()) for part in whole))
 
     def roots(self, which: str, prec: int) -> Zeros:
         """Enclosures of the zeros of "num" or "den" at about `prec` bits, with multiplicities."""
@@ -184,11 +183,11 @@ def _values(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, N
 
 def _specialised(function: RatFunc, values: dict[str, Fraction]) -> RatFunc:
     """A rational function at these values of its parameters."""
-    num, den = function.num, function.den
-    if not isinstance(num, FunctionPoly) or not isinstance(den, FunctionPoly):
-        return function
+    parts = [part for part in (function.num, function.den) if isinstance(part, FunctionPoly)]
     try:
-        return RatFunc(*(part.value_at([values[name] for name in num.field.names], QQ) for part in (num, den)))
+        return (
+            RatFunc(*(p.value_at([values[name] for name in p.field.names], QQ) for p in parts)) if parts else function
+        )
     except ZeroDivisionError:
         raise InputError("the equation isn't defined at these values of the parameters") from None
 

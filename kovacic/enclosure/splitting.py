@@ -180,19 +180,11 @@ def make_block(leaf: Run, m: int, leaves: int, budget: Budget) -> Run:
     return make_block(leaf, m + half * LEAF, leaves - half, budget).after(first)
 
 
-@dataclass(frozen=True)
-class Series:
-    """The sums up to the term m in balls: rows Y, Y' (and at -v), columns b = (1, 0, ...) and (0, 1, ...).
-
-    `errors[k]` has the bounds of |e| and |e_v| for column k.
-    """
-
-    sums: Any
-    errors: tuple[tuple[arb, arb], tuple[arb, arb]]
-
-
-def _sum_series(system: System, frame: Frame, z: Point, mirror: bool, prec: int, budget: Budget) -> Series:
-    """Blocks until the bound of the tail is about 2^-prec."""
+def _sum_series(
+    system: System, frame: Frame, z: Point, mirror: bool, prec: int, budget: Budget
+) -> tuple[Any, list[tuple[arb, arb]]]:
+    """Sums in balls, rows Y, Y' (and at -v), columns b = (1, 0, ...) and (0, 1, ...), and for either column the bounds of |e|
+    and |e_v|: blocks until these are about 2^-prec."""
     steps = Recurrence(*shift(system, frame.centre, z.scaled(frame.scale)))
     leaf, r, m = steps.leaf(mirror), steps.order, 2
     goal = prec + int(frame.bound.log2_growth) + 20
@@ -207,9 +199,9 @@ def _sum_series(system: System, frame: Frame, z: Point, mirror: bool, prec: int,
         while True:
             heights = [sum((V[n, k].abs_upper() for n in range(r)), arb(0)).upper() for k in (0, 1)]
             radii = [error_radii((h * steps.size(m) * ratio).upper(), frame) for h in heights]
-            errors = tuple((e, (slope * length).upper()) for e, slope in radii)
+            errors = [(e, (slope * length).upper()) for e, slope in radii]
             if all(log2(e) < -goal for pair in errors for e in pair):
-                return Series(sums, errors)  # type: ignore[arg-type]
+                return sums, errors
             if m > 40 * full + 4000:
                 raise LimitExceeded(f"a Taylor expansion needs more than {m} terms", limit="unknown_degree")
             needed = max(64, full + 33 + int(max(map(log2, heights))))
@@ -255,17 +247,15 @@ def split_legs(
     The numbers of centre and target should be short.
     """
     offset = target - frame.centre
-    series = _sum_series(system, frame, frame.seen(target), mirror, prec, budget)
+    sums, errors = _sum_series(system, frame, frame.seen(target), mirror, prec, budget)
     real = offset.is_real() and frame.centre.is_real()
     with working_precision(prec + int(frame.bound.log2_growth) + 84):
         h = to_acb(offset)
-        balls = [[arb(0, error) for error in pair] for pair in series.errors]
+        balls = [[arb(0, error) for error in pair] for pair in errors]
         matrices = []
         for row in (0, 2) if mirror else (0,):
             y1, d1, y2, d2 = (
-                acb(series.sums[row + i, k]) + acb(balls[k][i], 0 if real else balls[k][i])
-                for k in (0, 1)
-                for i in (0, 1)
+                acb(sums[row + i, k]) + acb(balls[k][i], 0 if real else balls[k][i]) for k in (0, 1) for i in (0, 1)
             )
             matrices.append((y1, y2 * h, d1 / h, d2))
         return matrices
