@@ -16,7 +16,7 @@ import kovacic
 from kovacic.doubles.lambdify import lambdify
 from kovacic.doubles.tabulate import tabulate
 from kovacic.enclosure.ball import Ball, ball_to_flint
-from kovacic.enclosure.evaluate import AccuracyWarning, evaluate
+from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states
 from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.monodromy import connection_matrix, monodromy
 from kovacic.enclosure.points import Point
@@ -156,3 +156,22 @@ def test_the_parts_of_a_call_share_one_clock(monkeypatch: pytest.MonkeyPatch) ->
     with pytest.raises(ValueError, match="shorter"):
         lambdify(kovacic.solve("1/x - 3/(16*x^2)"), interval=(1, 2), limits=Limits(seconds=5))
     assert 0 < (seen[0] or 9) < 5
+
+
+@pytest.mark.parametrize("side", ["above", "below"])
+@pytest.mark.parametrize("x", ["-1/100", "1/100", "-1/1000", "1/1000", "2"])
+def test_a_detour_around_an_irregular_singular_point_is_as_wide_as_it_can_be(side: Any, x: str) -> None:
+    """y'' = y/x^4, y(-1) = 1, y'(-1) = 0: y = -x exp(-1/x - 1), and others are as large as exp(1/r) at the distance r."""
+    (state,) = evaluate_states("1/x^4", [x], x0=-1, y0=1, dy0=0, path=side, limits=Limits(seconds=20))
+    assert state.reached
+    with flint.ctx.workprec(4000 + state.run.bits):
+        t = flint.arb(flint.fmpq(*Fraction(x).as_integer_ratio()))
+        assert ball_to_flint(state.y).overlaps(flint.acb(-t * (-1 / t - 1).exp()))
+
+
+def test_growth_is_foreseen_for_numerators_of_any_degree() -> None:
+    high = System.make((0,) * 200 + (1,), (1,))
+    exact = (Fraction(3) ** 101 - Fraction(2) ** 101) / 101  # int x^100
+    assert float(exact) / 3 < least_growth(high, Point(2), Point(3)) < float(exact)
+    with pytest.raises(LimitExceeded, match=r"grow or oscillate by exp\(.*e\+44\) on the way from 2 to 3"):
+        evaluate("x^200/(x^3-1)^2", 3, x0=2, y0=1, dy0=0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import pytest
 
 from kovacic.cli.main import run
 from kovacic.enclosure.ball import Ball
+from kovacic.enclosure.points import Point
 from kovacic.views.plot import plot, sample
 
 
@@ -87,3 +89,11 @@ def test_a_pole_of_the_gauge_is_a_singular_point() -> None:
     samples = sample("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0", -2, 2, points=20)
     assert samples.singular == (0,)
     assert len(samples.runs) == 2
+
+
+def test_a_picture_of_an_equation_with_an_algebraic_constant() -> None:
+    """y'' = 2^(1/2) y: cosh(2^(1/4) x)."""
+    (run,) = sample("sqrt(2)", -1, 2, x0=0, points=20).runs
+    for result in run:
+        assert isinstance(result.x, Point)
+        assert float(result.y) == pytest.approx(math.cosh(2**0.25 * float(result.x.re)), rel=1e-7)

@@ -377,3 +377,16 @@ def test_arrays_of_no_dimension_are_numbers() -> None:
     for x in (numpy.float64(2), numpy.array(2.0)):
         assert isinstance(evaluate(bessel(0), x, x0=0, which="regular"), Ball)
     assert evaluate(bessel(0), numpy.array([]), x0=0, which="regular").shape == (0,)
+
+
+@pytest.mark.parametrize(("side", "vertex"), [("above", "1 + I"), ("below", "1 - I")])
+def test_from_infinity_around_a_singular_point(side: Any, vertex: str) -> None:
+    gauss = "x*(1-x)*y'' + (5/4 - 11/6*x)*y' - 1/6*y = 0"
+    start: dict[str, Any] = {"x0": "oo", "which": "regular"}
+    around = evaluate(gauss, ["1/2", 3], path=side, **start)
+    by_hand = evaluate(gauss, "1/2", path=[4, vertex], **start)
+    assert around[0].overlaps(by_hand)
+    assert around[0].digits >= 15
+    assert around[1].overlaps(evaluate(gauss, 3, **start))
+    other = evaluate(gauss, "1/2", path=[4, "1 - I" if side == "above" else "1 + I"], **start)
+    assert not around[0].overlaps(other)

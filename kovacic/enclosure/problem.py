@@ -25,7 +25,7 @@ from kovacic.decision import Decision
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.embedded import Embedded
 from kovacic.enclosure.points import Point, midpoint, to_acb, working_precision
-from kovacic.errors import InputError
+from kovacic.errors import InputError, NotRational
 from kovacic.limits import check_duration
 from kovacic.reading.given import EULER, PI, Equation, parameters_of
 
@@ -140,7 +140,14 @@ def as_problem(
     if not isinstance(decision, Decision):
         from kovacic.reading.read import read_input
 
-        decision, found = None, read_input(equation)
+        decision = None
+        try:
+            found = read_input(equation)
+        except NotRational as reason:  # pi and e are parameters of equations
+            try:
+                found = read_input(f"y'' = ({equation})*y")
+            except InputError:
+                raise reason from None
     S, given = found.S, found.equation  # type: ignore[attr-defined]
     gauge = None if given is None else given.gauge or None
     names = parameters_of(S.field) if given is None else parameters_of((given.a + given.b + given.c).field)

@@ -65,7 +65,7 @@ def sample(
         raise InputError(f"the interval from {a} to {b} is empty", hint="give real numbers, the smaller one first")
     if points < 2:
         raise InputError("at least 2 points are needed")
-    problem = as_problem(equation, forced=True)
+    problem = as_problem(equation, forced=True, constants=True)
     singular = problem.singular_points(128)
     cuts = sorted({z.re for z in singular if z.is_real() and a.re <= z.re <= b.re})
     wild = {float(midpoint(root).re) for root, order in problem.system.roots("den", 128) if order > 2}
