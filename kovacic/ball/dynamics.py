@@ -101,11 +101,6 @@ class Dynamics:
         return eta / root, (zeta - half(x) * eta / root) / weight
 
 
-def second_derivative(f: Vector, y: Vector) -> Any:
-    """x'' but for the factor 1 + rho, from the state and its derivative."""
-    return f[3] * y[1] + y[3] * f[1] - f[4] * y[0] - y[4] * f[0]
-
-
 def unsteadiness(y: Array, f: Array, rate: float) -> Array:
     """How far (omega, s) is from turning uniformly about the axis, as it does in steady motions; at most about 1."""
     z = np.array([y[1] / rate, -y[0] / rate, y[4], -y[3]])  # turned by -90 degrees

@@ -18,19 +18,10 @@ from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
 from kovacic.ball.ball import BallOnSphere, Scalar, exact
-from kovacic.ball.dynamics import (
-    LARGEST,
-    Array,
-    Dynamics,
-    Vector,
-    colatitude,
-    cross,
-    dot,
-    second_derivative,
-    unsteadiness,
-)
+from kovacic.ball.dynamics import LARGEST, Array, Dynamics, colatitude, cross, dot, unsteadiness
 from kovacic.ball.potential import Force, Potential
 from kovacic.errors import InputError, LimitExceeded
 
@@ -38,6 +29,7 @@ from kovacic.errors import InputError, LimitExceeded
 MAX_EVALUATIONS, LONGEST = 300_000, 100_000
 #: Below the first a motion is steady; one that comes below the second, of its largest distance, is asymptotic to a steady one.
 _STEADY, _ASYMPTOTIC = 1e-12, 1e-6
+_AXIS = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,8 +71,7 @@ class Motion:
     _solution: Callable[[Array], Array]
     _cycle: float
     _gain: float
-    _axis: Array
-    _angle: float
+    _turn: Array  # the rotation vector of G
     _space: Array
 
     def u(self, times: Any) -> Array:
@@ -102,22 +93,23 @@ class Motion:
             return _apply(self.attitude(times), -s / self.ball.kappa)
         count, y = self._at(times)
         # The ways of `count` oscillations, each turned by one angle more, add up to a chord.
-        half = np.sin(self._angle / 2)
-        chord = np.where(np.abs(half) > 1e-12, np.sin(self._angle * count / 2) / (half or 1.0), count)
-        whole = self._returns((count - 1) / 2) @ self._solution(np.array(self._cycle))[15:]
-        way = (_apply(self._returns(count), y[15:]) + chord[..., None] * whole) @ self._space.T
+        angle = float(np.linalg.norm(self._turn))
+        half = np.sin(angle / 2)
+        chord = np.where(np.abs(half) > 1e-12, np.sin(angle * count / 2) / (half or 1.0), count)
+        whole = _turned(self._turn, (count - 1) / 2) @ self._solution(np.array(self._cycle))[15:]
+        way = (_apply(_turned(self._turn, count), y[15:]) + chord[..., None] * whole) @ self._space.T
         return np.asarray(way * [1.0, 1.0, 0.0] + [self.start.u1, self.start.v1, 0.0], dtype=float)
 
     def contact_on_ball(self, times: Any) -> Array:
         """The unit vector from the ball's centre to the contact point, in its axes: (sin u cos v, sin u sin v, cos u)."""
         count, y = self._at(times)
-        return _apply(_about_axis(count * self._gain), y[3:6])
+        return _apply(_turned(_AXIS, count * self._gain), y[3:6])
 
     def attitude(self, times: Any) -> Array:
         """The ball's axes in space, as columns of (..., 3, 3)."""
         count, y = self._at(times)
         rows = np.moveaxis(y[6:15], 0, -1).reshape(*count.shape, 3, 3)
-        result: Array = self._space @ self._returns(count) @ rows @ _about_axis(-count * self._gain)
+        result: Array = self._space @ _turned(self._turn, count) @ rows @ _turned(_AXIS, -count * self._gain)
         return result
 
     def energy(self, times: Any) -> Array:
@@ -152,10 +144,6 @@ class Motion:
         start, x0 = self.start, float(np.cos(self.start.u))
         omega_3 = x0 * start.n - (1 + self.ball.rho) * np.sin(start.u) ** 2 * start.dv
         return self.ball.transport(y[5], x0, omega_3, start.n)
-
-    def _returns(self, count: Array) -> Array:
-        """G^count."""
-        return _rotation(self._axis, self._angle * count)
 
     def _at(self, times: Any) -> tuple[Array, Array]:
         """The number of whole oscillations, and the states (18, ...) in the first one."""
@@ -196,7 +184,7 @@ def solve_motion(
     if gravity is not None and potential is not None:
         raise InputError("either gravity or a potential")
     force = Force.of(potential) if potential is not None else Force.gravity(sphere, 1 if gravity is None else gravity)
-    frame = _spherical(state.u, state.v)
+    frame = Rotation.from_euler("ZY", [state.v, state.u]).as_matrix()  # (e_u, e_v, e_r) as columns
     along = [(1 + ball.rho) * np.sin(state.u) * state.dv, -(1 + ball.rho) * state.du, state.n]
     y = np.concatenate([frame @ along, frame[:, 2], np.eye(3).ravel(), np.zeros(3)])
     slopes = np.abs(np.broadcast_to(force.slope(np.linspace(0, np.pi, 65)), 65))
@@ -208,7 +196,8 @@ def solve_motion(
     else:
         turns = solution.t_events[0]
         # x'' at two turning points: the period is known best between those where it is larger.
-        first, second = (abs(second_derivative(ball.rates(force.slope, p), p)) for p in solution.sol(turns[:2]).T)
+        f, p = np.array(ball.rates(force.slope, solution.sol(turns[:2]))), solution.sol(turns[:2])
+        first, second = np.abs(f[3] * p[1] + p[3] * f[1] - f[4] * p[0] - p[4] * f[0])
         cycle = float(turns[2] - turns[0] if first >= second else turns[3] - turns[1])
         distance = unsteadiness(solution.y, np.array(ball.rates(force.slope, solution.y)), rate)
         approach = float(distance.min() / distance.max())
@@ -220,16 +209,18 @@ def solve_motion(
                 limit="digits",
             )
     turned = solution.sol(cycle)
-    gain = float(
-        np.angle(sum(_planar(turned, k) * _planar(y, k).conjugate() * w for k, w in ((0, rate**-2), (3, 1.0))))
-    )
-    G = turned[6:15].reshape(3, 3) @ _about_axis(np.array(gain))
-    _, _, (across, _, axis) = np.linalg.svd(G - np.eye(3))  # the axis is any, if G = 1
-    angle = float(np.arctan2(axis @ np.cross(across, G @ across), across @ G @ across))
+    before, after = (z[[0, 3]] + 1j * z[[1, 4]] for z in (y, turned))  # of omega and s, across the axis
+    gain = float(np.angle((after * before.conj() * [rate**-2, 1.0]).sum()))
+    turn = Rotation.from_matrix(turned[6:15].reshape(3, 3) @ _turned(_AXIS, np.array(gain))).as_rotvec()
     low, high = np.sort(colatitude(solution.sol(turns[:2])[3:6]))
-    space = _space_frame(state, flat=ball.kappa == 0) @ frame.T
-    found = (None if steady else cycle, (float(low), float(high)), approach)
-    return Motion(ball, force, state, *found, solution.sol, cycle, gain, axis, angle, space)
+    # e_u = -sin(theta) e_u1 + cos(theta) e_v1, and the ball's normal is opposite to the sphere's.
+    s, c = np.sin(state.theta), np.cos(state.theta)
+    below = Rotation.from_euler("ZY", [state.v1, state.u1]).as_matrix() if ball.kappa else np.eye(3)
+    space = below @ np.array([[-s, c, 0], [c, s, 0], [0, 0, -1]]) @ frame.T
+    period = None if steady else cycle
+    return Motion(
+        ball, force, state, period, (float(low), float(high)), approach, solution.sol, cycle, gain, turn, space
+    )
 
 
 def _integrate(ball: Dynamics, force: Force, y: Array, rate: float, *, turns: int) -> Any:
@@ -276,37 +267,14 @@ def as_float(value: Any, name: str) -> float:
     return float(number)
 
 
-def _planar(y: Vector, k: int) -> complex:
-    """A vector's part across the axis; y[k] is its first component."""
-    return complex(y[k], y[k + 1])
-
-
-def _spherical(u: float, v: float) -> Array:
-    """(e_u, e_v, e_r) as columns."""
-    cu, su, cv, sv = np.cos(u), np.sin(u), np.cos(v), np.sin(v)
-    return np.array([[cu * cv, -sv, su * cv], [cu * sv, cv, su * sv], [-su, 0.0, cu]])
-
-
-def _space_frame(start: State, *, flat: bool) -> Array:
-    """The ball's in space: e_u = -sin(theta) e_u1 + cos(theta) e_v1, and its normal is opposite to the sphere's."""
-    south, east, out = np.eye(3) if flat else _spherical(start.u1, start.v1).T
-    s, c = np.sin(start.theta), np.cos(start.theta)
-    return np.column_stack([-s * south + c * east, c * south + s * east, -out])
-
-
 def _apply(matrices: Array, vectors: Array) -> Array:
     """Matrices (..., 3, 3) times vectors (3, ...), as (..., 3)."""
     result: Array = np.einsum("...ij,j...->...i", matrices, vectors)
     return result
 
 
-def _rotation(axis: Array, angles: Array) -> Array:
-    """Rotations about an axis, one for each angle."""
-    along, turned = np.outer(axis, axis), np.cross(np.eye(3), axis)
-    c, s = np.cos(angles)[..., None, None], np.sin(angles)[..., None, None]
-    result: Array = along + c * (np.eye(3) - along) - s * turned.T
+def _turned(vector: Array, counts: Array) -> Array:
+    """Rotations by so many times this rotation vector, (..., 3, 3)."""
+    found = Rotation.from_rotvec(np.multiply.outer(np.ravel(counts), vector)).as_matrix()
+    result: Array = found.reshape(*np.shape(counts), 3, 3)
     return result
-
-
-def _about_axis(angles: Array) -> Array:
-    return _rotation(np.array([0.0, 0.0, 1.0]), angles)
