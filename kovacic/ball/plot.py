@@ -30,10 +30,7 @@ def draw(motion: Motion, times: Array, path: Path | str, *, title: str = "") -> 
     figure.set_layout_engine("constrained", wspace=0.08)
     rows = 3 if reaction is None else 4
     grid = figure.add_gridspec(rows, 2, width_ratios=(1.15, 1))
-    if motion.ball.kappa == 0:
-        _draw_plane(figure.add_subplot(grid[:, 0]), motion.contact(times))
-    else:
-        _draw_sphere(figure.add_subplot(grid[:, 0]), motion.contact(times), abs(1 / motion.ball.kappa))
+    _draw_path(figure.add_subplot(grid[:, 0]), motion.contact(times), motion.ball.kappa)
     panels = [figure.add_subplot(grid[k, 1]) for k in range(rows)]
     panels[0].plot(times, motion.u(times), color=_BLUE)
     for level in motion.turning_points:
@@ -77,49 +74,43 @@ def _write_whole(path: Path, content: bytes) -> None:
         if target.exists():
             beside.chmod(target.stat().st_mode)
         beside.replace(target)
-    except BaseException:
+    finally:
         beside.unlink(missing_ok=True)
-        raise
 
 
-def _draw_sphere(axes: Any, points: Array, radius: float) -> None:
-    """The sphere seen from the middle of the path, from far away, with meridians and parallels every 30 degrees."""
-    X, Y, Z = points.mean(axis=0)
-    azimuth = np.arctan2(Y, X) if np.hypot(X, Y) > 1e-9 * radius else -np.pi / 3
-    elevation = np.clip(np.arctan2(Z, np.hypot(X, Y)), -0.2, 0.7)
-    ca, sa, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
-    view = np.array([[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]])  # right, up, towards the eye
-
-    def curve(line: Array, colour: str, front: dict[str, float], back: dict[str, float]) -> None:
-        right, up, depth = view @ line
-        for seen, style in ((depth < 0, back), (depth >= 0, front)):
-            axes.plot(np.where(seen, right, np.nan), np.where(seen, up, np.nan), color=colour, **style)
-
-    angle = np.linspace(0, 2 * np.pi, 361)
-    axes.plot(radius * np.cos(angle), radius * np.sin(angle), color=_GREY, lw=0.9)
-    c, s, one = np.cos(angle), np.sin(angle), np.ones_like(angle)
-    for k in np.arange(6) * np.pi / 6:
-        circles = [
-            np.array([s * np.cos(k), s * np.sin(k), c]),
-            np.array([np.sin(k) * c, np.sin(k) * s, np.cos(k) * one]),
-        ]
-        for circle in circles:
-            curve(radius * circle, _GREY, {"lw": 0.5, "alpha": 0.7}, {"lw": 0.5, "alpha": 0.2})
-    curve(points.T, _BLUE, {"lw": 1.8}, {"lw": 1.0, "alpha": 0.35})
+def _draw_path(axes: Any, points: Array, kappa: float) -> None:
+    """On the plane; or the sphere seen from the middle of the path, from far away, with circles every 30 degrees."""
+    view = np.eye(3)[:2]
+    if kappa:
+        radius, (X, Y, Z) = abs(1 / kappa), points.mean(axis=0)
+        azimuth = np.arctan2(Y, X) if np.hypot(X, Y) > 1e-9 * radius else -np.pi / 3
+        elevation = np.clip(np.arctan2(Z, np.hypot(X, Y)), -0.2, 0.7)
+        ca, sa, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
+        view = np.array(
+            [[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]]
+        )  # right, up, towards the eye
+        angle = np.linspace(0, 2 * np.pi, 361)
+        c, s, zero = radius * np.cos(angle), radius * np.sin(angle), 0.0 * angle
+        axes.plot(c, s, color=_GREY, lw=0.9)
+        for k in np.arange(6) * np.pi / 6:
+            parallel = (np.sin(k) * c, np.sin(k) * s, radius * np.cos(k) + zero)
+            for circle in ((s * np.cos(k), s * np.sin(k), c), parallel):
+                _curve(axes, view @ np.array(circle), _GREY, {"lw": 0.5, "alpha": 0.7}, {"lw": 0.5, "alpha": 0.2})
+        axes.set_axis_off()
+    else:
+        axes.set(xlabel="X", ylabel="Y")
+        axes.grid(True, color="#dddddd", lw=0.6)
+    _curve(axes, view @ points.T, _BLUE, {"lw": 1.8 if kappa else 1.3}, {"lw": 1.0, "alpha": 0.35})
     for point, colour, label in ((points[0], _GREEN, "start"), (points[-1], _ORANGE, "end")):
         axes.scatter(*(view @ point)[:2], color=colour, s=40, label=label, zorder=3)
-    axes.set_title("path of the contact point on the sphere (faint: far side)", fontsize=10)
-    axes.set_aspect("equal")
-    axes.set_axis_off()
-    axes.legend(loc="upper left")
+    where = "sphere (faint: far side)" if kappa else "plane"
+    axes.set_title(f"path of the contact point on the {where}", fontsize=10)
+    axes.set_aspect("equal", adjustable="box" if kappa else "datalim")
+    axes.legend(loc="upper left" if kappa else "best")
 
 
-def _draw_plane(axes: Any, points: Array) -> None:
-    X, Y, _ = points.T
-    axes.plot(X, Y, color=_BLUE, lw=1.3)
-    axes.scatter(X[:1], Y[:1], color=_GREEN, s=36, label="start", zorder=3)
-    axes.scatter(X[-1:], Y[-1:], color=_ORANGE, s=36, label="end", zorder=3)
-    axes.set(xlabel="X", ylabel="Y", title="path of the contact point on the plane")
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.grid(True, color="#dddddd", lw=0.6)
-    axes.legend(loc="best")
+def _curve(axes: Any, line: Array, colour: str, front: dict[str, float], back: dict[str, float]) -> None:
+    """What lies behind (a third coordinate below 0) in another style."""
+    depth = line[2] if len(line) == 3 else np.ones(line.shape[1])
+    for seen, style in ((depth < 0, back), (depth >= 0, front)):
+        axes.plot(np.where(seen, line[0], np.nan), np.where(seen, line[1], np.nan), color=colour, **style)

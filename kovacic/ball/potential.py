@@ -33,12 +33,12 @@ class Force:
     g: float | None = None
 
     @classmethod
-    def of(cls, potential: Potential) -> Force:
+    def of(cls, potential: Potential, g: float | None = None) -> Force:
         """The force with the potential V(u).  Raises `InputError` as `potential_of` does, and where V isn't smooth."""
         V = potential_of(potential)
-        value = _compiled(V)
+        value, slope = (sp.lambdify(U, f, modules="numpy", cse=True) for f in (V, sp.diff(V, U)))
         _check(value)
-        return cls(V, value, _compiled(sp.diff(V, U)))
+        return cls(V, value, slope, g)
 
     @classmethod
     def gravity(cls, sphere: BallOnSphere, g: Scalar) -> Force:
@@ -53,7 +53,7 @@ class Force:
         V = m * strength * a * (a * k + 2 * sp.cos(U)) / (1 + sp.sqrt(1 + a**2 * k**2 + 2 * a * k * sp.cos(U)))
         if not V.free_symbols <= {U}:
             raise InputError(f"numbers are needed for a motion, and {V} contains symbols")
-        return cls(V, _compiled(V), _compiled(sp.diff(V, U)), float(strength))
+        return cls.of(V, float(strength))
 
 
 def potential_of(value: Potential) -> sp.Expr:
@@ -81,11 +81,6 @@ def potential_of(value: Potential) -> sp.Expr:
         if not known or part in (sp.oo, -sp.oo, sp.zoo, sp.nan):
             raise InputError(f"the potential is an elementary function of u, it can't contain {part}")
     return V
-
-
-def _compiled(expression: sp.Expr) -> Callable[[Any], Any]:
-    function: Callable[[Any], Any] = sp.lambdify(U, expression, modules="numpy", cse=True)
-    return function
 
 
 def _check(V: Callable[[Any], Any]) -> None:
