@@ -32,9 +32,8 @@ read_expression = partial(symbolic.read_expression, limits=LIMITS)
 
 
 def exact(value: Scalar, name: str) -> sp.Expr:
-    """An exact real number, or an expression in symbols; text is read as a number ("3/2", "0.25", "sqrt(2)").
+    """An exact real number, or an expression in symbols, without their assumptions; text is a number ("0.25", "sqrt(2)").
 
-    Symbols lose their assumptions, for the equations identify them by name.
     Raises `InputError` for anything else, and `LimitExceeded` for numbers of more than 500 bits.
 
     >>> exact("0.25", "m"), exact("sqrt(3 + 2*sqrt(2)) - sqrt(2)", "m")
@@ -62,10 +61,7 @@ def exact(value: Scalar, name: str) -> sp.Expr:
 
 
 def settled(value: sp.Expr) -> sp.Expr:
-    """The same number, as a rational number if it is one: decided in the engine's field of algebraic numbers.
-
-    What isn't an algebraic number stays as it is.
-    """
+    """An algebraic number as a rational one, if it is: decided in the engine's field.  All else stays as it is."""
     if not value.is_number or value.is_Rational:
         return value
     try:
@@ -77,14 +73,12 @@ def settled(value: sp.Expr) -> sp.Expr:
 
 
 def sign(value: sp.Expr) -> int | None:
-    """1, 0 or -1 for a real number; None while it depends on symbols.
-
-    Raises `InputError` where a number that isn't algebraic can't be told from zero.
+    """1, 0 or -1; None with symbols.  Raises `InputError` where a number that isn't algebraic can't be told from zero.
 
     >>> sign(sp.sqrt(5 + 2 * sp.sqrt(6)) - sp.sqrt(2) - sp.sqrt(3))
     0
     """
-    value = settled(value) if value.is_number else value
+    value = settled(value)
     if not value.is_number:
         return None
     if value.is_Rational:
@@ -120,11 +114,11 @@ class Ball:
 
     def __post_init__(self) -> None:
         for name in ("m", "R", "a", "A1", "A3"):
-            object.__setattr__(self, name, exact(getattr(self, name), name))
-        m, R, a, A1, A3 = self.parameters
-        for name, value in (("m", m), ("R", R), ("A1", A1), ("A3", A3)):
-            if sign(value) in (0, -1):
+            value = exact(getattr(self, name), name)
+            object.__setattr__(self, name, value)
+            if name != "a" and sign(value) in (0, -1):
                 raise InputError(f"there is no such body: {name} > 0 fails, as {name} = {value}")
+        m, R, a, A1, A3 = self.parameters
         for text, small, large in (
             ("|a| <= R", sp.Abs(a), R),
             ("A3 <= 2 A1", A3, 2 * A1),
@@ -141,16 +135,11 @@ class Ball:
         return self.m, self.R, self.a, self.A1, self.A3
 
     def on_sphere(self, R1: Scalar) -> BallOnSphere:
-        """The ball on a sphere of radius R1 > 0, or inside one for R1 < -R.
-
-        Raises `InputError` for R1 = 0 and for a ball too large to roll inside.
-        """
+        """On a sphere of radius R1 > 0, or inside one for R1 < -R; raises `InputError` for another R1."""
         radius = exact(R1, "R1")
         if radius == 0:
-            raise InputError(
-                "the fixed sphere needs a radius R1 other than 0",
-                hint="the plane is R1 = infinity: on_plane(), --sphere plane",
-            )
+            hint = "the plane is R1 = infinity: on_plane(), --sphere plane"
+            raise InputError("the fixed sphere needs a radius R1 other than 0", hint=hint)
         if sign(radius) == -1 and sign(self.R + radius) in (0, 1):
             raise InputError(f"the ball doesn't fit inside the sphere: R < |R1| fails, as {self.R} >= {-radius}")
         return BallOnSphere(self, radius)
@@ -185,10 +174,15 @@ class BallOnSphere:
         return sp.factor(m * R**2 * (A3 - A1))
 
     @property
-    def discriminant(self) -> sp.Expr:
-        """The discriminant of D, -4 m R^2 A1 B with B = (A3 + m R^2)(A3 - A1) - A3 m a^2; 0: a double root, x1 = x2."""
+    def B(self) -> sp.Expr:
+        """(A3 + m R^2)(A3 - A1) - A3 m a^2."""
         m, R, a, A1, A3 = self.ball.parameters
-        return settled(sp.factor(-4 * m * R**2 * A1 * ((A3 + m * R**2) * (A3 - A1) - A3 * m * a**2)))
+        return (A3 + m * R**2) * (A3 - A1) - A3 * m * a**2
+
+    @property
+    def discriminant(self) -> sp.Expr:
+        """The discriminant of D, -4 m R^2 A1 B; 0: a double root, x1 = x2."""
+        return settled(sp.factor(-4 * self.ball.m * self.ball.R**2 * self.ball.A1 * self.B))
 
     @property
     def roots(self) -> tuple[sp.Expr, ...]:
@@ -211,11 +205,11 @@ class BallOnSphere:
     @property
     def linear_system(self) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
         """a1, a2, b1, b2 divided by sin u, in x: dn/du = a1 n + a2 omega_3, d omega_3/du = b1 n + b2 omega_3."""
-        m, R, a, A1, A3 = self.ball.parameters
-        rho, half, B = self.ratio, sp.diff(self.D, X) / 2, (A3 + m * R**2) * (A3 - A1) - A3 * m * a**2
-        parts = (-rho * half, (1 + rho) * B, rho * m * R**2 * A1, (1 + rho) * half)
-        first, second, third, fourth = (sp.factor(part / self.D) for part in parts)
-        return first, second, third, fourth
+        m, R, _, A1, _ = self.ball.parameters
+        rho, half = self.ratio, sp.diff(self.D, X) / 2
+        parts = (-rho * half, (1 + rho) * self.B, rho * m * R**2 * A1, (1 + rho) * half)
+        a1, a2, b1, b2 = (sp.factor(part / self.D) for part in parts)
+        return a1, a2, b1, b2
 
     @property
     def second_order(self) -> tuple[sp.Expr, sp.Expr]:
@@ -224,8 +218,8 @@ class BallOnSphere:
         On the plane, where omega_3 sqrt(D) is constant, the limit of (12) for R1 -> infinity: every omega_3 satisfies it, but
         not every solution of it is an omega_3.
         """
-        d1 = sp.factor(3 * sp.diff(self.D, X) / (2 * self.D))
-        return d1, sp.factor(self.leading * (1 - self.ratio**2) / self.D)
+        D = self.D
+        return sp.factor(3 * sp.diff(D, X) / (2 * D)), sp.factor(self.leading * (1 - self.ratio**2) / D)
 
     @property
     def S(self) -> sp.Expr:

@@ -141,9 +141,8 @@ class Motion:
         return {"omega_3": omega_3 - y[2], "n": n - dot(y[:3], y[3:6])}
 
     def _closed(self, y: Array) -> tuple[Array, Array]:
-        start, x0 = self.start, float(np.cos(self.start.u))
-        omega_3 = x0 * start.n - (1 + self.ball.rho) * np.sin(start.u) ** 2 * start.dv
-        return self.ball.transport(y[5], x0, omega_3, start.n)
+        begin = self._solution(np.array(0.0))
+        return self.ball.transport(y[5], begin[5], begin[2], self.start.n)
 
     def _at(self, times: Any) -> tuple[Array, Array]:
         """The number of whole oscillations, and the states (18, ...) in the first one."""
@@ -152,9 +151,8 @@ class Motion:
             raise InputError("times must be finite")
         count = np.floor(instants / self._cycle)
         if np.abs(count).max(initial=0) > LONGEST:
-            raise LimitExceeded(
-                f"a motion is followed for {LONGEST} oscillations, to t = {LONGEST * self._cycle:.6g}", limit="time"
-            )
+            end = f"{LONGEST} oscillations, to t = {LONGEST * self._cycle:.6g}"
+            raise LimitExceeded(f"a motion is followed for {end}", limit="time")
         rest = np.clip(instants - count * self._cycle, 0, self._cycle)
         return count, self._solution(rest.ravel()).reshape(18, *rest.shape)
 

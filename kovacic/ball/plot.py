@@ -32,24 +32,28 @@ def draw(motion: Motion, times: Array, path: Path | str, *, title: str = "") -> 
     grid = figure.add_gridspec(rows, 2, width_ratios=(1.15, 1))
     _draw_path(figure.add_subplot(grid[:, 0]), motion.contact(times), motion.ball.kappa)
     panels = [figure.add_subplot(grid[k, 1]) for k in range(rows)]
-    panels[0].plot(times, motion.u(times), color=_BLUE)
-    for level in motion.turning_points:
-        panels[0].axhline(level, color=_GREY, lw=0.8, ls="--")
-    panels[0].set(ylabel="u (rad)", title="colatitude of the contact point on the ball, and its turning points")
-    panels[1].plot(times, motion.omega_3(times), color=_ORANGE)
-    panels[1].set(ylabel=r"$\omega_3$ (rad per unit time)", title=r"spin about the axis of symmetry, $\omega_3$")
-    if reaction is not None:
-        panels[2].plot(times, reaction, color=_GREEN)
-        panels[2].axhline(0, color=_GREY, lw=0.8, ls="--")
-        panels[2].set(ylabel="force", title="normal reaction; below zero the ball would leave the surface")
+    curves = [
+        (motion.u(times), _BLUE, "u (rad)", "colatitude of the contact point on the ball, and its turning points"),
+        (
+            motion.omega_3(times),
+            _ORANGE,
+            r"$\omega_3$ (rad per unit time)",
+            r"spin about the axis of symmetry, $\omega_3$",
+        ),
+        (reaction, _GREEN, "force", "normal reaction; below zero the ball would leave the surface"),
+    ]
+    for axes, (values, colour, label, heading) in zip(panels[:-1], curves, strict=False):
+        axes.plot(times, values, color=colour)
+        axes.set(ylabel=label, title=heading)
+    for axes, level in [*((panels[0], u) for u in motion.turning_points), *((axes, 0) for axes in panels[2:-1])]:
+        axes.axhline(level, color=_GREY, lw=0.8, ls="--")
     errors = {"energy": motion.energy(times) - motion.energy(0.0), **motion.defects(times)}
     for (name, error), colour in zip(errors.items(), (_GREEN, _ORANGE, _BLUE), strict=True):
         label = r"$\omega_3$" if name == "omega_3" else name
         panels[-1].semilogy(times, np.maximum(np.abs(error), 1e-17), color=colour, lw=1, label=label)
-    panels[-1].set(
-        xlabel="time t", ylabel="difference", title="closed form against integration; energy against its start"
-    )
-    panels[-1].set_ylim(1e-17, max(1e-9, 30 * max(float(np.abs(error).max()) for error in errors.values())))
+    worst = max(float(np.abs(error).max()) for error in errors.values())
+    heading = "closed form against integration; energy against its start"
+    panels[-1].set(xlabel="time t", ylabel="difference", title=heading, ylim=(1e-17, max(1e-9, 30 * worst)))
     panels[-1].legend(loc="upper right", ncols=3, fontsize=9)
     for axes in panels:
         axes.grid(True, color="#dddddd", lw=0.6)

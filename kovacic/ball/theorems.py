@@ -47,10 +47,9 @@ def conditions() -> Conditions:
 def theorem(sphere: BallOnSphere) -> tuple[str, int | None]:
     """What the theorems say about a ball, in words, and Kovacic's case (None where it depends on symbols)."""
     N = 2 * sphere.ratio
-    if sphere.leading == 0:
-        return "A1 = A3: omega is rational for every ratio (case 1)", 1
-    if sign(sphere.discriminant) == 0:
-        return "x1 = x2: omega is rational for every ratio (case 1)", 1
+    for equal, value in (("A1 = A3", sphere.leading), ("x1 = x2", sphere.discriminant)):
+        if sign(value) == 0:
+            return f"{equal}: omega is rational for every ratio (case 1)", 1
     if N == 0:
         return "on a plane omega_3*sqrt(D) is constant (case 1)", 1
     return theorem_for(N)
@@ -62,10 +61,8 @@ def theorem_for(N: sp.Expr) -> tuple[str, int | None]:
         special = "; R1 = R: omega_3 = const is a solution" if N == 2 else ""
         return f"Theorem 1: N is an integer, so omega is rational (case 1){special}", 1
     if not N.is_number:
-        return (
-            f"Theorem 1 (omega rational, case 1) if {N} is an integer, else Theorem 2 (omega of degree 2, case 2)",
-            None,
-        )
+        first = f"Theorem 1 (omega rational, case 1) if {N} is an integer"
+        return f"{first}, else Theorem 2 (omega of degree 2, case 2)", None
     return "Theorem 2: N isn't an integer, so omega has degree 2 (case 2)", 2
 
 
