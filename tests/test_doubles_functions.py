@@ -148,6 +148,7 @@ PROMISES: list[tuple[Any, Any, type]] = [
     ("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0", (0.1, 20), ProductForm),
     ("y'' - x*y' + 3*y = 0", (-3, 3), ProductForm),
     ("y'' - 2*x*y' + 80*y = 0", (0, 10**7), ProductForm),  # H_40, up to 10^292
+    ("1650/(25*x^2 + 40*x + 104)^2", (-1, 1), ProductForm),  # a ball with R/R1 = 1/2, complex roots
     ("10/(x^2 + 1)^2", (-3, 3), ProductForm),  # sqrt(x^2 + 1) exp(+-3 atan x)
 ]
 

@@ -182,7 +182,8 @@ class BallOnSphere:
     @property
     def discriminant(self) -> sp.Expr:
         """The discriminant of D, -4 m R^2 A1 B; 0: a double root, x1 = x2."""
-        return settled(sp.factor(-4 * self.ball.m * self.ball.R**2 * self.ball.A1 * self.B))
+        m, R, _, A1, _ = self.ball.parameters
+        return settled(sp.factor(-4 * m * R**2 * A1 * self.B))
 
     @property
     def roots(self) -> tuple[sp.Expr, ...]:

@@ -32,7 +32,7 @@ def draw(motion: Motion, times: Array, path: Path | str, *, title: str = "") -> 
     grid = figure.add_gridspec(rows, 2, width_ratios=(1.15, 1))
     _draw_path(figure.add_subplot(grid[:, 0]), motion.contact(times), motion.ball.kappa)
     panels = [figure.add_subplot(grid[k, 1]) for k in range(rows)]
-    curves = [
+    curves: list[tuple[Any, str, str, str]] = [
         (motion.u(times), _BLUE, "u (rad)", "colatitude of the contact point on the ball, and its turning points"),
         (
             motion.omega_3(times),

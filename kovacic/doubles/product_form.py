@@ -230,8 +230,9 @@ class _Product:
             self._times(Complex(np.power(d.re, power.re.hi)), 0)  # exact but for one rounding, unlike a logarithm
             return
         if quarters is None or (d.im is not None and not natural):
-            logarithm = Complex(log(d.re))
-            if d.im is not None:
+            if d.im is None:
+                logarithm = Complex(log(d.re))
+            else:
                 logarithm = Complex(log(d.re * d.re + d.im * d.im) * Pair(0.5), angle(d * f.turn.conjugate()))
             if self.careful:
                 logarithm += Complex(log_2() * Pair(0.0 + e))
