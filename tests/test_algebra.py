@@ -225,7 +225,7 @@ def test_expansions_are_those_of_the_quotient(count: int, long: bool) -> None:
     leading = [QQ.poly([rng.randint(1, 9) for _ in range(max(k // 2, 1) * p.degree)]) for p, k in factors]
     parts = [(N + p ** max(k // 2, 1)) * (den // p**k) for N, (p, k) in zip(leading, factors, strict=True)]
     num = QQ.poly([rng.randint(1, 9) for _ in range(5)]) if long else sum(parts, QQ.poly([]))
-    for (N, q), known, (p, k) in zip(expansions(num, factors), leading, factors, strict=True):
+    for (N, q), known, (p, k) in zip(expansions(num, den, factors), leading, factors, strict=True):
         modulus = p ** max(k // 2, 1)
         assert q.gcd(p) == 1
         assert (N * (den // p**k) - num * q) % modulus == 0

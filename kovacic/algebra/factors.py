@@ -14,6 +14,8 @@ from kovacic.limits import check_time
 
 #: From so many factors of a denominator on, leading terms are tried that are short enough for so many primes.
 _MANY_FACTORS, _PRIMES = 50, 6
+#: To so few factors trees are of no use.
+_FEW_FACTORS = 12
 
 
 def product(factors: Sequence[Poly]) -> Poly:
@@ -42,15 +44,17 @@ def squarefree_factors(polynomial: Poly) -> list[tuple[Poly, int]]:
     return found
 
 
-def expansions(num: Poly, factors: Sequence[tuple[Poly, int]]) -> list[tuple[Poly, Poly]]:
+def expansions(num: Poly, den: Poly, factors: Sequence[tuple[Poly, int]]) -> list[tuple[Poly, Poly]]:
     """(N, q) for each factor p^k of den, the product of them all: num/den = N/(p^k q) + O(p^(nu - k)), nu = k/2 or 1.
 
     >>> from kovacic.algebra.rationals import QQ
     >>> x = QQ.poly([0, 1])
-    >>> [(str(N), str(q)) for N, q in expansions(x + 2, [(x, 1), (x - 1, 2)])]
+    >>> [(str(N), str(q)) for N, q in expansions(x + 2, x * (x - 1) ** 2, [(x, 1), (x - 1, 2)])]
     [('2', '1'), ('3', '1')]
     """
-    moduli = [p ** max(k // 2, 1) for p, k in factors]
+    moduli = [p if k < 4 else p ** (k // 2) for p, k in factors]
+    if len(factors) < _FEW_FACTORS:
+        return [(num % m, den // p**k % m) for (p, k), m in zip(factors, moduli, strict=True)]
     one, tree = num.field.poly([1]), products([p**k for p, k in factors])
     simple = _leading_terms(num, factors, moduli, tree) if len(factors) >= _MANY_FACTORS else None
     if simple is not None:

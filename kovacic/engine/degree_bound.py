@@ -122,13 +122,16 @@ def irregular_difference_squared(place: Place) -> Poly:
     c = -p[0] if p.degree == 1 else AlgebraicField(p.field, p).generator
     t = c.field.poly([0, 1])
     end = t**nu
-    slope = _moved(p, c, nu + 1) // t  # p = t slope
-    N, E, power = _moved(num, c, nu), _moved(cofactor, c, nu), c.field.poly([1])
-    for digit in f"{place.order:b}" if p.degree > 1 else "":
-        power = power * power * (slope if digit == "1" else 1) % end
-    E = E * power % end
-    v = (N[0] * E[0]).inverse()
-    u, root, known = N * E % end * v, c.field.poly([1]), 1
+    N, E = _moved(num, c, nu), _moved(cofactor, c, nu)
+    if p.degree > 1:
+        slope, power = _moved(p, c, nu + 1) // t, c.field.poly([1])  # p = t slope
+        for digit in f"{place.order:b}":
+            power = power * power * (slope if digit == "1" else 1) % end
+        E = E * power
+    u = N * E % end
+    v = u[0].inverse()
+    u = u * v
+    root, known = (3 - u) / 2 % t**2, 2  # Newton's first step, from 1
     while known < nu:
         known = min(2 * known, nu)
         ahead = t**known
@@ -142,7 +145,8 @@ def _moved(f: Poly, c: Poly, count: int) -> Poly:
     """f(t + c) modulo t^count, a long polynomial by halves."""
     t = c.field.poly([0, 1])
     if not c or f.degree < _FEW_TERMS or c.field == f.field:
-        return (f(t + c) if c else f) % t**count
+        moved = f(t + c) if c else f.over(c.field)
+        return moved if moved.degree < count else moved % t**count
     half = (f.degree + 1) // 2
     high, low = divmod(f, f.field.poly([0, 1]) ** half)
     return (_moved(high, c, count) * (t + c) ** half + _moved(low, c, count)) % t**count

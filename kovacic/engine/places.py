@@ -65,6 +65,8 @@ class Place:
         if self.order != 2:
             return self.num.field.poly([1]) if self.order == 1 else None
         top, cofactor = self.near
+        if self.factor.degree == 1:
+            return 4 * (top / cofactor) + 1
         bottom = self.factor.derivative() ** 2 * cofactor % self.factor
         b = top[bottom.degree] / bottom.lc
         return 4 * b + 1 if top == bottom * b else None
@@ -171,7 +173,7 @@ def analyse(S: RatFunc, budget: Budget) -> Problem:
     factors = S.field.factor(S.den) if S.den.degree > 0 else []
     places = [
         Place(factor, False, order, S.num, S.den, near, budget)
-        for (factor, order), near in zip(factors, expansions(S.num, factors) if factors else [], strict=True)
+        for (factor, order), near in zip(factors, expansions(S.num, S.den, factors) if factors else [], strict=True)
     ]
     num, den, order = at_infinity(S)
     z = S.field.poly([0, 1])

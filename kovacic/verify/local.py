@@ -116,7 +116,7 @@ def points(S: RatFunc, budget: Budget) -> list[Point]:
     """Every singular place, and infinity even if it is ordinary."""
     found, factors = list[Point](), S.field.factor(S.den) if S.den.degree else []
     if factors:
-        near = zip(factors, expansions(S.num, factors), strict=True)
+        near = zip(factors, expansions(S.num, S.den, factors), strict=True)
         found = [Point(p, k, S.num, S.den, N, q, budget) for (p, k), (N, q) in near]
     # S(1/z)/z^4 = z^-order num/den, where num and den have the coefficients of S.num and S.den in reversed order.
     x, order = S.field.poly([0, 1]), S.num.degree - S.den.degree + 4 if S.num else 0
