@@ -13,9 +13,9 @@ at; answers with parameters or with algebraic numbers in S aren't checked):
   of S, or by the absence of a rational form in the solutions (a rank modulo a prime can only be smaller than over Q) and, if
   reducible, of a single rational omega (its expansion at a place, modulo a prime, isn't that of a rational function whose
   degree the exponents allow).
-- the rational form that comes with an answer; and the group, where it is given, but for orders on curves of positive genus.
+- the rational form that comes with an answer; and the group, where it is given, unless it rests on orders modulo primes.
 
-References: J. Kovacic, J. Symb. Comp. 2 (1986); F. Ulmer & J.-A. Weil, ibid. 22 (1996); M. van Hoeij, ibid. 24 (1997).
+J. Kovacic, J. Symb. Comp. 2 (1986); F. Ulmer & J.-A. Weil, ibid. 22 (1996); M. van Hoeij, ibid. 24 (1997).
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 from itertools import chain, islice
-from math import inf, isqrt, lcm
-from operator import add, mul, truediv
+from math import inf, isqrt, lcm, prod
+from operator import add, mul
 from typing import Any
 
 from flint import Ordering, acb_poly, acb_series, arb, ctx, fmpq, fmpq_mat, fmpq_mpoly_ctx, fmpq_poly, fmpz, nmod_mat
@@ -75,19 +75,16 @@ class Value:
     """num/den in Q(c, x), in lowest terms."""
 
     def __init__(self, num: Any, den: Any = 1) -> None:
-        self.num, self.den = PLANE.constant(1) * num, PLANE.constant(1) * den
-        demand(self.den != 0, "there is no division by zero")
-        if (common := self.den if self.den.is_constant() else self.num.gcd(self.den)) != 1:
-            self.num, self.den = self.num // common, self.den // common
+        num, den = PLANE.constant(1) * num, PLANE.constant(1) * den
+        demand(den != 0, "there is no division by zero")
+        common = den if den.is_constant() else num.gcd(den)
+        self.num, self.den = num // common, den // common
 
     def __add__(self, other: Value) -> Value:
         return Value(self.num * other.den + other.num * self.den, self.den * other.den)
 
     def __mul__(self, other: Value) -> Value:
         return Value(self.num * other.num, self.den * other.den)
-
-    def __truediv__(self, other: Value) -> Value:
-        return Value(self.num * other.den, self.den * other.num)
 
     def __pow__(self, n: int) -> Value:
         leading = str(self.num.leading_coefficient()) + str(self.den.leading_coefficient())
@@ -98,7 +95,7 @@ class Value:
         """Numerator and monic denominator, of a value without c."""
         demand(self.num.degrees()[0] <= 0 and self.den.degrees()[0] <= 0, "the constants are rational")
         num, den = in_one_variable(self.num, 1), in_one_variable(self.den, 1)
-        return num / den[den.degree()], den / den[den.degree()]
+        return num / den.leading_coefficient(), den / den.leading_coefficient()
 
 
 def in_one_variable(f: Any, i: int) -> Any:
@@ -108,7 +105,8 @@ def in_one_variable(f: Any, i: int) -> Any:
 
 
 STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 3}
-OPERATIONS = {"+": add, "-": lambda a, b: a + Value(-1) * b, "*": mul, "/": truediv}
+OPERATIONS: dict[str, Callable[[Value, Value], Value]] = {"+": add, "*": mul, "-": lambda a, b: a + Value(-1) * b,
+                                                         "/": lambda a, b: a * Value(b.den, b.num)}  # fmt: skip
 
 
 def read(text: str, names: dict[str, Value]) -> Value:
@@ -254,14 +252,15 @@ def residues(phi: Value) -> list[tuple[Any, int]]:
     return [(p, int(v[0].p)) for p, v in found]
 
 
-def has_rational_integral(num: Any, den: Any) -> bool:
-    """Is num/den = (A/E)' with E = gcd(den, den')?  A linear system for A, which is unique up to multiples of E."""
+def inverse_has_an_integral(factors: list[tuple[Any, int]]) -> Any:
+    """Is 1/prod p^v = num/den = (A/E)', E = gcd(den, den')?  A linear system for A, which is unique up to multiples of E."""
+    affordable(sum(abs(v) * p.degree() for p, v in factors), "the degree of a form")
+    num, den = (prod((p ** max(s * v, 0) for p, v in factors), start=X**0) for s in (-1, 1))
     E = den.gcd(den.derivative())
     size = affordable(max(num.degree() - den.degree() + E.degree() + 2, E.degree() + 1), "the degree of a form")
     columns = [(X**i).derivative() * den - X**i * (E.derivative() * den // E) for i in range(size)] + [num * E]
     height = max(column.degree() for column in columns) + 1
-    entries = [column[k] for k in range(height) for column in columns]
-    return bool(fmpq_mat(height, size + 1, entries).rank() == size - 1)
+    return fmpq_mat(height, size + 1, [c[k] for k in range(height) for c in columns]).rank() == size - 1
 
 
 class Answer:
@@ -273,8 +272,7 @@ class Answer:
         self.num, self.den = self.S.over_q()
         affordable(max(self.num.degree(), self.den.degree()), "the degree of S")
         if data["constants"] is not None:
-            demand(data["constants"]["symbol"] not in self.names, "the variable and the constant have different names")
-            self.names[data["constants"]["symbol"]] = Value(C)
+            demand(self.names.setdefault(data["constants"]["symbol"], c := Value(C)) is c, "the names are different")
 
     @cached_property
     def places(self) -> list[Place]:
@@ -302,20 +300,20 @@ class Answer:
         demand_equal(data["status"], "none" if structure is None else "liouvillian", "the status")
         for entry in proof["excluded"]:
             self.excluded(entry["structure"], entry["evidence"])
-        form = slope = None
+        form = slope = H = None
         if structure is None:
-            beside = data["riccati"], data["constants"], proof["invariant"], proof["semi_invariant"]
-            demand(beside == (None,) * 4, "there is no solution beside a proof that there is none")
+            beside = [data["riccati"], data["constants"], proof["invariant"], proof["semi_invariant"]]
+            demand(beside == [None] * 4, "there is no solution beside a proof that there is none")
         else:
-            slope = self.solution(STRUCTURES[structure][1])
+            slope, H = self.solution(STRUCTURES[structure][1])
             if structure != "reducible" or proof["invariant"] is not None:
                 form = self.form(proof["invariant"], STRUCTURES[structure][2], C)
             demand(residues(form[0]) is not None if form else self.dimension(2) == 0, "omega is unique")
         if data.get("group") is not None:
-            family, n = self.group(structure, form, slope)
+            family, n = self.imprimitive(slope, H) if structure == "imprimitive" else self.group(structure, form)
             order = SIZES[family] * (n or 1) if family in SIZES else None
-            expected = {"order": order, "finite": order is not None, "family": family, "n": n}
-            expected["name"] = NAMES.get(f"{family}{n}", NAMES[family]).format(n=n, order=order)
+            name = NAMES.get(f"{family}{n}", NAMES[family]).format(n=n, order=order)
+            expected = {"name": name, "order": order, "finite": order is not None, "family": family, "n": n}
             for key in {"name", "order", "finite"} | (set(expected) & set(data["group"])):
                 demand_equal(data["group"][key], expected[key], f"the {key} of the group")
 
@@ -351,8 +349,7 @@ class Answer:
         room = m - sum(v * p.size for v, p in zip(valuations, self.places, strict=True))
         if room < 0:
             return 0
-        n = affordable(room + m + 6, f"the number of zeros of a form of degree {m}")
-        q = prime or PRIMES[0]
+        n, q = affordable(room + m + 6, f"the number of zeros of a form of degree {m}"), prime or PRIMES[0]
         demand(q > 2 * n and fmpz(q).is_prime(), "the modulus is a large prime")
         c = point if point is not None else next(c for c in range(LONGEST + 1) if int(reduced(self.den, q)(c)))
         den, num = reduced(self.den, q, c), reduced(self.num, q, c).left_shift(2)
@@ -367,8 +364,7 @@ class Answer:
         return m + 1 - int(nmod_mat(m + 1, n - room - 1, entries, q).rank())
 
     def no_unique_omega(self, prime: int | None, name: str) -> None:
-        """No omega in Q(x), where there is no rational form of degree 2 either, so that it would be the only one: no solution
-        has an expansion at the place, modulo a prime, with omega = A/(den B), deg B <= the number of zeros."""
+        """No omega in Q(x) that is the only one: no solution's is A/(den B) modulo a prime, deg B <= the number of zeros."""
         ramified = any(place.k > 2 and place.k % 2 for place in self.places)
         if ramified or (zeros := 1 - sum((place.exponents() for place in self.places if place.k), arb(0))) < 0:
             return
@@ -383,17 +379,15 @@ class Answer:
         count = affordable(top + degree + 12, "the number of zeros of a solution")
         for w in place.expansions(root, q, count):
             r0, r1 = nmod([1], q).left_shift(count), den.right_shift(place.nu).mul_low(w, count)
-            t0, t1 = nmod([], q), nmod([1], q)
+            t0, t1 = r0 * 0, r1**0
             while r1.degree() > top:
                 quotient, rest = divmod(r0, r1)
                 r0, r1, t0, t1 = r1, rest, t1, t0 - quotient * t1
             demand(t1.degree() > degree, "no expansion of omega is that of a rational function")
 
     def form(self, data: dict[str, Any], m: int, modulus: Any) -> tuple[Value, Any, list[Any]]:
-        """F'/F, G and N_k with prod (W - y_i'/y_i) = sum (-1)^k N_k/G^k W^(m-k) for a form F = y_1 ... y_m in the solutions.
-
-        N_0 = 1, (k + 1) N_(k+1) = G N_k' + (N_1 - k G') N_k - (m - k + 1) G^2 S N_(k-1), and N_(m+1) = 0, which is demanded.
-        """
+        """F'/F, G and N_k with prod (W - y_i'/y_i) = sum (-1)^k N_k/G^k W^(m-k) for a form F = y_1 ... y_m in the solutions:
+        N_0 = 1, (k + 1) N_(k+1) = G N_k' + (N_1 - k G') N_k - (m - k + 1) G^2 S N_(k-1), and N_(m+1) = 0, which is demanded."""
         demand_equal(data["degree"], m, "the degree of a form")
         P = read(data["P"], self.names)
         demand(P.den.is_constant(), "P is a polynomial")
@@ -406,50 +400,56 @@ class Answer:
         demand(divmod(N.pop(), modulus)[1] == 0, f"there is this form of degree {m}")
         return slope, G, N
 
-    def solution(self, n: int) -> Value:
-        """The polynomial of omega is that of a form of degree n, whose logarithmic derivative is returned."""
+    def solution(self, n: int) -> tuple[Value, ...]:
+        """The polynomial of omega is that of a form f of degree n; f'/f, and for n = 2 the discriminant, are returned."""
         constants, riccati = self.data["constants"], self.data["riccati"]
         modulus = read(constants["minimal_polynomial"], self.names).num if constants else C
-        multiplicities = [k for _, k in in_one_variable(modulus, 0).factor()[1]]
-        demand(modulus.degrees()[1] <= 0 and multiplicities == [1], "c has an irreducible polynomial")
+        powers = [k for _, k in in_one_variable(modulus, 0).factor()[1]]
+        demand(modulus.degrees()[1] <= 0 and powers == [1], "c has an irreducible polynomial")
         slope, G, N = self.form(self.proof["semi_invariant"], n, modulus)
         a = [read(text, self.names) for text in reversed(riccati["coefficients"])]
         demand(repr(riccati["degree"]) == repr(len(a) - 1) == repr(n), f"the degree of omega is {n}")
         for k in range(n + 1):
             difference = a[k].num * G**k - (-1) ** k * N[k] * a[k].den
             demand(divmod(difference, modulus)[1] == 0, "the roots of the polynomial solve omega' + omega^2 = S")
-        return slope
+        both = slope, Value(N[1] ** 2 - 4 * N[2], G**2) if n == 2 else slope
+        return tuple(Value(divmod(v.num, modulus)[1], divmod(v.den, modulus)[1]) for v in both)
 
-    def group(self, structure: str | None, form: Any, slope: Any) -> tuple[str, int | None]:
-        """The family of the group and its parameter; `slope` is the sum of the conjugates of omega."""
-        differences: list[Any] = [None if place.k > 2 else place.difference for place in self.places]
+    def imprimitive(self, slope: Any, H: Any) -> tuple[str, int | None]:
+        """The family of an imprimitive group and n, by slope = f'/f, f = y1 y2, and eta = sqrt(H) dx = d log(y1/y2)."""
+        if any(place.difference is None for place in self.places):  # a local monodromy has infinite order
+            return "infinite dihedral", None
+        if slope.den.degrees()[0] + slope.num.degrees()[0] > 0:  # the conjugates of f are more products of solutions
+            return "dicyclic", 2
+        num, den = H.over_q()
+        e = den.degree() - num.degree() - 4  # the valuation at infinity
+        branched = sum(p.degree() for f in (num, den) for p, k in f.factor()[1] if k % 2) + e % 2
+        if branched == 2:  # genus 0: n is the denominator of the residues of eta
+            poles = (p for p in self.places if (e == -2 if p.infinite else den % p.p**2 == 0))
+            return "dicyclic", lcm(*(place.difference.q for place in poles))
+        if e != -2 and all(k == 1 for _, k in den.factor()[1]):  # a differential of the first kind
+            return "infinite dihedral", None
+        if not self.data["group"].get("form"):
+            raise NotImplementedError("the order of a group on a curve of positive genus")
+        demand(type(n := self.data["group"]["n"]) is int and n > 0, "the group has an order")
+        F = self.form(self.data["group"]["form"], affordable(2 * n, "the degree of a form"), C)[0]
+        demand(residues(F) is not None and (F + Value(-n) * slope).num != 0, "the group has a form beside f^n")
+        smaller = (n // int(p) for p, _ in fmpz(n).factor())
+        demand(all(self.dimension(2 * j) <= (j + 1) % 2 for j in smaller), "n is the least")
+        return "dicyclic", n
+
+    def group(self, structure: str | None, form: Any) -> tuple[str, int | None]:
+        """The family of a group that isn't imprimitive, and its parameter."""
         if structure is None or structure in ORDERS:
             return structure or "SL2", None
-        if structure == "imprimitive":
-            if None in differences:  # a local monodromy of infinite order makes the group infinite
-                return "infinite dihedral", None
-            if self.data["constants"] is not None:
-                raise NotImplementedError("an imprimitive group where omega has irrational constants")
-            values = residues(Value(2) * slope)  # the orders of f^2, f = y1 y2, f'/f = slope
-            orders = [sum(v for p, v in values if p == place.p) for place in self.places[:-1]]
-            zeros = sum(int(p.degree()) * v for p, v in values if all(p != place.p for place in self.places[:-1]))
-            orders.append(4 - zeros - sum(e * place.size for e, place in zip(orders, self.places, strict=False)))
-            branched = sum(place.size for e, place in zip(orders, self.places, strict=True) if e % 2)
-            poles = [d.q for e, d in zip(orders, differences, strict=True) if e == 2]
-            if branched > 2 and (poles or zeros):
-                raise NotImplementedError("the order of a group on a curve of positive genus")
-            return ("dicyclic", lcm(*poles)) if branched == 2 else ("infinite dihedral", None)
+        differences = [place.difference for place in self.places]
         # The residues of omega are exponents, (1 + d)/2 or (1 - d)/2, and whole numbers; or it has other poles.
         n = None if None in differences else lcm(*(((1 + d) / 2).q for d in differences))
         if form is None:
             return ("borel", None) if n is None else ("additive", n)
         if form[2][1] * form[2][1] != 4 * form[2][2]:  # F has two different factors
             return ("multiplicative", None) if n is None else ("cyclic", n)
-        num = den = fmpq_poly([1])
-        for p, v in residues(form[0]):
-            affordable(abs(v) * p.degree(), "the degree of a form")
-            num, den = num * p ** max(-v, 0), den * p ** max(v, 0)
-        return "cyclic" if has_rational_integral(num, den) else "additive", n
+        return "cyclic" if inverse_has_an_integral(residues(form[0])) else "additive", n
 
 
 def verdict(line: str) -> str:

@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 import strategies
+import transform
 from forged import forged_evidence
 from hypothesis import given, settings
 from published import Published, load
@@ -21,6 +22,7 @@ from published import Published, load
 import kovacic
 from kovacic import checker
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.decision import Decision, Exclusion, NoInvariant, Structure
 from kovacic.limits import Budget
 from kovacic.solution import Solution
@@ -34,7 +36,6 @@ SOLVABLE = [entry for entry in PUBLISHED if entry.case is not None]
 #: What the checker may leave unchecked, and says so.
 REASONS = (
     "not checked: the order of a group on a curve of positive genus",
-    "not checked: an imprimitive group where omega has irrational constants",
     "not checked: the number of zeros of a solution is too large",
     "not checked: the number of zeros of a form of degree",
 )
@@ -198,6 +199,64 @@ def edited(text: str, **changes: Any) -> str:
             inner = inner[int(key) if key.isdigit() else key]
         inner[int(last) if last.isdigit() else last] = value
     return checker.verdict(json.dumps(data))
+
+
+def on_a_curve() -> str:
+    """A line for the group of order 20 on y^2 = x^5 + 1, u = (y - 1)/(y + 1), shown by a form of degree 10."""
+    x = RatFunc(QQ.poly([0, 1]))
+    answer = solve(transform.from_squared_product(x**2 * (x**5 + 1), 1))
+    return json.dumps({**to_dict(answer), "group": group_dict(answer)})
+
+
+def test_an_order_on_a_curve_of_genus_two_is_checked() -> None:
+    line = on_a_curve()
+    group = json.loads(line)["group"]
+    assert (group["name"], group["n"], group["form"]["degree"]) == ("dicyclic of order 20", 5, 10)
+    assert checker.verdict(line) == "checked"
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"n": 10, "order": 40, "name": "dicyclic of order 40"},
+        {"n": 1, "order": 4, "name": "dicyclic of order 4"},
+        {"order": 24},
+        {"n": True},
+        {"n": 5.0},
+        {"n": 0},
+        {"n": None},
+        {"family": "infinite dihedral", "n": None, "order": None, "finite": False, "name": "N(T)"},
+        {"form": {"degree": 10, "theta": "0", "P": "1"}},
+        {"form": {"degree": 10, "theta": "0", "P": "0"}},
+        {"form": {"degree": 10, "theta": "5/x + 25*x**4/(2*x**5 + 2)", "P": "1"}},  # f^5
+        {"form": {"degree": 8, "theta": "0", "P": "1"}},
+        {"form": {"degree": 10}},
+        {"form": "x"},
+    ],
+    ids=str,
+)
+def test_another_group_on_a_curve_of_genus_two_is_refuted(change: dict[str, Any]) -> None:
+    data = json.loads(on_a_curve())
+    data["group"] |= change
+    assert checker.verdict(json.dumps(data)).startswith("refuted: ")
+
+
+def test_a_power_of_the_form_doesnt_make_the_order_larger() -> None:
+    data = json.loads(on_a_curve())
+    shown = data["group"]["form"]
+    for k in (2, 3):
+        power = {"degree": 10 * k, "theta": f"{k}*({shown['theta']})", "P": f"({shown['P']})**{k}"}
+        data["group"] |= {"n": 5 * k, "order": 20 * k, "name": f"dicyclic of order {20 * k}", "form": power}
+        assert checker.verdict(json.dumps(data)).startswith("refuted: it isn't shown that n is the least")
+
+
+def test_a_quaternion_group_with_irrational_constants_is_checked() -> None:
+    line = kovacic.solve("-27*x/(8*(x^3-2)^2)").to_json(full=True)
+    assert checker.verdict(line) == "checked"
+    data = json.loads(line)
+    for n in (1, 3, 4):
+        data["group"] |= {"n": n, "order": 4 * n, "name": f"dicyclic of order {4 * n}"}
+        assert checker.verdict(json.dumps(data)).startswith("refuted: ")
 
 
 def form(degree: int, theta: str, P: str = "1") -> dict[str, Any]:
