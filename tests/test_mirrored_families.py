@@ -66,3 +66,28 @@ def test_lame_in_n_and_its_accessory_parameter() -> None:
     assert all(line.startswith("n or -n - 1 = ") for line in lines)
     for number, B in ((1, -3), (1, 1), (1, 2), (1, 5), (2, -6), (2, 9), (2, 10)):
         assert answer.case_at({"n": number, "B": B}) == answer.case_at({"n": -number - 1, "B": B})
+
+
+@pytest.mark.parametrize(
+    ("S", "line"),
+    [
+        ("a*x^2 + c + l*(l+1)/x^2 + x^6", "l = 0 or -1, and a = +-(2*d + 3), d in N, and Delta_d = 0: case 1"),
+        ("-E - a/x + l*(l+1)/x^2 + x", "l = 0 or -1: no Liouvillian solution"),
+    ],
+)
+def test_regions_that_a_symmetry_exchanges_are_one_line(S: str, line: str) -> None:
+    """l (l + 1) is the same for l = 0 and l = -1, and so is what is said of both; nothing else is merged."""
+    answer = kovacic.conditions(S, var="x")
+    lines = [text.strip() for text in str(answer).splitlines()]
+    assert line in lines
+    separate = [str(region.statement) for region in answer.regions]
+    assert "l = 0" in separate or any(text.startswith("l = 0, and") for text in separate)
+    assert not any(text.startswith(("l = -1", "(l")) for text in lines)
+
+
+def test_blocks_that_differ_stay_apart() -> None:
+    """n (n - 2) is the same for n = 0 and n = 2, but not n b."""
+    text = str(kovacic.conditions("n*(n-2)/x^2 + n*b/(x-1)^2 + x^2", var="x"))
+    assert "  n = 2, and b = " in text
+    assert "n = 0 or 2, and" not in text
+    assert "n = 2 or 0, and" not in text

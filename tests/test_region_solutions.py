@@ -10,6 +10,7 @@ import sympy
 
 import kovacic
 from kovacic.cli.main import main
+from tests.test_symmetric_conditions import pulled_back
 
 R = sympy.Rational
 x = sympy.Symbol("x")
@@ -46,6 +47,68 @@ def test_every_solution_with_a_natural_degree_solves_the_equation(S: str, values
         value = (y.diff(x, 2) - known * y).subs(x, R(13, 7)).evalf(30)
         assert abs(value) < sympy.Float("1e-20") * abs(y.subs(x, R(13, 7)).evalf(30))
     assert natural
+
+
+@pytest.mark.parametrize(
+    ("S", "d", "values"),
+    [
+        ("x^4 + a*x^2 + b*x + c", 1, {"a": 2}),
+        ("x^6 + a*x^2 + b", 2, {}),
+        ("a*x^4 + b*x^2 + c + x^6", 2, {"a": R(2, 3)}),
+        ("g*x^4 + b*x + c", 1, {"b": R(3, 2)}),
+        ("l*(l+1)/x^2 + a*x^2 + c + x^6", 2, {"l": R(3, 7)}),
+        (
+            "e^2/4 + A/x + B/(x-1) + (a^2-1)/(4*x^2) + (b^2-1)/(4*(x-1)^2)",
+            1,
+            {"a": R(1, 3), "b": R(2, 5), "e": R(3, 2)},
+        ),
+    ],
+)
+def test_solutions_with_a_determinant_solve_the_equation_where_it_vanishes(
+    S: str, d: int, values: dict[str, Any]
+) -> None:
+    """At a point that is found from the printed conditions, by derivatives to 30 digits."""
+    region = next(r for r in kovacic.conditions(S, var="x").regions if r.determinants and r.solution(d))
+    given = {sympy.Symbol(name): value for name, value in values.items()}
+    checked = 0
+    for solution in region.solution(d):
+        sides = [text.replace("^", "**").split(" = ") for text in solution.where.split(" or ")[0].split(", ")]
+        equations = [(sympy.sympify(a) - sympy.sympify(b)).subs(given) for a, b in sides]
+        for point in sympy.solve(equations, dict=True)[:2]:
+            y, known = (f.subs(given).subs(point) for f in (solution.y, sympy.sympify(S.replace("^", "**"))))
+            value = (y.diff(x, 2) - known * y).subs(x, R(13, 7)).evalf(30)
+            assert abs(value) < sympy.Float("1e-20") * abs(y.subs(x, R(13, 7)).evalf(30))
+            checked += 1
+    assert checked
+
+
+def test_the_quartic_has_the_solutions_of_its_paper() -> None:
+    """y = (x + (4 c - a^2)/8) exp(-x^3/3 - a x/2) for b = -4 [Acosta-Humanez & Blazquez-Sanz 2008]."""
+    region = kovacic.conditions("x^4 + a*x^2 + b*x + c", var="x").regions[0]
+    a, c = sympy.symbols("a c")
+    first = region.solution(1)[0]
+    assert sympy.simplify(first.y - (x + (4 * c - a**2) / 8) * sympy.exp(-(x**3) / 3 - a * x / 2)) == 0
+    assert first.where == "b = -4, a^4 - 8*a^2*c + 32*a + 16*c^2 = 0"
+    assert {solution.where for solution in region.solution(0)} == {"b = -2, a^2 - 4*c = 0", "b = 2, a^2 - 4*c = 0"}
+
+
+@pytest.mark.parametrize(
+    ("S", "values"),
+    [
+        (pulled_back(2, "p", "q", "r"), {"p": R(1, 3), "q": R(1, 5), "r": R(53, 15)}),
+        (pulled_back(3, "p", "q", "r"), {"p": R(1, 3), "q": R(1, 5), "r": R(53, 15)}),
+        # exponent differences m at the conjugate points, n at infinity
+        ("-(1-m^2)*(2*x^2+4)/(4*(x^2-2)^2) - (2*m^2-n^2-1)/(4*(x^2-2))", {"m": R(1, 3), "n": R(17, 3)}),
+        ("-(1-m^2)*(2*x^2-6)/(4*(x^2+3)^2) - (2*m^2-n^2-1)/(4*(x^2+3))", {"m": R(1, 3), "n": R(17, 3)}),
+        # l, m, n at 1, 2, 4, and infinity is an ordinary point
+        (
+            "(-3*(1-l^2)/(x-1) + 2*(1-m^2)/(x-2) - 6*(1-n^2)/(x-4))/(4*(x-1)*(x-2)*(x-4))",
+            {"l": R(1, 3), "m": R(1, 5), "n": R(53, 15)},
+        ),
+    ],
+)
+def test_quotients_and_conjugate_poles_have_solutions(S: str, values: dict[str, Any]) -> None:
+    test_every_solution_with_a_natural_degree_solves_the_equation(S, values)
 
 
 def test_hydrogen_has_its_wave_functions() -> None:

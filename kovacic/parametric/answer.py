@@ -233,7 +233,7 @@ class Conditions:
 
     def latex(self) -> str:
         """The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values."""
-        rows = [rf"\text{{{r.verdict}}} & {r.statement.latex()}" for r in self.regions if r.defined]
+        rows = [rf"\text{{{r.verdict}}} & {r.statement.latex()}" for r in in_one_line(self.regions) if r.defined]
         rows.append(rf"\text{{{self.generic}}} & \text{{{self._where_generic}}}")
         left = f"y'' = \\left({as_latex(self.S, self.variable)}\\right) y"
         return left + r"\colon\quad \begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
@@ -282,7 +282,10 @@ class Conditions:
         for region in self.regions:
             lines += ["", f"{region.statement.text()}: {region.verdict if region.defined else region.group}"]
             lines += [f"  {region.omega}"] if region.omega else []
-            lines += [f"  {solution}" for solution in region.solution()]
+            known = [*region.solution(), *(s for d in range(len(region.determinants)) for s in region.solution(d))]
+            lines += [f"  {solution}" for solution in known]
+            if not known and region.case == 1 and not region.omega:
+                lines.append(f"  {region.why_no_solution}")
         return "\n".join(lines)
 
     def __str__(self) -> str:

@@ -25,12 +25,14 @@ from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.exponents import with_degree
 from kovacic.parametric.formulas import Notation, equation_written, shown, written
 from kovacic.parametric.functions import Coset, degrees, irreducible_factors, over_parameters
 from kovacic.parametric.integers import LETTERS, free_letter, rational_roots
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import UndefinedError, at_point, on_hypersurface, rational_curve
-from kovacic.parametric.search import NaturalNumber, form_conditions, with_degree
+from kovacic.parametric.search import NaturalNumber, form_conditions
+from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
 from kovacic.parametric.spectra import alternatives
 from kovacic.parametric.statements import Point, Statement
 
@@ -119,13 +121,34 @@ class Natural(Statement):
         m, problem = self.number.m, analyse(S, Budget())
         found: list[RankConditions] | None = None
         if isinstance(problem.S.num, FunctionPoly):
-            found = [form_conditions(problem, m)] if m > 1 else with_degree(problem, number)
+            of_degree = with_degree(problem, number) if m == 1 else [(None, form_conditions(problem, m))]
+            found = None if of_degree is None else [c for _, c in of_degree]
         determinants = []
         for c in found if found is not None else [RankConditions(complete=False)]:
             factors = (zero,) if c.deficient and m == 1 else c.polynomials if c.complete else None
             determinants.append(Determinant(exponents, factors, c.system or None if factors is None else None))
         curve = rational_curve(exponents)
         return determinants if curve is None else [determinant.rewritten(curve.back) for determinant in determinants]
+
+    def solutions(self, variable: str, number: int | None) -> tuple[PolynomialSolution, ...]:
+        """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""
+        found: list[PolynomialSolution | None] = []
+        if number is None or self.number.m > 1:
+            return ()
+        for exponents in dict.fromkeys(
+            e for f in self.number.factors for e in irreducible_factors(f(Fraction(number)))
+        ):
+            S, equation = on_hypersurface(self.S, exponents).S, equation_written(exponents)
+            if not isinstance(S.num, FunctionPoly) or rational_curve(exponents) is not None:
+                continue
+            for choice, c in with_degree(analyse(S, Budget()), number) or ():
+                conditions = " = 0 or ".join(map(shown, c.polynomials))
+                if c.system and not c.complete:
+                    conditions = " = 0, ".join(map(shown, c.system))
+                if c.deficient or conditions:
+                    where = equation if c.deficient else f"{equation}, {conditions} = 0"
+                    found.append(solution_of_degree(S, choice, number, variable, where))
+        return tuple(solution for solution in found if solution is not None)
 
     def shown_determinant(self, number: int) -> str:
         """In one line: one polynomial where it is the same for all exponents that give the number."""

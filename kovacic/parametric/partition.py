@@ -104,15 +104,16 @@ def _kimura(problem: Problem, found: quotient.Quotient | None, expected: Verdict
     theory = f"at most three regular {points}: Kimura's theorem"
     regions = _degenerate(problem.S, generic.confluence(problem), settings)
     always = Verdict(None)
-    for structure, statements, family in quotient.structures(found or quotient.Quotient(problem, 1, settings.variable)):
+    equation = found or quotient.Quotient(problem, 1, settings.variable)
+    for structure, statements, family in quotient.structures(equation):
         verdict = Verdict(structure, family=family)
         if statements is True:
             always = verdict
             break
         omega, origin = _SEMI_INVARIANTS[structure], None
-        if structure is Structure.REDUCIBLE and found is None:
-            omega = riemann.omega(problem, settings.variable)
-            origin = partial(jacobi_solutions, problem, settings.variable)
+        if structure is Structure.REDUCIBLE:
+            origin = partial(jacobi_solutions, equation, settings.variable)
+            omega = riemann.omega(problem, settings.variable) if found is None else omega
         regions.append(Condition(either(statements), verdict, omega=omega, origin=origin))
     return _closed(regions, always, theory, expected)
 
@@ -182,7 +183,9 @@ def _by_candidates(problem: Problem, expected: Verdict, settings: Settings) -> P
         if structure is not expected.structure and (expected.structure is None or structure is Structure.REDUCIBLE):
             primitive = "binary tetrahedral, octahedral or icosahedral" if structure.case == 3 else None
             verdict = Verdict(structure, family=primitive)
-            regions.append(Condition(Natural(problem.S, number), verdict, omega=_SEMI_INVARIANTS[structure]))
+            statement, omega = Natural(problem.S, number), _SEMI_INVARIANTS[structure]
+            origin = partial(statement.solutions, settings.variable)
+            regions.append(Condition(statement, verdict, omega=omega, origin=origin))
     return Partition(expected, _together(regions) if complete is True else complete, findings.theory, tuple(regions))
 
 

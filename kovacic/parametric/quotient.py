@@ -35,11 +35,15 @@ Statements = Literal[True] | list[Statement]
 
 @dataclass(frozen=True)
 class Quotient:
-    """The equation in z = (x - c)^n; `coordinate` is z in words."""
+    """The equation in z = (x - c)^n; `base` is x - c in words, and `coordinate` z."""
 
     problem: Problem
     n: int
-    coordinate: str
+    base: str
+
+    @property
+    def coordinate(self) -> str:
+        return f"{self.base}^{self.n}"
 
 
 def recognise(problem: Problem, variable: str) -> Quotient | None:
@@ -59,7 +63,7 @@ def recognise(problem: Problem, variable: str) -> Quotient | None:
     if not riemann.applies(quotient):
         return None
     base = variable if not center else f"({variable} - ({shown(RatFunc(center))}))"
-    return Quotient(quotient, n, f"{base}^{n}")
+    return Quotient(quotient, n, base)
 
 
 def structures(quotient: Quotient) -> Iterator[tuple[Structure, Statements, str | None]]:

@@ -6,10 +6,10 @@ f(N) for integers N in given classes, that an earlier family g(M) takes as well,
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from itertools import count
+from itertools import count, groupby
 from typing import Any
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
@@ -93,19 +93,39 @@ class Condition:
     defined: bool = True
     omega: str | None = None
     determinants: tuple[str, ...] = ()
-    origin: Callable[[], tuple[PolynomialSolution, ...]] | None = field(default=None, compare=False)
+    origin: Callable[[int | None], tuple[PolynomialSolution, ...]] | None = field(default=None, compare=False)
 
-    def solution(self) -> tuple[PolynomialSolution, ...]:
+    def solution(self, number: int | None = None) -> tuple[PolynomialSolution, ...]:
         """Solutions of y'' = S y for all parameters of the region at once, with the degree d that has to be a natural number.
 
-        They contain Laguerre or Jacobi polynomials of degree d, as SymPy's functions; () where they aren't known.
+        They contain Laguerre or Jacobi polynomials of degree d, as SymPy's functions.  Where the condition has a determinant
+        Delta_d in it they are given for one d, the `number`: the coefficients of P are functions of the parameters, and y is a
+        solution where `where` holds.  () where no formula is known; `why_no_solution` says why.
 
         >>> import kovacic
         >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").regions[0]
         >>> bessel.solution()[0].degree
         -n - 1/2
+        >>> sextic = kovacic.conditions("x^6 + a*x^2 + b", var="x").regions[0]
+        >>> print(sextic.solution(0)[0])
+        y = exp(-x**4/4) where a = -3, b = 0
         """
-        return () if self.origin is None else self.origin()
+        return () if self.origin is None else self.origin(number)
+
+    @property
+    def why_no_solution(self) -> str:
+        """A sentence for a region whose solutions have no formula in all of its parameters."""
+        if self.verdict.case is None or not self.verdict.known or not self.defined:
+            return f"nothing is solved where the answer is: {self.verdict if self.defined else self.group}"
+        if self.verdict.case > 1:
+            return f"omega is algebraic of degree {self.verdict.case} or more, and depends on the values: solve_at gives it"
+        if self.origin is None:
+            return "omega follows from the values, or from the equation on this part: solve_at, or assume them"
+        return (
+            "a formula for each natural number: solution(d)"
+            if self.determinants
+            else "the exponents aren't rational here"
+        )
 
     @property
     def case(self) -> int | None:
@@ -133,10 +153,33 @@ class Condition:
         return "\n      ".join([first, *self.determinants])
 
 
+def _mirrored(regions: Sequence[Condition]) -> Iterator[Condition]:
+    """The regions, with those of n = 0 and n = -1 in one where what is said in all of them is the same.
+
+    Regions in a row that begin with the same vanishing function are a block.  Two blocks in a row that differ in that function
+    alone mean the same as one of either: at a point of both, the first of their common conditions that holds decides.
+    """
+    merged: list[tuple[list[Statement], list[Condition]]] = []
+    for first, group in groupby(regions, key=lambda region: both(region.statement).parts[0]):
+        block = [replace(region, statement=Both(both(region.statement).parts[1:])) for region in group]
+        said = [replace(region, omega=None) for region in block]
+        last = (
+            merged[-1] if merged and isinstance(first, Vanishes) and isinstance(merged[-1][0][-1], Vanishes) else None
+        )
+        if last is not None and [replace(region, omega=None) for region in last[1]] == said:
+            last[0].append(first)
+        else:
+            merged.append(([first], block))
+    for firsts, block in merged:
+        for region in block:
+            parts = (either(firsts), *both(region.statement).parts)
+            yield replace(region, statement=Both(parts) if len(parts) > 1 else parts[0])
+
+
 def in_one_line(regions: Sequence[Condition]) -> list[Condition]:
     """The regions, with those in a row that have the same case in one, where that is short."""
     found: list[Condition] = []
-    for region in regions:
+    for region in _mirrored(regions):
         last = found[-1] if found else None
         if last is not None and last.plain and region.plain and last.case == region.case:
             together = last.statement.merged(region.statement)

@@ -162,14 +162,14 @@ def squares_of_differences(problem: Problem) -> FunctionPoly:
     cubic = field.poly([1])
     for place in problem.places:
         if place.kind is not Kind.ORDINARY:
-            cubic = cubic * characteristic_polynomial(_difference_squared(place), place.factor)
+            cubic = cubic * characteristic_polynomial(difference_squared(place), place.factor)
     one = field.poly([-1, 1])
     while cubic.degree < 3:
         cubic = cubic * one
     return over_parameters(cubic)
 
 
-def _difference_squared(place: Place) -> Poly:
+def difference_squared(place: Place) -> Poly:
     """1 + 4b in K[x]/p."""
     if place.delta_squared is not None:
         return place.delta_squared

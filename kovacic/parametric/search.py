@@ -16,10 +16,8 @@ from dataclasses import dataclass, field
 from itertools import product
 from math import lcm, prod
 
-from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine import invariants
 from kovacic.engine.degree_bound import irregular_difference_squared
@@ -27,6 +25,7 @@ from kovacic.engine.places import Kind, Place, Problem
 from kovacic.engine.riccati import Form, singular_part
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
+from kovacic.parametric.exponents import with_degree
 from kovacic.parametric.functions import over_parameters, union
 from kovacic.parametric.ranks import RankConditions, rank_conditions
 
@@ -189,90 +188,10 @@ def _reducible(problem: Problem, findings: Findings) -> None:
             continue
         root = field.rational_value(-factor[0]) if factor.degree == 1 else None
         found = None if root is None else with_degree(problem, int(root))
-        if found is None or sum(map(findings.add, found)) < len(found):
+        if found is None or sum(findings.add(conditions) for _, conditions in found) < len(found):
             factors.append(over_parameters(factor))
     if factors:
         findings.natural.append(NaturalNumber(1, tuple(factors), Structure.REDUCIBLE))
-
-
-def with_degree(problem: Problem, d: int) -> list[RankConditions] | None:
-    """Conditions for a P of this degree, for each choice of exponents that gives it.
-
-    theta is rational over Q(t), or over Q(t) with one square root; None where it isn't.
-    """
-    roots = _roots(problem)
-    if roots is None:
-        return None
-    field, of_places = roots
-    S = RatFunc(problem.S.num.over(field), problem.S.den.over(field))
-    x, zero = field.poly([0, 1]), field.poly([])
-    choices = [_local_parts(place, S, root) for place, root in of_places]
-    found = []
-    for choice in product(*choices):
-        theta = sum((part for part, _ in choice), RatFunc(zero))
-        if field.rational_value(1 - sum((exponent for _, exponent in choice), zero)) != d:
-            continue
-        zeroth = theta.derivative() + theta * theta - S
-        common = theta.den * zeroth.den
-        images = []
-        for power in range(d + 1):
-            P = x**power
-            image = ((P.derivative().derivative() + zeroth * P + 2 * theta * P.derivative()) * common).num
-            images += [image] if isinstance(field, FunctionField) else [image, image * field.generator]
-            check_time()
-        found.append(rank_conditions(images, problem))
-    return found
-
-
-def _roots(problem: Problem) -> tuple[FunctionField | AlgebraicField, list[tuple[Place, Poly]]] | None:
-    """The square root at each place that its two exponents differ by, and a field that contains them all.
-
-    That is the exponent difference, or the root of the leading coefficient.  None where one root of a square isn't enough.
-    """
-    base = problem.field
-    assert isinstance(base, FunctionField)
-    field: FunctionField | AlgebraicField = base
-    found: list[tuple[Place, Poly]] = []
-    for place in problem.places:
-        if place.kind is Kind.ORDINARY:
-            continue
-        if place.degree > 1:
-            return None
-        square = place.delta_squared if place.kind is Kind.REGULAR else _at_infinity(place, problem.S).lc
-        root = None if square is None else field.sqrt(square.over(field))
-        if root is None and square is not None and field == base:
-            field = AlgebraicField(base, base.poly([-square, 0, 1]), "root")
-            root = field.generator
-        if root is None:
-            return None
-        found.append((place, root))
-    return field, [(place, root.over(field)) for place, root in found]
-
-
-def _at_infinity(place: Place, S: RatFunc) -> Poly:
-    """The polynomial part of z S(z), where v'' = S(z) v is the equation in a coordinate in which the place is infinity."""
-    x = S.field.poly([0, 1])
-    if not place.at_infinity:  # v(z) = z y(c + 1/z)
-        S = S(RatFunc(1 - place.factor[0] * x, x)) / RatFunc(x**4)
-    return S.num * x // S.den
-
-
-def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[tuple[RatFunc, Poly]]:
-    """The two local parts of theta, with the exponents."""
-    x, factor = root.field.poly([0, 1]), place.factor.over(root.field)
-    inverse = RatFunc(root.field.poly([1]), factor)
-    if place.kind is Kind.REGULAR:
-        exponents = [(1 + root) / 2, (1 - root) / 2]
-        return [(inverse * (0 if place.at_infinity else e), e) for e in exponents]
-    n, quotient = place.order // 2 - 2, _at_infinity(place, S)
-    main = root * x**n  # S - main^2 = b x^(n-1) + ..., and omega = +-main + e/x + ... with e = (+-b/a - n)/2
-    for k in range(1, n + 1):
-        main = main + (quotient - x * main * main)[2 * n - k + 1] / (2 * root) * x ** (n - k)
-    ratio = (quotient - x * main * main)[n] / root
-    parts = [(sign, 1 - (sign * ratio - n) / 2) for sign in (1, -1)]
-    if place.at_infinity:
-        return [(RatFunc(sign * main), e) for sign, e in parts]
-    return [(inverse * e - RatFunc(main)(inverse) * inverse * inverse * sign, e) for sign, e in parts]
 
 
 def _imprimitive(problem: Problem, findings: Findings) -> None:

@@ -143,7 +143,17 @@ class Either(_Several):
 
     def written(self, *, latex: bool) -> str:
         word, before = (r" \text{ or } ", r" \text{ for ") if latex else (" or ", " for ")
-        return joined([part.written(latex=latex) for part in self.parts], word, before)
+        texts = [part.written(latex=latex) for part in self.parts]
+        if self.is_about_one_value:
+            head, values = texts[0].partition(" = ")[0], [text.partition(" = ")[2] for text in texts]
+            return f"{head} = {', '.join(values[:-1])}{word}{values[-1]}"
+        return joined(texts, word, before)
+
+    @property
+    def is_about_one_value(self) -> bool:
+        """Is it "n = 0 or -1"?"""
+        heads = {part.text().partition(" = ")[0] for part in self.parts}
+        return len(heads) == 1 and all(isinstance(part, Vanishes) for part in self.parts)
 
 
 class Both(_Several):
@@ -168,7 +178,8 @@ class Both(_Several):
     def written(self, *, latex: bool) -> str:
         texts = [part.written(latex=latex) for part in self.parts]
         brackets = (r"\left({}\right)" if latex else "({})") if len(texts) > 1 else "{}"
-        texts = [brackets.format(t) if isinstance(p, Either) else t for p, t in zip(self.parts, texts, strict=True)]
+        ambiguous = [isinstance(part, Either) and not part.is_about_one_value for part in self.parts]
+        texts = [brackets.format(t) if several else t for several, t in zip(ambiguous, texts, strict=True)]
         return (r" \text{ and } " if latex else ", and ").join(texts)
 
 
