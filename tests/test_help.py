@@ -47,7 +47,7 @@ def run(example: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.Mo
 
 
 #: The derivation of the ball's equations and its motion, which take seconds.
-LONG = [pytest.param("ball", 1, 3, marks=pytest.mark.slow)]
+LONG = [pytest.param("ball", 1, 4, marks=pytest.mark.slow)]
 
 
 @pytest.mark.parametrize(
@@ -73,6 +73,11 @@ def test_the_examples_run(
         assert output or written, example
         for name in written:
             assert Path(name).stat().st_size > 0, example
+
+
+@pytest.mark.parametrize("command", ["", *main.COMMANDS])
+def test_help_fits_on_a_screen_of_80_columns(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert max(map(len, shown(capsys, *filter(None, [command])).splitlines())) <= 80
 
 
 def test_the_examples_of_the_program_run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:

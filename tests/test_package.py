@@ -28,6 +28,9 @@ def names(requirements: list[str]) -> set[str]:
 
 def test_the_version_is_the_same_everywhere() -> None:
     assert f"version: {kovacic.__version__}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f'{{% set version = "{kovacic.__version__}" %}}' in (ROOT / ".ci/conda/meta.yaml").read_text(
+        encoding="utf-8"
+    )
     headings = re.findall(r"^## (\S+)", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
     assert headings[0] == kovacic.__version__
 

@@ -51,8 +51,9 @@ def command(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
 
     \b
     kovacic ball --ratio 3/2
-    kovacic ball --mass 1 --radius 2 --offset 1/5 --A1 1 --A3 4/3 --sphere 3 --explain
-    kovacic ball --mass 1 --radius 1 --offset 1/5 --A1 1/4 --A3 1/3 --sphere 3 --simulate --plot path.png
+    kovacic ball --mass 1 --radius 2 --offset 1/5 --A1 1 --A3 4/3 --sphere 3
+    kovacic ball --mass 1 --radius 1 --sphere 3 --explain
+    kovacic ball --mass 1 --radius 1 --sphere 3 --simulate --plot path.png
     """
     data = _by_ratio(latex, **given) if given["ratio"] is not None else _by_parameters(latex, **given)
     if explain:

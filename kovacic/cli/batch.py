@@ -42,7 +42,7 @@ def command(
 
     \b
     kovacic batch equations.jsonl -o answers.jsonl --timeout 10 --memory 500
-    kovacic batch equations.jsonl -o answers.jsonl --timeout 10 --memory 500 --resume
+    kovacic batch equations.jsonl -o answers.jsonl --timeout 10 --resume
     generate | kovacic batch - --as-finished | jq .case
 
     Exit status: 0 all decided, 3 some undecided, 2 some bad input, 4 a self-check or a process failed, 5 the output can't

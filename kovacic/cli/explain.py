@@ -32,7 +32,7 @@ def command(equations: tuple[str, ...], form: str, cite: bool, no_solutions: boo
 
     \b
     kovacic explain "x^2 + 3"
-    kovacic explain --format html "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0" > bessel.html
+    kovacic explain --format html "x^2*y'' + x*y' + (x^2-1/4)*y = 0" > bessel.html
     """
 
     def show(answer: Solution) -> tuple[str]:

@@ -49,9 +49,10 @@ def command(
 
     \b
     kovacic scan "(4*n^2-1)/(4*x^2)-1" n=0:10:1/4 --format csv
-    kovacic scan "1/4 - k/x + (4*m^2-1)/(4*x^2)" k=-3:3:1/4 m=0:3:1/4 -o whittaker.jsonl --map whittaker.png
+    kovacic scan "1/4 - k/x + (4*m^2-1)/(4*x^2)" k=-3:3:1/4 m=0:3:1/4 --map w.png
 
-    Exit status: 0 all decided, 3 some undecided, 2 some points where S isn't defined, 4 a self-check or a process failed.
+    Exit status: 0 all decided, 3 some undecided, 2 some points where S isn't defined, 4 a self-check or a process failed,
+    5 the output can't be written.
     """
     from kovacic.batch.map import draw_map
     from kovacic.batch.scan import parse_grid, scan_items
