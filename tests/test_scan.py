@@ -7,6 +7,7 @@ import io
 import json
 import subprocess
 import sys
+from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
@@ -14,9 +15,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from kovacic.batch import solve_many
 from kovacic.batch.map import _COLOURS_AND_NAMES, draw_map
 from kovacic.batch.records import LABELS, Record, label_of
-from kovacic.batch.scan import Template, parse_grid, points, scan, scan_items
+from kovacic.batch.scan import Grid, Template, parse_grid, points, scan_items
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_rational, parse_with
@@ -28,6 +30,10 @@ def command(*arguments: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, "-m", "kovacic", "scan", *arguments], capture_output=True, text=True, timeout=60
     )
+
+
+def scan(expression: object, grids: list[Grid], **options: int) -> Iterator[Record]:
+    return solve_many(scan_items(expression, grids), group=True, **options)
 
 
 def values(text: str) -> list[Fraction]:

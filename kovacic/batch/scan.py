@@ -16,7 +16,6 @@ from math import lcm
 from typing import Any
 
 from kovacic.algebra.rationals import QQ
-from kovacic.batch import solve_many
 from kovacic.batch.records import Item, Record
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.reading.read import read_input
@@ -120,16 +119,6 @@ def scan_items(expression: Any, grids: Sequence[Grid], *, var: str | None = None
         Item(number, template.filled(values), var, {"parameters": {name: str(value) for name, value in values.items()}})
         for number, values in enumerate(points(grids), start=1)
     )
-
-
-def scan(
-    expression: Any, grids: Sequence[Grid], *, var: str | None = None, group: bool = True, **options: Any
-) -> Iterator[Record]:
-    """One record for each point of the grids: as `kovacic.solve_many`, with `parameters` and the group in the JSON.
-
-    At points where the expression isn't defined (a division by zero) the record has an `error`.
-    """
-    return solve_many(scan_items(expression, grids, var=var), group=group, **options)
 
 
 def columns(grids: Sequence[Grid]) -> tuple[str, ...]:

@@ -41,14 +41,15 @@ def omega_of(solution: Solution) -> Math:
     if solution.omega is not None:
         return formulas.math(solution.omega)
     w, m = formulas.unknown, riccati.degree
-    texts, latex = [f"{w}^{m}"], f"{w}^{{{m}}}"
+    texts, latex = [f"{w}^{m}"], [f"{w}^{{{m}}}"]
     for k in range(m - 1, -1, -1):
         if coefficient := riccati.coefficients[k]:
             negative = formulas.math(coefficient).text.removeprefix("(").startswith("-")
             value, sign = formulas.factor(-coefficient if negative else coefficient), "-" if negative else "+"
             texts.append(f"{sign} {value.text}" + {0: "", 1: f" {w}"}.get(k, f" {w}^{k}"))
-            latex += f" {sign} {value.latex}" + {0: "", 1: f" {w}"}.get(k, f" {w}^{{{k}}}")
-    return Math("\n".join(texts) + " = 0", f"{latex} = 0")
+            latex.append(f"{sign} {value.latex}" + {0: "", 1: f" {w}"}.get(k, f" {w}^{{{k}}}"))
+    lines = r" \\ \displaystyle ".join(latex)
+    return Math("\n".join(texts) + " = 0", rf"\begin{{array}}{{l}} \displaystyle {lines} = 0 \end{{array}}")
 
 
 def constants_of(solution: Solution) -> Math | None:

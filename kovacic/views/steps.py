@@ -122,7 +122,7 @@ class Steps:
     def _search(self, search: Search, case: int) -> Iterator[Block]:
         yield self._sets(search, case)
         many = f"{search.total} famil{'y' if search.total == 1 else 'ies'} of exponents"
-        natural = "" if search.natural is None else f", d is a natural number for {search.natural}"
+        natural = "" if search.natural is None else f", d is a natural number in {search.natural or 'none'} of them"
         parity = " (with an odd e)" if case == 2 and natural else ""
         generic = " for generic parameters" if parameters_of(self.formulas.field) else ""
         yield say("Step 2: ", DEGREE[case], f"; {many}{natural}{parity}{generic}.")
