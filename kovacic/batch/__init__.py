@@ -76,14 +76,14 @@ def run_items(
     if scheduler is not None:
         raise InputError("a scheduler needs a backend", hint="backend='dask' (--backend dask)")
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return _run_here(items, job, jobs or cores, ordered, stream)
 
+    def records() -> Iterator[Record]:
+        from kovacic.batch.pool import Pool
 
-def _run_here(items: Iterable[Item], job: Job, jobs: int, ordered: bool, stream: bool) -> Iterator[Record]:
-    from kovacic.batch.pool import Pool
+        with Pool(jobs or cores, job) as pool:
+            yield from pool.run(items, ordered=ordered, stream=stream)
 
-    with Pool(jobs, job) as pool:
-        yield from pool.run(items, ordered=ordered, stream=stream)
+    return records()
 
 
 __all__ = ["Item", "Job", "Record", "run_items", "solve_many"]

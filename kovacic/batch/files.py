@@ -108,10 +108,8 @@ def item_from(number: int, value: Any, *, var: str | None = None, limits: Limits
     """The item for whatever `kovacic.solve` takes, or for a mapping with the keys of a line of JSONL."""
     if isinstance(value, Item):
         return value
-    if isinstance(value, str):
-        return Item(number, value, var)
-    if isinstance(value, Mapping):
-        return _mapping_item(number, value, str(dict(value)), var)
+    if isinstance(value, str | Mapping):
+        return _plain_item(number, value, str(value), var)
     from kovacic.reading.read import read_input
 
     try:
@@ -153,18 +151,18 @@ def _sniffed(lines: Iterator[_Line]) -> tuple[str, Iterator[_Line]]:
 
 def _json_item(number: int, text: str, var: str | None) -> Item:
     try:
-        value = json.loads(text)
+        return _plain_item(number, json.loads(text), text, var)
     except (ValueError, RecursionError) as error:
         return Item(number, text, var, error=ParseError(f"the line isn't JSON: {error}"))
+
+
+def _plain_item(number: int, value: Any, text: str, var: str | None) -> Item:
+    """The item of a string or an object; of anything else, that it is neither."""
     if isinstance(value, str):
         return Item(number, value, var)
-    if isinstance(value, Mapping):
-        return _mapping_item(number, value, text, var)
-    hint = 'a string, or an object like {"S": "x^2 + 3"}'
-    return Item(number, text, var, error=ParseError("the line is neither a string nor an object", hint=hint))
-
-
-def _mapping_item(number: int, value: Mapping[str, Any], text: str, var: str | None) -> Item:
+    if not isinstance(value, Mapping):
+        hint = 'a string, or an object like {"S": "x^2 + 3"}'
+        return Item(number, text, var, error=ParseError("the line is neither a string nor an object", hint=hint))
     extra = {"id": value["id"]} if "id" in value else {}
     key = next((key for key in _EXPRESSION_KEYS if key in value), None)
     if key is None:
@@ -214,7 +212,7 @@ def _csv_item(number: int, row: list[str], header: list[str] | None, var: str | 
         return Item(number, row[0].strip(), var)
     if len(row) != len(header):
         return Item(number, shown, var, error=ParseError(f"{len(row)} cells in a table of {len(header)} columns"))
-    return _mapping_item(number, {key: cell.strip() for key, cell in zip(header, row, strict=True)}, shown, var)
+    return _plain_item(number, {key: cell.strip() for key, cell in zip(header, row, strict=True)}, shown, var)
 
 
 class Answers(AbstractContextManager["Answers"]):

@@ -19,18 +19,17 @@ from kovacic.solution import Solution
 from kovacic.views.json import group_dict
 
 # What a record says about its equation in one word; the degree of omega is added in case 3.
-CASES = ("case 1", "case 2", "case 3 (4)", "case 3 (6)", "case 3 (12)")
 NONE, UNDECIDED, ERROR, FAILED = "none", "undecided", "bad input", "failed"
-LABELS = (*CASES, NONE, UNDECIDED, ERROR, FAILED)
 # By the structure of the group: label, case, degree of omega.
 _LABELS: dict[str | None, tuple[str, int | None, int]] = {
+    "reducible": ("case 1", 1, 1),
+    "imprimitive": ("case 2", 2, 2),
+    "tetrahedral": ("case 3 (4)", 3, 4),
+    "octahedral": ("case 3 (6)", 3, 6),
+    "icosahedral": ("case 3 (12)", 3, 12),
     None: (NONE, None, 0),
-    "reducible": (CASES[0], 1, 1),
-    "imprimitive": (CASES[1], 2, 2),
-    "tetrahedral": (CASES[2], 3, 4),
-    "octahedral": (CASES[3], 3, 6),
-    "icosahedral": (CASES[4], 3, 12),
 }
+LABELS = (*(label for label, _, _ in _LABELS.values()), UNDECIDED, ERROR, FAILED)
 _EXIT_STATUS = {FAILED: 4, ERROR: 2, UNDECIDED: 3}
 
 # Types of errors that aren't the input's.
@@ -75,7 +74,7 @@ class Record:
     @property
     def case(self) -> int | None:
         """Kovacic's case, 1 to 3, or None."""
-        return int(self.label[5]) if self.label in CASES else None
+        return next((case for label, case, _ in _LABELS.values() if label == self.label), None)
 
     @property
     def error(self) -> str | None:

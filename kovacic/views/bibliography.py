@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import pkgutil
 import re
-from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -17,31 +16,19 @@ if TYPE_CHECKING:
     from kovacic.solution import Solution
 
 
-@dataclass(frozen=True)
-class Reference:
-    """One publication; `use` says for what this package uses it."""
-
-    key: str
-    author: str
-    title: str
-    journal: str
-    year: str
-    use: str
-    volume: str = ""
-    pages: str = ""
-    doi: str = ""
+class Reference(dict[str, str]):
+    """One publication: the fields of its BibTeX entry, its `key`, and for what this package uses it (`use`)."""
 
     def text(self) -> str:
-        where = ", ".join(filter(None, (f"{self.journal} {self.volume}".strip(), self.pages))).replace("--", "-")
-        doi = f", doi {self.doi}" if self.doi else ""
-        return (
-            f"[{self.key}] {self.author.replace(' and ', ', ')}, {self.title}, {where} ({self.year}){doi}: {self.use}."
-        )
+        where = ", ".join(filter(None, (f"{self['journal']} {self.get('volume', '')}".strip(), self.get("pages"))))
+        doi = f", doi {self['doi']}" if "doi" in self else ""
+        authors, published = self["author"].replace(" and ", ", "), f"{where.replace('--', '-')} ({self['year']}){doi}"
+        return f"[{self['key']}] {authors}, {self['title']}, {published}: {self['use']}."
 
     def bibtex(self) -> str:
         names = ("author", "title", "journal", "volume", "pages", "year", "doi")
-        fields = ",\n".join(f"  {name} = {{{value}}}" for name in names if (value := getattr(self, name)))
-        return f"@article{{{self.key},\n{fields}\n}}"
+        fields = ",\n".join(f"  {name} = {{{self[name]}}}" for name in names if name in self)
+        return f"@article{{{self['key']},\n{fields}\n}}"
 
 
 @cache
@@ -49,7 +36,7 @@ def literature() -> dict[str, Reference]:
     """All publications, by their keys."""
     text = (pkgutil.get_data("kovacic.views", "references.bib") or b"").decode("utf-8")
     entries = re.findall(r"^@article\{(\w+),\n(.*?)\n\}", text, re.DOTALL | re.MULTILINE)
-    return {key: Reference(key, **dict(re.findall(r"(\w+) = \{(.*)\}", body))) for key, body in entries}
+    return {key: Reference(re.findall(r"(\w+) = \{(.*)\}", body), key=key) for key, body in entries}
 
 
 def references(solution: Solution) -> tuple[Reference, ...]:
