@@ -145,7 +145,7 @@ class Steps:
             yield say(f"and {len(search.families) - _MOST_SHOWN} more.")
         tried = [family for family in search.families if family.theta is not None]
         if search.natural and not tried:
-            yield say("Step 3 isn't written out: its numbers have too many square roots.")
+            yield say("Step 3 isn't written out: it would take too long, or too many square roots at once.")
         if tried:
             yield say("Step 3: P of degree d, with")
             yield from map(Formula, _EQUATIONS[case])
