@@ -406,6 +406,23 @@ def test_the_steps_agree_with_the_engine_over_larger_fields(text: str, tried: bo
     assert "CRootOf" not in answer.explain(solutions=False)
 
 
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("n^2*x^2 + 3*n + k/x", "for a coefficient is -k, which isn't 0"),
+        ("n^2*x^2 + 5*n + a0/x", "for the lower coefficient b0 of P would satisfy -a0*b0 + 2 = 0, -a0 - 2*b0*n = 0"),
+        ("x^2 + 1/x + 5", "for the lower coefficient a0 of P would satisfy 2 - a0 = 0, -2*a0 - 1 = 0"),
+    ],
+)
+def test_why_a_family_fails(text: str, why: str) -> None:
+    """theta = n x + 1/x: P = 1 leaves -k; P = x + b0 leaves an impossible system, whatever the parameters are called."""
+    assert f"no solution, {why}." in kovacic.solve(text, var="x").explain(solutions=False)
+
+
+def test_a_parameter_may_be_called_x() -> None:
+    assert "d = 0: P = 1 is a solution." in kovacic.solve("-3/(16*t^2) + x/t", var="t").explain(solutions=False)
+
+
 def test_nested_square_roots_that_cancel_are_an_integer() -> None:
     assert settled(sympy.sqrt(9 + 9 * sympy.sqrt(2)) - 3 * sympy.sqrt(1 + sympy.sqrt(2)) + 2) == 2
     assert not settled(sympy.sqrt(9 + 9 * sympy.sqrt(2)) - sympy.sqrt(1 + sympy.sqrt(2))).is_Integer

@@ -28,9 +28,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
 from math import prod
+from string import ascii_letters
 from typing import Any
 
-from sympy import Add, Integer, Mul, Rational, Symbol, expand, oo, symbols
+from sympy import Add, Dummy, Integer, Mul, Rational, Symbol, expand, oo, symbols
 from sympy.polys.domains import EX
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.rings import ring
@@ -38,6 +39,7 @@ from sympy.polys.rings import ring
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Kind, Place
+from kovacic.reading.given import parameters_of
 from kovacic.views.numbers import domain, number, root, settled
 
 _MOST_FAMILIES = 4096
@@ -72,7 +74,7 @@ class Choice:
 class Family:
     """One choice at every point, infinity first; if d is natural and the family was tried, theta and P, None without one.
 
-    `conditions` are expressions in a_0, ..., a_(d-1) that would have to vanish for P = x^d + ... (d <= 3).
+    `conditions` are expressions in the `unknowns` a_0, ..., a_(d-1) that would have to vanish for P = x^d + ... (d <= 3).
     """
 
     choices: tuple[Choice, ...]
@@ -80,6 +82,7 @@ class Family:
     theta: Any = None
     P: Any = None
     conditions: tuple[Any, ...] = ()
+    unknowns: tuple[Any, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -233,7 +236,8 @@ class _Trial:
 
     def __init__(self, S: RatFunc, points: Sequence[Point], m: int, variable: str, field: Any) -> None:
         self.m, self.x, self.field = m, Symbol(variable), field
-        self.ring, X = ring("x", field)
+        self.parameters = parameters_of(S.field)
+        self.ring, X = ring(Dummy("x"), field)
         self.factors = [
             X - field.from_sympy(point.at) if point.at is not None else self._polynomial(point.place.factor)
             for point in points[1:]
@@ -290,7 +294,7 @@ class _Trial:
         if kernel:
             P = max(kernel, key=lambda polynomial: polynomial.degree()).monic().as_expr(self.x)
             return replace(family, theta=Add(*theta), P=P)
-        return replace(family, theta=Add(*theta), conditions=self._conditions(rows) if d <= 3 else ())
+        return self._failed(replace(family, theta=Add(*theta)), rows)
 
     def _image(self, P: Any, Dtheta: Any) -> Any:
         """D^(m+1) L_(m+1)."""
@@ -302,7 +306,12 @@ class _Trial:
             before, current = current, after
         return current
 
-    def _conditions(self, rows: Sequence[Sequence[Any]]) -> tuple[Any, ...]:
-        unknowns = [*symbols(f"a:{len(rows[0]) - 1}"), Integer(1)]
-        found = [Add(*(self.field.to_sympy(c) * a for c, a in zip(row, unknowns, strict=True))) for row in rows]
-        return tuple(dict.fromkeys(e.primitive()[1] if e.is_Add else e for e in found if e))
+    def _failed(self, family: Family, rows: Sequence[Sequence[Any]]) -> Family:
+        if family.d > 3:
+            return family
+        letter = next(c for c in ascii_letters if not any(name[0] == c for name in self.parameters))
+        unknowns = symbols(f"{letter}:{family.d}")
+        terms = (zip(row, (*unknowns, Integer(1)), strict=True) for row in rows)
+        found = [Add(*(self.field.to_sympy(c) * a for c, a in row)) for row in terms]
+        conditions = tuple(dict.fromkeys(e.primitive()[1] if e.is_Add else e for e in found if e))
+        return replace(family, conditions=conditions, unknowns=unknowns)

@@ -192,7 +192,8 @@ class Steps:
     def _trial(self, family: Family) -> Iterator[Block]:
         theta, d = self._shown(family.theta), family.d
         yield Formula(Math(f"theta = {theta.text}", rf"\theta = {theta.latex}"))
-        impossible = next((condition for condition in family.conditions if condition.is_number), None)
+        unknowns = set(family.unknowns)
+        impossible = next((condition for condition in family.conditions if not unknowns & condition.free_symbols), None)
         conditions = [self._shown(condition) for condition in family.conditions[:6]]
         if family.P is not None:
             P = self._shown(family.P)
@@ -201,9 +202,8 @@ class Steps:
             yield say(f"d = {d}: no solution, for a coefficient is ", self._shown(impossible), ", which isn't 0.")
         elif conditions:
             system = ", ".join(f"{c.text} = 0" for c in conditions), r",\; ".join(f"{c.latex} = 0" for c in conditions)
-            yield say(
-                f"d = {d}: no solution, for the lower coefficients a0, ... of P would satisfy ", Math(*system), "."
-            )
+            names = f"coefficient{'s' if d > 1 else ''} {', '.join(map(str, family.unknowns))}"
+            yield say(f"d = {d}: no solution, for the lower {names} of P would satisfy ", Math(*system), ".")
         else:
             yield say(f"d = {d}: no solution, for the linear system for its {d + 1} coefficients has rank {d + 1}.")
 
