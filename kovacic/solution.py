@@ -194,18 +194,20 @@ class Solution:
     @limited
     def at(self, x: Any, *, x0: Any, **options: Any) -> Any:
         """A ball that contains y(x): `y0=` and `dy0=` at x0, or `which="regular"`, or `frobenius=(c1, c2)`; see
-        `kovacic.evaluate`."""
+        `kovacic.evaluate`.  Only the first of these where coefficients in exp(k x) were given."""
+        if self.change is not None:
+            from kovacic.enclosure.change import evaluate_in_x
+
+            return evaluate_in_x(self, self.change, x, x0=x0, **options)
         from kovacic.enclosure.evaluate import evaluate
 
-        self._refuse_change("at")
         return evaluate(self, x, x0=x0, **options)
 
     def _refuse_change(self, what: str) -> None:
-        """Numbers are those in the variable of the equation, which isn't the user's."""
+        """Functions are those of the variable of the equation, which isn't the user's."""
         if self.change is not None:
-            message = f"{what} would take values of {self.variable} = {self.change.expression}"
-            hint = f"lambdify the solutions with SymPy, or solve {self.equation} in {self.variable}"
-            raise InputError(message, hint=hint)
+            hint = f"`at` has values, SymPy's lambdify the solutions; or solve {self.equation} in {self.variable}"
+            raise InputError(f"{what} would take values of {self.variable} = {self.change.expression}", hint=hint)
 
     @limited
     def lambdify(self, **options: Any) -> ProductForm | TabulatedFunction:

@@ -21,8 +21,9 @@ import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
-from kovacic.reading.equation import is_equation, parse_equation, parse_sympy_equation
+from kovacic.reading.equation import parse_equation, parse_sympy_equation
 from kovacic.reading.given import Equation
+from kovacic.reading.lexer import is_equation
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO = X * 0

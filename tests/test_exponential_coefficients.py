@@ -6,6 +6,7 @@ import json
 from fractions import Fraction
 from typing import Any
 
+import mpmath
 import pytest
 import sympy
 
@@ -220,10 +221,62 @@ def test_known_functions_are_differentiated_and_decimals_noticed_as_in_other_tex
     assert "0.5 was taken exactly, as 1/2" in one.notices
 
 
-def test_numbers_are_never_taken_for_values_of_the_new_variable() -> None:
+def mp_states(coefficient: Any, x0: Any, x: Any, right: Any = lambda x: 0) -> Any:
+    """(y, y') at x of y'' = coefficient(x) y + right(x), y(x0) = 1, y'(x0) = 0, by mpmath's Taylor series."""
+    return mpmath.odefun(lambda x, y: [y[1], coefficient(x) * y[0] + right(x)], x0, [1, 0])(x)
+
+
+@pytest.mark.parametrize(
+    ("equation", "x0", "x", "params", "coefficient", "right"),
+    [
+        ("y'' = (exp(2*x) + 9)*y", 0, "1/2", {}, lambda x: mpmath.e ** (2 * x) + 9, None),
+        ("y'' = (exp(k*x) + 1)*y", -1, 1, {"k": "sqrt(2)"}, lambda x: mpmath.e ** (mpmath.sqrt(2) * x) + 1, None),
+        ("y'' + (1 + cos(2*x)/2)*y", "1/2", 4, {}, lambda x: -1 - mpmath.cos(2 * x) / 2, None),  # on the unit circle
+        ("y'' = y/(2 + cos(x))", 0, 7, {}, lambda x: 1 / (2 + mpmath.cos(x)), None),  # and a singular point near it
+        ("y'' + (k + sin(x))*y", 0, 1, {"k": 2}, lambda x: -2 - mpmath.sin(x), None),
+        ("y'' = tanh(x + 1)*y", -2, 1, {}, lambda x: mpmath.tanh(x + 1), None),
+        ("y'' = exp(x)*y + exp(2*x)", 0, 1, {}, mpmath.exp, lambda x: mpmath.e ** (2 * x)),
+    ],
+)
+def test_values_in_the_users_variable(
+    equation: str, x0: Any, x: Any, params: dict[str, Any], coefficient: Any, right: Any
+) -> None:
+    with mpmath.workdps(30):
+        y, dy = kovacic.solve(equation).at(x, x0=x0, y0=1, dy0=0, digits=20, derivative=True, params=params)
+        expected = mp_states(
+            coefficient, mpmath.mpf(sympy.Rational(x0)), mpmath.mpf(sympy.Rational(x)), right or (lambda x: 0)
+        )
+        for ball, value in zip((y, dy), expected, strict=True):
+            assert ball.digits > 19
+            assert abs(ball.to_mpmath() - value) < mpmath.mpf(10) ** -18 * (1 + abs(value))
+
+
+def test_values_of_a_closed_form_with_constants_as_initial_values() -> None:
+    answer = kovacic.solve("-2/cosh(x)^2 + 1")
+    found = answer.at([2, 3, -1], x0=1, y0="1/cosh(1)", dy0="-sinh(1)/cosh(1)^2", digits=30)
+    with mpmath.workdps(35):
+        for ball, x in zip(found, (2, 3, -1), strict=True):
+            assert abs(ball.to_mpmath() - mpmath.sech(x)) < mpmath.mpf(10) ** -29
+
+
+@pytest.mark.parametrize(
+    ("equation", "x0", "x", "message"),
+    [
+        ("y'' + (2 + sin(x))*y", 0, 4, "monotone"),  # a pole of tan(x/2) between
+        ("y'' + coth(x)*y' - (6 + cosh(x))*y = 0", -1, 1, "monotone"),  # cosh(x) turns at 0
+        ("y'' = y*exp(x)", 0, "1 + 2*I", "isn't real"),
+        ("y'' = y/(2 + exp(I*x) - exp(2*I*x))", 1, 4, "at a real x"),
+    ],
+)
+def test_values_where_the_path_isnt_known_are_refused(equation: str, x0: Any, x: Any, message: str) -> None:
+    with pytest.raises(kovacic.InputError, match=message):
+        kovacic.solve(equation).at(x, x0=x0, y0=1, dy0=0)
+
+
+def test_functions_and_pictures_are_never_those_of_the_new_variable() -> None:
     answer = kovacic.solve("2*sech(x)^2*(-1) + 1")
     assert answer.change is not None
-    for call in (lambda: answer.at(2, x0=1, y0=1, dy0=0), lambda: answer.plot(0, 1), answer.lambdify):
+    for call in (lambda: answer.plot(0, 1), answer.lambdify):
         with pytest.raises(kovacic.InputError, match="would take values of t"):
             call()
     with pytest.raises(kovacic.InputError):

@@ -35,23 +35,14 @@ from kovacic.reading.given import (
     Equation,
     over,
 )
-from kovacic.reading.lexer import PRIMES, Tokens
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens
 from kovacic.reading.linear import REST, LinearArithmetic, LinearForm, is_rational
 from kovacic.reading.parser import Site, evaluate
 
-DERIVATIVES = frozenset({"diff", "Diff", "Derivative", "D"})
 _LARGEST_ORDER = 100
-
-#: What an equation contains, and S alone doesn't.
-_MARKS = ("=", *PRIMES, *(f"{name}(" for name in DERIVATIVES))
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
 _USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
-
-
-def is_equation(text: str) -> bool:
-    """Does a text mean an equation rather than S alone: has it an equals sign, a prime or a derivative?"""
-    return any(map(text.__contains__, _MARKS))
 
 
 def parse_equation(

@@ -31,7 +31,6 @@ from kovacic.limits import Limits
 from kovacic.reading.arithmetic import Term
 from kovacic.reading.equation import (
     EquationReader,
-    is_equation,
     names_in_equation,
     parse_sympy_equation,
     sympy_equation,
@@ -39,6 +38,7 @@ from kovacic.reading.equation import (
 from kovacic.reading.expression import RationalReader, chosen_variable, tokens_of
 from kovacic.reading.from_sympy import is_sympy_equation, walked
 from kovacic.reading.given import ENERGY, EULER, NUMBER_NAMES, UNKNOWN, Change, Equation, Parsed, lowered, over
+from kovacic.reading.lexer import is_equation
 from kovacic.reading.linear import REST, Symbols
 from kovacic.reading.parser import evaluate
 from kovacic.reading.symbolic import read_expression

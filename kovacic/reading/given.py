@@ -21,7 +21,7 @@ from kovacic.algebra.rationals import QQ, RationalPoly
 
 DEFAULT_VARIABLE = "x"
 
-# Names that stand for numbers unless the caller says that the variable has this name.
+#: Names that stand for numbers unless the caller says that the variable has this name.
 NUMBER_NAMES = {
     "I": "the imaginary unit",
     "pi": "the number pi",
@@ -34,11 +34,11 @@ NUMBER_NAMES = {
 
 _FUNCTIONS = """
     exp log sin cos tan cot sec csc asin acos atan acot sinh cosh tanh coth sech csch asinh acosh atanh erf sqrt cbrt
+    Heaviside DiracDelta
 """
 
 #: The functions of one argument that expressions and right-hand sides may contain, with SymPy's names.
 FUNCTION_NAMES = {name: name for name in _FUNCTIONS.split()}
-FUNCTION_NAMES |= {"Heaviside": "Heaviside", "DiracDelta": "DiracDelta"}
 RECIPROCALS = {"sech": "cosh", "csch": "sinh"}
 FUNCTION_NAMES |= {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan"}
 
@@ -138,6 +138,11 @@ class Parsed:
     notices: tuple[str, ...] = ()
     equation: Equation | None = None
 
+    @property
+    def text(self) -> str:
+        """The input in our own spelling."""
+        return self.S.to_str(self.variable) if self.equation is None else self.equation.text(caret=False)
+
 
 def parameters_of(field: Field) -> tuple[str, ...]:
     """The names of the parameters of a coefficient field."""
@@ -158,11 +163,10 @@ def _coefficient(function: RatFunc, variable: str) -> str:
     if not function.is_polynomial or not isinstance(num, RationalPoly):
         return function.to_str(variable)
     terms = []
-    for power in range(num.degree, -1, -1):
-        number = num.rational_coefficients()[power]  # flint's, which have no limit on the digits that are printed
+    for power, number in reversed([*enumerate(num.rational_coefficients())]):  # flint's, printed without a limit
+        factor = {0: "", 1: variable}.get(power, f"{variable}**{power}")
+        sign, size = ("-" if number < 0 else ""), str(abs(number))
         if number:
-            factor = {0: "", 1: variable}.get(power, f"{variable}**{power}")
-            sign, size = ("-" if number < 0 else ""), str(abs(number))
             terms.append(sign + (factor if size == "1" and factor else f"{size}*{factor}" if factor else size))
     return " + ".join(terms).replace("+ -", "- ") or "0"
 

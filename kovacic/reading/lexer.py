@@ -79,6 +79,16 @@ _HINTS = {
 }
 
 
+#: Names of derivatives, and what an equation contains, and S alone doesn't.
+DERIVATIVES = frozenset({"diff", "Diff", "Derivative", "D"})
+_MARKS = ("=", *PRIMES, *(f"{name}(" for name in DERIVATIVES))
+
+
+def is_equation(text: str) -> bool:
+    """Does a text mean an equation rather than S alone: has it an equals sign, a prime or a derivative?"""
+    return any(map(text.__contains__, _MARKS))
+
+
 @dataclass(frozen=True)
 class Tokens:
     """The terminals of a text: token k is `pieces[k]`, of the kind `kinds[k]`; the last one is `$END`, and empty."""
@@ -130,9 +140,7 @@ def tokenize(text: str) -> Tokens:
     for k, kind in enumerate(kinds):
         if kind == "LPAR" and k and kinds[k - 1] in ("NAME", "PRIMED"):
             kinds[k - 1] = "HEAD"
-    if not ascii_only:
-        strange = [k for k, kind in enumerate(kinds) if kind == "NAME" and not pieces[k].isidentifier()]
-        for k in strange:
+        elif kind == "NAME" and not (ascii_only or pieces[k].isidentifier()):
             kinds[k] = "OTHER"
     tokens = Tokens(text, [*kinds, "$END"], [*pieces, ""])
     if "OTHER" in kinds:

@@ -13,9 +13,9 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.reading.equation import is_equation, parse_equation
 from kovacic.reading.expression import parse_rational
 from kovacic.reading.given import DEFAULT_VARIABLE, Equation, Parsed
+from kovacic.reading.lexer import is_equation
 from kovacic.reading.parser import shown
 
 
@@ -36,25 +36,24 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, expo
     try:
         return _read(S, variable, limits)
     except NotRational:
-        if not exponentials or (not isinstance(S, str) and not _is_sympy(S)):
-            raise
-        from kovacic.reading.exponential import in_exponentials
+        if exponentials and (isinstance(S, str) or _is_sympy(S)):
+            from kovacic.reading.exponential import in_exponentials
 
-        found = in_exponentials(S, variable=variable, limits=limits)
-        if found is None:
-            raise
-        return found
+            found = in_exponentials(S, variable=variable, limits=limits)
+            if found is not None:
+                return found
+        raise
 
 
 def _read(S: Any, variable: str | None, limits: Limits) -> Parsed:
     if isinstance(S, str):
         if is_equation(S):
+            from kovacic.reading.equation import parse_equation
+
             return _with_equation(*parse_equation(S, variable=variable, limits=limits))
         return parse_rational(S, variable=variable, limits=limits)
-    if isinstance(S, RatFunc):
-        return Parsed(S, variable or DEFAULT_VARIABLE)
-    if isinstance(S, int | Fraction):
-        return Parsed(RatFunc(QQ.poly([S])), variable or DEFAULT_VARIABLE)
+    if isinstance(S, RatFunc | int | Fraction):
+        return Parsed(S if isinstance(S, RatFunc) else RatFunc(QQ.poly([S])), variable or DEFAULT_VARIABLE)
     if isinstance(S, Equation):
         return _with_equation(S, ())
     if _is_sympy(S):
@@ -79,17 +78,15 @@ def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits
     Raises `InputError` and `LimitExceeded`; positions refer to the equation as it was put together.
     """
     given = (a, b, c, f)
-    if any(_is_sympy(value) for value in given) and not any(isinstance(value, str | RatFunc) for value in given):
+    if any(map(_is_sympy, given)) and not any(isinstance(value, str | RatFunc) for value in given):
         import sympy
 
-        symbols = sorted({s for value in given if _is_sympy(value) for s in value.free_symbols}, key=str)
-        name = _variable_name(var)
-        chosen = [s for s in symbols if s.name == (name or DEFAULT_VARIABLE)] or (symbols if name is None else [])
-        x = chosen[0] if len(chosen) == 1 else sympy.Symbol(name or DEFAULT_VARIABLE)
-        y = sympy.Function("y" if "y" not in {s.name for s in symbols} else "y_")(x)
         from kovacic.reading.equation import parse_sympy_equation
 
-        equation, notices, _ = parse_sympy_equation(a * y.diff(x, 2) + b * y.diff(x) + c * y - f, limits=limits)
+        symbols = {s.name: s for value in given if _is_sympy(value) for s in sorted(value.free_symbols, key=str)}
+        name = _variable_name(var) or (DEFAULT_VARIABLE if len(symbols) != 1 else next(iter(symbols)))
+        y = sympy.Function("y" if "y" not in symbols else "y_")(symbols.get(name, sympy.Symbol(name)))
+        equation, notices, _ = parse_sympy_equation(a * y.diff(y.args[0], 2) + b * y.diff() + c * y - f, limits=limits)
         return _with_equation(equation, notices)
     numbers = (int, Fraction)  # which Python prints up to 4300 digits only
     values = [RatFunc(QQ.poly([value])) if isinstance(value, numbers) else value for value in given]
@@ -142,16 +139,13 @@ def _polynomial(coefficients: Sequence[Any], what: str, limits: Limits) -> Poly:
             hint="give two sequences of numbers, low powers first: ([3, 0, 1], [1]) is x^2 + 3",
         )
     if len(coefficients) > limits.degree + 1:
-        raise LimitExceeded(
-            f"the {what} has {len(coefficients)} coefficients, above the limit of degree {limits.degree}",
-            limit="degree",
-        )
+        said = f"the {what} has {len(coefficients)} coefficients, above the limit of degree {limits.degree}"
+        raise LimitExceeded(said, limit="degree")
     numbers = [_rational(value, power, what) for power, value in enumerate(coefficients)]
     bits = max((max(q.numerator.bit_length(), q.denominator.bit_length()) for q in numbers), default=0)
     if bits > limits.bits:
-        raise LimitExceeded(
-            f"the {what} has coefficients of {bits} bits, above the limit of {limits.bits}", limit="bits"
-        )
+        said = f"the {what} has coefficients of {bits} bits, above the limit of {limits.bits}"
+        raise LimitExceeded(said, limit="bits")
     return QQ.poly(numbers)
 
 

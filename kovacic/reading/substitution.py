@@ -33,30 +33,24 @@ class Template:
 
     def __init__(self, text: str, names: Sequence[str]) -> None:
         tokens = tokenize(text)
-        self._pieces: list[tuple[str, str]] = []
-        end = 0
-        for kind, start, stop in zip(tokens.kinds, tokens.starts, tokens.ends, strict=True):
-            token = text[start:stop]
-            if token not in names:
-                continue
-            if kind != "NAME":
-                raise InputError(
-                    f"the parameter {token} is followed by a parenthesis like a function",
-                    text=text,
-                    position=start,
-                    length=stop - start,
-                    hint=f"for a product write {token}*(...)",
-                )
-            self._pieces.append((text[end:start], token))
-            end = stop
+        places = [k for k, token in enumerate(tokens.pieces) if token in names]
+        for k in places:
+            if tokens.kinds[k] != "NAME":
+                message = f"the parameter {tokens.pieces[k]} is followed by a parenthesis like a function"
+                hint = f"for a product write {tokens.pieces[k]}*(...)"
+                raise tokens.error(InputError, message, k, k + 1, hint=hint)
         for name in names:
-            if name not in (token for _, token in self._pieces):
+            if name not in (tokens.pieces[k] for k in places):
                 raise InputError(f"the expression has no parameter {name}", text=text)
-        self._rest = text[end:]
+        ends = [0, *(tokens.ends[k] for k in places)]
+        starts = [*(tokens.starts[k] for k in places), len(text)]
+        self._pieces = [text[end:start] for end, start in zip(ends, starts, strict=True)]
+        self._names = [tokens.pieces[k] for k in places]
 
     def filled(self, values: Mapping[str, Any]) -> str:
         """The text with these values."""
-        return "".join(f"{before}({values[name]})" for before, name in self._pieces) + self._rest
+        given = [f"({values[name]})" for name in self._names] + [""]
+        return "".join(piece + value for piece, value in zip(self._pieces, given, strict=True))
 
 
 def number_text(value: Any, limits: Limits = DEFAULT_LIMITS) -> str:
@@ -87,15 +81,12 @@ def with_values(
     names = parameters_of(parsed.S.field)
     for name in values:
         if name not in names:
-            hint = f"the parameters are {', '.join(names) or 'none'}"
-            raise InputError(f"{name} isn't a parameter of S", hint=hint)
+            raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
     texts = {name: number_text(value, limits) for name, value in values.items()}
-    text, change = S, None if parsed.equation is None else parsed.equation.change
-    if change is not None:
-        text = str(S)
-    elif not isinstance(S, str):
-        text = parsed.S.to_str(parsed.variable) if parsed.equation is None else parsed.equation.text(caret=False)
-    filled = Template(text.strip(), [*texts]).filled(texts)
+    change = None if parsed.equation is None else parsed.equation.change
+    filled = Template(parsed.text if change is None and not isinstance(S, str) else str(S).strip(), [*texts]).filled(
+        texts
+    )
     rest = {name: what for name, what in given.items() if str(name) not in texts}
     variable = parsed.variable if change is None else change.variable
     return filled, read_input(filled, var=variable, limits=limits, exponentials=True), rest or None

@@ -1,0 +1,114 @@
+"""Values of a solution whose equation is rational in t = exp(k x), sin(k x), ...: y(x) = Y(t(x)), y'(x) = t'(x) Y'(t(x)).
+
+Where t is real on an interval of real x, without a pole, and t' has no zero there, the straight path from t(x0) to t(x) is the
+image of the interval from x0 to x: the values are those of the solution that is continued along the real axis.  exp(i kappa x)
+runs on the unit circle; a polygon in it will do, if no singular point lies between both: if its chords are nearer to the
+circle than every singular point in the disc.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import sympy
+from flint import arb
+
+from kovacic.enclosure.ball import Ball, finite_ball
+from kovacic.enclosure.constants import as_number, in_balls, to_ball
+from kovacic.enclosure.evaluate import AccuracyWarning, evaluate_states
+from kovacic.enclosure.points import Point, to_acb, working_precision
+from kovacic.enclosure.precision import start_bits
+from kovacic.enclosure.problem import as_problem
+from kovacic.errors import InputError
+from kovacic.reading.given import Change
+from kovacic.reading.symbolic import read_expression
+
+#: t(u) is monotone, without poles, for u between neighbouring numbers (n + shift) pi.
+_SHIFTS = {"cos": arb(0), "sin": arb(0.5), "tan": arb(0.5)}
+
+
+def evaluate_in_x(
+    answer: Any,
+    change: Change,
+    x: Any,
+    *,
+    x0: Any,
+    y0: Any,
+    dy0: Any,
+    derivative: bool = False,
+    digits: int = 15,
+    params: Mapping[str, Any] | None = None,
+    **options: Any,
+) -> Any:
+    """A ball that contains y(x), or a pair with y'(x), from y(x0) and y'(x0); for a list of points a tuple.
+
+    `answer` is a solution whose variable t is a function of x, `change`.  Numbers are real, exact numbers or constants such as
+    "sqrt(2)"; from x0 to x the function t must be real and monotone.  Raises `InputError` where it isn't, and what
+    `kovacic.evaluate` raises.
+    """
+    values = {sympy.Symbol(name): _exact(value, f"the parameter {name}") for name, value in (params or {}).items()}
+    t = read_expression(change.expression).xreplace(values)
+    variable = sympy.Symbol(change.variable)
+    slope, rate = t.diff(variable), t.args[0].diff(variable)
+    circle = isinstance(t, sympy.exp) and bool(in_balls(rate, {}).real.is_zero())
+    many = isinstance(x, list | tuple | range)
+    start, *places = (_exact(value, "x") for value in (x0, *(x if many else [x])))
+    cells = [_cell(t.args[0].subs(variable, place), t, circle) for place in (start, *places)]
+    if None in cells or len(set(cells)) > 1:
+        hint = f"give points between neighbouring zeros and poles of {slope}, or evaluate the solutions with SymPy"
+        raise InputError(f"{t} isn't known to be real and monotone from x0 to x", hint=hint)
+    given = replace(answer, equation=replace(answer.equation, change=None))
+    options |= {"x0": t.subs(variable, start), "y0": y0, "dy0": _exact(dy0, "dy0") / slope.subs(variable, start)}
+    found: list[Ball | tuple[Ball, Ball]] = []
+    for place in places:
+        count = _chords(given, params, place - start, rate) if circle else 1
+        path = [t.subs(variable, start + (place - start) * sympy.Rational(k, count)) for k in range(1, count)]
+        target = t.subs(variable, place)
+        (state,) = evaluate_states(given, [target], path=path, digits=digits, params=params, **options)
+        if state.note is not None:
+            warnings.warn(f"at {variable} = {place}: {state.note}", AccuracyWarning, stacklevel=3)
+        with working_precision(2 * start_bits(digits)):
+            dy = in_balls(slope.subs(variable, place), {}) * state.state[1]
+        found.append((state.y, finite_ball(dy)) if derivative else state.y)
+    return tuple(found) if many else found[0]
+
+
+def _exact(value: Any, name: str) -> Any:
+    """A real number that the user gives, as SymPy's."""
+    number = as_number(value, name)
+    if not to_ball(number).imag.is_zero():
+        raise InputError(f"{name} = {number} isn't real")
+    if isinstance(number, Point):
+        return sympy.Rational(number.re)
+    if number.fixed:
+        raise InputError(f"{name} is a ball", hint="an exact number is needed, where coefficients aren't rational")
+    return read_expression(value, names={}) if isinstance(value, str) else value
+
+
+def _chords(answer: Any, params: Mapping[str, Any] | None, length: Any, rate: Any) -> int:
+    """How many chords the polygon has that stands for the arc.  Raises `InputError` for singular points on the circle."""
+    problem = as_problem(answer, params, forced=True, constants=True)
+    radii = [abs(to_acb(z)) for z in problem.singular_points(128)] if problem.embedded is None else [arb(1)]
+    if any(radius.overlaps(arb(1)) for radius in radii):
+        raise InputError(f"a singular point at a real x, or constants in the equation in {answer.variable}")
+    inner = max((radius for radius in radii if radius < 1), default=arb(0))
+    angle = abs(in_balls(length * rate, {})).upper()
+    count = 1 + int((angle / arb(1).min(inner.acos())).upper().ceil().unique_fmpz())
+    assert (angle / (2 * count)).cos() > inner
+    return count
+
+
+def _cell(argument: Any, t: Any, circle: bool) -> int | None:
+    """Which interval of monotony of t its argument lies in; None where that isn't known, or t is off the path."""
+    u, name = in_balls(argument, {}), type(t).__name__
+    if not (u.real if circle else u.imag).is_zero():
+        return None
+    if name == "cosh":
+        return 1 if u.real > 0 else -1 if u.real < 0 else None
+    if name not in _SHIFTS:  # exp and sinh
+        return 0
+    cell = (u.real / arb.pi() - _SHIFTS[name]).floor().unique_fmpz()
+    return None if cell is None else int(cell)
