@@ -44,7 +44,7 @@ class Solution:
     time of reading, deciding and verifying together (None for an answer that was read from JSON).  `equation` is the
     equation of which y'' = S y is the normal form, None where S itself was given.  `assumed` says that a theorem proves the
     answer for all values with the assumptions, `known`, but for those that the notices name.  `limits` hold for each view that
-    is computed later, the group and the closed form for instance, and for `verify`.
+    is computed later: where one would take longer, it raises `LimitExceeded`, and the groups are None.
     """
 
     text: str
@@ -103,18 +103,13 @@ class Solution:
     @property
     def constants(self) -> Poly | None:
         """The minimal polynomial of the constant c in omega's coefficients; None if they lie in the field of S."""
-        riccati = self.decision.riccati
-        if riccati is None or riccati.P.field == self.S.field:
-            return None
-        extension = riccati.P.field
-        return extension.modulus if isinstance(extension, AlgebraicField) else None
+        extension = None if self.decision.riccati is None else self.decision.riccati.P.field
+        return extension.modulus if isinstance(extension, AlgebraicField) and extension != self.S.field else None
 
     @cached_property
     @limited
     def group(self) -> Group | None:
-        """The differential Galois group of y'' = S y, a subgroup of SL2(C).
-
-        None if the equation is undecided, or if a limit of the work keeps the group from being determined or checked.
+        """The differential Galois group of y'' = S y, a subgroup of SL2(C); None if the equation is undecided.
 
         Raises `VerificationFailed` if the kernel doesn't confirm it, which for an answer of `solve` is a defect.
         """
@@ -131,10 +126,7 @@ class Solution:
     @cached_property
     @limited
     def equation_group(self) -> EquationGroup | None:
-        """The group of the equation as it was given, in GL2(C).
-
-        None without `group`, with a gauge and parameters, or where it would take longer than the limits allow.
-        """
+        """The group of the equation as it was given, in GL2(C); None without `group`, and with a gauge and parameters."""
         from kovacic.galois import equation_group
 
         try:
@@ -150,10 +142,7 @@ class Solution:
     @cached_property
     @limited
     def closed_form(self) -> ClosedForm | None:
-        """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution.
-
-        Raises `LimitExceeded` where they would take longer than the limits allow.
-        """
+        """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution."""
         from kovacic.closed_form.form import solutions
 
         if self.case is None:
@@ -174,8 +163,7 @@ class Solution:
     def special(self) -> SpecialFunctions:
         """Two solutions in Airy's, Bessel's, Kummer's or Gauss' functions, or which classes of these were searched in vain.
 
-        What was assumed about the parameters is used: hermite(n, x) for a natural number n.  An exhausted limit is a value:
-        `stopped`.
+        What was assumed about parameters is used: hermite(n, x) for natural n.  An exhausted limit is a value, `stopped`.
         """
         from kovacic.special.answer import special_functions
 
@@ -242,26 +230,18 @@ class Solution:
     @property
     @limited
     def generic_conditions(self) -> GenericConditions:
-        """What must not vanish, and which exponents must not be rational, for the answer to hold; empty without parameters.
-
-        Raises `LimitExceeded` where that takes longer than the limits allow.
-        """
+        """What must not vanish, and which exponents must not be rational, for the answer to hold; empty without parameters."""
         from kovacic.parametric.generic import generic_conditions
 
         return generic_conditions(self)
 
     @limited
     def verify(self) -> Verification:
-        """Recompute every claim, the group's too, by independent code; true exactly when all of them hold.
-
-        Raises `LimitExceeded` where that takes more than the limits allow.
-        """
+        """Recompute every claim, the group's too, by independent code; true exactly when all of them hold."""
         from kovacic.galois import group_of
 
         verification = verify(self.S, self.decision)
-        if not verification:
-            return verification
-        group = group_of(self.S, self.decision, self.limits)
+        group = group_of(self.S, self.decision, self.limits) if verification else None
         return verification if group is None else verify(self.S, self.decision, group.claim)
 
     @limited
@@ -276,7 +256,7 @@ class Solution:
     def from_json(cls, text: str | Mapping[str, Any], *, limits: Limits = DEFAULT_LIMITS) -> Solution:
         """The answer that was written by `to_json`, verified again: `verified` says with what outcome.
 
-        Raises `InputError` where it isn't one, and `LimitExceeded` where verifying takes longer than the limits allow.
+        Raises `InputError` where it isn't one.
         """
         from kovacic.views.json import loads
 
@@ -373,33 +353,19 @@ def solve(
     start = time.perf_counter()
     if (S is None) == (a is None):
         raise InputError("one equation is expected: S, or the coefficients a=, b=, c=, f=")
-    from kovacic.reading.read import read_coefficients, read_input
-
-    keywords: dict[str, Any] = {"var": var, "limits": limits}
-    parsed = read_coefficients(a, b, c, f, **keywords) if S is None else read_input(S, **keywords, exponentials=True)
-    if assume:
-        from kovacic.reading.substitution import with_values
-
-        S, parsed, assume = with_values(S, parsed, assume, limits)
-    if isinstance(S, str):
-        text = S.strip()
-    else:
-        text = parsed.S.to_str(parsed.variable) if parsed.equation is None else parsed.equation.text(caret=False)
+    S, parsed, assume = _read(S, (a, b, c, f), var, assume, limits)
     budget = Budget(limits)
     decision, notices, assumed, known = _decided(parsed, S, assume, budget, certify=True)
     try:
         verification = verify(parsed.S, decision, budget=budget)
     except LimitExceeded as limit:
-        decision, verification = (
-            Decision(None, (), undecided=f"while the answer was verified: {limit}"),
-            Verification(()),
-        )
+        decision = Decision(None, (), undecided=f"while the answer was verified: {limit}")
+        verification = Verification(())
     verified = bool(verification)
     if not verified and (verification.checks or decision.status is not Status.UNDECIDED):
-        raise VerificationFailed(
-            f"the answer for S = {parsed.S} failed its own check; please report it\n{verification}"
-        )
-    seconds = time.perf_counter() - start
+        said = f"the answer for S = {parsed.S} failed its own check; please report it"
+        raise VerificationFailed(f"{said}\n{verification}")
+    text, seconds = S.strip() if isinstance(S, str) else parsed.text, time.perf_counter() - start
     return Solution(
         text, parsed.variable, parsed.S, decision, notices, verified, seconds, parsed.equation, assumed, limits, known
     )
@@ -417,15 +383,26 @@ def decide(
     >>> kovacic.decide("-3/(16*x^2) + 1/x").case
     2
     """
-    from kovacic.reading.read import read_input
-
-    parsed = read_input(S, var=var, limits=limits, exponentials=True)
-    if assume:
-        from kovacic.reading.substitution import with_values
-
-        S, parsed, assume = with_values(S, parsed, assume, limits)
+    S, parsed, assume = _read(S, (), var, assume, limits)
     decision, *_ = _decided(parsed, S, assume, Budget(limits), certify=False)
     return Verdict(decision.status, decision.case, decision.undecided)
+
+
+def _read(
+    S: Any, coefficients: tuple[Any, ...], var: str | None, assume: Mapping[Any, Any] | None, limits: Limits
+) -> tuple[Any, Parsed, Mapping[Any, Any] | None]:
+    """The input with the values among the assumptions, as given and as it was read, and the other assumptions."""
+    from kovacic.reading.read import read_coefficients, read_input
+
+    if S is None and coefficients:
+        parsed = read_coefficients(*coefficients, var=var, limits=limits)
+    else:
+        parsed = read_input(S, var=var, limits=limits, exponentials=True)
+    if not assume:
+        return S, parsed, assume
+    from kovacic.reading.substitution import with_values
+
+    return with_values(S, parsed, assume, limits)
 
 
 def _decided(

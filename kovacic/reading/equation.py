@@ -122,7 +122,8 @@ class EquationReader(RationalReader):
         if not is_rational(value):
             shown = expression.xreplace({sympy.E: names[sympy.E]})  # E is the energy in texts
             if expression.free_symbols:
-                raise NotRational(f"a coefficient that isn't a rational function of {self.variable}: {shown}")
+                said = f"a coefficient that isn't a rational function of {self.variable}: {shown}"
+                raise NotRational(said, hint="coefficients are rational in x, or in exp(k*x), sin(k*x), ...")
             raise NotRational(f"{shown} isn't an algebraic number", hint=TRANSCENDENTAL_HINT)
         if {PI, EULER} <= {*self.constants.parameters}:
             raise NotRational("pi and e in coefficients: it isn't known whether they are algebraically independent")
@@ -188,7 +189,8 @@ class EquationReader(RationalReader):
     def derivative(self, text: str) -> Any:
         name = text.rstrip(PRIMES)
         if name != self.unknown:
-            raise NotLinear(f"{text} is a derivative of something else than {self.unknown}")
+            hint = f"there is one unknown function, here {self.unknown}; write products with *: x*y''"
+            raise NotLinear(f"{text} is a derivative of something else than {self.unknown}", hint=hint)
         return self._derivative_of_unknown(text[len(name) :])
 
     def equation(self, left: Any, right: Any) -> Any:
@@ -261,7 +263,7 @@ class EquationReader(RationalReader):
     def _order(self, value: Any) -> int:
         number = self.arithmetic.number(value) if is_rational(value) else None
         if number is None or number.denominator != 1 or number < 0:
-            raise NotLinear("the order of a derivative is a number 0, 1, 2, ...")
+            raise NotLinear("the order of a derivative is a number 0, 1, 2, ...", hint="for example diff(y, x, 2)")
         return number.numerator
 
 
@@ -276,6 +278,11 @@ def _unknown_of(tokens: Tokens) -> str:
     for kind, piece in zip(tokens.kinds, tokens.pieces, strict=True):
         bare = piece.rstrip(PRIMES)
         if kind in ("PRIMED", "HEAD") and bare != piece:
+            if bare[-1] == UNKNOWN and bare[:-1] in _USUAL_VARIABLES:  # xy'' isn't x*y''
+                k = tokens.pieces.index(piece)
+                raise tokens.error(
+                    ParseError, f"{bare} is one name", k, k + 1, hint=f"write {bare[:-1]}*{piece[len(bare) - 1 :]}"
+                )
             return bare
     for k, kind in enumerate(tokens.kinds[:-3]):
         if kind == "HEAD" and tokens.pieces[k] in DERIVATIVES:

@@ -130,6 +130,8 @@ class RationalReader:
             return value
         if self.constants is not None and name == "I":
             return self.constants.radical(QQ.poly([-1]), 2, name)  # type: ignore[return-value]
+        if (meant := as_function(name)) is not None:
+            raise NotRational(f"{name} looks like a function without its parentheses", hint=f"write {meant}")
         if self.constants is not None and name not in NUMBER_NAMES and name != UNKNOWN:
             return self.constants.parameter(name)
         if name in NUMBER_NAMES:
@@ -168,7 +170,7 @@ class RationalReader:
         if head in self.names:
             hint = f"for a product write {head}*({site.inside()})"
             raise NotRational(f"{head} is followed by a parenthesis like a function", hint=hint)
-        raise NotRational(f"{site.text()} isn't a rational function of {self.variable}", hint=unknown_function(head))
+        raise NotRational(f"{site.text()} isn't a rational function of {self.variable}", hint=usage(head))
 
     def other_leaf(self, node: Any) -> Any:
         """The value of a SymPy expression that is no sum, product, power or algebraic number."""
@@ -189,7 +191,7 @@ class RationalReader:
         """The principal n-th root of a number, or of a parameter's square; an error for a function of the variable."""
         closed = self.arithmetic.closed(value)
         if not isinstance(closed, Poly) or not closed.is_constant:
-            raise NotRational(f"{place.text()} isn't a rational function of {self.variable}")
+            raise NotRational(f"{place.text()} isn't a rational function of {self.variable}", hint=usage("sqrt"))
         if self.constants is None:
             root = closed.field.sqrt(closed) if n == 2 else None
             hint = None
@@ -218,11 +220,23 @@ class RationalReader:
         return self.arithmetic.power(self._radical(base, number.denominator, place), number.numerator)
 
 
-def unknown_function(name: str) -> str | None:
-    """A hint, where a name is none of the functions."""
-    known = name.rstrip(PRIMES) in {*FUNCTION_NAMES, *ROOTS}
-    known_functions = ", ".join(sorted(FUNCTION_NAMES))
-    return None if known else f"for a product write {name}*(...); the functions are {known_functions}, of one argument"
+def usage(name: str) -> str:
+    """How a function is written that wasn't understood."""
+    name = name.rstrip(PRIMES)
+    if name in ROOTS:
+        return "roots are those of numbers: sqrt(2), cbrt(2), root(2, 5)"
+    if name in FUNCTION_NAMES:
+        return f"{name} has one argument; S is rational in x, or in exp(k*x), sin(k*x), ..."
+    known = ", ".join(sorted(FUNCTION_NAMES))
+    return f"for a product write {name}*(...); the functions are {known}, of one argument"
+
+
+def as_function(name: str) -> str | None:
+    """sin(x) for sinx and sin: what a name probably means that looks like a function without parentheses; None for others."""
+    known = {*FUNCTION_NAMES, *ROOTS}
+    if name in known:
+        return f"{name}(x)"
+    return f"{name[:-1]}({name[-1]})" if name[:-1] in known and name[-1] in "xtz" else None
 
 
 def chosen_variable(names: list[str]) -> str:
@@ -237,7 +251,7 @@ def chosen_variable(names: list[str]) -> str:
 
 def _chosen_variable(tokens: Tokens) -> str:
     found = tokens.names()
-    names = [name for name in found if name not in {*NUMBER_NAMES, ENERGY, UNKNOWN}]
+    names = [name for name in found if name not in {*NUMBER_NAMES, ENERGY, UNKNOWN} and as_function(name) is None]
     try:
         return chosen_variable(names)
     except InputError as error:

@@ -76,6 +76,11 @@ _HINTS = {
     '"': "leave the quotation marks out",
     "%": "write percentages as fractions: 1/100",
     "∞": "infinity isn't a number here",
+    "°": "angles are in radians: 90 degrees are pi/2",
+    "$": "LaTeX and Maple's $ aren't read; write (x^2 + 1)/(2*x), diff(y, x, 2)",
+    **dict.fromkeys(
+        "<>≤≥≠", "an equation has the sign =, conditions on parameters are given apart (assume=, --assume)"
+    ),
 }
 
 
@@ -159,4 +164,6 @@ def _unexpected(text: str, start: int, end: int) -> ParseError:
         hint = "write indices as ordinary digits: x1"
     elif hint is None and char.isnumeric():
         hint = "write numbers with the digits 0 to 9: 1/2"
+    elif hint is None:
+        hint = "there are numbers, names, + - * / ^ ( ) = and y''"
     return ParseError(f"unexpected character {shown}", text=text, position=position, hint=hint)

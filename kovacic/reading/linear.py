@@ -29,6 +29,8 @@ _LARGEST_BITS = 14_000
 #: The largest power that SymPy is asked for.
 _LARGEST_EXPONENT = 1000
 
+LINEAR_HINT = "the equation is a y'' + b y' + c y = f, where a, b, c and f depend on the variable alone"
+
 #: The key of the part r of a linear form.
 REST = -1
 
@@ -67,7 +69,7 @@ class LinearArithmetic(Arithmetic):
         import sympy
 
         if isinstance(value, LinearForm):
-            raise NotLinear(f"the unknown function {self.unknown} within a function or a power")
+            raise NotLinear(f"the unknown function {self.unknown} within a function or a power", hint=LINEAR_HINT)
         if not is_rational(value):
             return value
         function = self.rational(value)
@@ -113,14 +115,17 @@ class LinearArithmetic(Arithmetic):
         if not isinstance(left, LinearForm) and not isinstance(right, LinearForm):
             return self._checked(self.expression(left) * self.expression(right))
         if isinstance(left, LinearForm) and isinstance(right, LinearForm):
-            raise NotLinear(f"a product of {self.unknown} or its derivatives: the equation isn't linear")
+            raise NotLinear(
+                f"a product of {self.unknown} or its derivatives: the equation isn't linear", hint=LINEAR_HINT
+            )
         form, factor = (left, right) if isinstance(left, LinearForm) else (right, left)
         factor = self.closed(factor) if is_rational(factor) else self.coefficient(factor)  # type: ignore[misc]
         return LinearForm({k: self.multiply(c, factor) for k, c in form.parts.items()})
 
     def divide(self, left: Any, right: Any) -> Any:
         if isinstance(right, LinearForm):
-            raise NotLinear(f"{self.unknown} or a derivative of it in a denominator: the equation isn't linear")
+            said = f"{self.unknown} or a derivative of it in a denominator: the equation isn't linear"
+            raise NotLinear(said, hint=LINEAR_HINT)
         if isinstance(left, LinearForm):
             return self.multiply(left, self.divide(self.constant(1), right))
         if is_rational(left) and is_rational(right):
@@ -137,7 +142,9 @@ class LinearArithmetic(Arithmetic):
         if not isinstance(base, LinearForm):
             return self.symbolic_power(base, self.constant(n))
         if n != 1:
-            raise NotLinear(f"a power of {self.unknown} or of a derivative: the equation isn't linear")
+            raise NotLinear(
+                f"a power of {self.unknown} or of a derivative: the equation isn't linear", hint=LINEAR_HINT
+            )
         return base
 
     def symbolic_power(self, base: Any, exponent: Any) -> Any:
@@ -171,7 +178,9 @@ class LinearArithmetic(Arithmetic):
             self._check_exponent(argument)
         value = getattr(sympy, FUNCTION_NAMES[head])(argument)
         if value.has(sympy.zoo, sympy.nan, sympy.oo):
-            raise InputError(f"{head}({argument}) isn't finite")
+            raise InputError(
+                f"{head}({argument}) isn't finite", hint="leave the point out where the function is infinite"
+            )
         return self._checked(value)
 
     def derivative(self, value: Any) -> Any:

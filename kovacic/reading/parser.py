@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from typing import Any, Protocol
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
-from kovacic.reading.lexer import Tokens
+from kovacic.reading.lexer import DERIVATIVES, Tokens
 
 _OPEN, _PAIR, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(-1, 6)
 _BINARY = {"PLUS": _SUM, "MINUS": _SUM, "STAR": _PRODUCT, "SLASH": _PRODUCT}
@@ -131,7 +131,7 @@ def _evaluated(tokens: Tokens, reader: Reader, site: Site) -> Any:
             del begins[-1]
             left, site.begin = values[-1], begins[-1]
             if level == _IMPLICIT:
-                _check_neighbours(tokens, reader, site.right)
+                _check_neighbours(tokens, reader, site.begin, site.right)
                 values[-1] = arithmetic.multiply(left, right)
                 splits[-1] = splits[-1] or site.right
             elif level == _POWER:
@@ -231,10 +231,11 @@ def _is_argument(pending: Sequence[tuple[int, int]], kinds: Sequence[str]) -> bo
     return level == _OPEN and opened >= 0 and kinds[opened] == "HEAD"
 
 
-def _check_neighbours(tokens: Tokens, reader: Reader, right: int) -> None:
+def _check_neighbours(tokens: Tokens, reader: Reader, begin: int, right: int) -> None:
     """Refuses a product without a sign whose second factor, from token `right`, can't be told from the first one."""
     left = right - 1
-    if tokens.kinds[left] not in ("NAME", "PRIMED") and tokens.kinds[right] != "NUMBER":
+    applied = tokens.pieces[begin] in DERIVATIVES and tokens.kinds[right] == "LPAR"  # D(y)(x)
+    if tokens.kinds[left] not in ("NAME", "PRIMED") and tokens.kinds[right] != "NUMBER" and not applied:
         return
     if tokens.kinds[right] in ("NAME", "PRIMED", "HEAD") and reader.follows_without_sign(tokens.pieces[right]):
         return
@@ -275,6 +276,7 @@ def _syntax_error(tokens: Tokens, k: int, pending: Sequence[tuple[int, int]]) ->
         message, hint = "this parenthesis closes nothing", "remove it, or open it before"
     elif before in _OPERATORS and kind in (*_OPERATORS, "RPAR", "EQUAL", "COMMA"):
         message, first = f"something is missing between {tokens.pieces[k - 1]!r} and {here!r}", k - 1
+        hint = "write the number or name that belongs there, or one of the signs"
     elif kind in (*_OPERATORS, "SUPERSCRIPT"):
         message = f"there is nothing before {here!r} for it to act on"
         hint = "write the number or name that belongs there"

@@ -35,11 +35,16 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, expo
     variable = _variable_name(var)
     try:
         return _read(S, variable, limits)
-    except NotRational:
+    except NotRational as error:
         if exponentials and (isinstance(S, str) or _is_sympy(S)):
             from kovacic.reading.exponential import in_exponentials
 
-            found = in_exponentials(S, variable=variable, limits=limits)
+            try:
+                found = in_exponentials(S, variable=variable, limits=limits)
+            except NotRational as other:
+                if other.position is None:  # what isn't rational is the same
+                    other.text, other.position, other.length = error.text, error.position, error.length
+                raise
             if found is not None:
                 return found
         raise
