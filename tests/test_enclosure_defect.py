@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
-from flint import arb
+from flint import acb, acb_poly, arb
 
 from kovacic.enclosure.frame import Parts, make_frame, shift
+from kovacic.enclosure.frobenius import Majorant
 from kovacic.enclosure.points import Point, working_precision
 from kovacic.enclosure.problem import System
 from kovacic.enclosure.taylor import _cut, _proven_defect, _recurrence, error_radii, expand
@@ -123,3 +126,47 @@ def test_the_error_of_values_and_slopes(k: Fraction, e: int) -> None:
     least_value, least_slope = (math.cosh(k_u) - 1) / k_u**2, math.sinh(k_u) / k_u
     assert least_value * (1 - 1e-9) <= float(value) <= 1.3 * least_value
     assert least_slope * (1 - 1e-9) <= float(slope) <= 1.3 * least_slope
+
+
+@pytest.mark.parametrize("n", [14, 20, 100])
+@pytest.mark.parametrize("delta", [0, Fraction(1, 3), 3, -3, Fraction(-5, 2), -2 + 1j, 3j], ids=str)
+def test_the_constant_of_frobenius_recurrences(delta: complex | Fraction, n: int) -> None:
+    """I(lambda + m + eps) = (m + eps)(m + delta + eps), eps (u, v) = (v, 0): kappa m^2 is below 1/|inverse| for m >= n."""
+    exact = delta if isinstance(delta, complex) else complex(float(delta))
+    bound = Majorant(arb(1), arb(0), arb(0), arb(1))
+    counted = arb(abs(exact)) if exact.real < 0 else arb(0)
+    factor, kappa = bound.growth(n, counted, arb(5), arb(1) / 2)
+    assert factor.contains(2)
+    ratios = []
+    for m in (n, n + 1, n + 7, 10 * n):
+        first, second = (
+            1 / (m * (m + exact)),
+            (2 * m + exact) / (m * (m + exact)),
+        )  # the inverse: first (1 - second eps)
+        ratios.append(abs(first) * (1 + abs(second)) * m * m * float(kappa))
+    assert max(ratios) <= 1 + 1e-12
+    assert ratios[0] > 0.55 if exact.real < 0 else ratios[0] > 0.3
+
+
+@pytest.mark.parametrize("zeros", [[(2, 1)], [(2, 2)], [(-2, 3), (3, 1)], [(2 + 1j, 2), (2 - 1j, 2)]], ids=str)
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+def test_the_bounds_on_a_circle_around_a_singular_point(zeros: list[tuple[complex, int]], share: float) -> None:
+    """1/A, B/A - (B/A)(0) and C/A - (C/A)(0) at points of the circle, for A with simple and multiple zeros outside."""
+    with working_precision(80):
+        neighbours = [(acb(zeta), k) for zeta, k in zeros]
+        A = acb_poly([3])
+        for zeta, k in neighbours:
+            A = A * acb_poly([1, -1 / zeta]) ** k
+        size = len(A.coeffs())
+        B, C = ([acb((-1) ** j * (j + c)) for j in range(size)] for c in (1, 4))
+        op: Any = SimpleNamespace(A=A.coeffs(), B=B, C=C)
+        rho = min(abs(zeta).lower() for zeta, _ in neighbours) * share
+        bound = Majorant.make(op, neighbours, rho)
+        for n in range(24):
+            t = rho * acb(0, arb.pi() * n / 12).exp()
+            value = A(t)
+            assert not abs(1 / value) > bound.inverse
+            for row, limit in ((B, bound.beta), (C, bound.gamma)):
+                assert not abs(acb_poly(row)(t) / value - row[0] / A[0]) > limit
+        if len(zeros) == 1:  # reached at the point of the circle that is nearest to the zero
+            assert abs(1 / A(rho)) * (1 + 1e-9) > bound.inverse
