@@ -143,6 +143,37 @@ def test_what_is_no_answer_is_refused(data: Any) -> None:
         loads(data)
 
 
+@pytest.mark.parametrize("equation", ["x^2*y'' + x*y' + (x^2-1/4)*y = 0", "y'' + sqrt(2)/x*y' - y = 0", "y''+a*y' = y"])
+def test_another_gauge_is_refused(equation: str) -> None:
+    answer = kovacic.solve(equation, var="x")
+    data = json.loads(answer.to_json())
+    assert loads(data).gauge == answer.gauge
+    for wrong in ("0", "1/x", "-1/x"):
+        with pytest.raises(InputError, match="gauge"):
+            loads({**data, "gauge": wrong})
+    with pytest.raises(InputError, match="gauge"):
+        loads({**json.loads(kovacic.solve("x").to_json()), "gauge": "1/x"})
+
+
+def test_omega_beside_a_proof_that_there_is_none_is_refused() -> None:
+    none, data = (json.loads(kovacic.solve(text).to_json()) for text in ("x", "2"))
+    for change in ({"riccati": data["riccati"]}, {"constants": data["constants"]}):
+        with pytest.raises(InputError, match="omega"):
+            loads({**none, **change})
+    with pytest.raises(InputError, match="omega"):
+        loads({**none, "proof": {**none["proof"], "semi_invariant": data["proof"]["semi_invariant"]}})
+    with pytest.raises(InputError, match="omega"):
+        loads({**data, "riccati": None})
+
+
+@pytest.mark.parametrize("near", [["1.4", float("inf")], [float("nan"), "0"], ["1/0", "0"], [None, "0"], ["1.4"], 3])
+def test_a_root_that_is_nowhere_is_refused(near: Any) -> None:
+    data = json.loads(kovacic.solve("sqrt(2)/x^2").to_json())
+    data["field"]["near"] = near
+    with pytest.raises(InputError, match="isn't an answer in schema 1"):
+        loads(data)
+
+
 def test_notices_and_exact_text_are_kept() -> None:
     answer = kovacic.solve(" 0.25*x^2 - 7/2 ")
     assert answer.notices

@@ -83,7 +83,7 @@ def loads(text: str | Mapping[str, Any]) -> Solution:
         raise InputError(f"schema {data.get('schema')!r} isn't known; this version reads schema {SCHEMA}")
     try:
         return from_dict(data)
-    except (KeyError, TypeError, AttributeError, IndexError, ValueError, ZeroDivisionError) as error:
+    except (KeyError, TypeError, AttributeError, IndexError, ValueError, ArithmeticError) as error:
         raise InputError(f"this isn't an answer in schema {SCHEMA}: {type(error).__name__}: {error}") from error
 
 
@@ -154,6 +154,8 @@ def from_dict(data: Mapping[str, Any]) -> Solution:
         field = AlgebraicField(rational.field, modulus)
         reader = replace(rational, names={variable: VARIABLE, symbol: field.generator}, field=field)
     semi_invariant, riccati = proof["semi_invariant"], data["riccati"]
+    if (riccati is None) != (semi_invariant is None) or (riccati is None and constants is not None):
+        raise ValueError("omega needs its polynomial and the semi-invariant")
     form = None if semi_invariant is None else reader.semi_invariant(semi_invariant)
     polynomial = None
     if form is not None and riccati is not None:
@@ -171,6 +173,10 @@ def from_dict(data: Mapping[str, Any]) -> Solution:
     S, equation = rational.ratfunc(data["S"]), _read_equation(data.get("equation"), variable)
     if equation is not None and equation.S != S:
         raise ValueError("S isn't the normal form of the equation")
+    if data.get("gauge") is not None:
+        at_hand = None if equation is None else _base_reader(data["equation"]["field"], variable)
+        if at_hand is None or equation is None or at_hand.ratfunc(data["gauge"]) != equation.gauge:
+            raise ValueError("the gauge isn't that of the equation")
     text = _typed(data, "input", str)
     given = variable if equation is None or equation.change is None else equation.change.variable
     if read_input(text, var=given, limits=_LIMITS, exponentials=given != variable).S != S:
