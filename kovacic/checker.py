@@ -268,6 +268,7 @@ class Answer:
 
     def __init__(self, data: dict[str, Any]) -> None:
         self.data, self.proof, self.names = data, data["proof"], {data["variable"]: Value(X2)}
+        demand(data["variable"].isidentifier(), "the variable has a name")
         self.S = read(data["S"], self.names)
         self.num, self.den = self.S.over_q()
         affordable(max(self.num.degree(), self.den.degree()), "the degree of S")
@@ -376,8 +377,7 @@ class Answer:
         demand(q > 10**6 and fmpz(q).is_prime(), "the place has a root modulo a large prime")
         den = reduced(place.den, q, root)
         top = degree + den.degree() + max(p.k for p in self.places)
-        count = affordable(top + degree + 12, "the number of zeros of a solution")
-        for w in place.expansions(root, q, count):
+        for w in place.expansions(root, q, count := affordable(top + degree + 12, "the number of zeros of a solution")):
             r0, r1 = nmod([1], q).left_shift(count), den.right_shift(place.nu).mul_low(w, count)
             t0, t1 = r0 * 0, r1**0
             while r1.degree() > top:

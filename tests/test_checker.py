@@ -302,6 +302,12 @@ def test_an_edited_answer_is_refuted(text: str, changes: dict[str, Any]) -> None
     assert said.startswith("refuted: "), said
 
 
+@pytest.mark.parametrize("name", [1, True, None, "", "1", "x y", "-x", "(", "0x10", ["x"]])
+def test_a_variable_without_a_name_is_refuted(name: Any) -> None:
+    assert edited("2", variable=name).startswith("refuted: ")
+    assert edited("2", variable="t") == "checked"
+
+
 @pytest.mark.parametrize("power", ["9**9**9", "((9**5000)**5000)**5000", "(x + 1)**100000", "x**1000000", "(" * 10**5])
 def test_an_expression_that_is_too_large_is_not_computed(power: str) -> None:
     assert not edited("x", S=power).startswith("checked")

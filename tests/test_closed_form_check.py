@@ -173,6 +173,24 @@ def test_a_pair_that_turns_by_half_turns(p: RatFunc, discriminant: int, k: int) 
     check_pair(p, Fraction(discriminant * k * k, 4), turned=True)
 
 
+@pytest.mark.parametrize(
+    ("constant", "slope"), [(Fraction(1, 2), 1), (Fraction(1, 2), Fraction(1, 2)), (Fraction(5, 4), 1)]
+)
+def test_residues_at_the_roots_of_a_cubic_turn_nothing(constant: Fraction, slope: Fraction) -> None:
+    """y = exp(i int r)/sqrt(r), r the sum of slope a/(x - a) over the roots of p = x^3 + x + constant: -1 is a square times
+    the number p_1^2 - 4 p_0 that would be the discriminant of a quadratic p, and the residues would be half integers."""
+    p = QQ.poly([constant, 1, 0, 1])
+    r = RatFunc(QQ.poly([0, slope]) * p.derivative() % p, p)
+    form = solve(transform.from_squared_product(1 / (r * r), -4)).closed_form
+    assert form is not None
+    assert form.checked == "exact"
+    (angle,) = form.y1.find(sympy.RootSum)
+    expected = sum(root * sympy.log(x - root) for root in sympy.Poly(p.to_sympy(x), x).nroots())
+    point = {x: 3}
+    ratio = sympy.N(angle.doit().subs(point)) / sympy.N(expected.subs(point))
+    assert abs(ratio - 1) < 1e-9
+
+
 @pytest.mark.parametrize("shift", [0, 1, Fraction(-3, 2)])
 @pytest.mark.parametrize("w", [3, 6, 9, 12, 18, 30])
 def test_two_factors_that_turn_in_opposite_directions(w: int, shift: Fraction) -> None:

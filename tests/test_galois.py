@@ -539,3 +539,20 @@ def test_an_order_on_a_curve_of_positive_genus_isnt_guessed() -> None:
 def test_dimensions_of_groups(text: str, name: str, dimension: int) -> None:
     group = kovacic.solve(text, var="x").group
     assert (group.name, group.dimension, group.finite) == (name, dimension, dimension == 0)
+
+
+@pytest.mark.parametrize("r", [Fraction(1, 3), Fraction(1, 8)])
+@pytest.mark.parametrize(("n", "m"), [(3, 3), (3, 5), (4, 2), (2, 5)])
+def test_a_gauge_with_its_poles_where_the_exponents_of_a_dicyclic_group_are(n: int, m: int, r: Fraction) -> None:
+    """x = z^2 and y+/y- = ((z-1)/(z+1))^(1/n) ((z-2)/(z+2))^(1/m), gamma = ((x-1)/(x-4))^r: all exponents in z are known."""
+    root = Fraction(1, n) / (X - 1) + Fraction(2, m) / (X - 4)
+    S = transform.from_squared_product(X / (root * root), 1)
+    group = kovacic.solve(with_gauge(S, r / (X - 1) - r / (X - 4))).equation_group
+    assert group.normal_form.n == lcm(n, m)
+    half = Fraction(1, 2)
+    rows = [(half, half)]
+    for d, s in ((Fraction(1, n), r), (Fraction(1, m), -r)):
+        rows += [((1 + d) / 2 + s, (1 - d) / 2 + s), ((1 - d) / 2 + s, (1 + d) / 2 + s)]
+    N = lcm(2 * n, 2 * m, 2 * r.denominator)
+    characters = {tuple((a * p + b * q) % 1 for p, q in rows) for a in range(N) for b in range(N)}
+    assert group.order == 2 * len(characters)
