@@ -8,7 +8,7 @@ from fractions import Fraction
 from math import gcd, lcm
 
 import sympy
-from sympy import Add, Ei, Mul, erf, erfi, exp, pi, sqrt
+from sympy import Add, Ei, Integer, Mul, erf, erfi, exp, pi, sqrt
 
 from kovacic.algebra.partial_fractions import Residue
 from kovacic.closed_form.atoms import Atoms, Expr, display, factors, rational
@@ -47,15 +47,15 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
     return first, _sum(_terms(form.first, primitive, parts, atoms)), ()
 
 
-def times_integral(y: Product, h: Product, atoms: Atoms) -> Expr | None:
-    """y int h dx with its constant factor, None where the integral would be left.  The branches of roots may not agree."""
-    primitive, parts = integrate(h), factors(y, atoms)
+def integral(h: Product, atoms: Atoms) -> Expr | None:
+    """int h dx with its constant factor, None where it would be left.  The branches of roots may not agree."""
+    primitive, one = integrate(h), Product((), (), h.exponential * 0)
     if isinstance(primitive, OpenPrimitive):
         return None
     if isinstance(primitive, CurveIntegral):
         value, notes = curve_integral(primitive, atoms)
-        return None if notes else Add(*(Mul(parts[0], *parts[1], term) for term in Add.make_args(value)))
-    return Add(*(c * e for c, e in _terms(y, primitive, parts, atoms)))
+        return None if notes else value
+    return Add(*(c * e for c, e in _terms(one, primitive, (Integer(1), []), atoms)))
 
 
 def _terms(y: Product, primitive: Primitive, first: Factors, atoms: Atoms) -> list[Scaled]:

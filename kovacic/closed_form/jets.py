@@ -27,7 +27,12 @@ _UNARY = {
     sympy.log: "log",
     sympy.sin: "sin",
     sympy.cos: "cos",
+    sympy.tan: "tan",
+    sympy.sinh: "sinh",
+    sympy.cosh: "cosh",
+    sympy.tanh: "tanh",
     sympy.atan: "atan",
+    sympy.acos: "acos",
     sympy.erf: "erf",
     sympy.erfi: "erfi",
     sympy.Ei: "ei",
@@ -38,7 +43,7 @@ _UNARY = {
     sympy.airybiprime: "airy_bi_prime",
 }
 
-_ANTIDERIVATIVES = (sympy.Integral, sympy.elliptic_f, sympy.elliptic_e, sympy.elliptic_pi)
+ANTIDERIVATIVES = (sympy.Integral, sympy.elliptic_f, sympy.elliptic_e, sympy.elliptic_pi)
 
 
 def jet(expression: Any, variable: Any, point: Number) -> tuple[Number, Number, Number]:
@@ -83,7 +88,7 @@ class _Evaluator:
         if isinstance(e, sympy.RootSum):
             a = e.fun.variables[0]
             return reduce(add, (_Evaluator({**self.bindings, a: root})(e.fun.expr) for root in self._roots(e.poly)))
-        if isinstance(e, _ANTIDERIVATIVES):
+        if isinstance(e, ANTIDERIVATIVES):
             slope = self(e.diff(next(iter(self.bindings))))
             return acb_series([1, slope[0], slope[1] / 2], prec=3)
         if isinstance(e, (sympy.uppergamma, sympy.lowergamma)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from itertools import islice
 from typing import Any
 
@@ -11,11 +11,13 @@ import sympy
 from kovacic.closed_form.form import solutions
 from kovacic.decision import Status
 from kovacic.errors import LimitExceeded
+from kovacic.general_solution.antiderivatives import NUMBERS
 from kovacic.general_solution.given import radical_of, read_equation
 from kovacic.general_solution.impulses import place_of
 from kovacic.general_solution.initial_values import as_mapping, constants, read_values
-from kovacic.general_solution.particular import NUMBERS, particular_solution
+from kovacic.general_solution.particular import particular_solution
 from kovacic.general_solution.real_basis import check_one_side, real_basis, real_particular
+from kovacic.general_solution.variation import Basis
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
@@ -61,11 +63,8 @@ def dsolve(
         if radical is None:
             return _solved(eq, func, as_mapping(ics), var, budget)
         root, symbol, value, new = radical
-        own_ics = {
-            key: value_.subs(symbol, value) if hasattr(value_, "subs") else value_
-            for key, value_ in as_mapping(ics).items()
-        }
-        return _solved(eq.subs(symbol, value), func, own_ics, var, budget).subs(new, root)
+        own = {key: v.subs(symbol, value) if hasattr(v, "subs") else v for key, v in as_mapping(ics).items()}
+        return _solved(eq.subs(symbol, value), func, own, var, budget).subs(new, root)
 
 
 def _solved(eq: Any, func: Any, ics: Mapping[Any, Any], var: str | None, budget: Budget) -> Any:
@@ -74,12 +73,16 @@ def _solved(eq: Any, func: Any, ics: Mapping[Any, Any], var: str | None, budget:
     solution = solve(equation, limits=budget.share(1).limits)
     if solution.status is Status.NONE_EXISTS and known.concerns_exponents:
         solution = solve(equation, assume=known.to_dict(), limits=budget.share(1).limits)
-    form = None
+    symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
     try:
         if solution.case is None:
-            y1, y2 = _special(solution, eq, known, budget)
+            own = {name: symbol for name, symbol in symbols.items() if name != solution.variable}
+            special = special_functions(solution.S, solution.gauge, solution.variable, budget, symbols=own)
+            if not special:
+                raise NotImplementedError(f"{no_solution(solution, known)}; {special}")
+            y1, y2 = special
         else:
-            y1, y2 = form = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
+            y1, y2 = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
     except LimitExceeded as limit:
         raise NotImplementedError(f"undecided: {limit}") from None
     given = read_values(ics, function, equation) if ics else ()
@@ -92,41 +95,23 @@ def _solved(eq: Any, func: Any, ics: Mapping[Any, Any], var: str | None, budget:
         places = [place[0] for place in (place_of(jump, x) for jump in jumps) if place is not None]
         check_one_side((y1, y2), x, [*dict.fromkeys([*(g.point for g in given), *places])])
         y1, y2 = real_basis(solution, y1, y2, x, given[0].point)
-    y1, y2 = (y.xreplace(NUMBERS) for y in (y1, y2))
-    particular = particular_solution(equation, form, y1, y2, given[0].point if given else None, budget)
+    basis = Basis(y1.xreplace(NUMBERS), y2.xreplace(NUMBERS), x, equation)
+    particular = particular_solution(basis, given[0].point if given else None, budget)
     if given and change is None:
         particular = real_particular(particular, equation, x, given[0].point)
-    own = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
-    C1, C2 = _new_constants({*own}, (y1, y2, particular, *(part for g in given for part in (g.point, g.value))))
-    found = constants(given, y1, y2, particular, x, (C1, C2)) if given else {}
-    general = _combined(found.get(C1, C1), found.get(C2, C2), y1, y2) + particular
-    if given:
-        general = min(general, sympy.expand_mul(general, deep=False), key=sympy.count_ops)
-    general = general.xreplace({sympy.Symbol(name): symbol for name, symbol in own.items()})
-    return sympy.Eq(function, general.xreplace({x: function.args[0]}), evaluate=False)
-
-
-def _combined(c1: Any, c2: Any, y1: Any, y2: Any) -> Any:
-    """c1 y1 + c2 y2 with common factors before it."""
-    factors = [sympy.Mul.make_args(y) for y in (y1, y2)]
+    parts = (basis.y1, basis.y2, particular, *(part for g in given for part in (g.point, g.value)))
+    taken = symbols.keys() | {symbol.name for e in parts for symbol in getattr(e, "free_symbols", ())}
+    names = [*islice(sympy.numbered_symbols("C", start=1, exclude=map(sympy.Symbol, taken)), 2)]
+    found = constants(given, basis, particular, names) if given else {}
+    c1, c2 = (found.get(name, name) for name in names)
+    factors = [sympy.Mul.make_args(y) for y in (basis.y1, basis.y2)]  # common ones come before the sum
     common = [factor for factor in factors[0] if factor in factors[1]] if c1 != 0 != c2 else []
     first, second = (sympy.Mul(*(factor for factor in own if factor not in common)) for own in factors)
-    return sympy.Mul(*common, c1 * first + c2 * second)
-
-
-def _new_constants(taken: set[str], expressions: Sequence[Any]) -> list[Any]:
-    """C1 and C2, or the next ones that don't occur."""
-    names = taken | {symbol.name for e in expressions for symbol in getattr(e, "free_symbols", ())}
-    return list(islice(sympy.numbered_symbols("C", start=1, exclude=map(sympy.Symbol, names)), 2))
-
-
-def _special(solution: Solution, eq: Any, known: Assumptions, budget: Budget) -> tuple[Any, Any]:
-    """Solutions in special functions where there is no Liouvillian one."""
-    symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ()) if symbol.name != solution.variable}
-    found = special_functions(solution.S, solution.gauge, solution.variable, budget, symbols=symbols)
-    if not found:
-        raise NotImplementedError(f"{no_solution(solution, known)}; {found}")
-    return found.y1, found.y2
+    general = sympy.Mul(*common, c1 * first + c2 * second) + particular
+    if given:
+        general = min(general, sympy.expand_mul(general, deep=False), key=sympy.count_ops)
+    general = general.xreplace({sympy.Symbol(name): symbol for name, symbol in symbols.items()})
+    return sympy.Eq(function, general.xreplace({x: function.args[0]}), evaluate=False)
 
 
 def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str:

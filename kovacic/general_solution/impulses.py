@@ -18,16 +18,17 @@ import sympy
 from sympy import DiracDelta, Heaviside
 
 from kovacic.general_solution.initial_values import tidy, value_at
+from kovacic.general_solution.variation import Basis
 
 Expr = Any  # SymPy publishes no types
 
 
-def response(right: Expr, x: Expr, y1: Expr, y2: Expr, solved: Callable[[Expr], Expr]) -> Expr | None:
+def response(right: Expr, basis: Basis, solved: Callable[[Expr], Expr]) -> Expr | None:
     """A solution for a right-hand side with steps and impulses at constant points, None for one of another form.
 
     `solved` gives a solution for a right-hand side without them.
     """
-    right = sympy.expand(right)
+    right, x = sympy.expand(right), basis.x
     plain, total = [], sympy.Integer(0)
     for term in sympy.Add.make_args(_separated(right, x)):
         jumps = [f for f in sympy.Mul.make_args(term) if f.func in (DiracDelta, Heaviside) and f.has(x)]
@@ -39,21 +40,21 @@ def response(right: Expr, x: Expr, y1: Expr, y2: Expr, solved: Callable[[Expr], 
         if len(jumps) != 1 or place is None or g.has(DiracDelta, Heaviside):
             return None
         a, slope = place
-        u, v, du, dv = (value_at(y, x, a, order) for order in (0, 1) for y in (y1, y2))
-        wronskian = tidy(u * dv - du * v)
+        u, v, du, dv = (value_at(y, x, a, order) for order in (0, 1) for y in (basis.y1, basis.y2))
+        wronskian = tidy(basis.wronskian.subs(x, a))
         if wronskian.has(sympy.nan, sympy.zoo, sympy.oo) or wronskian == 0:
             return None
 
         def with_values(value: Expr, rate: Expr) -> Expr:
             """The homogeneous solution with these values at a."""
             first, second = (value * dv - rate * v) / wronskian, (rate * u - value * du) / wronskian  # noqa: B023
-            return tidy(first) * y1 + tidy(second) * y2
+            return tidy(first) * basis.y1 + tidy(second) * basis.y2
 
         if jumps[0].func is DiracDelta:
-            total += Heaviside(x - a) * tidy(with_values(0, g.subs(x, a) / abs(slope)))
+            total += Heaviside(x - a) * sympy.powsimp(with_values(0, g.subs(x, a) / abs(slope)))
         else:
             p = solved(g)
-            total += Heaviside(x - a) * tidy(p - with_values(value_at(p, x, a), value_at(p, x, a, 1)))
+            total += Heaviside(x - a) * sympy.powsimp(p - with_values(value_at(p, x, a), value_at(p, x, a, 1)))
     rest = sympy.Add(*plain)
     return total + (solved(rest) if rest != 0 else 0)
 

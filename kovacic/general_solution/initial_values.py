@@ -2,33 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
 import sympy
+from flint import acb, arb, ctx
+from sympy import acos, atan, cos, cosh, exp, log, sin, sinh, tan, tanh
 from sympy.functions.special.bessel import BesselBase
+from sympy.simplify.fu import TR2i
 
+from kovacic.algebra.apart import last_of
 from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.check import DIGITS
+from kovacic.closed_form.jets import ANTIDERIVATIVES, jet
 from kovacic.errors import InputError
-from kovacic.general_solution.variation import simplified, special_wronskian
+from kovacic.general_solution.variation import Basis
+from kovacic.limits import watched_seconds
 from kovacic.reading.exponential import in_terms_of
 from kovacic.reading.given import Equation
 from kovacic.reading.parser import listed, shown
 
-_ELEMENTARY = {
-    sympy.exp,
-    sympy.log,
-    sympy.sin,
-    sympy.cos,
-    sympy.tan,
-    sympy.sinh,
-    sympy.cosh,
-    sympy.tanh,
-    sympy.atan,
-    sympy.acos,
-}
+#: Functions whose values are simplified, in constants of so many operations, and the seconds for a question about a constant.
+_ELEMENTARY = {exp, log, sin, cos, tan, sinh, cosh, tanh, atan, acos}
+_LONGEST, _SECONDS = 100, 10.0
 
 
 @dataclass(frozen=True)
@@ -114,23 +112,22 @@ def _sympy_key(key: Any, function: Any) -> tuple[Any, int]:
     raise InputError(f"{key} isn't an initial value", hint="write {y(0): 1, y(x).diff(x).subs(x, 0): 2}")
 
 
-def constants(
-    given: Sequence[Given], y1: Any, y2: Any, particular: Any, x: Any, names: Sequence[Any]
-) -> dict[Any, Any]:
+def constants(given: Sequence[Given], basis: Basis, particular: Any, names: Sequence[Any]) -> dict[Any, Any]:
     """The constants that the values determine: both, one in terms of the other, or none.
 
     Raises `InputError` where there is no solution with these values.
     """
     rows = []
     for item in given:
-        u, v, w = (value_at(y, x, item.point, item.order) for y in (y1, y2, particular))
+        u, v, w = (value_at(y, basis.x, item.point, item.order) for y in (basis.y1, basis.y2, particular))
         rows.append((u, v, item.value - w))
     initial = len(rows) == 2 and given[0].point == given[1].point and given[0].order != given[1].order
     for (a, b, r), (c, d, s) in combinations(rows, 2):
         determinant = a * d - b * c
-        if initial and (W := special_wronskian(y1, y2, x)) is not None:
-            determinant = W.subs(x, given[0].point) * (1 if given[0].order == 0 else -1)
-        if initial or not _is_zero(determinant):  # that of initial values is the Wronskian at an ordinary point
+        if initial:  # the Wronskian at an ordinary point
+            W = basis.wronskian.subs(basis.x, given[0].point) * (1 if given[0].order == 0 else -1)
+            determinant = W if agree(W, determinant) else determinant
+        if initial or not _is_zero(determinant):
             values, used = [tidy((r * d - b * s) / determinant), tidy((a * s - r * c) / determinant)], 2
             break
     else:
@@ -146,35 +143,60 @@ def constants(
 
 
 def tidy(value: Any) -> Any:
-    """Simplified, but for special functions and integrals, which SymPy takes long for."""
+    """A shorter form of a constant, where that is known at once."""
     value = sympy.sympify(value, strict=True)
     irrational = any(not p.exp.is_Rational and not p.base.is_Symbol for p in value.atoms(sympy.Pow))
-    if value.is_Rational or irrational or value.has(sympy.RootSum, sympy.Integral):
-        return value
     functions = {f.func for f in value.atoms(sympy.Function)}
+    if value.is_Rational or irrational or not functions <= _ELEMENTARY or value.count_ops() > _LONGEST:
+        return value
     if not functions:
         return sympy.radsimp(sympy.cancel(value) if value.free_symbols or value.has(sympy.E) else sympy.expand(value))
-    if functions == {sympy.exp}:
-        return sympy.cancel(value)
-    return simplified(value) if functions <= _ELEMENTARY else value
+    shorter = sympy.cancel(value)
+    return shorter if functions == {exp} else min(map(TR2i, (value, shorter)), key=sympy.count_ops)
+
+
+def _ball(value: Any) -> Any:
+    """The value of a constant, with generic values for symbols, in a ball; None where that can't be computed."""
+    if value.has(*ANTIDERIVATIVES):
+        return None
+    try:
+        return jet(value, sympy.Dummy(), acb(0))[0]
+    except NotImplementedError:
+        return None
+
+
+def agree(value: Any, other: Any) -> bool:
+    """Are two expressions for a constant, of which one was found at another point, the same to 50 digits?"""
+    with ctx.workdps(3 * DIGITS):
+        difference = _ball(value - other)
+        return difference is not None and bool(abs(difference) < arb(10) ** -DIGITS)
 
 
 def _is_zero(value: Any) -> bool:
-    """Is a constant zero?  By its value where it isn't, else by SymPy's simplification; symbols have generic values.
+    """Is a constant zero?  By a ball where it isn't, else by SymPy, for some seconds; symbols have generic values.
 
-    Raises `NotImplementedError` where SymPy can't tell.
+    Raises `NotImplementedError` where that can't be told.
     """
     value = sympy.sympify(value, strict=True)
     if value.is_Rational:
         return bool(value == 0)
-    if not value.free_symbols:
-        number = value.evalf(30, maxn=100)
-        if number.is_number and abs(number) > sympy.Float("1e-20"):
+    with ctx.workdps(DIGITS):
+        ball = _ball(value)
+        if ball is not None and not ball.contains(0):
             return False
-    answer = value.equals(0) if not value.free_symbols else sympy.simplify(value) == 0
+    answer = last_of(_zero, value, seconds=watched_seconds(_SECONDS))
     if answer is None:
         raise NotImplementedError(f"undecided: whether {shown(value, 60)} is zero")
     return bool(answer)
+
+
+def _zero(value: Any) -> Iterator[bool]:
+    if not value.free_symbols and abs(value.evalf(30, maxn=100)) > sympy.Float("1e-20"):
+        yield False
+        return
+    answer = value.equals(0) if not value.free_symbols else sympy.simplify(value) == 0
+    if answer is not None:
+        yield bool(answer)
 
 
 def value_at(expression: Any, x: Any, point: Any, order: int = 0) -> Any:
@@ -189,10 +211,17 @@ def value_at(expression: Any, x: Any, point: Any, order: int = 0) -> Any:
         expression = expression.xreplace({jump: sympy.Integer(0) for jump in jumps if jump.args[0].subs(x, point) == 0})
     value = expression.subs(x, point)
     if value.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):
-        if expression.has(sympy.hyper, BesselBase):  # SymPy takes limits of sqrt(x) besselk(1/4, x^2/2) wrong
-            said = f"the special functions of the closed form are singular at {point}, where the solutions aren't"
+        limit = None
+        if not expression.has(sympy.hyper, BesselBase):  # SymPy takes limits of sqrt(x) besselk(1/4, x^2/2) wrong
+            limit = last_of(_limit, expression, x, point, seconds=watched_seconds(_SECONDS))
+        if limit is None:
+            said = f"the functions of the closed form are singular at {point}, where the solutions aren't"
             raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
-        value = sympy.limit(expression, x, point)
+        value = limit
     return value.xreplace(
         {i: sympy.Integer(0) for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:]}
     )
+
+
+def _limit(expression: Any, x: Any, point: Any) -> Iterator[Any]:
+    yield sympy.limit(expression, x, point)

@@ -10,27 +10,23 @@ from kovacic.algebra.factors import combination
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, display
-from kovacic.closed_form.form import ClosedForm
 from kovacic.closed_form.product import product
+from kovacic.general_solution.antiderivatives import NUMBERS, in_powers, ratfunc
 from kovacic.general_solution.impulses import response
-from kovacic.general_solution.products import rational_over, variation_of_products
 from kovacic.general_solution.undetermined import undetermined
-from kovacic.general_solution.variation import with_integrals
+from kovacic.general_solution.variation import Basis
 from kovacic.limits import Budget
 from kovacic.reading.exponential import in_terms_of
-from kovacic.reading.given import EULER, PI, Equation
+from kovacic.reading.given import Equation
 
 Expr = Any  # SymPy publishes no types
-#: The numbers that are parameters in coefficients.
-NUMBERS = {sympy.Symbol(PI): sympy.pi, sympy.Symbol(EULER): sympy.E}
 #: The most terms of a right-hand side that are treated one by one.
 _LARGEST_SUM = 30
 
 
-def particular_solution(
-    equation: Equation, form: ClosedForm | None, y1: Expr, y2: Expr, start: Expr | None, budget: Budget
-) -> Expr:
+def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Expr:
     """A polynomial, by undetermined coefficients, or by variation of parameters, whose integrals begin at `start`."""
+    equation = basis.equation
     x = sympy.Symbol(equation.variable)
     right = (Atoms(x).sum(equation.f) + (equation.h or 0)).xreplace(NUMBERS)
     if right == 0:
@@ -38,18 +34,18 @@ def particular_solution(
     change = equation.change
     if change is not None:  # in x, where y'' = (dt/dx)^2 Y'' + ...
         right = in_terms_of(change, right / Atoms(x).ratio(equation.a).xreplace(NUMBERS), x.name)
-        t, x = in_terms_of(change, x, x.name), sympy.Symbol(change.variable)
-        return with_integrals(y1, y2, sympy.simplify(right * t.diff(x) ** 2), x, start, budget.seconds_left)
+        slope = in_terms_of(change, x, x.name).diff(basis.x)
+        return basis.with_integrals(sympy.powsimp(sympy.expand(right * slope**2)), start, budget.seconds_left)
 
     def at_once(right: Expr) -> Expr:
-        f = rational_over(equation.a.field, right, x)
+        f, field = ratfunc(right, x), equation.a.field
+        if f is not None and f.field != field:
+            f = RatFunc(f.num.over(field), f.den.over(field), reduced=True) if field.extends(f.field) else None
         polynomial = None if f is None else _polynomial_solution(equation, f * equation.a)
         if polynomial is not None:
             return Atoms(x).poly(polynomial).xreplace(NUMBERS)
         found = _by_coefficients(equation, right, x)
-        if found is None and form is not None:
-            found = variation_of_products(form.structure, equation, right, x)
-        return found
+        return basis.at_once(right) if found is None else found
 
     def solved(right: Expr) -> Expr:
         found = at_once(right)
@@ -58,12 +54,12 @@ def particular_solution(
         terms = sympy.Add.make_args(sympy.expand(right))
         parts = [at_once(term) for term in terms] if 1 < len(terms) <= _LARGEST_SUM else [None]
         rest = [term for term, part in zip(terms, parts, strict=True) if part is None] if len(parts) > 1 else [right]
-        integrals = with_integrals(y1, y2, sympy.Add(*rest), x, start, budget.seconds_left) if rest else 0
+        integrals = basis.with_integrals(sympy.Add(*rest), start, budget.seconds_left) if rest else 0
         return sympy.Add(integrals, *(part for part in parts if part is not None))
 
     right = right / Atoms(x).ratio(equation.a).xreplace(NUMBERS)
     if right.has(sympy.DiracDelta, sympy.Heaviside):
-        found = response(right, x, y1, y2, solved)
+        found = response(right, basis, solved)
         if found is not None:
             return found
     return solved(right)
@@ -97,8 +93,7 @@ def _by_coefficients(equation: Equation, right: Expr, x: Expr) -> Expr:
     found = undetermined(-1, -atoms.ratio(s).xreplace(NUMBERS), sympy.exp(2 * t) * inner, t)
     if found is None:
         return None
-    powers = found.replace(sympy.exp, lambda e: u ** e.diff(t) * sympy.exp(e.subs(t, 0)))
-    return sympy.Add(*(gauge * term for term in sympy.Add.make_args(powers.subs(t, sympy.log(u)))))
+    return sympy.Add(*(gauge * term for term in sympy.Add.make_args(in_powers(found, t, u))))
 
 
 def _polynomial_solution(equation: Equation, right: RatFunc) -> Poly | None:

@@ -14,7 +14,7 @@ import sympy
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_numerical_solution
 from kovacic.errors import InputError
-from kovacic.general_solution.products import is_solution
+from kovacic.general_solution.variation import is_solution
 from kovacic.reading.given import Equation
 from kovacic.solution import Solution
 

@@ -9,7 +9,6 @@ import sympy
 
 from kovacic.closed_form.atoms import Atoms
 from kovacic.errors import InputError
-from kovacic.general_solution.variation import simplified
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.reading.given import Equation
 from kovacic.solution import Solution, solve
@@ -71,7 +70,7 @@ def solve_riccati(
     if finite and solution.case == 1:
         y1, y2 = solution.solutions
         u = y1 + sympy.Symbol("C1") * y2
-        family = simplified(-u.diff(x) / (factor * u))
+        family = sympy.cancel(sympy.powsimp(sympy.expand(-u.diff(x) / (factor * u))))
     rational: tuple[Any, ...] = ()
     polynomial = None
     if solution.case == 1 and (group is None or group.order is None or group.order > 2):

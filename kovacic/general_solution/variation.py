@@ -1,18 +1,30 @@
 """Variation of parameters: y = -y1 int y2 f/(a W) dx + y2 int y1 f/(a W) dx,  W = y1 y2' - y1' y2.
 
-SymPy's simplification and integration can't be interrupted, so that they work in a process that can.
+Where the integrals aren't known at once, SymPy's simplification and integration work in a process that can be interrupted.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import sympy
-from sympy import cos, cot, csc, expand, powsimp, sec, sin, tan
+from flint import acb, arb, ctx, fmpq
+from sympy import expand, powsimp
 
 from kovacic.algebra.apart import last_of
+from kovacic.closed_form.atoms import Atoms, display
+from kovacic.closed_form.check import DIGITS, value_at
+from kovacic.closed_form.jets import jet
+from kovacic.closed_form.product import product
+from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
+from kovacic.reading.given import Equation
 
+Expr = Any  # SymPy publishes no types
+#: One point in each quadrant, where a solution is substituted: roots on the wrong branch don't pass.
+_POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79)]
 #: The largest expression (in operations) that is handed to SymPy's general simplification.
 _SIMPLIFIED = 150
 #: Seconds for the integrals of one equation, at most.
@@ -26,20 +38,53 @@ _PAIRS: dict[Any, tuple[Any, Any]] = {
 }
 
 
-def with_integrals(y1: Any, y2: Any, right: Any, x: Any, start: Any, seconds: float) -> Any:
-    """A solution of y'' + ... = right; integrals that aren't done (in time) stay, and begin at `start` unless it is None."""
-    stages = last_of(_stages, y1, y2, right, x, start, seconds=min(seconds, SECONDS))
-    if stages is not None:
-        return stages
-    wronskian = special_wronskian(y1, y2, x) or y1 * y2.diff(x) - y1.diff(x) * y2
-    first, second = (_open(y * right / wronskian, x, start) for y in (y2, y1))
-    return y2 * second - y1 * first
+@dataclass(frozen=True)
+class Basis:
+    """Two solutions of the homogeneous equation in x, which is that of `equation` unless this has another variable."""
+
+    y1: Expr
+    y2: Expr
+    x: Expr
+    equation: Equation
+
+    @cached_property
+    def wronskian(self) -> Expr:
+        """W = c exp(-int b/a dx), where c is found at a point, or by the theory of the functions; else by the definition."""
+        known = special_wronskian(self.y1, self.y2, self.x)
+        W = self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2
+        if known is not None or self.equation.change is not None or W.has(sympy.hyper, sympy.RootSum, sympy.Integral):
+            return W if known is None else known
+        kernel = display(product(self.equation.gauge * 2), Atoms(self.x)).xreplace(NUMBERS)
+        for point in (0, 1, -1, 2):
+            c = sympy.expand(W.subs(self.x, point) / kernel.subs(self.x, point))
+            if c != 0 and c.is_finite is not False and not c.has(sympy.nan, sympy.zoo, sympy.Function):
+                return sympy.radsimp(c) * kernel
+        return W
+
+    def at_once(self, right: Expr) -> Expr | None:
+        """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
+        right = prepared(right)
+        parts = [antiderivative(y * right / self.wronskian, self.x) for y in (self.y2, self.y1)]
+        if parts[0] is None or parts[1] is None:
+            return None
+        terms = sympy.Add.make_args(expand(self.y2 * parts[1] - self.y1 * parts[0]))
+        other = (term for term in terms if all(powsimp(term / y).has(self.x) for y in (self.y1, self.y2)))
+        found = sympy.factor_terms(sympy.Add(*other))
+        return found if is_solution(found, self.equation, right, self.x) else None
+
+    def with_integrals(self, right: Expr, start: Expr | None, seconds: float) -> Expr:
+        """A solution of y'' + ... = right; integrals that aren't done in time stay, and begin at `start` unless it is None."""
+        stages = last_of(_stages, self, right, start, seconds=min(seconds, SECONDS))
+        if stages is not None:
+            return stages
+        first, second = (_open(y * right / self.wronskian, self.x, start) for y in (self.y2, self.y1))
+        return self.y2 * second - self.y1 * first
 
 
-def _stages(y1: Any, y2: Any, right: Any, x: Any, start: Any) -> Iterator[Any]:
+def _stages(basis: Basis, right: Expr, start: Expr | None) -> Iterator[Expr]:
     """The solution as far as it is known, better every time."""
-    wronskian = _wronskian(y1, y2, x)
-    integrands = [simplified(y * right / wronskian) for y in (y2, y1)]
+    y1, y2, x = basis.y1, basis.y2, basis.x
+    integrands = [simplified(y * right / simplified(basis.wronskian)) for y in (y2, y1)]
     first, second = (_open(integrand, x, start) for integrand in integrands)
     yield y2 * second - y1 * first
     first = _integral(integrands[0], x, start)
@@ -51,19 +96,7 @@ def _stages(y1: Any, y2: Any, right: Any, x: Any, start: Any) -> Iterator[Any]:
         yield simplified(expand(result))
 
 
-def _wronskian(y1: Any, y2: Any, x: Any) -> Any:
-    """y1 y2' - y1' y2, simplified: over the field of the functions that occur, and by trigonometry where that's needed."""
-    if (known := special_wronskian(y1, y2, x)) is not None:
-        return known
-    value = expand(y1 * y2.diff(x) - y1.diff(x) * y2)
-    if value.has(sin, cos):
-        value = sympy.trigsimp(value)
-    if value.has(sympy.log, sympy.erf, sympy.Integral):
-        value = sympy.cancel(sympy.together(value))
-    return simplified(value)
-
-
-def special_wronskian(y1: Any, y2: Any, x: Any) -> Any | None:
+def special_wronskian(y1: Expr, y2: Expr, x: Expr) -> Expr | None:
     """y1 y2' - y1' y2 for pairs P C1(z), P C2(z) of Airy or Bessel functions: P^2 z' (C1 C2' - C1' C2)(z); None for others.
 
     Reference: DLMF 9.2.7, 10.5.2, 10.28.2, 10.50.1.
@@ -84,12 +117,12 @@ def special_wronskian(y1: Any, y2: Any, x: Any) -> Any | None:
     return sympy.cancel(W) if W.is_rational_function(x) else W
 
 
-def simplified(expression: Any) -> Any:
-    """Simplified, if it isn't long."""
+def simplified(expression: Expr) -> Expr:
+    """Simplified, if it isn't long: only in a process that can be interrupted."""
     return sympy.simplify(expression) if expression.count_ops() < _SIMPLIFIED else expression
 
 
-def _open(integrand: Any, x: Any, start: Any) -> Any:
+def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
     """The unevaluated integral, from `start` on with a variable that doesn't occur."""
     if start is None:
         return sympy.Integral(integrand, x)
@@ -98,57 +131,31 @@ def _open(integrand: Any, x: Any, start: Any) -> Any:
     return sympy.Integral(integrand.subs(x, s), (s, start, x))
 
 
-def _integral(integrand: Any, x: Any, start: Any) -> Any:
-    """The antiderivative by SymPy's rules for hand calculation, else an `Integral`."""
+def _integral(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
+    """The antiderivative, by SymPy's rules for hand calculation where it isn't known, else an `Integral`."""
     parts = []
-    for term in sympy.Add.make_args(_prepared(integrand)):
-        done = _by_exponential(term, x)
-        if done is not None:
-            parts.append(done)
-            continue
-        for form in (_one_exponential(term), term, _with_secants(term)):
-            done = sympy.Integral(form, x).doit(manual=True)
-            if not done.has(sympy.Integral):
-                break
-        else:
+    for term in sympy.Add.make_args(prepared(integrand)):
+        done = antiderivative(term, x)
+        forms = (expand(powsimp(term), power_exp=False), term)  # exp(x^2) exp(x) as exp(x^2 + x)
+        tried = (sympy.Integral(form, x).doit(manual=True) for form in forms if done is None)
+        done = next((e for e in tried if not e.has(sympy.Integral)), done)
+        if done is None:
             return _open(integrand, x, start)
         parts.append(done)
     return sympy.Add(*parts)
 
 
-def _by_exponential(term: Any, x: Any) -> Any:
-    """The antiderivative of a function of u = exp(k x) alone, in u; None for another function, or one that isn't done."""
-    rates = {e: e.args[0].diff(x) for e in term.atoms(sympy.exp) if e.args[0].subs(x, 0) == 0}
-    if not rates or not all(rate.is_Rational for rate in rates.values()):
-        return None
-    k, u = sympy.gcd_list([*rates.values()]), sympy.Dummy(positive=True)
-    inner = term.xreplace({e: u ** (rate / k) for e, rate in rates.items()})
-    if inner.has(x):
-        return None
-    done = sympy.Integral(sympy.expand(inner / (k * u)), u).doit(manual=True)
-    return None if done.has(sympy.Integral) else done.subs(u, sympy.exp(k * x))
-
-
-def _prepared(integrand: Any) -> Any:
-    """Expanded, in sines and cosines, and without sin^2 over a cosine: as tables have it."""
-    if integrand.has(tan, cot, sec, csc):
-        integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
-        integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
-    if sympy.denom(integrand).has(cos):
-        integrand = integrand.replace(
-            lambda e: e.is_Pow and e.exp == 2 and e.base.func is sin, lambda e: 1 - cos(e.base.args[0]) ** 2
-        )
-    return expand(integrand)
-
-
-def _with_secants(term: Any) -> Any:
-    inverse = {cos: sec, sin: csc}
-    return term.replace(
-        lambda e: e.is_Pow and e.exp.is_Integer and e.exp < 0 and e.base.func in inverse,
-        lambda e: inverse[e.base.func](*e.base.args) ** -e.exp,
-    )
-
-
-def _one_exponential(term: Any) -> Any:
-    """exp(x^2) exp(x) as exp(x^2 + x)."""
-    return expand(powsimp(term), power_exp=False)
+def is_solution(y: Expr, equation: Equation, right: Expr, x: Expr) -> bool:
+    """Does y satisfy y'' + (b/a) y' + (c/a) y = right at a point in each quadrant, to 50 digits?"""
+    b, c = equation.b / equation.a, equation.c / equation.a
+    with ctx.workdps(DIGITS + 15):
+        for real, imaginary in _POINTS:
+            point = acb(arb(fmpq(real, 101)), arb(fmpq(imaginary, 89)))
+            try:
+                (value, first, second), force = jet(y, x, point), jet(right, x, point)[0]
+            except NotImplementedError:
+                return False
+            terms = [second, value_at(b, point) * first, value_at(c, point) * value, -force]
+            if not abs(sum(terms)) < arb(10) ** -DIGITS * sum(map(abs, terms), arb(1)):
+                return False
+    return True
