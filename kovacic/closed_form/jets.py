@@ -28,11 +28,7 @@ _UNARY = {
     sympy.sin: "sin",
     sympy.cos: "cos",
     sympy.tan: "tan",
-    sympy.sinh: "sinh",
-    sympy.cosh: "cosh",
-    sympy.tanh: "tanh",
     sympy.atan: "atan",
-    sympy.acos: "acos",
     sympy.erf: "erf",
     sympy.erfi: "erfi",
     sympy.Ei: "ei",
@@ -84,7 +80,8 @@ class _Evaluator:
             base, exponent = e.args
             return self(base) ** (int(exponent) if exponent.is_Integer else self(exponent))
         if e.func in _UNARY:
-            return getattr(self(e.args[0]), _UNARY[e.func])()
+            value, name = self(e.args[0]), _UNARY[e.func]
+            return getattr(value if hasattr(value, name) else _lifted(value), name)()
         if isinstance(e, sympy.RootSum):
             a = e.fun.variables[0]
             return reduce(add, (_Evaluator({**self.bindings, a: root})(e.fun.expr) for root in self._roots(e.poly)))
@@ -93,14 +90,15 @@ class _Evaluator:
             return acb_series([1, slope[0], slope[1] / 2], prec=3)
         if isinstance(e, (sympy.uppergamma, sympy.lowergamma)):
             name = "gamma_upper" if isinstance(e, sympy.uppergamma) else "gamma_lower"
-            return getattr(acb_series, name)(self(e.args[0]), self(e.args[1]))
+            return getattr(acb_series, name)(self(e.args[0]), _lifted(self(e.args[1])))
         if isinstance(e, sympy.hyper):
-            z = self(e.argument)
+            z = _lifted(self(e.argument))
             return _taylor(z, _hypergeometric(e, self, z[0]))
         if (known := _rewritten(e)) is not None:
             return self(known)
         if (rule := _DERIVATIVES.get(e.func)) is not None:
             *parameters, z = map(self, e.args)
+            z = _lifted(z)
             return _taylor(z, [rule(k, parameters, z[0]) for k in range(3)])
         if e.is_Symbol:
             return parameter_value(e.name)
@@ -118,6 +116,11 @@ class _Evaluator:
                 return _with_real_roots(acb_poly([precise(c) for c in coefficients]), tolerance)
         integers = polynomial.clear_denoms()[1].all_coeffs()[::-1]
         return [root for root, _ in fmpz_poly([int(c) for c in integers]).complex_roots()]
+
+
+def _lifted(value: Value) -> Value:
+    """As a series."""
+    return acb_series([value], prec=3) if isinstance(value, acb) else value
 
 
 def _taylor(z: Value, values: list[Number]) -> Value:
@@ -190,8 +193,12 @@ _DERIVATIVES: dict[Any, Callable[[int, Sequence[Number], Number], Number]] = {
 
 
 def _rewritten(e: Any) -> Any:
-    """Spherical Bessel functions by Bessel's, polynomials by hypergeometric functions; None for all others."""
+    """Hyperbolic functions by exponentials, spherical Bessel functions by Bessel's, polynomials by 2F1, 1F1; or None."""
     half, gamma = sympy.S.Half, sympy.gamma
+    if isinstance(e, sympy.sinh | sympy.cosh | sympy.tanh):
+        return e.rewrite(sympy.exp)
+    if isinstance(e, sympy.acos):
+        return sympy.pi / 2 - sympy.atan(e.args[0] / sympy.sqrt(1 - e.args[0] ** 2))
     if isinstance(e, sympy.jn | sympy.yn):
         n, z = e.args
         kind = sympy.besselj if isinstance(e, sympy.jn) else sympy.bessely

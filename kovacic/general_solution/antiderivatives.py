@@ -37,7 +37,10 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
     x*log(x) - 2*x + tan(x)
     """
     integrand, parts = prepared(integrand), []
-    if not integrand.has(sin, cos, log) and (whole := _of_product(integrand, x)) is not None:
+    functions = {f.func for f in integrand.atoms(sympy.Function, sympy.Integral)}
+    if not functions <= {exp, log, sin, cos}:
+        return None
+    if functions <= {exp} and (whole := _of_product(integrand, x)) is not None:
         return whole
     for term in sympy.Add.make_args(integrand):
         rules = (_by_coefficients, _in_logarithms, _in_exponentials, _in_waves, _of_product)
@@ -123,7 +126,7 @@ def _in_waves(term: Expr, x: Expr) -> Expr | None:
 
 
 def _of_product(term: Expr, x: Expr) -> Expr | None:
-    rate = ratfunc(sympy.cancel(term.diff(x) / term), x)
+    rate = None if term.has(sin, cos, log) else ratfunc(sympy.cancel(term.diff(x) / term), x)
     if rate is None:
         return None
     atoms, h = Atoms(x), product(rate)

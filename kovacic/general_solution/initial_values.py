@@ -147,7 +147,8 @@ def tidy(value: Any) -> Any:
     value = sympy.sympify(value, strict=True)
     irrational = any(not p.exp.is_Rational and not p.base.is_Symbol for p in value.atoms(sympy.Pow))
     functions = {f.func for f in value.atoms(sympy.Function)}
-    if value.is_Rational or irrational or not functions <= _ELEMENTARY or value.count_ops() > _LONGEST:
+    long = value.count_ops() > _LONGEST or value.has(sympy.RootSum, sympy.Integral)
+    if value.is_Rational or irrational or long or not functions <= _ELEMENTARY:
         return value
     if not functions:
         return sympy.radsimp(sympy.cancel(value) if value.free_symbols or value.has(sympy.E) else sympy.expand(value))
