@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 import time
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import mpmath
@@ -17,6 +19,7 @@ from sympy import I, Rational, cos, exp, sin, sqrt
 
 import kovacic
 from kovacic.general_solution import dsolve, solve_riccati
+from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.reading.equation import parse_equation
 from kovacic.reading.symbolic import read_expression
@@ -565,6 +568,59 @@ def test_a_singular_point_between() -> None:
         with pytest.raises(ValueError, match="a singular point of the equation lies between"):
             dsolve(text, ics=ics)
     assert dsolve("x^2*y'' - 2*x*y' + 2*y = 0", ics={"y(-1)": 0, "y(1)": 2}).rhs == x**2 + x
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_constants_keep_the_limit(seed: int) -> None:
+    """Initial and boundary values within a second more than the limit; what isn't found in time is an `Integral`, or said."""
+    random = Random(seed)
+    S = random.choice(["x", "-2", "x^2 - 3", "2/x^2", "1/x - 3/(16*x^2)", "5/36/x^2 - 1", "3/4/x^2 + x", "4", "x^3"])
+    right = random.choice(
+        ["sin(x)/x", "exp(x)*log(x)", "tan(x)", "exp(sin(x))", "sqrt(x+7)", "x^5*exp(x)*sin(3*x)", "0"]
+    )
+    first, second, third = random.sample(["1", "3", "pi", "sqrt(2)", "5/2"], 3)
+    other = random.choice([f"y'({first})", f"y({second})"])
+    start, own = time.monotonic(), time.process_time()
+    values = f"y({first})={third}, {other}={second}"
+    with suppress(NotImplementedError):
+        assert dsolve(f"y'' = ({S})*y + {right}", ics=values, limits=kovacic.Limits(seconds=0.3)).lhs == y(x)
+    assert time.process_time() - own < 0.3 + 1
+    assert time.monotonic() - start < 0.3 + 1 + 5  # other processes share the machine
+
+
+def test_special_functions_where_nothing_is_proven() -> None:
+    with pytest.warns(UserWarning, match="whether there is a Liouvillian solution is undecided"):
+        found = dsolve("y'' = (x^2 + 5)*y", limits=kovacic.Limits(unknown_degree=1))
+    assert residual(y(x).diff(x, 2) - (x**2 + 5) * y(x), found) < 1e-20
+
+
+@pytest.mark.parametrize(
+    ("integrand", "functions"),
+    [
+        (sympy.sec(x), {sympy.log}),
+        (sympy.tan(x) ** 2 * sin(2 * x), {sympy.log}),
+        (1 / (2 + sin(3 * x + 1)), {sympy.atan}),
+        (1 / (1 + cos(x) ** 2), {sympy.atan}),
+        (x**2 * sympy.log(x) ** 2, {sympy.log}),
+        (exp(2 * x) / (1 + exp(x)), {sympy.log}),
+        (exp(3 * x) * sin(exp(x)), set()),
+        (exp(-x) * sqrt(x), {sympy.erf}),
+        (1 / (exp(x) + exp(-x)), {sympy.atan}),
+    ],
+)
+def test_integrals_known_at_once(integrand: sympy.Expr, functions: set) -> None:
+    found = antiderivative(integrand, x)
+    assert found is not None
+    assert {f.func for f in found.atoms(sympy.Function)} - {sin, cos, sympy.tan, exp} == functions
+    for point in (Rational(3, 7), Rational(9, 8)):
+        assert abs(sympy.N((found.diff(x) - integrand).subs(x, point), 30)) < 1e-20
+
+
+@pytest.mark.parametrize(
+    "integrand", [x * sympy.tan(x), sin(x) / x, exp(sin(x)), sympy.besselj(1, x), sqrt(1 + x) * cos(x)]
+)
+def test_other_integrals(integrand: sympy.Expr) -> None:
+    assert antiderivative(integrand, x) is None
 
 
 def test_values_as_one_text() -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
@@ -89,6 +90,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         from click.shell_completion import shell_complete
 
         sys.exit(shell_complete(cli, {}, "kovacic", "_KOVACIC_COMPLETE", instruction))
+    warnings.formatwarning = lambda message, *_, **__: f"kovacic: {message}\n"
     for stream in (sys.stdin, sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # files and pipes are UTF-8 on every system
             stream.reconfigure(encoding=None if stream.isatty() else "utf-8", errors="backslashreplace")

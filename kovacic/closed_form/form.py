@@ -119,4 +119,4 @@ def _one_exponential(y: Expr) -> Expr:
             return product
         return Mul(*(factor for factor in product.args if not isinstance(factor, exp)), exp(Add(*inner)))
 
-    return y.replace(lambda e: e.is_Mul, merged) if y.has(exp) else y
+    return y.replace(lambda e: e.is_Mul, merged) if len(y.atoms(exp)) > 1 else y

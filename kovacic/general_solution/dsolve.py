@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import islice
 from typing import Any
+from warnings import warn
 
 import sympy
 
@@ -22,7 +23,7 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.reading.exponential import solution_in_terms_of
-from kovacic.reading.given import Parsed, parameters_of
+from kovacic.reading.given import Equation, Parsed, parameters_of
 from kovacic.solution import Solution, solve
 from kovacic.special.answer import special_functions
 
@@ -46,9 +47,11 @@ def dsolve(
     With parameters, the answer holds for generic values; assumptions of their symbols are used.  Coefficients may be rational
     in exp(k x), or in sines, ... of multiples of k x, as well.
 
-    Raises `NotImplementedError` where it is proven that there is no Liouvillian solution, with the reason, or where a limit
-    was reached; `InputError` for what isn't such an equation and where no solution has the given values, and `ValueError`
-    for values at a singular point.
+    Special functions are looked for where there is no Liouvillian solution; where that isn't proven because a limit was
+    reached, a `UserWarning` says so.
+
+    Raises `NotImplementedError` where none are found, with the reason, or where a limit was reached; `InputError` for what
+    isn't such an equation and where no solution has the given values, and `ValueError` for values at a singular point.
 
     >>> print(dsolve("y'' + y = x"))
     Eq(y(x), C1*cos(x) + C2*sin(x) + x)
@@ -60,31 +63,35 @@ def dsolve(
     budget = Budget(limits)
     with budget.watched():
         radical = radical_of(eq)
-        if radical is None:
-            return _solved(eq, func, as_mapping(ics), var, budget)
-        root, symbol, value, new = radical
-        own = {key: v.subs(symbol, value) if hasattr(v, "subs") else v for key, v in as_mapping(ics).items()}
-        return _solved(eq.subs(symbol, value), func, own, var, budget).subs(new, root)
+        values = as_mapping(ics)
+        if radical is not None:
+            root, symbol, value, new = radical
+            values = {key: v.subs(symbol, value) if hasattr(v, "subs") else v for key, v in values.items()}
+            eq = eq.subs(symbol, value)
+        equation, function = read_equation(eq, func, var, budget.limits)
+        try:
+            found = _solved(eq, equation, function, values, budget)
+        except LimitExceeded as limit:
+            raise NotImplementedError(f"undecided: {limit}") from None
+        return found if radical is None else found.subs(new, root)
 
 
-def _solved(eq: Any, func: Any, ics: Mapping[Any, Any], var: str | None, budget: Budget) -> Any:
-    equation, function = read_equation(eq, func, var, budget.limits)
+def _solved(eq: Any, equation: Equation, function: Any, ics: Mapping[Any, Any], budget: Budget) -> Any:
     known = read_assumptions(None, eq, parameters_of(equation.S.field))
     solution = solve(equation, limits=budget.share(1).limits)
     if solution.status is Status.NONE_EXISTS and known.concerns_exponents:
         solution = solve(equation, assume=known.to_dict(), limits=budget.share(1).limits)
     symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
-    try:
-        if solution.case is None:
-            own = {name: symbol for name, symbol in symbols.items() if name != solution.variable}
-            special = special_functions(solution.S, solution.gauge, solution.variable, budget, symbols=own)
-            if not special:
-                raise NotImplementedError(f"{no_solution(solution, known)}; {special}")
-            y1, y2 = special
-        else:
-            y1, y2 = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
-    except LimitExceeded as limit:
-        raise NotImplementedError(f"undecided: {limit}") from None
+    if solution.case is None:
+        own = {name: symbol for name, symbol in symbols.items() if name != solution.variable}
+        special = special_functions(solution.S, solution.gauge, solution.variable, budget, symbols=own)
+        if not special:
+            raise NotImplementedError(f"{no_solution(solution, known)}; {special}")
+        if solution.status is Status.UNDECIDED:
+            warn(f"whether there is a Liouvillian solution is {no_solution(solution)}", stacklevel=3)
+        y1, y2 = special
+    else:
+        y1, y2 = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
     given = read_values(ics, function, equation) if ics else ()
     change = equation.change
     x = sympy.Symbol(equation.variable if change is None else change.variable)

@@ -71,10 +71,11 @@ def radical_of(eq: Any) -> tuple[Any, Any, Any, Any] | None:
     """A square root r of an expression that is linear in a parameter p, p, p in terms of r, and the symbol r; None without."""
     if not isinstance(eq, sympy.Basic):
         return None
-    variables = {symbol for f in eq.atoms(AppliedUndef) for symbol in f.free_symbols}
-    for power in sorted(eq.atoms(sympy.Pow), key=str):
+    roots = [power for power in eq.atoms(sympy.Pow) if power.exp.is_Rational and power.exp.q == 2]
+    variables = {symbol for f in eq.atoms(AppliedUndef) for symbol in f.free_symbols} if roots else set()
+    for power in sorted(roots, key=str):
         base = power.base
-        if power.exp.is_Rational and power.exp.q == 2 and not base.free_symbols & variables:
+        if not base.free_symbols & variables:
             for symbol in sorted(base.free_symbols, key=str):
                 slope = base.diff(symbol)
                 if slope.is_Rational:

@@ -11,6 +11,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product
+from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, in_powers, ratfunc
 from kovacic.general_solution.impulses import response
 from kovacic.general_solution.undetermined import undetermined
@@ -48,7 +49,10 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
         return basis.at_once(right) if found is None else found
 
     def solved(right: Expr) -> Expr:
-        found = at_once(right)
+        try:
+            found = at_once(right)
+        except LimitExceeded:
+            found = None
         if found is not None:
             return found
         terms = sympy.Add.make_args(sympy.expand(right))
