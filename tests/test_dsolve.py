@@ -10,6 +10,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
+import flint
 import mpmath
 import pytest
 import sympy
@@ -18,6 +19,8 @@ from hypothesis import strategies as st
 from sympy import I, Rational, cos, exp, sin, sqrt
 
 import kovacic
+from kovacic.closed_form.form import at_edges
+from kovacic.closed_form.jets import jet
 from kovacic.general_solution import dsolve, solve_riccati
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.undetermined import undetermined
@@ -465,14 +468,38 @@ def test_real_to_the_left_of_a_singularity(text: str) -> None:
         assert sympy.N(found.rhs.subs(x, Rational(point)), 30).is_real
 
 
+KLEIN = [
+    "(-32*x**2 + 27*x - 27)/(144*x**4 - 288*x**3 + 144*x**2)",
+    "(-135*x**2 + 80*x - 80)/(576*x**4 - 1152*x**3 + 576*x**2)",
+    "(-864*x**2 + 739*x - 675)/(3600*x**4 - 7200*x**3 + 3600*x**2)",
+]
+
+
 def test_initial_values_in_case_3() -> None:
     """Exact constants, values of hypergeometric functions; compared with proven enclosures."""
     S = "(-32*x^2 + 27*x - 27)/(144*x^2*(x-1)^2)"
     found = dsolve(f"y'' = {S}*y", ics={"y(3)": 1, "y'(3)": "1/2"}).rhs
     expected = kovacic.solve(S).at("7/2", x0=3, y0=1, dy0="1/2", digits=20)
     assert abs(sympy.N(found.subs(x, Rational(7, 2)), 20) - sympy.Float(str(expected).split()[0], 20)) < 1e-18
-    with pytest.raises(NotImplementedError, match="singular at 2"):
-        dsolve(f"y'' = {S}*y", ics={"y(2)": 1})
+    at_pole = dsolve(f"y'' = {S}*y", ics={"y(2)": 1, "y'(2)": "1/3"}).rhs  # J has a pole at 2
+    assert abs(sympy.N(at_pole.subs(x, 2) - 1, 30)) < 1e-25
+    assert abs(sympy.N(at_pole.diff(x).subs(x, 2) - Rational(1, 3), 30)) < 1e-25
+    expected = kovacic.solve(S).at("5/2", x0=2, y0=1, dy0="1/3", digits=20)
+    assert abs(sympy.N(at_pole.subs(x, Rational(5, 2)), 20) - sympy.Float(str(expected).split()[0], 20)) < 1e-18
+
+
+@pytest.mark.parametrize("S", KLEIN)
+def test_three_finite_groups_at_the_edges(S: str) -> None:
+    """The pair in 1/J solves the equation and isn't the one in J: at the poles of J its quotient is finite."""
+    answer = kovacic.solve(S)
+    form = answer.closed_form
+    assert form is not None
+    pair = at_edges(form.structure, answer.S, answer.gauge, "x")
+    assert pair is not None
+    with flint.ctx.workdps(40):
+        point = flint.acb("2.3", "0.4")
+        (u, du, _), (v, dv, _) = (jet(y, x, point) for y in pair)
+        assert not (u * dv - du * v).contains(0)
 
 
 def test_one_exponential() -> None:

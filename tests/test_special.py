@@ -400,3 +400,25 @@ def test_assumptions_that_exclude_each_other() -> None:
     answer = kovacic.solve("y'' - 2*x*y' + 2*n*y = 0", assume={"n": "positive negative"})
     with pytest.raises(kovacic.errors.InputError, match="contradict"):
         _ = answer.special
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("x*(1-x)*y'' + (1-2*x)*y' - y/4 = 0", ("elliptic_k(x)", "elliptic_k(1 - x)")),
+        ("x*(1-x)*y'' + (1-x)*y' + y/4 = 0", ("elliptic_e(x)", None)),
+        ("(1-x^2)*y'' - 2*x*y' + 3/4*y = 0", ("legendre(1/2, x)", "legendre(1/2, -x)")),
+        ("(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0", ("legendre(n, x)", "hyper((-n, n + 1), (1,), x/2 + 1/2)")),
+    ],
+)
+def test_names_of_gauss_functions(text: str, names: tuple[str, str | None]) -> None:
+    """DLMF 19.4.8 (K), 19.4.9 (E), 14.2.1; substituted by mpmath's numbers."""
+    found = kovacic.solve(text, var="x").special
+    assert all(name is None or str(y) == name for y, name in zip(found, names, strict=True))
+    equation = read_input(text, var="x").equation
+    assert equation is not None
+    x, n = sympy.symbols("x n")
+    a, b, c = (sympy.sympify(part.to_str("x")) for part in (equation.a, equation.b, equation.c))
+    for y in found:
+        left = (a * y.diff(x, 2) + b * y.diff(x) + c * y).subs({n: sympy.Rational(2, 7), x: sympy.Rational(3, 11)})
+        assert abs(sympy.N(left, 30)) < 1e-20

@@ -13,7 +13,7 @@ from kovacic.closed_form.atoms import Atoms, Expr, display, hypergeometric, rati
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution
 from kovacic.closed_form.curve_display import exponentials
 from kovacic.closed_form.integrals import triangular
-from kovacic.closed_form.klein import KleinForm
+from kovacic.closed_form.klein import Hypergeometric, KleinForm
 from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular, build
 from kovacic.decision import Decision
@@ -102,12 +102,7 @@ def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[
         return triangular(form, atoms)
     if isinstance(form, OnCurve):
         return exponentials(form, atoms)
-    J = atoms.factored(form.J)
-    first, second = (
-        Mul(display(y.factor, atoms), hypergeometric((rational(y.a), rational(y.b)), (rational(y.c),), J))
-        for y in (form.first, form.second)
-    )
-    return first, second, ()
+    return *_hypergeometric((form.first, form.second), form.J, atoms), ()
 
 
 def _one_exponential(y: Expr) -> Expr:
@@ -120,3 +115,18 @@ def _one_exponential(y: Expr) -> Expr:
         return Mul(*(factor for factor in product.args if not isinstance(factor, exp)), exp(Add(*inner)))
 
     return y.replace(lambda e: e.is_Mul, merged) if len(y.atoms(exp)) > 1 else y
+
+
+def _hypergeometric(pair: tuple[Hypergeometric, Hypergeometric], J: RatFunc, atoms: Atoms) -> tuple[Expr, Expr]:
+    z = atoms.factored(J)
+    first, second = (
+        Mul(display(y.factor, atoms), hypergeometric((rational(y.a), rational(y.b)), (rational(y.c),), z)) for y in pair
+    )
+    return first, second
+
+
+def at_edges(form: KleinForm, S: RatFunc, gauge: RatFunc, variable: str) -> tuple[Expr, Expr] | None:
+    """Two other solutions in case 3, functions of 1/J, for the poles of J; None where they don't pass the check."""
+    atoms = Atoms(Symbol(variable))
+    pair = _hypergeometric(form.at_edges, 1 / form.J, atoms)
+    return pair if all(is_numerical_solution(y, atoms.x, S, gauge) for y in pair) else None

@@ -85,6 +85,8 @@ class _Evaluator:
         if isinstance(e, sympy.RootSum):
             a = e.fun.variables[0]
             return reduce(add, (_Evaluator({**self.bindings, a: root})(e.fun.expr) for root in self._roots(e.poly)))
+        if (known := _rewritten(e)) is not None:
+            return self(known)
         if isinstance(e, ANTIDERIVATIVES):
             slope = self(e.diff(next(iter(self.bindings))))
             return acb_series([1, slope[0], slope[1] / 2], prec=3)
@@ -94,8 +96,6 @@ class _Evaluator:
         if isinstance(e, sympy.hyper):
             z = _lifted(self(e.argument))
             return _taylor(z, _hypergeometric(e, self, z[0]))
-        if (known := _rewritten(e)) is not None:
-            return self(known)
         if (rule := _DERIVATIVES.get(e.func)) is not None:
             *parameters, z = map(self, e.args)
             z = _lifted(z)
@@ -199,6 +199,8 @@ def _rewritten(e: Any) -> Any:
         return e.rewrite(sympy.exp)
     if isinstance(e, sympy.acos):
         return sympy.pi / 2 - sympy.atan(e.args[0] / sympy.sqrt(1 - e.args[0] ** 2))
+    if isinstance(e, sympy.elliptic_k | sympy.elliptic_e) and len(e.args) == 1:
+        return sympy.pi / 2 * sympy.hyper((half if isinstance(e, sympy.elliptic_k) else -half, half), (1,), e.args[0])
     if isinstance(e, sympy.jn | sympy.yn):
         n, z = e.args
         kind = sympy.besselj if isinstance(e, sympy.jn) else sympy.bessely

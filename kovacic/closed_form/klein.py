@@ -17,7 +17,10 @@ at t,
     y1 = t^(1/30) 2F1(-1/60, 29/60; 4/5; J),    y2 = v t^(-11/30) 2F1(11/60, 41/60; 6/5; J)       (icosahedral)
 
 which is Klein's J'^(-1/2) u(J), u the local solutions at J = 0 of the equation with exponent differences (nu, 1/3, 1/2) at
-0, 1, infinity, nu = 1/4 or 1/5: J' is a product of powers of v, t and H, which combine with those in u.
+0, 1, infinity, nu = 1/4 or 1/5: J' is a product of powers of v, t and H, which combine with those in u.  Since J is a
+multiple of v^(1/nu)/t^2, the local solutions at J = infinity, for the first ones 2F1(a, b; c; J), are
+
+    v^(-a/nu) 2F1(a, a - c + 1; 1/2; 1/J),    t v^(-b/nu) 2F1(b, b - c + 1; 3/2; 1/J).                                   (3)
 
 y1 and y2 belong to opposite vertices, so multiples of y1^k and y2^k, for k = 4, 8, 10, are roots of the polynomial whose
 roots are the k-th powers of the linear factors of v,
@@ -133,13 +136,13 @@ class Covariants:
 
 @dataclass(frozen=True)
 class KleinForm:
-    """The two solutions (1) and J, with the forms that they are made of; `normal` says that there is no gauge factor."""
+    """The two solutions (1) and J, with the forms that they are made of."""
 
     structure: Structure
     forms: Covariants
     first: Hypergeometric
     second: Hypergeometric
-    normal: bool
+    gauge: RatFunc
 
     @property
     def J(self) -> RatFunc:
@@ -149,7 +152,17 @@ class KleinForm:
     def polynomial(self) -> PowerPolynomial | None:
         """(2); None with a gauge factor, or if it is too long to be written."""
         forms = self.forms
-        return _polynomial(forms.problem, self.structure, forms.F, forms.H, forms.T) if self.normal else None
+        return None if self.gauge else _polynomial(forms.problem, self.structure, forms.F, forms.H, forms.T)
+
+    @cached_property
+    def at_edges(self) -> tuple[Hypergeometric, Hypergeometric]:
+        """The two solutions (3), functions of 1/J."""
+        problem, v, t = self.forms.problem, self.forms.vertices, self.forms.edges
+        a, b, c = self.first.a, self.first.b, self.first.c
+        first = _product(problem, self.gauge, (v, -a / (1 - c)))
+        second = _product(problem, self.gauge, (t, Fraction(1)), (v, -b / (1 - c)))
+        half = Fraction(1, 2)
+        return Hypergeometric(first, a, a - c + 1, half), Hypergeometric(second, b, b - c + 1, half + 1)
 
 
 def covariants(S: RatFunc, structure: Structure, invariant: SemiInvariant) -> Covariants:
@@ -186,7 +199,7 @@ def klein_form(S: RatFunc, structure: Structure, invariant: SemiInvariant, gauge
         forms,
         Hypergeometric(first, a, b, 1 - nu),
         Hypergeometric(second, a + nu, b + nu, 1 + nu),
-        normal=not gauge,
+        gauge,
     )
 
 

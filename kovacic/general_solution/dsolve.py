@@ -9,7 +9,9 @@ from warnings import warn
 
 import sympy
 
-from kovacic.closed_form.form import solutions
+from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.form import at_edges, solutions
+from kovacic.closed_form.klein import KleinForm
 from kovacic.decision import Status
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS
@@ -82,6 +84,7 @@ def _solved(eq: Any, equation: Equation, function: Any, ics: Mapping[Any, Any], 
     if solution.status is Status.NONE_EXISTS and known.concerns_exponents:
         solution = solve(equation, assume=known.to_dict(), limits=budget.share(1).limits)
     symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
+    given = read_values(ics, function, equation) if ics else ()
     if solution.case is None:
         own = {name: symbol for name, symbol in symbols.items() if name != solution.variable}
         special = special_functions(solution.S, solution.gauge, solution.variable, budget, symbols=own)
@@ -91,8 +94,12 @@ def _solved(eq: Any, equation: Equation, function: Any, ics: Mapping[Any, Any], 
             warn(f"whether there is a Liouvillian solution is {no_solution(solution)}", stacklevel=3)
         y1, y2 = special
     else:
-        y1, y2 = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
-    given = read_values(ics, function, equation) if ics else ()
+        y1, y2 = form = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
+        if isinstance(form.structure, KleinForm):
+            poles = Atoms(form.variable).poly(form.structure.J.den)
+            if any(poles.subs(form.variable, g.point).equals(0) for g in given):
+                pair = at_edges(form.structure, solution.S, solution.gauge, solution.variable)
+                y1, y2 = pair or (y1, y2)
     change = equation.change
     x = sympy.Symbol(equation.variable if change is None else change.variable)
     if change is not None:

@@ -125,7 +125,7 @@ def constants(given: Sequence[Given], basis: Basis, particular: Any, names: Sequ
     for (a, b, r), (c, d, s) in combinations(rows, 2):
         determinant = a * d - b * c
         if initial:  # the Wronskian at an ordinary point
-            W = basis.wronskian.subs(basis.x, given[0].point) * (1 if given[0].order == 0 else -1)
+            W = value_at(basis.wronskian, basis.x, given[0].point) * (1 if given[0].order == 0 else -1)
             determinant = W if agree(W, determinant) else determinant
         if initial or not _is_zero(determinant):
             values, used = [tidy((r * d - b * s) / determinant), tidy((a * s - r * c) / determinant)], 2
@@ -211,6 +211,7 @@ def value_at(expression: Any, x: Any, point: Any, order: int = 0) -> Any:
         jumps = expression.atoms(sympy.Heaviside, sympy.DiracDelta)
         expression = expression.xreplace({jump: sympy.Integer(0) for jump in jumps if jump.args[0].subs(x, point) == 0})
     value = expression.subs(x, point)
+    value = value.xreplace({e: sympy.Integer(1) for e in value.atoms(sympy.hyper) if e.argument == 0})
     if value.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):
         limit = None
         if not expression.has(sympy.hyper, BesselBase):  # SymPy takes limits of sqrt(x) besselk(1/4, x^2/2) wrong

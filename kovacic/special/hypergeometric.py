@@ -1,4 +1,4 @@
-"""Gauss' function 2F1; Legendre, Gegenbauer and Jacobi polynomials where the degree is a symbolic natural number.
+"""Gauss' function 2F1, as K, E or P_nu where it is one; Gegenbauer and Jacobi polynomials of symbolic natural degree.
 
 With the exponent differences alpha, beta, gamma at 0, 1 and infinity, in any order of these points and with any signs,
 
@@ -9,7 +9,7 @@ combination (1 +- alpha +- beta +- gamma)/2 is an integer: a common solution wou
 multiple of 2F1(-N, N + a + b + 1; 1 + a; z); beside it there is one with another exponent at 0 or at infinity, and, for a = b,
 the one of the other parity.
 
-Reference: DLMF 15.10, 18.5, 18.7.
+Reference: DLMF 14.3, 15.10, 18.5, 18.7, 19.5.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ class Riemann:
         form = min(forms, key=lambda form: form.factor.size)
         a, b = ((1 - form.alpha - form.beta + sign * form.gamma) * HALF for sign in (-1, 1))
         a, b, c = (self.writer.constant(value) for value in (a, b, 1 - form.alpha))
-        return form.factor, hypergeometric((a, b), (c,), self.writer.argument(form.f))
+        return form.factor, _named(a, b, c, self.writer.argument(form.f))
 
     @property
     def swapped(self) -> Riemann:
@@ -80,6 +80,18 @@ class Riemann:
         terms = sum(bool(c) for c in (*f.num, *f.den))
         uneven = natural and self.alpha != self.beta
         return not f.is_polynomial, uneven, natural, terms, not self.writer.is_negative(f.num.lc), str(f)
+
+
+def _named(a: Expr, b: Expr, c: Expr, z: Expr) -> Expr:
+    """2F1, or a multiple: the complete elliptic integrals K, E and Legendre's function P_nu, where SymPy keeps it as it is."""
+    half = sympy.S.Half
+    if c == 1 and {a, b} in ({half}, {half, -half}):
+        return (sympy.elliptic_k if a == b else sympy.elliptic_e)(z)
+    if c == 1 and sympy.expand(a + b) == 1:
+        P = sympy.legendre(-b if (-a).could_extract_minus_sign() else -a, sympy.expand(1 - 2 * z))
+        if isinstance(P, sympy.legendre):
+            return P
+    return hypergeometric((a, b), (c,), z)
 
 
 def gauss(writer: Writer, equation: Gauss, f: RatFunc) -> tuple[Expr, Expr] | None:
