@@ -93,7 +93,7 @@ BOOKS = [
     ("x^3*y'' + y = 0", "sqrt(x)*besselj(1, 2/sqrt(x))", "sqrt(x)*bessely(1, 2/sqrt(x))"),
     ("x*y'' + (b - x)*y' - a*y = 0", "hyper((a,), (b,), x)", "x**(1 - b)*hyper((a - b + 1,), (2 - b,), x)"),
     ("y'' - 2*x*y' + 2*n*y = 0", "hyper((-n/2,), (1/2,), x**2)", "x*hyper((1/2 - n/2,), (3/2,), x**2)"),
-    ("x*(1-x)*y'' + (1-2*x)*y' - y/4 = 0", "hyper((1/2, 1/2), (1,), x)", "hyper((1/2, 1/2), (1,), 1 - x)"),
+    ("x*(1-x)*y'' + (1-2*x)*y' - y/4 = 0", "elliptic_k(x)", "elliptic_k(1 - x)"),
     (
         "x*(1-x)*y'' + (c-(a+b+1)*x)*y' - a*b*y = 0",
         "hyper((a, b), (c,), x)",
@@ -101,7 +101,7 @@ BOOKS = [
     ),
     (
         "(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0",
-        "hyper((-n, n + 1), (1,), 1/2 - x/2)",
+        "legendre(n, x)",
         "hyper((-n, n + 1), (1,), x/2 + 1/2)",
     ),
 ]

@@ -1,9 +1,9 @@
 """General solutions as SymPy gives them: an equation goes in, `Eq(y(x), ...)` with constants comes out, or all w(x).
 
-`dsolve.dsolve` is the entry, and the module to read first; `given` reads what a user has.  `particular` finds a solution with
-the right-hand side by the cheapest way: `undetermined` coefficients, `products` (variation of parameters with own integrals),
-`impulses` (steps and deltas), `variation` (with SymPy's integrals, in a process `kovacic.apart`).  `initial_values` determine
-the constants, for solutions that `real_basis` has made real there.  `riccati` has the solutions of Riccati equations.
+`dsolve.dsolve` is the entry, and the module to read first.  `particular` finds a solution with the right-hand side by the
+cheapest way: `undetermined` coefficients, `variation` of parameters with known `antiderivatives`, or with SymPy's integrals in
+a process of their own.  `initial_values` determine the constants, for solutions that `real_basis` has made real there.
+`riccati` has the solutions of Riccati equations.
 """
 
 from kovacic.general_solution.dsolve import dsolve

@@ -19,7 +19,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr, display, factors
 from kovacic.closed_form.product import Power, Product, product
-from kovacic.special.polar import root
+from kovacic.special.confluent import root
 
 HALF = Fraction(1, 2)
 
