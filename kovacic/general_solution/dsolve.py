@@ -91,7 +91,7 @@ def _solved(eq: Any, equation: Equation, function: Any, ics: Mapping[Any, Any], 
         special = special_functions(solution.S, solution.gauge, solution.variable, budget, symbols=own)
         if not special:
             raise NotImplementedError(f"{no_solution(solution, known)}; {special}")
-        if solution.status is Status.UNDECIDED:
+        if solution.status is Status.UNDECIDED and not solution.known:
             warn(f"whether there is a Liouvillian solution is {no_solution(solution)}", stacklevel=3)
         y1, y2 = special
     else:
