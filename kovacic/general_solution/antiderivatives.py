@@ -13,6 +13,7 @@ from typing import Any
 
 import sympy
 from sympy import cos, cot, csc, exp, log, sec, sin, tan
+from sympy.simplify.fu import TR2i
 
 from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.ratfunc import RatFunc
@@ -119,9 +120,11 @@ def _in_waves(term: Expr, x: Expr) -> Expr | None:
     done = []
     for inner, values, back in changes:
         found = _rational(sympy.cancel(inner.subs(values) / slope), x)
-        if found is not None and back.func is tan:
-            found = found.xreplace({sympy.atan(x): back.args[0], log(square): -2 * log(cos(back.args[0]))})
-        done += [] if found is None else [found.subs(x, back)]
+        if found is not None:
+            angle, u = back.args[0], sympy.Dummy()
+            known = {sympy.atan(u): angle, log(u**2 + 1): -2 * log(cos(angle)), u**2 + 1: cos(angle) ** -2}
+            found = found.xreplace({x: u}).xreplace(known if back.func is tan else {})
+            done.append(TR2i(found.xreplace({u: sin(angle) / cos(angle) if back.func is tan else back})))
     return min(done, key=sympy.count_ops, default=None)
 
 

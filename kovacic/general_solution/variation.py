@@ -12,11 +12,12 @@ from typing import Any
 
 import sympy
 from flint import acb, arb, ctx, fmpq
-from sympy import expand, powsimp
+from sympy import cos, expand, powsimp, sin
+from sympy.simplify.fu import TR8
 
 from kovacic.algebra.apart import last_of
 from kovacic.closed_form.atoms import Atoms, display
-from kovacic.closed_form.check import DIGITS, value_at
+from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
 from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
@@ -67,9 +68,14 @@ class Basis:
         parts = [antiderivative(y * right / self.wronskian, self.x) for y in (self.y2, self.y1)]
         if parts[0] is None or parts[1] is None:
             return None
-        terms = sympy.Add.make_args(expand(self.y2 * parts[1] - self.y1 * parts[0]))
-        other = (term for term in terms if all(powsimp(term / y).has(self.x) for y in (self.y1, self.y2)))
-        found = sympy.factor_terms(sympy.Add(*other))
+        whole = expand(self.y2 * parts[1] - self.y1 * parts[0])
+        candidates = []
+        for form in (whole, expand(TR8(whole))) if whole.has(sin, cos) else (whole,):  # TR8: products of waves as waves
+            other = (
+                e for e in sympy.Add.make_args(form) if all(powsimp(e / y).has(self.x) for y in (self.y1, self.y2))
+            )
+            candidates.append(sympy.factor_terms(sympy.Add(*other)))
+        found = min(candidates, key=sympy.count_ops)
         return found if is_solution(found, self.equation, right, self.x) else None
 
     def with_integrals(self, right: Expr, start: Expr | None, seconds: float) -> Expr:
@@ -147,15 +153,15 @@ def _integral(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
 
 def is_solution(y: Expr, equation: Equation, right: Expr, x: Expr) -> bool:
     """Does y satisfy y'' + (b/a) y' + (c/a) y = right at a point in each quadrant, to 50 digits?"""
-    b, c = equation.b / equation.a, equation.c / equation.a
+    b, c = (Atoms(x).ratio(part / equation.a).xreplace(NUMBERS) for part in (equation.b, equation.c))
     with ctx.workdps(DIGITS + 15):
         for real, imaginary in _POINTS:
             point = acb(arb(fmpq(real, 101)), arb(fmpq(imaginary, 89)))
             try:
-                (value, first, second), force = jet(y, x, point), jet(right, x, point)[0]
+                (value, first, second), (force, p, q) = jet(y, x, point), (jet(e, x, point)[0] for e in (right, b, c))
             except NotImplementedError:
                 return False
-            terms = [second, value_at(b, point) * first, value_at(c, point) * value, -force]
+            terms = [second, p * first, q * value, -force]
             if not abs(sum(terms)) < arb(10) ** -DIGITS * sum(map(abs, terms), arb(1)):
                 return False
     return True
