@@ -5,7 +5,7 @@ With x = c + H u the equation is q(u) y'' = p(u) y over Z[i]: `shift` gives it e
 
     |p| <= sum |p_j| r^j,    |q| >= q_0 prod (1 - r/|zeta|),    sigma >= |p/q|,
 
-zeta the zeros of q, enclosed; r runs through eight rings.  The bounds are computed in balls of 64 bits.
+zeta the zeros of q, enclosed; r runs through at most eight rings.  The bounds are computed in balls of 64 bits.
 
 Symbols: c centre, H = 2^e scale, u = (x - c)/H.
 """
@@ -27,7 +27,7 @@ from kovacic.errors import InputError
 Parts = tuple[list[int], list[int] | None]
 _BITS = 64
 _RINGS = 8
-_STEEPEST = 300  # growth of the majorant, in logarithms, in one ring
+_STEEPEST = 2400  # growth of the majorant, in logarithms, at most
 _LARGEST = 900  # growth of the majorant in a disc, in bits
 
 
@@ -45,6 +45,8 @@ def shift(system: System, centre: Point, scale: Point) -> tuple[Parts, Parts]:
 
 
 def _times(part: tuple[fmpq_poly, fmpq_poly], factor: Point) -> tuple[fmpq_poly, fmpq_poly]:
+    if factor.y == 0 and part[1] == 0:
+        return part[0] * factor.x, part[1]
     return part[0] * factor.x - part[1] * factor.y, part[0] * factor.y + part[1] * factor.x
 
 
@@ -112,17 +114,24 @@ def make_frame(system: System, centre: Point, e: int) -> Frame | None:
 def _bound(p: Parts, q_0: int, poles: list[tuple[arb, int]], blur: arb | None) -> Bound | None:
     """The bounds, for the sizes of the poles; None where they would be too large."""
     sizes = [arb(a * a + b * b).sqrt().upper() for a, b in zip(p[0], p[1] or [0] * len(p[0]), strict=True)]
-    majorant, delta = arb_poly(sizes) * (1 / arb(q_0)), arb(1) / _RINGS
-    error = slope = arb(0)
-    growth, slope_growth, least = arb(1), arb(1), arb(1)
-    for r in (delta * (j + 1) for j in range(_RINGS)):
+    majorant = arb_poly(sizes) * (1 / arb(q_0))
+
+    def bounds(r: arb) -> tuple[arb, arb]:  # of |q/q_0| from below and of |p/q| from above, for |u| <= r
         least = arb(1)
         for size, k in poles:
             least *= (1 - r / size) ** k
-        sigma = (majorant(r) / least if blur is None else majorant(r) / least + blur).upper()
+        return least, (majorant(r) / least if blur is None else majorant(r) / least + blur).upper()
+
+    least, sigma = bounds(arb(1))
+    if not (least > 0 and sigma < _STEEPEST**2):
+        return None
+    rings = min(_RINGS, 1 + int(float(sigma.sqrt().upper())))  # growth by exp(1) in each, or more
+    delta = arb(1) / rings
+    error = slope = arb(0)
+    growth, slope_growth = arb(1), arb(1)
+    for j in range(rings):
+        _, sigma = bounds(delta * (j + 1))
         t = sigma.sqrt() * delta
-        if not (least > 0 and t < _STEEPEST):
-            return None
         c, s, h = arb(1), arb(1), arb(1) / 2
         if t > 0:  # cosh t, sinh(t)/t and (cosh t - 1)/t^2
             c, s, h = t.cosh(), t.sinh() / t, 2 * ((t / 2).sinh() / t) ** 2

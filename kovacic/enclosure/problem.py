@@ -135,6 +135,17 @@ def as_problem(
         return equation
     if isinstance(equation, System):
         return NumericProblem(equation)
+    if isinstance(equation, str) and params is None:
+        return _of_text(equation, forced, constants)
+    return _read(equation, params, forced, constants)
+
+
+@lru_cache(maxsize=64)
+def _of_text(equation: str, forced: bool, constants: bool) -> NumericProblem:
+    return _read(equation, None, forced, constants)
+
+
+def _read(equation: object, params: Mapping[str, object] | None, forced: bool, constants: bool) -> NumericProblem:
     decision = getattr(equation, "decision", None)  # a `Solution`, which has an S and perhaps an equation
     found = equation
     if not isinstance(decision, Decision):

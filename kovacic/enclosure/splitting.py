@@ -54,10 +54,9 @@ from kovacic.limits import Budget
 
 Gauss = tuple[Any, Any]  # a matrix, or number, over Z[i]: real and imaginary part (None: zero)
 LEAF = 8  # steps whose product is formed once, with polynomials in m as entries
-_BLOCK = 3.0  # length of the integers of a block, by the bits that are still needed (the first block: 1)
-_LOWEST = 3500
-_ENTIRE = 65
-_SINGULAR = 130  # splitting pays above max(3500, factor * order^3) bits; the factor without and with singular points
+_BLOCK = 1.5  # length of the integers of a block, by the bits that are still needed (the first block: 1)
+_LOWEST, _ENTIRE, _SINGULAR = 1500, 10, 35
+# Splitting pays above max(1500, factor * order^3) bits; the factor without and with singular points
 _LEAST = 2000  # bits below which a block isn't shortened any more
 # Bits of the first point of a chain towards a target of many digits; each one has twice as many as the one before
 _BURST = 16
@@ -221,7 +220,10 @@ def _leaves(steps: Recurrence, m: int, needed: int, before: tuple[int, int] | No
     """
     each = steps.size(m).bit_length()
     if before is None:
-        return max(1, needed // (each * LEAF))
+        count = needed // each
+        for _ in range(3):  # the steps get longer
+            count = needed // steps.size(m + count).bit_length()
+        return max(1, count // LEAF)
     steps_left = needed * (m - before[0]) / max(1, before[1] - needed)
     return max(1, math.ceil(min(_BLOCK * max(needed, _LEAST) / each, steps_left) / LEAF))
 

@@ -110,7 +110,9 @@ def _recurrence(
             budget.check()
         i = pad + n
         x, y, k = ar[i - dp + 1 : i + 1], br[i + 2 - dq : i + 2], (n + 1) * (n + 2)
-        total, divisor = sum(map(mul, pr, x)) - sum(map(mul, qr, y)), q0 * k
+        total, divisor = sum(map(mul, pr, x)), q0 * k
+        if dq:
+            total -= sum(map(mul, qr, y))
         if not real:
             s, t = ai[i - dp + 1 : i + 1], bi[i + 2 - dq : i + 2]
             total += sum(map(mul, qi, t)) - sum(map(mul, pi, s))
@@ -206,7 +208,8 @@ def _values(column: tuple[fmpz_poly, fmpz_poly | None], u: Point) -> tuple[acb, 
     re, im = column
     polys = (re, re.derivative()) if im is None else (re, re.derivative(), im, im.derivative())
     if u.is_real() and abs(u.x) == 1:
-        sums = [acb(arb(p(int(u.x)))) for p in polys]
+        parts = [p.coeffs() for p in polys]
+        sums = [acb(arb(sum(c[0::2], fmpz(0)) + int(u.x) * sum(c[1::2], fmpz(0)))) for c in parts]
     elif u.is_real():
         sums = [acb(arb_poly(p)(to_acb(u).real)) for p in polys]
     else:

@@ -89,7 +89,7 @@ def walk(
 
     With `expanded` every leg has its expansion.
     """
-    begun, number, split = budget.seconds_left, 0, is_split(system, prec) and not expanded
+    begun, number, split = budget.seconds_left, 0, is_split(system, prec // max(1, len(stops))) and not expanded
     growth = max(_FEWER_BITS, prec * _GROWTH) if len(stops) >= _MANY else None
     for part in [[stop] for stop in stops] if split else [list(stops)]:
         b, queue = part[-1], deque(part)
