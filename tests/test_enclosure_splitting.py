@@ -208,6 +208,20 @@ def test_the_slopes_of_the_short_last_steps_of_a_chain_lose_nothing() -> None:
     assert all(lost_bits(matrix, prec) <= 0 for matrix in chain)
 
 
+def test_points_outside_of_the_bounds_of_a_disc_are_refused(disc: tuple[Frame, Point]) -> None:
+    """Rounded to 16 bits, a point of the disc may lie outside by 2^-17 in both parts; there the bounds hold."""
+    frame, _ = disc
+    corner = Point(Fraction(3, 5) + Fraction(1, 1 << 17), Fraction(4, 5) + Fraction(1, 1 << 17))
+    assert corner.norm_squared() > 1
+    frame.seen(frame.centre + corner.scaled(frame.scale))
+    outside = frame.centre + Point(0, 1 + Fraction(1, 1 << 15)).scaled(frame.scale)
+    for beyond in (outside, outside + Point(Fraction(1, 3**60))):
+        with pytest.raises(ArithmeticError, match="outside of its disc"):
+            bit_burst(LEGENDRE, frame, beyond, 2500, Budget())
+        with pytest.raises(ArithmeticError, match="outside of its disc"):
+            transition(expand(frame, 100, Budget()), beyond)
+
+
 def test_a_disc_smaller_than_any_double_keeps_its_error_bound() -> None:
     frame = make_frame(LEGENDRE, Point(Fraction(0)), -1400)
     assert frame is not None

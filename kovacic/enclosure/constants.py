@@ -129,11 +129,8 @@ def in_balls(expression: Any, values: Mapping[Any, acb], *, analytic: bool = Fal
             root = of(node.base).sqrt(analytic=analytic)
             return root if node.exp > 0 else 1 / root
         if node.is_Pow:
-            return (
-                of(node.exp).exp()
-                if node.base is sympy.E
-                else (of(node.exp) * of(node.base).log(analytic=analytic)).exp()
-            )
+            logarithm = acb(1) if node.base is sympy.E else of(node.base).log(analytic=analytic)
+            return (of(node.exp) * logarithm).exp()
         name = type(node).__name__
         if name == "log" and len(node.args) == 1:
             return of(node.args[0]).log(analytic=analytic)

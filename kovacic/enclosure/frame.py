@@ -1,7 +1,8 @@
 """The equation seen from the centre of a disc, and bounds of its coefficients and solutions there.
 
 With x = c + H u the equation is q(u) y'' = p(u) y over Z[i]: `shift` gives it exactly.  A `Frame` has this equation for a disc
-|u| <= 1 without singular points, and the majorant z'' = sigma z + rho of `kovacic.enclosure.taylor`, with, on |u| <= r,
+|u| <= 1 without singular points (and 2^-16 more, for rounded points), and the majorant z'' = sigma z + rho of
+`kovacic.enclosure.taylor`, with, on |u| <= r,
 
     |p| <= sum |p_j| r^j,    |q| >= q_0 prod (1 - r/|zeta|),    sigma >= |p/q|,
 
@@ -27,6 +28,7 @@ from kovacic.errors import InputError
 Parts = tuple[list[int], list[int] | None]
 _BITS = 64
 _RINGS = 8
+_REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
 _STEEPEST = 2400  # growth of the majorant, in logarithms, at most
 _LARGEST = 900  # growth of the majorant in a disc, in bits
 
@@ -94,8 +96,11 @@ class Frame:
         return power_of_two(self.e)
 
     def seen(self, x: Point) -> Point:
-        """u at x."""
-        return (x - self.centre).scaled(power_of_two(-self.e))
+        """u at x; raises ArithmeticError where the bounds don't hold."""
+        u = (x - self.centre).scaled(power_of_two(-self.e))
+        if u.norm_squared() > _REACH * _REACH:
+            raise ArithmeticError("the target lies outside of its disc")
+        return u
 
 
 def make_frame(system: System, centre: Point, e: int) -> Frame | None:
@@ -122,11 +127,11 @@ def _bound(p: Parts, q_0: int, poles: list[tuple[arb, int]], blur: arb | None) -
             least *= (1 - r / size) ** k
         return least, (majorant(r) / least if blur is None else majorant(r) / least + blur).upper()
 
-    least, sigma = bounds(arb(1))
+    least, sigma = bounds(arb(_REACH))
     if not (least > 0 and sigma < _STEEPEST**2):
         return None
     rings = min(_RINGS, 1 + int(float(sigma.sqrt().upper())))  # growth by exp(1) in each, or more
-    delta = arb(1) / rings
+    delta = arb(_REACH) / rings
     error = slope = arb(0)
     growth, slope_growth = arb(1), arb(1)
     for j in range(rings):

@@ -75,10 +75,10 @@ class Product:
 
     def matrix(self) -> Matrix:
         """M_k ... M_1."""
-        total: Matrix | None = None
-        for _, matrix in self._parts:
-            total = matrix if total is None else multiply(matrix, total)
-        return total if total is not None else identity()
+        total = self._parts[0][1] if self._parts else identity()
+        for _, matrix in self._parts[1:]:
+            total = multiply(matrix, total)
+        return total
 
 
 def product(matrices: list[Matrix]) -> Matrix:

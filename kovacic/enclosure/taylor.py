@@ -152,8 +152,6 @@ def transition(expansion: Expansion, target: Point) -> Matrix:
     frame = expansion.frame
     with working_precision(expansion.w + 10):
         exact = frame.seen(target)
-        if exact.norm_squared() > 1:
-            raise ArithmeticError("the target lies outside of its disc")
         entries, unit = [], acb(arb((1, -expansion.w)))
         for column, defect in zip(expansion.columns, expansion.defect, strict=True):
             value, slope = _values(column, exact)
