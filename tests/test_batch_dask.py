@@ -75,8 +75,9 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
 
 def test_dask_answers_in_order_and_limits_hold_there(cluster: Cluster) -> None:
     texts = [*QUICK, "(x + 1)^15000/(x^3000 - x - 1)"]
+    memory = 500 if Path("/proc/self/statm").exists() else None
     records = list(
-        kovacic.solve_many(texts, timeout=2, memory=500, group=True, backend="dask", scheduler=cluster.address)
+        kovacic.solve_many(texts, timeout=2, memory=memory, group=True, backend="dask", scheduler=cluster.address)
     )
     assert [record.number for record in records] == list(range(1, 8))
     assert [record.case for record in records[:6]] == QUICK_CASES
