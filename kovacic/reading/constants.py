@@ -149,9 +149,9 @@ class Constants:
         """A constant that doesn't depend on parameters, as an element of the number field."""
         if value.field in (self.numbers, QQ):
             return value.over(self.numbers)
-        coordinates = [part.field.rational_value(part) for part in getattr(value, "parts", (value,))]
-        known = [c for c in coordinates if c is not None]
-        if len(known) < len(coordinates):
+        parts = getattr(value, "parts", (value,))
+        known = [c for part in parts if (c := part.field.rational_value(part)) is not None]
+        if len(known) < len(parts):
             return None
         return element(self.numbers, known) if isinstance(self.numbers, AlgebraicField) else self.numbers.poly(known)
 

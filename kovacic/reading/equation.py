@@ -21,7 +21,7 @@ from kovacic.errors import InputError, NotLinear, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
 from kovacic.reading.constants import Constants, read_with_constants
-from kovacic.reading.expression import Place, RationalReader, tokens_of
+from kovacic.reading.expression import Place, RationalReader
 from kovacic.reading.from_sympy import function_of, functions_in, names_of, walked
 from kovacic.reading.given import (
     DEFAULT_VARIABLE,
@@ -35,7 +35,7 @@ from kovacic.reading.given import (
     Equation,
     over,
 )
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens, tokens_of
 from kovacic.reading.linear import REST, LinearArithmetic, LinearForm, is_rational
 from kovacic.reading.parser import Site, evaluate
 
@@ -54,7 +54,7 @@ def parse_equation(
     coefficients aren't rational functions, `ParseError` for what isn't an equation, all with the position where there is
     one; `LimitExceeded`.
     """
-    tokens = tokens_of(text, limits, what="equation", hint="for example y'' = (x^2 + 3) y")
+    tokens = tokens_of(text, limits, what="the text", hint="for example y'' = (x^2 + 3) y")
     x, y = names_in_equation(tokens, variable, unknown)
     return _read(partial(evaluate, tokens), x, y, limits, text)
 
@@ -137,23 +137,19 @@ class EquationReader(RationalReader):
         order = max((k for k, c in coefficients.items() if c), default=0)
         if order != 2:
             what = f"is of order {order}" if order else f"contains no derivative of {y}"
-            raise NotLinear(
+            said, hint = (
                 f"an equation of second order is expected, and this one {what}",
-                text=text,
-                position=None if text is None else 0,
-                length=len(text or ""),
-                hint=f"for example {y}'' = (x^2 + 3) {y}",
+                f"for example {y}'' = (x^2 + 3) {y}",
             )
+            place = {} if text is None else {"text": text, "position": 0, "length": len(text)}
+            raise NotLinear(said, hint=hint, **place)  # type: ignore[arg-type]
         h = None
         if not is_rational(rest):
             terms = [(term, walked(term, self)) for term in rest.as_ordered_terms()]
             h = -sum(term for term, value in terms if not is_rational(value)) or None
             rest = self.arithmetic.sum([Term(0, 0), *(value for _, value in terms if is_rational(value))])
-        found = [
-            *(coefficients.get(k, self.arithmetic.rational(Term(0, 0))) for k in range(3)),
-            self.arithmetic.rational(rest),
-        ]
-        c, b, a, r = (over(part, self.constants.field) for part in found)
+        coefficients[REST], zero = self.arithmetic.rational(rest), self.arithmetic.rational(Term(0, 0))
+        r, c, b, a = (over(coefficients.get(k, zero), self.constants.field) for k in (REST, 0, 1, 2))
         return Equation(a, b, c, -r, h, self.variable, y)
 
     def other_leaf(self, node: Any) -> Any:
@@ -305,9 +301,7 @@ def _variable_of(tokens: Tokens, unknown: str) -> str:
             return tokens.pieces[k + 2]
     excluded = {*NUMBER_NAMES, ENERGY, unknown, "e"}
     names = [name for name in tokens.names() if name not in excluded]
-    if DEFAULT_VARIABLE in names:
-        return DEFAULT_VARIABLE
-    if not names:
+    if DEFAULT_VARIABLE in names or not names:
         return DEFAULT_VARIABLE if unknown != DEFAULT_VARIABLE else "t"
     usual = [name for name in names if name in _USUAL_VARIABLES]
     if len(usual) != 1 or len(names) > 1:

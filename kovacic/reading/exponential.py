@@ -35,10 +35,10 @@ from kovacic.reading.equation import (
     parse_sympy_equation,
     sympy_equation,
 )
-from kovacic.reading.expression import RationalReader, chosen_variable, tokens_of
+from kovacic.reading.expression import RationalReader, chosen_variable
 from kovacic.reading.from_sympy import is_sympy_equation, walked
 from kovacic.reading.given import ENERGY, EULER, NUMBER_NAMES, UNKNOWN, Change, Equation, Parsed, lowered, over
-from kovacic.reading.lexer import is_equation
+from kovacic.reading.lexer import is_equation, tokens_of
 from kovacic.reading.linear import REST, Symbols
 from kovacic.reading.parser import evaluate
 from kovacic.reading.symbolic import read_expression
@@ -253,7 +253,7 @@ def _symbolic(given: Any, variable: str | None, limits: Limits) -> tuple[dict[in
     walk: Callable[[RationalReader], Any]
     y = ""
     if isinstance(given, str):
-        tokens = tokens_of(given, limits, what="equation", hint="for example y'' = (x^2 + 3) y")
+        tokens = tokens_of(given, limits, what="the text", hint="for example y'' = (x^2 + 3) y")
         walk = partial(evaluate, tokens)
         if is_equation(given):
             x, y = names_in_equation(tokens, variable)

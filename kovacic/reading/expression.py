@@ -16,7 +16,7 @@ from typing import Any, Protocol
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
-from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
+from kovacic.errors import InputError, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.reading.constants import Constants, read_with_constants
@@ -29,7 +29,7 @@ from kovacic.reading.given import (
     UNKNOWN,
     Parsed,
 )
-from kovacic.reading.lexer import PRIMES, Tokens, tokenize
+from kovacic.reading.lexer import PRIMES, Tokens, tokenize, tokens_of
 from kovacic.reading.parser import Site, evaluate, shortened, shown
 
 _SHOWN_DECIMALS = 3
@@ -38,24 +38,14 @@ _SHOWN_DECIMALS = 3
 ROOTS = {"sqrt": 2, "cbrt": 3, "root": 0}
 _LARGEST_INDEX = 100
 
+_ALONE = "give S alone, the factor of y on the right of y'' = S(x) y"
+
 
 class Place(Protocol):
     """Where an operation stands, in a text or in a SymPy expression."""
 
     def text(self) -> str:
         """The operation with its operands, as the user wrote it."""
-
-
-def tokens_of(text: str, limits: Limits, *, what: str, hint: str) -> Tokens:
-    """The tokens of a text that isn't empty and not too long; `what` it is and the `hint` are for the message."""
-    if len(text) > limits.text_length:
-        raise LimitExceeded(
-            f"the text has {len(text)} characters, above the limit of {limits.text_length}", limit="text_length"
-        )
-    tokens = tokenize(text)
-    if len(tokens.kinds) == 1:
-        raise ParseError(f"there is no {what}", text=text, position=0, hint=hint)
-    return tokens
 
 
 def parse_rational(text: str, *, variable: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:
@@ -69,8 +59,9 @@ def parse_rational(text: str, *, variable: str | None = None, limits: Limits = D
     Raises `ParseError` for what isn't an expression, `NotRational` for what isn't a rational function of one variable,
     both with the position, and `LimitExceeded` before anything would become larger than the limits allow.
     """
-    tokens = tokens_of(text, limits, what="expression", hint="give S(x), for example x^2 + 3")
-    _refuse_equations(tokens)
+    tokens = tokens_of(text, limits, what="the text", hint="give S(x), for example x^2 + 3")
+    if marks := [k for k, kind in enumerate(tokens.kinds) if kind in ("EQUAL", "PRIMED")]:
+        raise tokens.error(NotRational, "an equation, where S alone is expected", marks[0], marks[0] + 1, hint=_ALONE)
     chosen = variable or _chosen_variable(tokens)
     _refuse_ambiguous_decimals(tokens, chosen)
     return read_rational(partial(evaluate, tokens), chosen, limits)
@@ -146,10 +137,10 @@ class RationalReader:
         raise NotRational(f"the symbol {shortened(name)} beside the variable {self.variable}", hint=hint)
 
     def derivative(self, text: str) -> Value:
-        raise NotRational(f"{shortened(text)} is a derivative, and S contains none")
+        raise NotRational(f"{shortened(text)} is a derivative, and S contains none", hint=_ALONE)
 
     def equation(self, left: Value, right: Value) -> Value:
-        raise NotRational("an equation, where S alone is expected")
+        raise NotRational("an equation, where S alone is expected", hint=_ALONE)
 
     def follows_without_sign(self, name: str) -> bool:
         return False
@@ -270,13 +261,3 @@ def _refuse_ambiguous_decimals(tokens: Tokens, variable: str) -> None:
             message = f"{text} can be read as a decimal or as {other}, the variable being {variable}"
             hint = "write decimals without an exponent, and products with *"
             raise tokens.error(ParseError, message, k, k + 1, hint=hint)
-
-
-def _refuse_equations(tokens: Tokens) -> None:
-    found = [tokens.kinds.index(kind) for kind in ("EQUAL", "PRIMED") if kind in tokens.kinds]
-    if found:
-        message, hint = (
-            "this is an equation, or a part of one",
-            "give S alone, the factor of y on the right of y'' = S(x) y",
-        )
-        raise tokens.error(NotRational, message, min(found), min(found) + 1, hint=hint)

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from string import ascii_letters, digits
 
-from kovacic.errors import InputError, ParseError
+from kovacic.errors import InputError, LimitExceeded, ParseError
+from kovacic.limits import Limits
 
 # Superscript digits count as word characters for `re`; they must not become part of a name.
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
@@ -135,6 +136,17 @@ class Tokens:
             if kind == "NAME":
                 found.setdefault(self.pieces[k], k)
         return found
+
+
+def tokens_of(text: str, limits: Limits, *, what: str, hint: str | None = None) -> Tokens:
+    """The tokens of a text that isn't empty and not too long; `what` it is and the `hint` are for the message."""
+    if len(text) > limits.text_length:
+        said = f"{what} has {len(text)} characters, above the limit of {limits.text_length}"
+        raise LimitExceeded(said, limit="text_length")
+    tokens = tokenize(text)
+    if len(tokens.kinds) == 1:
+        raise ParseError(f"there is no expression: {what} is empty", text=text, position=0, hint=hint)
+    return tokens
 
 
 def tokenize(text: str) -> Tokens:

@@ -13,12 +13,12 @@ from typing import Any
 
 import sympy
 
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import NotAnInteger, Term
 from kovacic.reading.expression import Place, RationalReader
 from kovacic.reading.given import FUNCTION_NAMES, NUMBER_NAMES
-from kovacic.reading.lexer import tokenize
+from kovacic.reading.lexer import tokens_of
 from kovacic.reading.linear import LinearArithmetic
 from kovacic.reading.parser import Site, evaluate
 
@@ -34,13 +34,7 @@ def read_expression(
     Without `names`, every other name is a symbol.  Raises `InputError`, with the position, for anything else (`what` says
     in the message what the text stands for), and `LimitExceeded` for a text, a number or a power that is too large.
     """
-    if len(text) > limits.text_length:
-        raise LimitExceeded(
-            f"{what} has {len(text)} characters, above the limit of {limits.text_length}", limit="text_length"
-        )
-    tokens = tokenize(text)
-    if len(tokens.kinds) == 1:
-        raise InputError(f"{what} is empty", text=text, position=0)
+    tokens = tokens_of(text, limits, what=what)
     reader = SymbolicReader(names, what, limits)
     return reader.arithmetic.expression(evaluate(tokens, reader))
 
