@@ -1,4 +1,4 @@
-"""Text into an equation a y'' + b y' + c y = f.
+"""Texts and SymPy equations into an equation a y'' + b y' + c y = f.
 
 >>> equation, notices = parse_equation("x^2 y'' + x y' + (x^2 - 1/4) y = 0")
 >>> print(equation)
