@@ -36,6 +36,7 @@ _SHOWN_DECIMALS = 3
 
 #: The functions that stand for roots, with their index (root has it as its second argument).
 ROOTS = {"sqrt": 2, "cbrt": 3, "root": 0}
+_FUNCTIONS = frozenset({*FUNCTION_NAMES, *ROOTS})
 _LARGEST_INDEX = 100
 
 _ALONE = "give S alone, the factor of y on the right of y'' = S(x) y"
@@ -224,10 +225,9 @@ def usage(name: str) -> str:
 
 def as_function(name: str) -> str | None:
     """sin(x) for sinx and sin: what a name probably means that looks like a function without parentheses; None for others."""
-    known = {*FUNCTION_NAMES, *ROOTS}
-    if name in known:
+    if name in _FUNCTIONS:
         return f"{name}(x)"
-    return f"{name[:-1]}({name[-1]})" if name[:-1] in known and name[-1] in "xtz" else None
+    return f"{name[:-1]}({name[-1]})" if name[:-1] in _FUNCTIONS and name[-1] in "xtz" else None
 
 
 def chosen_variable(names: list[str]) -> str:

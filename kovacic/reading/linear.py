@@ -31,6 +31,8 @@ _LARGEST_EXPONENT = 1000
 
 LINEAR_HINT = "the equation is a y'' + b y' + c y = f, where a, b, c and f depend on the variable alone"
 
+_RATIONAL = (Term, Poly, RatFunc)
+
 #: The key of the part r of a linear form.
 REST = -1
 
@@ -46,7 +48,7 @@ class LinearForm:
 
 def is_rational(value: Any) -> bool:
     """Is it a value of `Arithmetic`, neither a SymPy expression nor a linear form?"""
-    return isinstance(value, Term | Poly | RatFunc)
+    return isinstance(value, _RATIONAL)
 
 
 class LinearArithmetic(Arithmetic):
@@ -72,6 +74,8 @@ class LinearArithmetic(Arithmetic):
             raise NotLinear(f"the unknown function {self.unknown} within a function or a power", hint=LINEAR_HINT)
         if not is_rational(value):
             return value
+        if isinstance(value, Term):
+            return sympy.Rational(value.coefficient) * sympy.Symbol(self.variable) ** value.power
         function = self.rational(value)
         bits = max(function.num.height_bits(), function.den.height_bits())
         if bits > _LARGEST_BITS:
