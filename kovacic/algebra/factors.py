@@ -73,6 +73,7 @@ def _leading_terms(
     """
     lifters, found = [Lifter(num.field) for _ in factors], list[Poly | None]([None] * len(factors))
     for bundle in islice(num.field.bundles(), _PRIMES):
+        check_time()
         try:
             images = [
                 _leading_terms_modulo(h(num), [h(p) ** k for p, k in factors], [h(m) for m in moduli]) for h in bundle

@@ -296,16 +296,12 @@ class RationalField(Field):
         return polynomial
 
     def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
-        rest, power = polynomial.rep.numer(), 1  # type: ignore[attr-defined]
-        try:
-            while rest.degree() > _ROOT_DEGREE:
-                rest, power = rest.sqrt(), 2 * power
-        except DomainError:
-            pass
-        factors = list(_factored_apart(rest) if rest.degree() > _LONG_DEGREE else rest.factor()[1])
+        numerator = polynomial.rep.numer()  # type: ignore[attr-defined]
+        apart = numerator.degree() > _LONG_DEGREE and watched_seconds(inf) < inf
+        factors = _factored_apart(numerator) if apart else _factored(numerator)
         if len(factors) > 1:
             factors.sort(key=lambda pair: (pair[0].degree(), [int(c) for c in pair[0].coeffs()]))
-        return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), power * k) for f, k in factors]
+        return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), k) for f, k in factors]
 
     def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
         return ((RationalHomomorphism(p),) for p in primes() if allowed is None or allowed(p))
@@ -332,26 +328,32 @@ class RationalField(Field):
         return "Q"
 
 
-def _factored_apart(polynomial: Any) -> list[tuple[Any, int]]:
-    """The factors, found where it can be stopped: that may take hours, for x^5040 - 1 or where many factors lie modulo p.
+def _factored(polynomial: Any) -> list[tuple[Any, int]]:
+    power = 1
+    try:
+        while polynomial.degree() > _ROOT_DEGREE:
+            polynomial, power = polynomial.sqrt(), 2 * power
+    except DomainError:
+        pass
+    return [(factor, power * k) for factor, k in polynomial.factor()[1]]
 
-    The last ones are kept, since the kernel and the views ask for them again.
-    """
-    if watched_seconds(inf) == inf:
-        return list(polynomial.factor()[1])
+
+def _factored_apart(polynomial: Any) -> list[tuple[Any, int]]:
+    """The factors, found where it can be stopped: that may take hours, for x^5040 - 1 or where many factors lie modulo p."""
     found = _factors(tuple(int(c) for c in polynomial.coeffs()))
     return [(fmpz_poly(list(factor)), k) for factor, k in found]
 
 
 @lru_cache(maxsize=16)
 def _factors(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
+    """The last ones are kept, since the kernel and the views ask for them again."""
     found = last_of(_yield_factors, coefficients, seconds=watched_seconds(inf))
     check_time()
     return next(_yield_factors(coefficients)) if found is None else found  # where no process can be started
 
 
 def _yield_factors(coefficients: tuple[int, ...]) -> Iterator[list[tuple[tuple[int, ...], int]]]:
-    yield [(tuple(int(c) for c in f.coeffs()), k) for f, k in fmpz_poly(list(coefficients)).factor()[1]]
+    yield [(tuple(int(c) for c in f.coeffs()), k) for f, k in _factored(fmpz_poly(list(coefficients)))]
 
 
 def _flint_scalar(value: Scalar | Poly) -> Any:
