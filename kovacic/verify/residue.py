@@ -53,6 +53,8 @@ def _at(polynomial: Poly, theta: Poly, modulus: Poly) -> Poly:
 
 def residue(H: Poly, p: Poly, nu: int) -> Poly:
     """The residue of H/p^nu at the class of x in K[x]/p: B p'/p^e = (-B/((e-1) p^(e-1)))' + B'/((e-1) p^(e-1)) for e > 1."""
+    if p.degree == 1:  # all digits are constants, and the last one is the residue
+        return (H(p.field.poly([-p[0], 1])) if p[0] else H)[nu - 1]
     slope = p.derivative()
     inverse, carried = slope.inverse_modulo(p), H * 0
     *digits, last = _digits(H, p, nu)
