@@ -116,7 +116,7 @@ def of_ball(sphere: BallOnSphere) -> dict[str, tuple[str, str]]:
     d1, d2 = sphere.second_order
     parts = zip(("a1", "a2", "b1", "b2"), (part.subs(x, cos(u)) * sin(u) for part in sphere.linear_system), strict=True)
     found = {name: (f"{name} = {part}", f"{sp.latex(sp.Symbol(name))} = {sp.latex(part)}") for name, part in parts}
-    in_u = (-sin(u) * d1.subs(x, cos(u)) - cos(u) / sin(u), sin(u) ** 2 * d2.subs(x, cos(u)))
+    in_u = -sin(u) * d1.subs(x, cos(u)) - cos(u) / sin(u), sin(u) ** 2 * d2.subs(x, cos(u))
     return {**found, "11": equation(*in_u, u), "12": equation(d1, d2), "13": normal_form(sphere.S)}
 
 
@@ -160,14 +160,12 @@ def derivation(*, latex: bool = False) -> str:
 def tidy(expression: Any) -> Any:
     """Expanded, with even powers of sines written in cosines: the one form that each expression has."""
 
-    def reduced(power: Any) -> Any:
-        sine, k = power.args
-        return (1 - cos(sine.args[0]) ** 2) ** (k // 2) * sine ** (k % 2)
-
-    def is_even(z: Any) -> bool:
-        return bool(z.is_Pow and isinstance(z.base, sin) and z.exp.is_Integer and z.exp > 1)
-
-    return sp.expand(sp.expand(expression).replace(is_even, reduced))
+    return sp.expand(
+        sp.expand(expression).replace(
+            lambda z: z.is_Pow and isinstance(z.base, sin) and z.exp.is_Integer and z.exp > 1,
+            lambda z: (1 - cos(z.base.args[0]) ** 2) ** (z.exp // 2) * z.base ** (z.exp % 2),
+        )
+    )
 
 
 def rate(expression: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
@@ -213,13 +211,7 @@ def residuals() -> dict[str, list[Any]]:
     clock = {u: du, du: ddu, dv: ddv, n: dn}
     force, moment = (rate(vector, clock) + (omega + turn).cross(vector) for vector in (m * velocity, momentum))
     inertia = {z: tidy(force.dot(velocity.diff(z)) + moment.dot(omega.diff(z))) for z in (du, dv, n)}
-    theta_ = {
-        T_u: energy.diff(u) / 2,
-        T_du: energy.diff(du) / 2,
-        T_dv: energy.diff(dv) / 2,
-        T_n: energy.diff(n) / 2,
-        V_u: 0,
-    }
+    theta_ = {V_u: 0, **{name: energy.diff(z) / 2 for name, z in ((T_u, u), (T_du, du), (T_dv, dv), (T_n, n))}}
     sides = ((du, "dTheta_u'/dt"), (dv, "dTheta_v'/dt"), (n, "dTheta_n/dt"))
     found["(7)"] = [inertia[z] - rate(energy.diff(z) / 2, clock) + p[name].subs(theta_) for z, name in sides]
     # omega_3 = tau sin(psi) v' + cos(psi) n with psi = -u, in place of v'.
@@ -247,12 +239,10 @@ def residuals() -> dict[str, list[Any]]:
 
 def vanishes(expression: Any) -> bool:
     """Is an expression, rational in names and in sines and cosines of names, zero?  Decided in the engine's fields."""
-    halves = {z: sp.Symbol(f"t_{z}") for z in (u, v, theta, u1, v1)}
-    rational = {
-        f(z): value
-        for z, t in halves.items()
-        for f, value in ((sin, 2 * t / (1 + t**2)), (cos, (1 - t**2) / (1 + t**2)))
-    }
+    rational: dict[Any, Any] = {}
+    for z in (u, v, theta, u1, v1):
+        t = sp.Symbol(f"t_{z}")
+        rational |= {sin(z): 2 * t / (1 + t**2), cos(z): (1 - t**2) / (1 + t**2)}
     return not read_input(sp.sympify(expression).xreplace(rational), var="t_u", limits=Limits(parameters=30)).S.num
 
 

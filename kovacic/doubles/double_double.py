@@ -20,7 +20,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache
 from typing import Any, ClassVar
 
 import numpy as np
@@ -29,7 +28,6 @@ from flint import acb, arb
 from kovacic.enclosure.points import working_precision
 
 _SPLIT = 134217729.0  # 2^27 + 1
-_WORKING_BITS = 160
 
 
 def two_sum(a: Any, b: Any) -> Pair:
@@ -114,9 +112,6 @@ class Complex:
         im = self.im if other.im is None else other.im if self.im is None else self.im + other.im
         return Complex(self.re + other.re, im)
 
-    def __neg__(self) -> Complex:
-        return Complex(-self.re, None if self.im is None else -self.im)
-
     def __sub__(self, other: Complex) -> Complex:
         im = self.im if other.im is None else -other.im if self.im is None else self.im - other.im
         return Complex(self.re - other.re, im)
@@ -192,33 +187,13 @@ def _table(values: list[arb]) -> Pair:
     return Pair(np.array([p.hi for p in pairs]), np.array([p.lo for p in pairs]))
 
 
-@cache
-def log_2() -> Pair:
-    """log 2."""
-    with working_precision(_WORKING_BITS):
-        return Pair.of(arb(2).log())
-
-
-@cache
-def _logarithms() -> Pair:
-    """log(k/64) for k = 0, ..., 92 (0 in place of log 0)."""
-    with working_precision(_WORKING_BITS):
-        return _table([(arb(max(k, 1)) / 64).log() for k in range(93)])
-
-
-@cache
-def _circle() -> tuple[Pair, Pair]:
-    """cos(k/64) and sin(k/64) for k = -202, ..., 202."""
-    angles = [arb(k) / 64 for k in range(-202, 203)]
-    with working_precision(_WORKING_BITS):
-        return _table([t.cos() for t in angles]), _table([t.sin() for t in angles])
-
-
-@cache
-def _odd_reciprocals(sign: int) -> tuple[Pair, ...]:
-    """sign^k/(2k + 1) for k = 6, ..., 0."""
-    with working_precision(_WORKING_BITS):
-        return tuple(Pair.of(arb(sign**k) / (2 * k + 1)) for k in reversed(range(7)))
+with working_precision(160):
+    LOG_2 = Pair.of(arb(2).log())
+    _RECIPROCALS = tuple(Pair.of(arb(1) / (2 * k + 1)) for k in reversed(range(7)))
+    _ALTERNATING = tuple(Pair.of(arb((-1) ** k) / (2 * k + 1)) for k in reversed(range(7)))
+    _LOGARITHMS = _table([(arb(max(k, 1)) / 64).log() for k in range(93)])  # log(k/64), and 0 in place of log 0
+    _COSINES = _table([(arb(k) / 64).cos() for k in range(-202, 203)])
+    _SINES = _table([(arb(k) / 64).sin() for k in range(-202, 203)])
 
 
 def log(a: Any) -> Any:
@@ -232,10 +207,10 @@ def log(a: Any) -> Any:
     rest = np.ldexp(np.where(zero, 0.0, a.lo), -e)
     k = np.rint(64 * m)
     t, index, nothing = k / 64, k.astype(np.int64), 0.0 * m
-    table = Pair(_logarithms().hi[index], _logarithms().lo[index])
+    table = Pair(_LOGARITHMS.hi[index], _LOGARITHMS.lo[index])
     s = (Pair(m - t, nothing) + Pair(rest, nothing)) / (two_sum(m, t) + Pair(rest, nothing))
-    series = Pair(2 * s.hi, 2 * s.lo) * horner(_odd_reciprocals(1), s * s)
-    total = log_2() * Pair(e.astype(float), nothing) + table + series
+    series = Pair(2 * s.hi, 2 * s.lo) * horner(_RECIPROCALS, s * s)
+    total = LOG_2 * Pair(e.astype(float), nothing) + table + series
     return Pair(np.where(zero, -np.inf, total.hi), np.where(zero, 0.0, total.lo))
 
 
@@ -245,8 +220,8 @@ def angle(z: Complex) -> Any:
         return np.arctan2(double(z.im), z.re)
     k = np.rint(64 * np.arctan2(z.im.hi, z.re.hi))
     index = k.astype(np.int64) + 202
-    c, s = (Pair(part.hi[index], part.lo[index]) for part in _circle())
+    c, s = (Pair(part.hi[index], part.lo[index]) for part in (_COSINES, _SINES))
     turned = z * Complex(c, -s)
     origin = turned.re.hi == 0
     tangent = turned.im / select(origin, Pair(1.0), turned.re)
-    return Pair(k / 64, 0.0 * k) + tangent * horner(_odd_reciprocals(-1), tangent * tangent)
+    return Pair(k / 64, 0.0 * k) + tangent * horner(_ALTERNATING, tangent * tangent)

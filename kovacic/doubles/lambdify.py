@@ -101,7 +101,7 @@ def lambdify(
     if isinstance(which, str):
         start["which"], which = which, 0
     if not start and params and problem.S is not None:
-        problem = replace(problem, decision=solve(problem.S).decision)
+        problem = replace(problem, decision=solve(problem.S, limits=limits or DEFAULT_LIMITS).decision)
     if not start and (problem.decision is None or problem.decision.semi_invariant is None):
         raise InputError(
             "lambdify needs a Liouvillian solution, found by kovacic.solve, or initial values",
@@ -120,7 +120,7 @@ def lambdify(
                     "complex arguments need a solution of case 1", hint="evaluate treats every complex point"
                 )
             if form is None:
-                given = {"x0": base, "y0": 1, "dy0": ball_from_flint(omega(problem, which, base, _SLOPE_BITS))}
+                given = _with_omega(problem, which, base)
         make = partial(tabulate, problem, *interval, limits=budget.share(1).limits, **given)
         variants = (careful,) if careful is not None else (False, True) if check else (False,)
         for variant in variants:
@@ -128,19 +128,15 @@ def lambdify(
             found = _measured(function, problem, which, start, budget) if check else None
             if not isinstance(found, Measured) or found.keeps_the_promise:
                 break
-    if isinstance(found, Measured) and found.points:
-        if not found.keeps_the_promise:
-            _warn(f"measured error of this function in units in the last place: {found}")
-    elif check:
-        _warn(f"the error of this function couldn't be measured: {found if isinstance(found, str) else _BEYOND}")
+    if found is None:
+        return function
+    text = f"measured error of this function in units in the last place: {found}"
+    if isinstance(found, str) or not found.points:
+        reason = found if isinstance(found, str) else "all samples are beyond the range of doubles"
+        text = f"the error of this function couldn't be measured: {reason}"
+    if isinstance(found, str) or not found.keeps_the_promise:
+        warnings.warn(text, AccuracyWarning, stacklevel=3)
     return replace(function, measured=found) if isinstance(found, Measured) else function
-
-
-_BEYOND = "all samples are beyond the range of doubles"
-
-
-def _warn(text: str) -> None:
-    warnings.warn(text, AccuracyWarning, stacklevel=4)
 
 
 def measure(
@@ -161,15 +157,10 @@ def measure(
     given = samples(function) if points is None else np.atleast_1d(points)
     exact = [as_point(complex(x), "x") for x in given]
     found = [complex(v) for v in function(given)]
-    reference = None
-    if not start:
-        assert function.base is not None
-        reference = _exponentials(problem, which, function.base, exact)
-        slope = ball_from_flint(omega(problem, which, function.base, _SLOPE_BITS)) if reference is None else None
-        begin: Mapping[str, Any] = {"x0": function.base, "y0": 1, "dy0": slope}
-    else:
-        begin = start
+    base = function.base
+    reference = None if start or base is None else _exponentials(problem, which, base, exact)
     if reference is None:
+        begin = start or _with_omega(problem, which, base)
         states = evaluate_states(problem, exact, **begin, digits=_DIGITS, method="taylor", limits=limits)
         if not all(state.reached or state.y.contains_zero() for state in states):
             raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
@@ -184,6 +175,12 @@ def measure(
         factor = acb(1) if start else quotients[len(quotients) // 2]
         errors = [error for v, y in pairs if (error := _units(v, (y * factor).mid())) is not None]
     return Measured(float(np.median(errors)), max(errors), len(errors))
+
+
+def _with_omega(problem: NumericProblem, which: int, base: Point | None) -> dict[str, Any]:
+    """The initial values of the solution number `which`, 1 at the base."""
+    assert base is not None
+    return {"x0": base, "y0": 1, "dy0": ball_from_flint(omega(problem, which, base, _SLOPE_BITS))}
 
 
 def _exponentials(problem: NumericProblem, which: int, base: Point, points: Sequence[Point]) -> list[acb] | None:

@@ -31,6 +31,7 @@ from typing import Any
 import numpy as np
 
 from kovacic.doubles.double_double import (
+    LOG_2,
     Complex,
     Pair,
     absolute,
@@ -38,7 +39,6 @@ from kovacic.doubles.double_double import (
     double,
     horner,
     log,
-    log_2,
     select,
     split,
     square_root,
@@ -163,7 +163,7 @@ class ProductForm:
         with np.errstate(all="ignore"):
             value, binary, growth = self._parts(points.reshape(-1), careful=True)
             unit = _complex_array(value)
-            total = double(growth.re + log_2() * Pair(0.0 + binary)) + np.log(np.abs(unit))
+            total = double(growth.re + LOG_2 * Pair(0.0 + binary)) + np.log(np.abs(unit))
             unit = np.sign(unit) * _complex_array(_turn(growth))
         return unit.reshape(points.shape)[()], total.reshape(points.shape)[()]
 
@@ -171,8 +171,8 @@ class ProductForm:
         value, binary, growth = self._parts(x, self.careful)
         value = Complex(double(value.re), None if value.im is None else double(value.im))
         if self.careful:
-            turns = np.rint(growth.re.hi / log_2().hi)
-            rest = growth.re - Pair(turns, 0.0 * turns) * log_2()
+            turns = np.rint(growth.re.hi / LOG_2.hi)
+            rest = growth.re - Pair(turns, 0.0 * turns) * LOG_2
             value *= Complex(np.exp(rest.hi) * (1.0 + rest.lo))
             binary = np.clip(binary + turns, -6000, 6000).astype(np.int64)
         elif growth is not None:
@@ -235,7 +235,7 @@ class _Product:
             else:
                 logarithm = Complex(log(d.re * d.re + d.im * d.im) * Pair(0.5), angle(d * f.turn.conjugate()))
             if self.careful:
-                logarithm += Complex(log_2() * Pair(0.0 + e))
+                logarithm += Complex(LOG_2 * Pair(0.0 + e))
             growth.append(power * logarithm)
             return
         self.binary = self.binary + e * quarters // 4

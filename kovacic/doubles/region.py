@@ -72,28 +72,18 @@ class Region:
 
     def _contains(self, points: Any) -> bool:
         """By the extremes, which are NaN where a point is."""
+        inside = self.low.real <= points.real.min() and points.real.max() <= self.high.real
         if not self.is_real:
-            ends = zip((self.low, self.high), self.singular, strict=True)
-            if any(singular and np.any(points == end) for end, singular in ends):
-                return False
-            inside = self.low.imag <= points.imag.min() and points.imag.max() <= self.high.imag
-            return bool(inside and self.low.real <= points.real.min() and points.real.max() <= self.high.real)
-        low, high = points.min(), points.max()
-        left = self.low.real < low if self.singular[0] else self.low.real <= low
-        return bool(left and (high < self.high.real if self.singular[1] else high <= self.high.real))
+            inside = inside and self.low.imag <= points.imag.min() and points.imag.max() <= self.high.imag
+        ends = zip((self.low, self.high), self.singular, strict=True)
+        return bool(inside and not any(singular and np.any(points == end) for end, singular in ends))
 
 
 def in_blocks(function: Callable[[Any], Any], points: Any, block: int = BLOCK) -> Any:
     """The function of the points, so many at a time: what is formed on the way stays in the processor's cache."""
     flat = points.reshape(-1)
-    if flat.size <= block:
-        return function(flat).reshape(points.shape)[()]
-    first = function(flat[:block])
-    result = np.empty(flat.shape, first.dtype)
-    result[:block] = first
-    for start in range(block, flat.size, block):
-        result[start : start + block] = function(flat[start : start + block])
-    return result.reshape(points.shape)
+    parts = [function(flat[k : k + block]) for k in range(0, max(flat.size, 1), block)]
+    return (np.concatenate(parts) if len(parts) > 1 else parts[0]).reshape(points.shape)[()]
 
 
 def region_of(problem: NumericProblem, interval: tuple[object, object]) -> tuple[Region, list[Point]]:
@@ -111,11 +101,11 @@ def region_of(problem: NumericProblem, interval: tuple[object, object]) -> tuple
         raise InputError("the interval is empty", hint="give two real numbers, the smaller one first")
     with working_precision(_PREC):
         singular = _singular_ends(problem, low, high)
-    corners = complex(_up(low.re), _up(low.im)), complex(_down(high.re), _down(high.im))
-    if corners[0].real > corners[1].real or corners[0].imag > corners[1].imag:
+    (left, right), (bottom, top) = _inside(low.re, high.re), _inside(low.im, high.im)
+    if left > right or bottom > top:
         raise InputError("the interval contains no double")
     near = [low + (high - low).scaled(Fraction(k, 64)) for k in (32, 31, 34, 27, 39)]
-    return Region(*corners, singular), near
+    return Region(complex(left, bottom), complex(right, top), singular), near
 
 
 def _singular_ends(problem: NumericProblem, low: Point, high: Point) -> tuple[bool, bool]:
@@ -132,14 +122,10 @@ def _singular_ends(problem: NumericProblem, low: Point, high: Point) -> tuple[bo
     return at_low, at_high
 
 
-def _up(value: Fraction) -> float:
-    """The least double that isn't below the value."""
+def _inside(low: Fraction, high: Fraction) -> tuple[float, float]:
+    """The least double that isn't below `low`, and the greatest that isn't above `high`."""
     try:
-        near = float(value)
+        a, b = float(low), float(high)
     except OverflowError:
         raise InputError("an end of the interval is beyond the range of doubles") from None
-    return near if Fraction(near) >= value else math.nextafter(near, math.inf)
-
-
-def _down(value: Fraction) -> float:
-    return 0.0 - _up(-value)
+    return a if Fraction(a) >= low else math.nextafter(a, math.inf), b if b <= high else math.nextafter(b, -math.inf)

@@ -39,17 +39,9 @@ _SHARE, _GROWTH = 0.25, 4.0
 _MAX_PIECES, _SMALLEST = 5000, -2200
 
 
-@dataclass(frozen=True, slots=True)
-class _Variant:
-    """Points on a piece, digits of the values, and the bits below the largest coefficient that count."""
-
-    points: int
-    digits: int
-    kept: int
-
-
-_VARIANTS = {True: _Variant(21, 60, 112), False: _Variant(12, 32, 62)}
-"""The careful one, and the plain one; interpolation costs two bits and a half a point."""
+_VARIANTS = {True: (21, 60, 112), False: (12, 32, 62)}
+"""Points on a piece, digits of the values, and the bits below the largest coefficient that count: of the careful variant, and
+the plain one.  Interpolation costs two bits and a half a point."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +105,7 @@ def tabulate(
         raise InputError(
             "an end of the interval is a singular point", hint="a table ends beside it; choose an end at some distance"
         )
-    return _assembled(region, given.get("x0"), _pieces(problem, region, _VARIANTS[careful], given, budget), careful)
+    return _assembled(region, given.get("x0"), _pieces(problem, region, careful, given, budget), careful)
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,10 +122,10 @@ class _Piece:
 
 
 def _pieces(
-    problem: NumericProblem, region: Region, variant: _Variant, given: dict[str, Any], budget: Budget
+    problem: NumericProblem, region: Region, careful: bool, given: dict[str, Any], budget: Budget
 ) -> list[_Piece]:
     """Pieces that cover the region from left to right; where the points don't suffice, a piece is halved."""
-    n = variant.points
+    n, digits, kept = _VARIANTS[careful]
     nodes = [Fraction(math.cos(math.pi * (2 * k + 1) / (2 * n))) for k in range(n)]
     with working_precision(_PREC):
         at = [to_acb(Point(u)).real for u in nodes]
@@ -145,14 +137,14 @@ def _pieces(
         if len(open_) + len(done) > _MAX_PIECES:
             raise LimitExceeded(f"the table needs more than {_MAX_PIECES} pieces", limit="unknown_degree")
         points = [Point(piece.centre + piece.scale * u) for piece in open_ for u in nodes]
-        states = evaluate_states(problem, points, digits=variant.digits, limits=budget.share(1).limits, **given)
+        states = evaluate_states(problem, points, digits=digits, limits=budget.share(1).limits, **given)
         halves = []
         with working_precision(_PREC):
             for k, piece in enumerate(open_):
                 budget.check()
                 own, unit = states[k * n : k * n + n], acb(arb((1, piece.e)))
                 data = [[ball_to_flint(s.y)] for s in own] + [[ball_to_flint(s.dy) * unit] for s in own]
-                found = _counting((inverse * acb_mat(data)).entries(), variant.kept)
+                found = _counting((inverse * acb_mat(data)).entries(), kept)
                 if found is not None:
                     done.append(replace(piece, coefficients=found))
                 else:
