@@ -10,7 +10,7 @@ import sympy
 
 import kovacic
 from kovacic.cli.main import main
-from tests.test_symmetric_conditions import pulled_back
+from tests.test_symmetric_conditions import moved, pulled_back
 
 R = sympy.Rational
 x = sympy.Symbol("x")
@@ -97,6 +97,7 @@ def test_the_quartic_has_the_solutions_of_its_paper() -> None:
     [
         (pulled_back(2, "p", "q", "r"), {"p": R(1, 3), "q": R(1, 5), "r": R(53, 15)}),
         (pulled_back(3, "p", "q", "r"), {"p": R(1, 3), "q": R(1, 5), "r": R(53, 15)}),
+        (moved(pulled_back(2, "p", "q", "r"), "(2*x + 1)/(x - 3)"), {"p": R(1, 3), "q": R(1, 5), "r": R(53, 15)}),
         # exponent differences m at the conjugate points, n at infinity
         ("-(1-m^2)*(2*x^2+4)/(4*(x^2-2)^2) - (2*m^2-n^2-1)/(4*(x^2-2))", {"m": R(1, 3), "n": R(17, 3)}),
         ("-(1-m^2)*(2*x^2-6)/(4*(x^2+3)^2) - (2*m^2-n^2-1)/(4*(x^2+3))", {"m": R(1, 3), "n": R(17, 3)}),

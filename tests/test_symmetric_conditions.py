@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+import sympy
 
 import kovacic
 
@@ -19,6 +20,14 @@ def pulled_back(n: int, p: str, q: str, r: str) -> str:
         "z", f"(x^{n})"
     )
     return f"{n}^2*x^{2 * n - 2}*({S}) + ({n}^2-1)/(4*x^2)"
+
+
+def moved(S: str, m: str) -> str:
+    """The equation in x for the one in m(x)."""
+    function = sympy.sympify(S.replace("^", "**"), rational=True)
+    change = sympy.sympify(m, rational=True)
+    x = sympy.Symbol("x")
+    return str(sympy.factor(function.subs(x, change) * change.diff(x) ** 2)).replace("**", "^")
 
 
 def lines(S: str) -> list[str]:
@@ -77,8 +86,37 @@ def test_the_centre_of_symmetry_is_found() -> None:
     moved = pulled_back(2, "p", "q", "r").replace("x", "(x-3)")
     answer = kovacic.conditions(moved, var="x")
     assert answer.complete is True
-    assert "(x - (3))^2" in answer.theory
+    assert "(x - 3)^2" in answer.theory
     assert answer.check(30)
+
+
+@pytest.mark.parametrize("m", ["1/(x - 2)", "(2*x + 1)/(x - 3)", "1/x", "(x - 1)/(x + 1)", "(x - 1/2)/(3*x + 5)"])
+@pytest.mark.parametrize("S", [LAME, EQUIANHARMONIC])
+def test_moebius_maps_change_nothing(S: str, m: str) -> None:
+    """The symmetry x -> zeta x is another Moebius map in another coordinate; the conditions and the engine's cases agree."""
+    answer = kovacic.conditions(moved(S, m), var="x")
+    assert answer.complete is True
+    assert [str(region) for region in answer.regions] == [
+        str(region) for region in kovacic.conditions(S, var="x").regions
+    ]
+    report = answer.check(30)
+    assert report, report.disagreements
+    assert report.open == 0
+
+
+def test_heun_with_two_equal_exponents() -> None:
+    """z = (x/(x - 1))^2: the differences are 2 l at 0, 2 m at 1, and p at infinity and at 1/2, which a map exchanges."""
+    S = moved(pulled_back(2, "l", "p", "m"), "x/(x - 1)")
+    answer = kovacic.conditions(S, var="x")
+    assert answer.complete is True
+    assert "Kimura" in answer.theory
+    for values, case in (
+        ({"l": F(1, 3), "p": F(1, 5), "m": F(23, 15)}, 1),
+        ({"l": F(1, 3), "p": F(1, 5), "m": F(22, 15)}, None),
+        ({"l": F(1, 2), "p": F(1, 2), "m": F(1, 7)}, 2),
+        ({"l": F(1, 2), "p": F(1, 3), "m": F(1, 4)}, 3),
+    ):
+        assert answer.case_at(values) == answer.solve_at(values).case == case
 
 
 def test_three_square_roots_are_written_as_such() -> None:

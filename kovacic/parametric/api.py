@@ -111,7 +111,7 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
 def _with_determinants(region: Condition, largest: int) -> Condition:
     """The region with its determinants as far as time allows."""
     shown: list[str] = []
-    if isinstance(region.statement, Natural) and region.statement.number.m == 1:
+    if isinstance(region.statement, Natural) and region.statement.m == 1:
         with suppress(LimitExceeded):
             shown.extend(region.statement.shown_determinant(number) for number in range(largest + 1))
     return replace(region, determinants=tuple(shown))

@@ -23,7 +23,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem
-from kovacic.parametric.formulas import root_written, shown
+from kovacic.parametric.formulas import root_written, shifted
 from kovacic.parametric.functions import over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.statements import Statement
@@ -91,7 +91,7 @@ def recognise(problem: Problem, variable: str) -> Confluent | None:
         # Move the irregular point c to infinity: x = c + 1/z, S -> S(c + 1/z)/z^4.
         c = -irregular[0].factor[0]
         S = S(RatFunc(field.poly([1]), field.poly([0, 1])) + c) / x**4
-        coordinate = f"1/({variable} - ({shown(RatFunc(c))}))" if c else f"1/{variable}"
+        coordinate = f"1/({shifted(variable, c)})" if c else f"1/{variable}"
     regular = [-factor[0] for factor, _ in field.factor(S.den)] if S.den.degree else []
     if not regular:
         n = S.num.degree
@@ -100,7 +100,7 @@ def recognise(problem: Problem, variable: str) -> Confluent | None:
         center = regular[0]
     if center:
         S = S(x + center)
-        coordinate = f"{coordinate} - ({shown(RatFunc(center))})"
+        coordinate = shifted(coordinate, center)
     shift, zero = S.den.degree, field.poly([])
     if shift > 2 or S.den != field.poly([0] * shift + [1]):
         return None

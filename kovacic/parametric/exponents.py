@@ -2,6 +2,7 @@
 
 At a regular place theta has the residue (1 +- Delta)/2; at an irregular one its polar part is that of +- sqrt S, with a residue
 that follows [Kovacic 1986, sec. 3.1].  P'' + 2 theta P' + (theta' + theta^2 - S) P = 0 is a system for its coefficients.
+In the same way the valuations at all places leave a system for the P of a rational form of degree m in the solutions.
 """
 
 from __future__ import annotations
@@ -13,7 +14,9 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.engine import invariants
 from kovacic.engine.places import Kind, Place, Problem
+from kovacic.engine.riccati import Form, singular_part
 from kovacic.limits import check_time
 from kovacic.parametric.ranks import RankConditions, rank_conditions
 
@@ -143,3 +146,33 @@ def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
         main = main + (quotient - x * main * main)[2 * n - k + 1] / (2 * root) * x ** (n - k)
     ratio = (quotient - x * main * main)[n] / root
     return [LocalPart(factor, 1 - (sign * ratio - n) / 2, sign * main) for sign in (1, -1)]
+
+
+def least_valuation(place: Place, m: int) -> int | None:
+    """The least valuation of a rational form of degree m, whether or not there is a logarithm at special values."""
+    return invariants.least_valuation(place, m, logarithms=False)
+
+
+def number_of_zeros(problem: Problem, m: int) -> int | None:
+    """The largest degree of P for a form of degree m; None where there is no such form at any values of the parameters."""
+    valuations = [least_valuation(place, m) for place in problem.places]
+    known = [v for v in valuations if v is not None]
+    if len(known) < len(valuations):
+        return None
+    N = m - known[-1] - sum(v * place.degree for v, place in zip(known, problem.finite_places, strict=False))
+    return N if N >= 0 else None
+
+
+def form_conditions(problem: Problem, m: int) -> RankConditions:
+    """Where there are more rational forms of degree m than generically."""
+    N = number_of_zeros(problem, m)
+    if N is None:
+        return RankConditions()
+    valuations = [least_valuation(place, m) for place in problem.finite_places]
+    R0 = singular_part(problem, [v for v in valuations if v is not None])
+    x = problem.field.poly([0, 1])
+    images = []
+    for j in range(N + 1):
+        images.append(Form(m, R0, x**j).numerators(problem)[-1])
+        check_time()
+    return rank_conditions(images, problem)

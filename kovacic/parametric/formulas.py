@@ -41,6 +41,14 @@ def as_latex(function: FunctionPoly | RatFunc, variable: str = "x") -> str:
     return _Writer(names, True).sum([_Term(Fraction(1), ((above, 1),), ((below, 1),))])
 
 
+def shifted(text: str, value: Poly) -> str:
+    """`text - value`: x - 2, x + 1/2, x - (a + b)."""
+    amount = shown(over_parameters(value))
+    if not re.fullmatch(r"-?[\w/]+", amount):
+        return f"{text} - ({amount})"
+    return text if not value else f"{text} + {amount[1:]}" if amount.startswith("-") else f"{text} - {amount}"
+
+
 def written(function: FunctionPoly | RatFunc, letter: str = "x", *, latex: bool = False) -> str:
     """The shortest of the usual forms; `letter` is the name of the polynomial variable."""
     above, below, names = _cleared(function, letter)

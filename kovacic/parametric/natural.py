@@ -25,13 +25,12 @@ from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.exponents import with_degree
+from kovacic.parametric.exponents import form_conditions, with_degree
 from kovacic.parametric.formulas import Notation, equation_written, shown, written
 from kovacic.parametric.functions import Coset, degrees, irreducible_factors, over_parameters
 from kovacic.parametric.integers import LETTERS, free_letter, rational_roots
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import UndefinedError, at_point, on_hypersurface, rational_curve
-from kovacic.parametric.search import NaturalNumber, form_conditions
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
 from kovacic.parametric.spectra import alternatives
 from kovacic.parametric.statements import Point, Statement
@@ -73,10 +72,16 @@ class Determinant:
 
 @dataclass(frozen=True)
 class Natural(Statement):
-    """For a natural number that the exponents allow, a solution (or an invariant) with so many zeros exists."""
+    """For a natural number that the exponents allow, an invariant of degree m with so many zeros exists.
+
+    The number is a root of one of the `factors`.  m = 1 is a solution with a rational omega, whose zeros are those of P.
+    `structure` is that of the group where the invariant exists, tetrahedral standing for every primitive finite one.
+    """
 
     S: RatFunc
-    number: NaturalNumber
+    m: int
+    factors: tuple[FunctionPoly, ...]
+    structure: Structure
     letter: str = field(default="d", compare=False)
     fixed: tuple[str, ...] = field(default=(), compare=False)
 
@@ -85,11 +90,11 @@ class Natural(Statement):
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         S = RatFunc(change(over_parameters(self.S.num)), change(over_parameters(self.S.den)))
-        return replace(self, S=S, number=replace(self.number, factors=tuple(map(change, self.number.factors))))
+        return replace(self, S=S, factors=tuple(map(change, self.factors)))
 
     def numbers_at(self, point: Point) -> list[int]:
         """The natural numbers that the exponents allow at a point."""
-        roots = {root for factor in self.number.factors for root in rational_roots(point.at(factor))}
+        roots = {root for factor in self.factors for root in rational_roots(point.at(factor))}
         return sorted(int(root) for root in roots if root.denominator == 1 and root >= 0)
 
     def _holds(self, point: Point) -> bool:
@@ -98,12 +103,12 @@ class Natural(Statement):
             return False
         structure = _structure_at(self.S, point)
         primitive = structure is not None and structure.case == 3
-        return structure is self.number.structure or (primitive and self.number.structure.case == 3)
+        return structure is self.structure or (primitive and self.structure.case == 3)
 
     def determinants(self, number: int) -> list[Determinant]:
         """Delta for one natural number, for each way in which the exponents give it."""
         found: list[Determinant] = []
-        for factor in self.number.factors:
+        for factor in self.factors:
             for exponents in irreducible_factors(factor(Fraction(number))):
                 if exponents not in (known.exponents for known in found):
                     found += self._determinants(exponents, number)
@@ -116,9 +121,9 @@ class Natural(Statement):
             return []
         zero = exponents - exponents
         if S.field == QQ:
-            exists = decide(S, Budget(), certify=False).structure is self.number.structure
+            exists = decide(S, Budget(), certify=False).structure is self.structure
             return [Determinant(exponents, (zero,) if exists else ())]
-        m, problem = self.number.m, analyse(S, Budget())
+        m, problem = self.m, analyse(S, Budget())
         found: list[RankConditions] | None = None
         if isinstance(problem.S.num, FunctionPoly):
             of_degree = with_degree(problem, number) if m == 1 else [(None, form_conditions(problem, m))]
@@ -133,11 +138,9 @@ class Natural(Statement):
     def solutions(self, variable: str, number: int | None) -> tuple[PolynomialSolution, ...]:
         """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""
         found: list[PolynomialSolution | None] = []
-        if number is None or self.number.m > 1:
+        if number is None or self.m > 1:
             return ()
-        for exponents in dict.fromkeys(
-            e for f in self.number.factors for e in irreducible_factors(f(Fraction(number)))
-        ):
+        for exponents in dict.fromkeys(e for f in self.factors for e in irreducible_factors(f(Fraction(number)))):
             S, equation = on_hypersurface(self.S, exponents).S, equation_written(exponents)
             if not isinstance(S.num, FunctionPoly) or rational_curve(exponents) is not None:
                 continue
@@ -163,11 +166,11 @@ class Natural(Statement):
         return f"Delta_{number} = {text if len(text) <= _WRITTEN_OUT else text[:_WRITTEN_OUT] + '...'}"
 
     def sample(self, random: Random) -> list[FunctionPoly]:
-        factor = random.choice(self.number.factors)
+        factor = random.choice(self.factors)
         if not any(degrees(factor)):
             return []
         number = random.randint(0, _EXAMPLES)
-        found = [d for d in self.determinants(number) if d.factors or d.system] if self.number.m == 1 else []
+        found = [d for d in self.determinants(number) if d.factors or d.system] if self.m == 1 else []
         if not found:
             return [over_parameters(factor(Fraction(number)))]
         chosen = random.choice(found)
@@ -177,14 +180,14 @@ class Natural(Statement):
         return None if self._possible(assumptions) else False
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
-        return replace(self, number=replace(self.number, factors=self._possible(assumptions)))
+        return replace(self, factors=self._possible(assumptions))
 
     def _possible(self, assumptions: Assumptions) -> tuple[FunctionPoly, ...]:
         """The equations for d that can have a natural root: not those that are positive for all d >= 0."""
         natural = [Coset(Fraction(0), Fraction(1))]
         return tuple(
             factor
-            for factor in self.number.factors
+            for factor in self.factors
             if not (factor.degree == 1 and assumptions.meets_classes(-factor[0] / factor[1], natural) is False)
             and not (
                 assumptions.is_positive(over_parameters(factor[0]))
@@ -193,7 +196,7 @@ class Natural(Statement):
         )
 
     def written(self, *, latex: bool) -> str:
-        n, m, factors = Notation(latex, self.letter, self.fixed), self.number.m, self.number.factors
+        n, m, factors = Notation(latex, self.letter, self.fixed), self.m, self.factors
         if not any(k for factor in factors for k in degrees(factor)):
             numbers = " or ".join(written(-f[0] / f[1]) for f in factors)
             what = "a solution" if m == 1 else f"an invariant of degree {m}"

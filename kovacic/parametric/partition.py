@@ -28,7 +28,6 @@ from kovacic.galois import group_of
 from kovacic.limits import Budget
 from kovacic.parametric import confluent, generic, quotient, riemann
 from kovacic.parametric.functions import degrees, denominators, irreducible_factors, union
-from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import Condition, Verdict
 from kovacic.parametric.restriction import UndefinedError, leading_factors, missed, on_hypersurface, rational_curve
 from kovacic.parametric.search import Findings, search
@@ -178,12 +177,12 @@ def _by_candidates(problem: Problem, expected: Verdict, settings: Settings) -> P
                     regions += found
     except LimitExceeded as limit:
         complete = _as_far_as(limit)
-    for number in findings.natural:
-        structure = number.structure
+    for statement in findings.natural:
+        structure = statement.structure
         if structure is not expected.structure and (expected.structure is None or structure is Structure.REDUCIBLE):
             primitive = "binary tetrahedral, octahedral or icosahedral" if structure.case == 3 else None
             verdict = Verdict(structure, family=primitive)
-            statement, omega = Natural(problem.S, number), _SEMI_INVARIANTS[structure]
+            omega = _SEMI_INVARIANTS[structure]
             origin = partial(statement.solutions, settings.variable)
             regions.append(Condition(statement, verdict, omega=omega, origin=origin))
     return Partition(expected, _together(regions) if complete is True else complete, findings.theory, tuple(regions))

@@ -1,8 +1,9 @@
-"""Symmetric equations: S(c + zeta x) zeta^2 = S(c + x) with zeta^n = 1, whose quotient has at most three singular points.
+"""Symmetric equations: S(m(x)) m'(x)^2 = S(x) for a Moebius map m of order n, whose quotient has at most three singular points.
 
-With z = (x - c)^n the equation becomes v'' = S_z v, x^2 S = n^2 z^2 S_z + (n^2 - 1)/4, and the exponent differences at 0 and
-infinity are divided by n.  C(x) is a cyclic extension of C(z), branched at 0 and infinity: the group G over C(x) is normal in
-the one over C(z), H, with a cyclic quotient of an order that divides n.  So an equation is solvable over both or neither, and
+m is x -> c + zeta (x - c), zeta^n = 1, or that in the coordinate 1/(x - p).  With z = (x - c)^n the equation becomes
+v'' = S_z v, x^2 S = n^2 z^2 S_z + (n^2 - 1)/4, and the exponent differences at 0 and infinity are divided by n.  C(x) is a
+cyclic extension of C(z), branched at 0 and infinity: the group G over C(x) is normal in the one over C(z), H, with a cyclic
+quotient of an order that divides n.  So an equation is solvable over both or neither, and
 
 - H reducible: G is reducible;
 - H imprimitive: the quadratic extension over which H becomes diagonal is branched where two of the differences are
@@ -25,7 +26,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.parametric import riemann
-from kovacic.parametric.formulas import shown
+from kovacic.parametric.formulas import shifted
 from kovacic.parametric.functions import over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.statements import Statement, both, either
@@ -35,11 +36,12 @@ Statements = Literal[True] | list[Statement]
 
 @dataclass(frozen=True)
 class Quotient:
-    """The equation in z = (x - c)^n; `base` is x - c in words, and `coordinate` z."""
+    """The equation in z = s^n, s = x - c or 1/(x - p) - c; `base` is s in words, and `weight` 1 or x - p."""
 
     problem: Problem
     n: int
     base: str
+    weight: str = "1"
 
     @property
     def coordinate(self) -> str:
@@ -47,23 +49,31 @@ class Quotient:
 
 
 def recognise(problem: Problem, variable: str) -> Quotient | None:
-    """The quotient by all rotations about the mean of the finite poles, if it has at most three singular points."""
+    """The quotient by a cyclic group of Moebius maps that permute the poles, if it has at most three singular points.
+
+    One of the two fixed points is a singular one, or infinity: where that is infinity, the other one is the mean of the poles.
+    """
     S, field = problem.S, problem.field
-    den = S.den
-    if den.degree < 1:
-        return None
-    center = -den[den.degree - 1] / (den.lc * den.degree)
     x = RatFunc(field.poly([0, 1]))
-    symmetric = (S(x + center) if center else S) * x * x
-    n = gcd(*(i for part in (symmetric.num, symmetric.den) for i, c in enumerate(part) if c))
-    if n < 2:
+    if any(place.kind not in (Kind.ORDINARY, Kind.REGULAR) for place in problem.places):
         return None
-    num, den = (field.poly([part[i] for i in range(0, part.degree + 1, n)]) for part in (symmetric.num, symmetric.den))
-    quotient = analyse((RatFunc(num, den) - field.poly([n * n - 1]) / 4) / (n * x) ** 2, problem.budget)
-    if not riemann.applies(quotient):
-        return None
-    base = variable if not center else f"({variable} - ({shown(RatFunc(center))}))"
-    return Quotient(quotient, n, base)
+    for pole in (None, *(-place.factor[0] for place in problem.finite_places if place.degree == 1)):
+        moved = S if pole is None else S(1 / x + pole) / x**4
+        den = moved.den
+        if den.degree < 1:
+            continue
+        center = -den[den.degree - 1] / (den.lc * den.degree)
+        symmetric = (moved(x + center) if center else moved) * x * x
+        n = gcd(*(i for part in (symmetric.num, symmetric.den) for i, c in enumerate(part) if c))
+        if n < 2:
+            continue
+        num, den = (field.poly([f[i] for i in range(0, f.degree + 1, n)]) for f in (symmetric.num, symmetric.den))
+        quotient = analyse((RatFunc(num, den) - field.poly([n * n - 1]) / 4) / (n * x) ** 2, problem.budget)
+        if riemann.applies(quotient):
+            weight = "1" if pole is None else shifted(variable, pole)
+            base = shifted(variable if pole is None else f"1/({weight})" if pole else f"1/{variable}", center)
+            return Quotient(quotient, n, base if base == variable else f"({base})", weight)
+    return None
 
 
 def structures(quotient: Quotient) -> Iterator[tuple[Structure, Statements, str | None]]:

@@ -25,7 +25,6 @@ from kovacic.parametric.integers import Congruence, free_letter
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.riemann import Schwarz
-from kovacic.parametric.search import NaturalNumber
 from kovacic.parametric.statements import Both, Either, Point, Statement, Vanishes
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_with
@@ -49,12 +48,12 @@ def statement_data(statement: Statement) -> dict[str, Any]:
         equation = {"unknown": statement.letter, "equation": statement.equation.to_str(statement.letter)}
         return {"kind": "integer root", **equation, "residues": residues, "modulus": modulus}
     if isinstance(statement, Natural):
-        letter, number = statement.letter, statement.number
-        equations = [factor.to_str(letter) for factor in number.factors]
+        letter = statement.letter
+        equations = [factor.to_str(letter) for factor in statement.factors]
         kind = {"kind": "natural number", "unknown": letter, "equations": equations}
         x = free_letter(parameters_of(statement.S.field), "xzt")
         S = {"variable": x, "S": statement.S.to_str(x)}
-        return kind | {"degree": number.m, "structure": number.structure.value} | S
+        return kind | {"degree": statement.m, "structure": statement.structure.value} | S
     if isinstance(statement, Schwarz):
         structures = [structure.value for structure in statement.structures]
         return {"kind": "schwarz", "unknown": "Z", "squares": statement.cubic.to_str("Z"), "structures": structures}
@@ -129,8 +128,8 @@ class Reader:
         if kind == "natural number":
             letter = data["unknown"]
             equations = tuple(self.polynomial(text, letter) for text in data["equations"])
-            number = NaturalNumber(data["degree"], equations, Structure(data["structure"]))
-            return Natural(self.function(data["S"], data["variable"]), number, letter)
+            S, structure = self.function(data["S"], data["variable"]), Structure(data["structure"])
+            return Natural(S, data["degree"], equations, structure, letter)
         if kind == "schwarz":
             structures = tuple(Structure(value) for value in data["structures"])
             return Schwarz(self.polynomial(data["squares"], data["unknown"]), structures)

@@ -19,33 +19,18 @@ from math import lcm, prod
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.decision import Structure
-from kovacic.engine import invariants
 from kovacic.engine.degree_bound import irregular_difference_squared
-from kovacic.engine.places import Kind, Place, Problem
-from kovacic.engine.riccati import Form, singular_part
+from kovacic.engine.places import Kind, Problem
 from kovacic.errors import LimitExceeded
-from kovacic.limits import check_time
-from kovacic.parametric.exponents import with_degree
+from kovacic.parametric.exponents import form_conditions, least_valuation, number_of_zeros, with_degree
 from kovacic.parametric.functions import over_parameters, union
-from kovacic.parametric.ranks import RankConditions, rank_conditions
+from kovacic.parametric.natural import Natural
+from kovacic.parametric.ranks import RankConditions
 
 #: Combinations of exponents above which invariants aren't examined.
 _COMBINATIONS = 400
 #: The part of the time that the determinants of one kind of invariant may take.
 _SHARE = 0.2
-
-
-@dataclass(frozen=True)
-class NaturalNumber:
-    """What the exponents say: an invariant of degree `m` has a natural number of zeros, a root of one of the polynomials.
-
-    m = 1 is a solution with a rational omega, whose zeros are those of P.  `structure` is that of the group where the invariant
-    exists, tetrahedral standing for every primitive finite one.
-    """
-
-    m: int
-    factors: tuple[FunctionPoly, ...]
-    structure: Structure
 
 
 def _degrees_that_decide(problem: Problem) -> dict[int, list[Structure]] | None:
@@ -68,36 +53,6 @@ def _degrees_that_decide(problem: Problem) -> dict[int, list[Structure]] | None:
     return dict(sorted(found.items()))
 
 
-def least_valuation(place: Place, m: int) -> int | None:
-    """The least valuation of a rational form of degree m, whether or not there is a logarithm at special values."""
-    return invariants.least_valuation(place, m, logarithms=False)
-
-
-def number_of_zeros(problem: Problem, m: int) -> int | None:
-    """The largest degree of P for a form of degree m; None where there is no such form at any values of the parameters."""
-    valuations = [least_valuation(place, m) for place in problem.places]
-    known = [v for v in valuations if v is not None]
-    if len(known) < len(valuations):
-        return None
-    N = m - known[-1] - sum(v * place.degree for v, place in zip(known, problem.finite_places, strict=False))
-    return N if N >= 0 else None
-
-
-def form_conditions(problem: Problem, m: int) -> RankConditions:
-    """Where there are more rational forms of degree m than generically."""
-    N = number_of_zeros(problem, m)
-    if N is None:
-        return RankConditions()
-    valuations = [least_valuation(place, m) for place in problem.finite_places]
-    R0 = singular_part(problem, [v for v in valuations if v is not None])
-    x = problem.field.poly([0, 1])
-    images = []
-    for j in range(N + 1):
-        images.append(Form(m, R0, x**j).numerators(problem)[-1])
-        check_time()
-    return rank_conditions(images, problem)
-
-
 def conditions_in_time(problem: Problem, m: int) -> RankConditions:
     """The same within a part of the time; without polynomials, and incomplete, where they are too large for that."""
     try:
@@ -114,7 +69,7 @@ class Findings:
 
     theory: str
     candidates: list[FunctionPoly] = field(default_factory=list)
-    natural: list[NaturalNumber] = field(default_factory=list)
+    natural: list[Natural] = field(default_factory=list)
     unproven: list[str] = field(default_factory=list)
 
     def add(self, found: RankConditions) -> bool:
@@ -138,7 +93,7 @@ def search(problem: Problem) -> Findings:
         for m in incomplete:
             if structure in degrees[m]:
                 equation = over_parameters(problem.field.poly([-(number_of_zeros(problem, m) or 0), 1]))
-                findings.natural.append(NaturalNumber(m, (equation,), structure))
+                findings.natural.append(Natural(problem.S, m, (equation,), structure))
     return findings
 
 
@@ -191,7 +146,7 @@ def _reducible(problem: Problem, findings: Findings) -> None:
         if found is None or sum(findings.add(conditions) for _, conditions in found) < len(found):
             factors.append(over_parameters(factor))
     if factors:
-        findings.natural.append(NaturalNumber(1, tuple(factors), Structure.REDUCIBLE))
+        findings.natural.append(Natural(problem.S, 1, tuple(factors), Structure.REDUCIBLE))
 
 
 def _imprimitive(problem: Problem, findings: Findings) -> None:
@@ -241,7 +196,7 @@ def _forms(problem: Problem, m: int, findings: Findings) -> bool:
             factors += [over_parameters(factor) for factor, _ in field.factor(sums) if _may_be_natural(factor)]
     if factors:
         structure = Structure.IMPRIMITIVE if m == 4 else Structure.TETRAHEDRAL
-        findings.natural.append(NaturalNumber(m, tuple(union([factors])), structure))
+        findings.natural.append(Natural(problem.S, m, tuple(union([factors])), structure))
     return True
 
 

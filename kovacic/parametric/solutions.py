@@ -73,7 +73,7 @@ def jacobi_solutions(quotient: Quotient, variable: str, _: int | None = None) ->
     from kovacic.reading.symbolic import read_expression
 
     x, n = sympy.Symbol(variable), quotient.n
-    base = read_expression(quotient.base)
+    base, weight = read_expression(quotient.base), read_expression(quotient.weight)
     points: list[tuple[Any, Any]] = []
     for place in quotient.problem.places:
         if place.kind is Kind.ORDINARY or place.degree > 2:
@@ -95,7 +95,7 @@ def jacobi_solutions(quotient: Quotient, variable: str, _: int | None = None) ->
     (c, first), (c1, second), (c2, third) = points
     z = base**n
     w = (z - c) / (c1 - c) if c2 is None else (z - c) * (c1 - c2) / ((z - c2) * (c1 - c))
-    jacobian = (1 if c2 is None else z - c2) / (base ** sympy.Rational(n - 1, 2))
+    jacobian = weight * (1 if c2 is None else z - c2) / (base ** sympy.Rational(n - 1, 2))
     found = []
     for f, g, h in product((1, -1), repeat=3):
         degree = sympy.expand((-1 - f * first - g * second - h * third) / 2)
