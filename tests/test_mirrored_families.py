@@ -91,3 +91,13 @@ def test_blocks_that_differ_stay_apart() -> None:
     assert "  n = 2, and b = " in text
     assert "n = 0 or 2, and" not in text
     assert "n = 2 or 0, and" not in text
+
+
+def test_a_region_within_an_earlier_one_is_left_out() -> None:
+    """Lame's equation with g2, g3: what holds on the cuspidal curve is said once, not again for n = 1/2."""
+    S = "(n*(n+1)*x+B)/(4*x^3-g2*x-g3) - 3*(16*x^4+8*g2*x^2+32*g3*x+g2^2)/(16*(4*x^3-g2*x-g3)^2)"
+    answer = kovacic.conditions(S, var="x", max_degree=0)
+    statements = [{*str(region.statement).split(", and ")} for region in answer.regions]
+    assert not any(one <= other for k, other in enumerate(statements) for one in statements[:k])
+    assert answer.case_at({"n": Fraction(1, 2), "B": 0, "g2": 0, "g3": 0}) == 1
+    assert answer.case_at({"n": Fraction(1, 2), "B": 0, "g2": 4, "g3": 0}) == 2

@@ -199,19 +199,24 @@ def _alternatives(statement: Statement) -> Sequence[Statement]:
 
 
 def without_empty(regions: Sequence[Condition]) -> list[Condition]:
-    """The regions without those that earlier ones cover."""
+    """The regions without those that earlier ones cover, for example because they say the same and more."""
     kept: list[Condition] = []
     curves: list[tuple[FunctionPoly, ...]] = []
     roots: list[Congruence] = []
+    seen: list[set[Statement | str]] = []
     for region in regions:
         check_time()
         parts, alternatives = both(region.statement).parts, _alternatives(region.statement)
         functions = tuple(part.function for part in parts if isinstance(part, Vanishes))
         own = [part for part in alternatives if isinstance(part, Congruence) and part.form is None]
         implied = len(own) == len(alternatives) and all(any(_implies(a, b) for b in roots) for a in own)
-        if implied or (len(functions) > 1 and _is_covered(functions, curves)):
+        # Functions of more and of fewer parameters are the same if their texts are.
+        said: set[Statement | str] = {p.text() if isinstance(p, Vanishes | Congruence) else p for p in parts}
+        repeated = any(known <= said for known in seen)
+        if repeated or implied or (len(functions) > 1 and _is_covered(functions, curves)):
             continue
         roots += own
+        seen.append(said)
         if len(functions) == len(parts):
             curves.append(functions)
         kept.append(region)
