@@ -99,8 +99,8 @@ class Condition:
         """Solutions of y'' = S y for all parameters of the region at once, with the degree d that has to be a natural number.
 
         They contain Laguerre or Jacobi polynomials of degree d, as SymPy's functions.  Where the condition has a determinant
-        Delta_d in it they are given for one d, the `number`: the coefficients of P are functions of the parameters, and y is a
-        solution where `where` holds.  () where no formula is known; `why_no_solution` says why.
+        Delta_d in it they are given for one d, the `number`: the coefficients of P are functions of the parameters, and in
+        the region y is a solution where `where` holds.  () where no formula is known; `why_no_solution` says why.
 
         >>> import kovacic
         >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1").regions[0]
