@@ -112,6 +112,22 @@ def test_quotients_and_conjugate_poles_have_solutions(S: str, values: dict[str, 
     test_every_solution_with_a_natural_degree_solves_the_equation(S, values)
 
 
+@pytest.mark.parametrize(
+    ("S", "reasons"),
+    [
+        ("x^4 + a*x^2 + b*x + c", ["for each natural number: solution(d)"]),
+        ("(4*n^2 - 1)/(4*x^2) - 1", [""]),
+        ("b/x^2 + r*x", ["on this part", "degree 2"]),
+        ("(m^2-1)*(x^4+4*x)/(4*(x^3-2)^2) - (m^2-1)*x/(4*(x^3-2))", ["cubic", "degree 2", "degree 4, 6 or 12"]),
+    ],
+)
+def test_a_region_says_why_it_has_no_solution(S: str, reasons: list[str]) -> None:
+    regions = kovacic.conditions(S, var="x").regions
+    for region, reason in zip(regions, reasons, strict=False):
+        assert reason in region.why_no_solution
+        assert bool(region.solution()) == (region.why_no_solution == "")
+
+
 def test_hydrogen_has_its_wave_functions() -> None:
     region = kovacic.conditions("-2*E - 2*Z/x + l*(l+1)/x^2", var="x").regions[-1]
     E, Z, l = sympy.symbols("E Z l")  # noqa: E741

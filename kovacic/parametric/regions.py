@@ -18,6 +18,7 @@ from kovacic.decision import Decision, Status, Structure
 from kovacic.limits import check_time
 from kovacic.parametric.functions import irreducible_factors, over_parameters, powers_of
 from kovacic.parametric.integers import Congruence
+from kovacic.parametric.natural import Natural
 from kovacic.parametric.record import statement_data
 from kovacic.parametric.restriction import parametrised
 from kovacic.parametric.solutions import PolynomialSolution
@@ -114,18 +115,19 @@ class Condition:
 
     @property
     def why_no_solution(self) -> str:
-        """A sentence for a region whose solutions have no formula in all of its parameters."""
-        if self.verdict.case is None or not self.verdict.known or not self.defined:
+        """A sentence where `solution()` is empty: why there is no formula in all of the parameters; "" where there is one."""
+        if self.case is None or not self.verdict.known or not self.defined:
             return f"nothing is solved where the answer is: {self.verdict if self.defined else self.group}"
-        if self.verdict.case > 1:
-            return f"omega is algebraic of degree {self.verdict.case} or more, and depends on the values: solve_at gives it"
+        if self.case > 1:
+            degree = "2" if self.case == 2 else "4, 6 or 12"
+            return (
+                f"omega is algebraic of degree {degree}, and depends on the values of the parameters: solve_at gives it"
+            )
         if self.origin is None:
-            return "omega follows from the values, or from the equation on this part: solve_at, or assume them"
-        return (
-            "a formula for each natural number: solution(d)"
-            if self.determinants
-            else "the exponents aren't rational here"
-        )
+            return "omega follows from the equation on this part: solve_at, or assume the values"
+        if any(isinstance(part, Natural) for part in both(self.statement).parts):
+            return "P has another degree for each natural number: solution(d), () where the exponents need two square roots"
+        return "" if self.solution() else "the singular points are the roots of a cubic, which isn't solved"
 
     @property
     def case(self) -> int | None:
