@@ -54,8 +54,9 @@ PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 }
 #: Survivors that change no answer: "file: function: fault", and why.
 EXPLAINED: dict[str, str] = {
-    "kovacic/verify/evidence.py: Inspector._no_omega_at: Mult in (opposite.order + 1) // 2": "a larger bound of a degree, and "
-    "more terms",
+    "kovacic/verify/evidence.py: Inspector._no_omega_at: Mult in (order + 1) // 2": "a larger bound of a degree",
+    "kovacic/verify/evidence.py: Inspector._no_omega_at: 1 + 1": "a larger bound of a degree",
+    "kovacic/verify/group.py: _imprimitive: 2 + 1": "an irregular point has no exponent difference, which is asked for as well",
     "kovacic/verify/evidence.py: Inspector._no_omega_at: 2 + 1": "max(k, 3) // 2 is max(k, 2) // 2",
     "kovacic/verify/group.py: _inverse_has_an_integral: 1 + 1": "a constant factor",
     "kovacic/closed_form/check.py: module: 50 + 1": "a precision",
@@ -67,14 +68,12 @@ EXPLAINED: dict[str, str] = {
     "kovacic/closed_form/check.py: is_numerical_solution: 89 + 1": "another point",
     "kovacic/closed_form/check.py: is_numerical_solution: 10 + 1": "a tolerance",
     "kovacic/closed_form/check.py: is_numerical_solution: 71 + 1": "another point",
-    "kovacic/closed_form/check.py: is_numerical_solution: "
-    "LtE in residual(expression, variable, S, gauge, point) < arb(10) ** (-DIGITS)": "balls",
+    "kovacic/closed_form/check.py: is_numerical_solution: LtE in value < bound": "balls",
     "kovacic/closed_form/real_pair.py: _half_turns: 0 + 1": "delta isn't zero",
     "kovacic/closed_form/real_pair.py: _half_turns: 2 + 1": "the whole part of |q| - 1/3 is that of |q| - 1/2 for q in 1/2 + Z",
     "kovacic/closed_form/real_pair.py: _half_turns: GtE in q > 0": "the sign of 0 turns",
     "kovacic/galois/imprimitive.py: module: 400 + 1": "how much work is done",
     "kovacic/galois/gauged.py: module: 1 + 1": "SL(2,5) has no character, and gamma^(N/2) isn't rational",
-    "kovacic/galois/gauged.py: _residues_on_curve.row: Sub in half * e + 2 * r": "up to integers, the form times -1",
     "kovacic/galois/imprimitive.py: curve_of: Add in f.theta * problem.D": "theta has a pole at each singular point: N/D + D"
     " is (N + D^2)/D, with the same residues",
     "kovacic/galois/imprimitive.py: _of_positive_genus: Sub in _LARGEST_DEGREE // (20 * l) + 1": "how much work is done",
@@ -83,12 +82,21 @@ EXPLAINED: dict[str, str] = {
     "kovacic/galois/imprimitive.py: _small_homomorphisms: GtE in h.p ** genus > 10 ** 7": "10^7 is no power of a prime",
     "kovacic/galois/imprimitive.py: _of_positive_genus: GtE in 2 * n > _LARGEST_DEGREE": "how much work is done",
     "kovacic/galois/imprimitive.py: _small_homomorphisms: Mult in 10 ** 7": "fewer primes: the invariants decide instead",
-    "kovacic/galois/imprimitive.py: _homomorphisms: 5 + 1": "other primes",
-    "kovacic/galois/imprimitive.py: _primes_from: 1 + 1": "a divisor more is tried, below p; or odd numbers alone",
+    "kovacic/galois/imprimitive.py: _small_homomorphisms: 5 + 1": "other primes",
     "kovacic/galois/jacobian.py: Jacobian.multiple: LtE in k < 0": "0 times a class and 0 times its inverse are the same",
     "kovacic/galois/imprimitive.py: _order_modulo: 1 + 1": "a constant factor",
-    "kovacic/galois/imprimitive.py: _order_modulo: Mult in image ** half": "half is 1: e is at most 2",
-    "kovacic/galois/imprimitive.py: _squared_wronskian: Add in g * (4 * S - 2 * slope - phi * phi) % p": "the same modulo p",
+    "kovacic/engine/degree_bound.py: DegreeBound.exponents: Gt in largest_integer_total(self.total - h, others) >= 0": "those "
+    "with no room for zeros were tried before, at the first degree",
+    "kovacic/engine/degree_bound.py: _trace: Add in "
+    "(1 + 4 * place.near[0] * _leading_coefficient(place).inverse_modulo(p)) % p": "the same class",
+    "kovacic/enclosure/frame.py: _bound: Add in growth * sigma * rise": "the growth chooses working precisions only",
+    "kovacic/enclosure/frobenius.py: _expand: Add in len(terms) % _STRIDE": "how often the clock is looked at",
+    "kovacic/enclosure/splitting.py: legs: 2 + 1": "which of two ways is taken",
+    "kovacic/enclosure/splitting.py: _sum_series: 4000 + 1": "how much work is done",
+    "kovacic/enclosure/splitting.py: is_split: Sub in len(system.num) + 1": "which of two ways is taken",
+    "kovacic/enclosure/splitting.py: is_split: Mult in order ** 3": "which of two ways is taken",
+    "kovacic/verify/__init__.py: _positive: Or in isinstance(field, AlgebraicField) and field != S.field": "the field of S is "
+    "checked once more",
     "kovacic/verify/evidence.py: Inspector._at_prime: LtE in h.p < p": "over Q each prime has one homomorphism, tried before",
     "kovacic/verify/evidence.py: _first_terms: 1 + 1": "a double root modulo the prime is met as a pivot zero later",
     "kovacic/verify/group.py: _dicyclic: Sub in k + 1": "k - 1 and k + 1 have the same parity",

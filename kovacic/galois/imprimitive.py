@@ -132,8 +132,7 @@ def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: Curve, l: int)
             return Group(Kind.INFINITE_DIHEDRAL, Ground.NOT_TORSION, orders=(orders[0], orders[-1]))
         if len(orders) == _AGREEING_PRIMES:
             break
-    shown = tuple(orders[:1])
-    least = max(l, 2)
+    shown, least = tuple(orders[:1]), max(l, 2)
     for k in [shown[0][1]] if shown else range(1, _LARGEST_DEGREE // (20 * l) + 1):
         n = l * k
         if 2 * n > _LARGEST_DEGREE:

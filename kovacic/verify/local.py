@@ -67,10 +67,8 @@ class Point:
     @cached_property
     def difference(self) -> Fraction | None:
         """The exponent difference at a regular point where it is rational (1 for an ordinary point), else None."""
-        if self.order <= 1:
-            return Fraction(1)
-        if self.order > 2:
-            return None
+        if self.order != 2:
+            return Fraction(1) if self.order < 2 else None
         # S = b/(x - c)^2 + ... with b = N/(p'^2 q), and Delta^2 = 1 + 4b.
         top, bottom = self.near
         field, n = self.factor.field, bottom.degree
