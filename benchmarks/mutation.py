@@ -79,7 +79,7 @@ EXPLAINED: dict[str, str] = {
     "kovacic/galois/imprimitive.py: _of_positive_genus: Sub in _LARGEST_DEGREE // (20 * l) + 1": "how much work is done",
     "kovacic/galois/imprimitive.py: _of_positive_genus: Add in 2 * n": "how much work is done",
     "kovacic/galois/imprimitive.py: _of_positive_genus: 1 + 1": "how much work is done",
-    "kovacic/galois/imprimitive.py: _small_homomorphisms: GtE in h.p ** genus > 10 ** 7": "10^7 is no power of a prime",
+    "kovacic/galois/imprimitive.py: _small_homomorphisms: Lt in h.p ** genus <= 10 ** 7": "10^7 is no power of a prime",
     "kovacic/galois/imprimitive.py: _of_positive_genus: GtE in 2 * n > _LARGEST_DEGREE": "how much work is done",
     "kovacic/galois/imprimitive.py: _small_homomorphisms: Mult in 10 ** 7": "fewer primes: the invariants decide instead",
     "kovacic/galois/imprimitive.py: _small_homomorphisms: 5 + 1": "other primes",
@@ -97,6 +97,7 @@ EXPLAINED: dict[str, str] = {
     "kovacic/enclosure/splitting.py: is_split: Mult in order ** 3": "which of two ways is taken",
     "kovacic/verify/__init__.py: _positive: Or in isinstance(field, AlgebraicField) and field != S.field": "the field of S is "
     "checked once more",
+    "kovacic/verify/evidence.py: Inspector._condition_fails: LtE in 0 < point.order <= 2": "ordinary points have difference 1",
     "kovacic/verify/evidence.py: Inspector._at_prime: LtE in h.p < p": "over Q each prime has one homomorphism, tried before",
     "kovacic/verify/evidence.py: _first_terms: 1 + 1": "a double root modulo the prime is met as a pivot zero later",
     "kovacic/verify/group.py: _dicyclic: Sub in k + 1": "k - 1 and k + 1 have the same parity",

@@ -602,6 +602,22 @@ def test_a_finite_order_on_a_curve_of_genus_two(residue: Fraction, n: int) -> No
     assert not verify(S, answer.decision, GroupClaim("infinite dihedral", None, None, ((7, k),)))
 
 
+def test_residues_that_agree_modulo_a_prime() -> None:
+    """The residues 1 and 4 at (0, 1) and (1, 2) on y^2 = x^3 + 2 x + 1 have the same square modulo 5, which isn't taken."""
+    import transform
+
+    H = (9 * X - 1) ** 2 / ((X**3 + 2 * X + 1) * (X * (X - 1)) ** 2)
+    S = transform.from_squared_product(1 / H, 1)
+    answer = kovacic.solve((S.num.coefficients(), S.den.coefficients()))  # type: ignore[attr-defined]
+    assert answer.group is not None
+    assert str(answer.group) == "N(T)"
+    assert answer.group.orders[0][0] > 5
+    assert answer.verify()
+    residues = {Fraction(1), Fraction(4)}
+    assert not any(order_holds(H, residues, 5, k, Budget()) for k in range(1, 20))
+    assert any(order_holds(H, residues, 7, k, Budget()) for k in range(1, 20))
+
+
 def test_true_orders_dont_make_a_finite_group_infinite() -> None:
     """The units of Pell's equation: the form of degree 2 n is there, whatever orders are shown."""
     import transform

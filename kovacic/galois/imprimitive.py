@@ -25,7 +25,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import count, islice
+from itertools import count, islice, takewhile
 from math import lcm, prod
 from typing import Any
 
@@ -159,17 +159,18 @@ def form_of_order(problem: Problem, f: SemiInvariant, n: int) -> SemiInvariant |
 def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
     """Homomorphisms to prime fields, from p = 5 on; smaller ones first, since orders grow like p^genus."""
     primes = (p for p in count(5) if fmpz(p).is_prime())
-    for h in islice((h for p in primes for h in homomorphisms_modulo(field, p)), _PRIMES_TRIED):
-        if h.p**genus > 10**7:
-            return
-        yield h
+    tried = islice((h for p in primes for h in homomorphisms_modulo(field, p)), _PRIMES_TRIED)
+    return takewhile(lambda h: h.p**genus <= 10**7, tried)
 
 
 def _order_modulo(h: Homomorphism, curve: Curve, l: int) -> int | None:  # noqa: E741
     """The order of the divisor of l eta in the Jacobian modulo p; None if it exceeds the bound."""
     p, one = h.p, nmod_poly([1], h.p)
-    if any(r.numerator * r.denominator % p == 0 for r in curve.residues):
-        raise BadPrimeError("a residue isn't a unit")
+    squares = {r * r for r in curve.residues}  # the kernel knows the residues by them
+    if any(
+        r.numerator * r.denominator % p == 0 for r in {*squares, *(a - b for a in squares for b in squares if a != b)}
+    ):
+        raise BadPrimeError("a residue isn't a unit, or two have the same square")
     points = [(h.keeping_degree(point.factor), point.e, point.residue) for point in curve.points]
     together = prod((image for image, _, _ in points), start=one)
     if together.gcd(together.derivative()).degree() > 0:
