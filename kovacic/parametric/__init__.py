@@ -11,6 +11,7 @@ with Kovacic's case, and whether the list is proven to be complete.  Read `api` 
 - `riemann`: at most three regular singular points (Kimura's theorem with Schwarz's table);
 - `confluent`: one irregular singular point and at most one more, with two or three terms (Whittaker, Bessel, Weber, Airy);
 - `quotient`: symmetric equations whose quotient by a cyclic group of Moebius maps has at most three singular points;
-- `search`: everything else, through the exponents and `ranks`: polynomial conditions, or those with a natural number;
+- `search`: everything else, through the `exponents` and `ranks`: polynomial conditions, or those with a natural number;
+- `solutions`: formulas for the solutions in a region, for all parameters or for one natural number;
 - `generic` and `restriction`: where S itself changes, and S there; algebraic constants beside parameters.
 """
