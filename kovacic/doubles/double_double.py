@@ -75,7 +75,9 @@ class Pair:
 
     def __rsub__(self, other: Any) -> Any:
         difference = other - self.hi
-        return difference - self.lo if self.lo else difference
+        if self.lo:
+            difference -= self.lo
+        return difference
 
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, np.ndarray):

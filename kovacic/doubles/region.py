@@ -82,8 +82,16 @@ class Region:
 def in_blocks(function: Callable[[Any], Any], points: Any, block: int = BLOCK) -> Any:
     """The function of the points, so many at a time: what is formed on the way stays in the processor's cache."""
     flat = points.reshape(-1)
-    parts = [function(flat[k : k + block]) for k in range(0, max(flat.size, 1), block)]
-    return (np.concatenate(parts) if len(parts) > 1 else parts[0]).reshape(points.shape)[()]
+    first = function(flat[:block])
+    if flat.size <= block:
+        return first.reshape(points.shape)[()]
+    result = np.empty(
+        flat.shape, first.dtype
+    )  # once: a list of parts has the memory cleared and given back at each call
+    result[:block] = first
+    for start in range(block, flat.size, block):
+        result[start : start + block] = function(flat[start : start + block])
+    return result.reshape(points.shape)
 
 
 def region_of(problem: NumericProblem, interval: tuple[object, object]) -> tuple[Region, list[Point]]:
