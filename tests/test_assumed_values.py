@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import product
+from math import isqrt
 
 import pytest
 import sympy
@@ -140,3 +141,11 @@ def test_algebraic_values_have_a_sign() -> None:
 def test_inequalities_and_values_in_the_shell() -> None:
     given = ("n>=0", "n < 7/2", "k=3", "m=odd", "m!=1", "j = -1/2")
     assert parse_assumptions(given) == {"n": ">=0 <7/2", "k": "3", "m": "odd !=1", "j": "-1/2"}
+
+
+def test_the_sign_of_a_difference_with_long_terms() -> None:
+    """10^300 sqrt(2) - floor(10^300 sqrt(2)) is positive; an approximation of sqrt(2) of less than 300 digits can't say so."""
+    answer = kovacic.conditions("a/x^2 + 1", assume={"a": ">0"})
+    assert answer.case_at({"a": f"10^300*sqrt(2) - {isqrt(2 * 10**600)}"}) is None
+    with pytest.raises(kovacic.errors.InputError, match="contradicts the assumption"):
+        answer.case_at({"a": f"{isqrt(2 * 10**200)} - 10^100*sqrt(2) - 1/10"})

@@ -147,7 +147,7 @@ def test_what_is_long_is_said_instead_of_printed() -> None:
     assert formulas.math((X + 1) ** 301).latex == r"\text{(too long to print: degree 301)}"
     assert formulas.math(QQ.poly([1, 10**40_000])).text == "(too long to print: degree 1)"
     assert formulas.math(1 / (X + 1) ** 400).text == "(too long to print: degree 0 over degree 400)"
-    assert formulas.cut((X + 1) ** 3) == formulas.math((X + 1) ** 3).text == "x^3 + 3*x^2 + 3*x + 1"
+    assert formulas.math((X + 1) ** 3).text == "x^3 + 3*x^2 + 3*x + 1"
 
 
 def test_a_long_gcd_is_foreseen_only_where_there_is_one() -> None:

@@ -27,12 +27,24 @@ _TINY_BITS = 200
 def approximation(constant: Poly) -> Any:
     """The complex number that an element of Q or of Q(theta) is, as an `acb`."""
     with ctx.workprec(_PRECISION):
+        return _value(
+            constant, _complex(constant.field.approximation) if isinstance(constant, ExtensionPoly) else acb(0)
+        )
+
+
+def enclosure(constant: Poly) -> Any:
+    """A ball with the complex number that an element of Q or of Q(theta) is."""
+    with ctx.workprec(_PRECISION):
         if not isinstance(constant, ExtensionPoly):
-            return acb(constant[0].rational_coefficients()[0] if constant else 0)
-        theta, total = _complex(constant.field.approximation), acb(0)
-        for part in reversed(constant.parts):
-            total = total * theta + (part.rational_coefficients()[0] if part else 0)
-        return total
+            return _value(constant, acb(0))
+        return _value(constant, _roots(constant.field.modulus, _complex(constant.field.approximation))[0])
+
+
+def _value(constant: Poly, theta: Any) -> Any:
+    total = acb(0)
+    for part in reversed(constant.parts if isinstance(constant, ExtensionPoly) else (constant,)):
+        total = total * theta + (part.rational_coefficients()[0] if part else 0)
+    return total
 
 
 def principal_root(radicand: Poly, n: int) -> Any:

@@ -17,17 +17,15 @@ from math import ceil, floor
 from random import Random
 from typing import Any
 
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
-from kovacic.algebra.embedding import approximation
+from kovacic.algebra.embedding import enclosure
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
 from kovacic.parametric.functions import Coset, common_divisor, degrees, element, numerator, over_parameters, powers_of
 
-#: Bits for the place of an algebraic number.
-_PRECISION = 200
 _DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
 
 
@@ -109,12 +107,9 @@ class Known:
     def _bounds_admit(self, value: Poly) -> bool:
         if getattr(value.field, "approximation", None) is None:
             return True
-        with ctx.workprec(_PRECISION):
-            number, zero = approximation(value), arb(2) ** (-_PRECISION // 2)
-            real = number.real
-            return abs(number.imag) < zero and all(
-                (real - arb(fmpq(b.end.numerator, b.end.denominator))) * b.sign > -zero for b in self.bounds
-            )
+        ball = enclosure(value)
+        ends = ((b.sign, arb(fmpq(b.end.numerator, b.end.denominator))) for b in self.bounds)
+        return ball.imag.contains(0) and not any((ball.real - end) * sign < 0 for sign, end in ends)
 
     def sample(self, random: Random) -> Fraction:
         """A small rational number, in the known class if there is one."""
