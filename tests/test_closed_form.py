@@ -264,6 +264,20 @@ def _with_square(g: str, factor: str = "1", exponent: str = "1/4") -> str:
         ("x**4 - x**2 - 1", "1", "1/4", "f", 0.3),
         ("(x - 1)*(x - 2)*(x - 4)", "x", "1/4", "efp", 1.3),
         ("(x + 3)*(x - 1)*(x - 2)*(x - 4)", "1", "-1/4", "efp", 1.3),
+        # Conjugate branch points.
+        ("x**4 + 1", "1", "1/4", "f", 0.3),
+        ("x**4 + 1", "1", "-1/4", "f", -1.7),
+        ("x**4 + 1", "1/x", "1/4", "ef", 0.3),
+        ("x**4 + x**2 + 1", "1", "1/4", "f", 0.3),
+        ("x**4 + x**2 + 1", "1", "-1/4", "ef", 0.3),
+        ("x**4 + 3", "1", "-1/4", "f", 0.3),
+        ("x**3 - 2", "1", "1/4", "f", 1.5),
+        ("x**3 - 2", "1", "-1/4", "f", 1.5),
+        ("x**3 + 1", "x", "1/4", "ef", -0.3),
+        ("x**3 + x + 1", "1", "-1/4", "ef", 1.5),
+        ("(x - 1)*(x - 2)*(x**2 + 1)", "1", "1/4", "f", -0.3),
+        ("(1 - x)*(x - 2)*(x**2 + 1)", "1", "1/4", "f", 1.3),
+        ("(x - 1)*(x**3 + 2)", "1", "1/4", "f", 1.3),
     ],
 )
 def test_integrals_of_genus_1_are_named(g: str, factor: str, exponent: str, kinds: str, at: float) -> None:
@@ -277,10 +291,36 @@ def test_integrals_of_genus_1_are_named(g: str, factor: str, exponent: str, kind
     assert answer.closed_form.notes[0].startswith("elliptic integrals because")
     # The values of SymPy's functions, not their derivatives, and a real solution where 0 < t < 1 (up to a constant factor).
     with mpmath.workdps(40):
+        y = y.xreplace({root: root.n(50) for root in y.atoms(sympy.CRootOf)})
         value, point = sympy.lambdify(x, y, "mpmath"), mpmath.mpf(at)
         expected = sympy.lambdify(x, sympy.sympify(S), "mpmath")(point) * value(point)
         assert abs(mpmath.diff(value, point, 2) - expected) < 1e-15 * abs(value(point))
         assert abs(mpmath.im(value(point + 0.01) / value(point))) < 1e-30
+
+
+def test_the_terms_of_an_elliptic_integral_keep_their_signs_where_the_angle_is_complex() -> None:
+    """Left of s = -1, which is x = -1 - sqrt(3): the terms with F, E and the algebraic one have to agree there, too."""
+    S = _with_square("x**3 + 1", "x")
+    y = kovacic.solve(S).solutions[1]
+    with mpmath.workdps(40):
+        value, point = sympy.lambdify(x, y, "mpmath"), mpmath.mpf(-5.5)
+        expected = sympy.lambdify(x, sympy.sympify(S), "mpmath")(point) * value(point)
+        assert abs(mpmath.diff(value, point, 2) - expected) < 1e-15 * abs(value(point))
+
+
+@pytest.mark.parametrize(
+    ("g", "at"), [("(x - 1)*(x - 2)*(x**2 + 1)", (-3, 0, 3)), ("(x + 1)*(x**3 - 2)", (-2, 2)), ("x**3 + x + 1", (0, 3))]
+)
+def test_the_angle_of_an_elliptic_integral_is_real_where_the_root_of_g_is(g: str, at: tuple[int, ...]) -> None:
+    (integral,) = kovacic.solve(_with_square(g)).solutions[1].atoms(sympy.elliptic_f)
+    for point in at:
+        assert sympy.im(integral.args[0].subs(x, point).n(20)) == 0
+
+
+def test_the_lemniscates_integral() -> None:
+    """int dx/sqrt(x^4 + 1) = F(2 atan(x) | 1/2)/2 [Byrd & Friedman 263.00]."""
+    y1, y2 = kovacic.solve(_with_square("x**4 + 1")).solutions
+    assert y2 / y1 == sympy.elliptic_f(2 * sympy.atan(x), sympy.Rational(1, 2))
 
 
 def test_branch_points_may_be_complex_constants() -> None:
