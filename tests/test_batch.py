@@ -274,7 +274,7 @@ def _kill_later(pool: Pool, times: int) -> None:
         while len(killed) < times:
             time.sleep(0.05)
             child = pool._children[0]
-            if child.pid not in killed and child.item and child.item.text == SLOW:
+            if child.pid not in killed and child.items and child.items[0].text == SLOW:
                 killed.add(child.pid)
                 os.kill(child.pid, signal.SIGKILL)
 

@@ -12,6 +12,8 @@ import sys
 import tempfile
 import threading
 import time
+from collections import deque
+from collections.abc import Sequence
 from contextlib import suppress
 from queue import SimpleQueue
 from typing import IO, cast
@@ -28,10 +30,10 @@ Event = tuple["Child", bytes | None] | None
 
 
 class Child:
-    """A worker process, and the item that it works on."""
+    """A worker process, and the items that it hasn't answered; it works on the first one."""
 
     def __init__(self, job: Job, events: SimpleQueue[Event]) -> None:
-        self.item: Item | None = None
+        self.items: deque[Item] = deque()
         self.ready = False
         self.busy_since = time.monotonic()
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed by kill()
@@ -47,10 +49,17 @@ class Child:
         self._reader.start()
         self._send(job.dumps() + "\n")
 
-    def give(self, item: Item) -> None:
+    def give(self, items: Sequence[Item]) -> None:
         """What the process has to do next; a process that is gone reports itself through its events."""
-        self.item, self.busy_since = item, time.monotonic()
-        self._send(encode_item(item))
+        self.items.extend(items)
+        self.busy_since = time.monotonic()
+        self._send("".join(map(encode_item, items)))
+
+    def finished_one(self) -> float:
+        """The process has answered its first item; returns the seconds that this took."""
+        before, self.busy_since = self.busy_since, time.monotonic()
+        self.items.popleft()
+        return self.busy_since - before
 
     def kill(self) -> None:
         """End the process at once and wait for it; its reader thread ends as well."""

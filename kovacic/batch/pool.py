@@ -1,10 +1,11 @@
 """A pool of worker processes that can be killed: every item gets exactly one record.
 
-One loop in the caller's thread gives each process an item at a time, and waits for events (a record, the end of a process, an
-item from a stream) and for the next deadline.
+One loop in the caller's thread gives each process that has nothing to do some items, as many as take about 20 ms, and waits for
+events (a record, the end of a process, an item from a stream) and for the next deadline.
 
 A process that is over its time is killed, and its item gets a record.  So does the item of a process that has ended with an
-exception; one whose process was killed by somebody else gets another one, up to three times.
+exception; one whose process was killed by somebody else gets another one, up to three times.  What waited behind the item
+goes back to the front.
 """
 
 from __future__ import annotations
@@ -37,6 +38,12 @@ ORDERED_WINDOW = 10_000
 # Items that are read from a stream before they are needed.
 _AHEAD = 256
 
+# A process gets items for so many seconds at once, so that it needn't wait for the parent after each of them; but one item
+# where they take longer, and no more text than fits into a pipe, since the parent would wait for a process that is busy.
+_SECONDS_AT_ONCE = 0.02
+_ITEMS_AT_ONCE = 32
+_CHARACTERS_AT_ONCE = 30_000
+
 # The last words of Python, GMP, flint and the C++ library.
 _OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_alloc", re.IGNORECASE)
 
@@ -57,6 +64,7 @@ class Pool(AbstractContextManager["Pool"]):
         self._again: deque[Item] = deque()
         self._losses: Counter[int] = Counter()
         self._failed_starts = 0
+        self._pace = 1.0  # seconds for an item, lately
         self.replaced = 0
 
     def __exit__(self, *error: object) -> None:
@@ -105,7 +113,9 @@ class Pool(AbstractContextManager["Pool"]):
         exhausted = False
         while True:
             for child in self._children:
-                while child.ready and child.item is None:
+                given, room = list[Item](), _CHARACTERS_AT_ONCE
+                most = min(_SECONDS_AT_ONCE / self._pace, _ITEMS_AT_ONCE) if child.ready and not child.items else 0
+                while len(given) < most and room > 0:
                     try:
                         item = self._again.popleft() if self._again else None if exhausted else next(feed)
                     except StopIteration:
@@ -113,11 +123,16 @@ class Pool(AbstractContextManager["Pool"]):
                         break
                     if item is None:
                         break
-                    if item.error is None:
-                        child.give(item)
-                    else:
+                    room -= len(item.text)
+                    if item.error is not None:
                         yield refused(item, item.error)
-            if exhausted and not self._again and all(child.item is None for child in self._children):
+                    elif given and room < 0:
+                        self._again.appendleft(item)
+                    else:
+                        given.append(item)
+                if given:
+                    child.give(given)
+            if exhausted and not self._again and not any(child.items for child in self._children):
                 return
             yield from self._handle(self._wait())
 
@@ -136,7 +151,7 @@ class Pool(AbstractContextManager["Pool"]):
     def _deadline(self, child: Child) -> float:
         if not child.ready:
             return child.busy_since + _START_SECONDS
-        if self._job.timeout is None or child.item is None:
+        if self._job.timeout is None or not child.items:
             return math.inf
         return child.busy_since + self._job.timeout + GRACE_SECONDS
 
@@ -151,7 +166,7 @@ class Pool(AbstractContextManager["Pool"]):
                 child.ready = True
                 self._failed_starts = 0
             else:
-                child.item = None
+                self._pace += (child.finished_one() - self._pace) / 8
                 yield decode_record(line.decode())
         if not events:
             now = time.monotonic()
@@ -159,11 +174,12 @@ class Pool(AbstractContextManager["Pool"]):
                 yield self._over_time(child)
 
     def _over_time(self, child: Child) -> Record:
-        if child.item is None:
+        if not child.items:
             raise KovacicError(f"a worker process hasn't started within {_START_SECONDS:g} s")
         reason = f"the time limit of {self._job.timeout:g} s is used up (process killed)"
+        item = child.items.popleft()
         self._replace(child)
-        return stopped(child.item, reason, time.monotonic() - child.busy_since)
+        return stopped(item, reason, time.monotonic() - child.busy_since)
 
     def _died(self, child: Child) -> Iterator[Record]:
         status, words = child.last_words()
@@ -171,8 +187,9 @@ class Pool(AbstractContextManager["Pool"]):
             self._failed_starts += 1
             if self._failed_starts >= _START_ATTEMPTS:
                 raise KovacicError(f"worker processes can't be started: {_cause(status, words)}\n{words}")
+        item = child.items.popleft() if child.items else None
         self._replace(child)
-        if (item := child.item) is not None:
+        if item is not None:
             seconds, limit = time.monotonic() - child.busy_since, self._limit_behind(status, words)
             self._losses[item.number] += 1
             if limit is not None:
@@ -180,7 +197,7 @@ class Pool(AbstractContextManager["Pool"]):
             elif self._losses[item.number] >= _processes_for(status):
                 yield lost(item, _cause(status, words), seconds)
             else:
-                self._again.append(item)
+                self._again.appendleft(item)
 
     def _limit_behind(self, status: int, words: str) -> str | None:
         """Which limit the end of a process means; None for another reason."""
@@ -191,7 +208,8 @@ class Pool(AbstractContextManager["Pool"]):
         return None
 
     def _replace(self, child: Child) -> None:
-        """Kill a process and start another one."""
+        """Kill a process, take back what it hasn't begun, and start another one."""
+        self._again.extendleft(reversed(child.items))
         child.kill()
         self._children[self._children.index(child)] = Child(self._job, self._events)
         self.replaced += 1
