@@ -17,6 +17,7 @@ import kovacic
 import kovacic.errors
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.cli import main
 from kovacic.general_solution.variation import special_wronskian as wronskian
 from kovacic.limits import Budget, Limits
 from kovacic.reading.read import read_input
@@ -377,6 +378,25 @@ def test_beside_a_long_formula_there_is_a_short_one() -> None:
     assert sympy.simplify(sympy.hyperexpand(long.special.y1) / long.solutions[0]).is_Rational
     assert any("hyper" in line for line in solution_lines(kovacic.solve("(-32*x^2+32*x+8613)/(144*x^2*(x-1)^2)")))
     assert not any("special" in line for line in solution_lines(kovacic.solve("x^2 - 7")))
+
+
+def test_every_view_offers_the_short_one(capsys: pytest.CaptureFixture[str]) -> None:
+    """`solve`, `explain` and the command dsolve have the same two formulas; not where values are given."""
+    said, first = "horter, another pair in special functions:", "y1 = exp(-x^2/2)*hyper((-30,), (1/2,), x^2)"
+    long = kovacic.solve("x^2 - 121")
+    explained = long.explain()
+    assert said in explained
+    assert first in explained
+    assert said not in kovacic.solve("x^2 - 7").explain()
+    assert main.run(["dsolve", "y'' = (x^2 - 121)*y"]) == 0
+    assert f"s{said}\n  {first}\n  y2 = " in capsys.readouterr().out
+    for arguments in (
+        ["y'' = (x^2 - 7)*y"],
+        ["y'' = (x^2 - 121)*y", "--ics", "y(0)=0, y'(0)=1"],
+        ["y'' = (x^2 - 121)*y + 1"],
+    ):
+        assert main.run(["dsolve", *arguments]) == 0
+        assert said not in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("name", ["hermite", "legendre", "laguerre"])

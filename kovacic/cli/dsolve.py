@@ -33,6 +33,9 @@ def command(equation: str, latex: bool, ics: str, var: str | None, limits: Limit
     from kovacic.decision import Status
     from kovacic.general_solution import dsolve
     from kovacic.solution import solve
+    from kovacic.views.formula import caret
+    from kovacic.views.sentences import SCREEN
+    from kovacic.views.text import shorter_lines
 
     refuse_options((equation,))
     try:
@@ -49,5 +52,9 @@ def command(equation: str, latex: bool, ics: str, var: str | None, limits: Limit
 
         print(formula(found))
     else:
-        print(fitted(f"{found.lhs} = {str(found.rhs).replace('**', '^')}"))
+        text = caret(str(found.rhs))
+        print(fitted(f"{found.lhs} = {text}"))
+        if not ics and len(text) > SCREEN:
+            for line in shorter_lines(solve(equation, var=var, limits=limits), len(text)):
+                print(fitted(line))
     return DECIDED

@@ -19,12 +19,14 @@ from kovacic.views.bibliography import references
 from kovacic.views.document import FORMATS, Block, Formula, Heading, Paragraph, Picture, Table, say
 from kovacic.views.formula import LARGEST_DEGREE, Math, shortened
 from kovacic.views.sentences import (
+    SHORTER,
     constants_of,
     equation_of,
     formulas_of,
     normal_form,
     omega_of,
     reason,
+    shorter_pair,
     solutions_of,
 )
 from kovacic.views.steps import DEGREE, Steps
@@ -192,6 +194,9 @@ class _Writer:
             long = shortened(y.text) != y.text
             shown = Math(shortened(y.text), r"\text{(too long to print)}") if long else y
             yield Formula(Math(f"{name.text} = {shown.text}", f"{name.latex} = {shown.latex}"))
+        if shorter := shorter_pair(self.solution, max((len(y.text) for _, y in found), default=0)):
+            yield say(SHORTER.capitalize())
+            yield from (Formula(Math(f"{y.text} = {f.text}", f"{y.latex} = {f.latex}")) for y, f in shorter)
         yield from (say(f"Note: {note}.") for note in notes)
 
     def group(self) -> Iterator[Block]:

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any
 
 from kovacic.decision import Evidence, NecessaryCondition, NoInvariant
 from kovacic.views.formula import Formulas, Math, latex_text, of_sympy
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
+
+#: Characters; beside a longer formula another pair is offered.
+SCREEN = 600
+#: What is said before it.
+SHORTER = "shorter, another pair in special functions:"
 
 
 def formulas_of(solution: Solution) -> Formulas:
@@ -96,7 +101,22 @@ def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
 
 def solutions_of(solution: Solution) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
     """Names and formulas of two solutions, in special functions where nothing is Liouvillian, if any are known; and notes."""
-    form, y = solution.closed_form, unknown_of(solution)
-    values = solution.special if form is None else (form.y1, form.y2)
+    form = solution.closed_form
+    return _named(solution, solution.special if form is None else form), () if form is None else form.notes
+
+
+def shorter_pair(solution: Solution, length: int) -> list[tuple[Math, Math]]:
+    """Another pair, in special functions, to be shown beside closed forms of so many characters: of at most half of them.
+
+    None is offered beside a formula of less than a screen.
+    """
+    if solution.case is None or length <= SCREEN:
+        return []
+    pair = _named(solution, solution.special)
+    return pair if max((len(y.text) for _, y in pair), default=length) < length / 2 else []
+
+
+def _named(solution: Solution, values: Iterable[Any]) -> list[tuple[Math, Math]]:
+    y = unknown_of(solution)
     names = [Math(f"{y}{k}", f"{y}_{{{k}}}") for k in (1, 2)]
-    return list(zip(names, map(of_sympy, values), strict=False)), () if form is None else form.notes
+    return list(zip(names, map(of_sympy, values), strict=False))

@@ -11,16 +11,23 @@ from kovacic.limits import Budget
 from kovacic.reading.given import parameters_of
 from kovacic.views.document import FORMATS
 from kovacic.views.formula import LARGEST_DEGREE, caret, shortened
-from kovacic.views.sentences import equation_of, formulas_of, normal_form, omega_lines, omega_of, reason, unknown_of
+from kovacic.views.sentences import (
+    SHORTER,
+    equation_of,
+    formulas_of,
+    normal_form,
+    omega_lines,
+    omega_of,
+    reason,
+    shorter_pair,
+    unknown_of,
+)
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
 
 #: Gives a piece of text a role ("good", "bad", "unsure", "title", "faint"): colours on a terminal, nothing elsewhere.
 Style = Callable[[str, str], str]
-
-_SCREEN = 600
-"""Beside a longer formula one in special functions is shown, if there is one that is shorter by half."""
 
 
 def one_line(solution: Solution) -> str:
@@ -94,12 +101,16 @@ def solution_lines(solution: Solution) -> Iterator[str]:
     name = unknown_of(solution)
     for k, text in enumerate(pair, start=1):
         yield f"{'  ' if solution.case is None else ''}{name}{k} = {shortened(text)}"
-    if solution.case is not None and (length := max(map(len, pair))) > _SCREEN:
-        shorter = [caret(str(y)) for y in solution.special]
-        if shorter and max(map(len, shorter)) < length / 2:
-            yield "shorter, another pair in special functions:"
-            yield from (f"  {name}{k} = {text}" for k, text in enumerate(shorter, start=1))
+    yield from shorter_lines(solution, max(map(len, pair), default=0))
     yield from (f"note: {note}" for note in notes)
+
+
+def shorter_lines(solution: Solution, length: int) -> Iterator[str]:
+    """`shorter_pair` in lines, for a homogeneous equation."""
+    homogeneous = solution.equation is None or solution.equation.is_homogeneous
+    if homogeneous and (shorter := shorter_pair(solution, length)):
+        yield SHORTER
+        yield from (f"  {y.text} = {value.text}" for y, value in shorter)
 
 
 def _written(solution: Solution) -> tuple[tuple[str, ...], tuple[str, ...]]:
