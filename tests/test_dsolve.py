@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import pickle
 import re
+import subprocess
+import sys
 import time
 from contextlib import suppress
 from functools import partial
@@ -24,6 +27,7 @@ from kovacic.closed_form.jets import jet
 from kovacic.general_solution import dsolve, solve_riccati
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.undetermined import undetermined
+from kovacic.general_solution.variation import DefiniteIntegral
 from kovacic.reading.equation import parse_equation
 from kovacic.reading.symbolic import read_expression
 
@@ -659,3 +663,29 @@ def test_values_as_one_text() -> None:
     for text in ("y(0)=1, y(0)=2", "y(0)", "=1"):
         with pytest.raises(kovacic.InputError, match="aren't initial values"):
             dsolve("y'' + y = 0", ics=text)
+
+
+def test_printing_does_not_integrate_numerically() -> None:
+    """SymPy orders terms by the values of their factors that are numbers, which took 130 s for integrals between two values."""
+    program = """
+import sympy, kovacic
+def forbidden(*arguments):
+    raise AssertionError("integrated")
+found = kovacic.dsolve("y'' + x*y = exp(-x^2)", ics="y(0)=0, y(1)=1").rhs
+sympy.core.evalf.evalf_table[sympy.Integral] = forbidden
+print(len(found.atoms(sympy.Integral)), "Integral(-pi*exp(-s**2)*airybi(-s), (s, 0, 1))" in str(found))
+print(bool(sympy.latex(found)), bool(repr(found)))
+"""
+    command = [sys.executable, "-c", program]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert done.stdout.split() == ["4", "True", "True", "True"], done.stderr
+
+
+def test_an_integral_between_numbers_has_a_value() -> None:
+    x = sympy.Symbol("x")
+    exact = DefiniteIntegral(x**2, (x, 0, 1))
+    assert abs(exact.evalf(30) - sympy.Rational(1, 3)) < 1e-29
+    assert abs((1 + 2 * exact).evalf(30) - sympy.Rational(5, 3)) < 1e-29
+    assert exact.doit() == sympy.Rational(1, 3)
+    assert str(exact) == "Integral(x**2, (x, 0, 1))"
+    assert pickle.loads(pickle.dumps(exact)) == exact

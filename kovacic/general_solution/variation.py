@@ -39,6 +39,19 @@ _PAIRS: dict[Any, tuple[Any, Any]] = {
 }
 
 
+class DefiniteIntegral(sympy.Integral):  # type: ignore[misc]
+    """SymPy's, for integrals between numbers that aren't done, which say that they aren't numbers.
+
+    SymPy orders the terms of a sum by the values of the numbers among their factors, so that printing, comparing or asking for
+    a sign would integrate numerically, for minutes [`Expr.as_terms`].  `evalf` still does.
+    """
+
+    is_number = False
+
+    def _eval_evalf(self, prec: int) -> Expr:
+        return sympy.Integral(*self.args)._evalf(prec)
+
+
 @dataclass(frozen=True)
 class Basis:
     """Two solutions of the homogeneous equation in x, which is that of `equation` unless this has another variable."""
@@ -134,7 +147,7 @@ def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
         return sympy.Integral(integrand, x)
     names = {symbol.name for symbol in integrand.free_symbols | start.free_symbols}
     s = next(sympy.Symbol(name) for name in ("s", "t", "u", *(f"s{k}" for k in range(99))) if name not in names)
-    return sympy.Integral(integrand.subs(x, s), (s, start, x))
+    return DefiniteIntegral(integrand.subs(x, s), (s, start, x))
 
 
 def _integral(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
