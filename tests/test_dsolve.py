@@ -203,6 +203,17 @@ def test_initial_values_that_cannot_be() -> None:
             dsolve("y'' = y", ics={key: 1})
 
 
+def test_a_zero_that_nobody_can_simplify_is_no_contradiction() -> None:
+    a = sympy.Symbol("a", positive=True)
+    oscillator = sympy.Eq(y(x).diff(x, 2) + y(x), 0)  # solvable if and only if the value at pi is 0
+    for zero in (sqrt(a + 1 + 2 * sqrt(a)) - sqrt(a) - 1, sympy.atan(a) + sympy.atan(1 / a) - sympy.pi / 2):
+        assert abs(sympy.N(zero.subs(a, Rational(3, 7)), 30)) < 1e-25
+        with suppress(NotImplementedError):  # undecided
+            assert dsolve(oscillator, ics={y(0): 0, y(sympy.pi): zero}).rhs == C1 * sin(x)
+        with pytest.raises(kovacic.InputError, match="contradict"):
+            dsolve(oscillator, ics={y(0): 0, y(sympy.pi): zero + 1})
+
+
 def test_symbols_keep_their_assumptions() -> None:
     t = sympy.Symbol("t", positive=True)
     solution = dsolve(sympy.Eq(t**2 * y(t).diff(t, 2), 2 * y(t)))

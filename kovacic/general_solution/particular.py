@@ -140,21 +140,15 @@ def _response(right: Expr, basis: Basis, solved: Callable[[Expr], Expr]) -> Expr
         if len(jumps) != 1 or place is None or g.has(DiracDelta, Heaviside):
             return None
         a, slope = place
-        u, v, du, dv = (value_at(y, x, a, order) for order in (0, 1) for y in (basis.y1, basis.y2))
         wronskian = tidy(basis.wronskian.subs(x, a))
         if wronskian.has(sympy.nan, sympy.zoo, sympy.oo) or wronskian == 0:
             return None
-
-        def with_values(value: Expr, rate: Expr) -> Expr:
-            """The homogeneous solution with these values at a."""
-            first, second = (value * dv - rate * v) / wronskian, (rate * u - value * du) / wronskian  # noqa: B023
-            return tidy(first) * basis.y1 + tidy(second) * basis.y2
-
-        if jumps[0].func is DiracDelta:
-            total += Heaviside(x - a) * sympy.powsimp(with_values(0, g.subs(x, a) / abs(slope)))
-        else:
-            p = solved(g)
-            total += Heaviside(x - a) * sympy.powsimp(p - with_values(value_at(p, x, a), value_at(p, x, a, 1)))
+        impulse = jumps[0].func is DiracDelta
+        p = sympy.Integer(0) if impulse else solved(g)
+        value, rate = (0, -g.subs(x, a) / abs(slope)) if impulse else (value_at(p, x, a, order) for order in (0, 1))
+        u, v, du, dv = (value_at(y, x, a, order) for order in (0, 1) for y in (basis.y1, basis.y2))
+        first, second = (value * dv - rate * v) / wronskian, (rate * u - value * du) / wronskian
+        total += Heaviside(x - a) * sympy.powsimp(p - tidy(first) * basis.y1 - tidy(second) * basis.y2)
     rest = sympy.Add(*plain)
     return total + (solved(rest) if rest != 0 else 0)
 
