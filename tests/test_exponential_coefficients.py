@@ -12,6 +12,7 @@ import sympy
 
 import kovacic
 from kovacic.reading.read import read_input
+from kovacic.views.text import render
 
 F = Fraction
 x = sympy.Symbol("x")
@@ -302,3 +303,14 @@ def test_the_command_reads_a_formula_that_begins_with_a_minus_and_has_an_h(capsy
         main(["solve", "-2/cosh(x)^2 + 1"])
     assert status.value.code == 0
     assert "y1 = 1/cosh(x)" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("text", ["y'' = (2 + cos(x)) y", "u'' + exp(x)*u' = 0", "exp(2*x) + 3"])
+def test_the_first_line_is_what_the_user_asked(text: str) -> None:
+    answer = kovacic.solve(text)
+    title = next(render(answer))
+    assert text in title
+    assert " t" not in title  # the equation in t comes after it, where t is told
+    assert str(answer).startswith(title)
+    again = kovacic.solve(title)
+    assert (again.S, again.equation) == (answer.S, answer.equation)

@@ -9,6 +9,7 @@ from kovacic.decision import Status
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 from kovacic.reading.given import parameters_of
+from kovacic.reading.lexer import is_equation
 from kovacic.views.document import FORMATS
 from kovacic.views.formula import LARGEST_DEGREE, caret, shortened
 from kovacic.views.sentences import (
@@ -32,7 +33,7 @@ Style = Callable[[str, str], str]
 
 def one_line(solution: Solution) -> str:
     """The equation and the verdict."""
-    equation = equation_of(solution).text
+    equation = _given(solution)
     if solution.status is Status.UNDECIDED:
         return f"{equation}: undecided, {solution.reason}"
     if solution.status is Status.NONE_EXISTS:
@@ -50,11 +51,11 @@ def render(
 
     Each is given out as soon as it is known: the verdict doesn't wait for solutions, which may take a while.
     """
-    yield style(equation_of(solution).text, "title")
-    if solution.equation is not None and not solution.equation.is_normal_form:
-        yield f"  normal form: {normal_form(solution).text}, of which the following speaks"
+    yield style(_given(solution), "title")
     for notice in solution.notices:
         yield style(f"  note: {notice}", "faint")
+    if solution.equation is not None and not solution.equation.is_normal_form:
+        yield f"  normal form: {normal_form(solution).text}, of which the following speaks"
     if solution.status is Status.UNDECIDED:
         yield f"  {style('undecided', 'unsure')}: {solution.reason}"
     elif solution.status is Status.NONE_EXISTS:
@@ -75,6 +76,13 @@ def render(
         yield f"  {style('verified', 'good')}: {_how_verified(solution)}"
     elif solution.status is not Status.UNDECIDED:
         yield f"  {style('not verified', 'bad')}"
+
+
+def _given(solution: Solution) -> str:
+    """The equation in the user's variable: a notice says what becomes of one that isn't rational in it."""
+    if solution.change is None:
+        return equation_of(solution).text
+    return solution.text if is_equation(solution.text) else f"y'' = ({solution.text}) y"
 
 
 def solution_lines(solution: Solution) -> Iterator[str]:
