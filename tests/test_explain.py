@@ -25,6 +25,7 @@ from kovacic.views.explain import rational_form
 from kovacic.views.families import Search, is_natural, search
 from kovacic.views.formula import latex_ratfunc, latex_text
 from kovacic.views.numbers import settled
+from kovacic.views.sentences import formulas_of, normal_form
 
 EQUATIONS = [
     "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0",
@@ -45,7 +46,7 @@ def test_bessel_is_explained() -> None:
     for part in (
         "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0",
         "gamma = -1/(2*x)",
-        "v'' = (-1) v",
+        "v'' = -v",
         "where c is a root of c^2 + 1",
         "y1 = cos(x)/sqrt(x)",
         "is G_m",
@@ -255,6 +256,53 @@ def test_rational_functions_in_latex() -> None:
     assert latex_text("sqrt(2)*lambda**2 + x_1") == r"\sqrt{2} \lambda^{2} + x_{1}"
 
 
+def _read_latex(latex: str) -> sympy.Expr:
+    """The value of a LaTeX formula made of fractions, powers, products, parentheses and names."""
+    text = re.sub(r"\^\{(\d+)\}", r"**\1", latex.replace(r"\left", "").replace(r"\right", ""))
+    text = re.sub(r"\\frac\{([^{}]*)\}\{([^{}]*)\}", r"((\1)/(\2))", text)
+    return sympy.sympify(re.sub(r"(?<=[\w)]) (?=[\w(])", "*", text))
+
+
+@pytest.mark.parametrize(
+    "S",
+    [
+        "a/b",
+        "a/(2*b)",
+        "1/(b*x)",
+        "a*x/b + 1/(a + 1)",
+        "x/(3*a) + 1/2",
+        "-a/b/x",
+        "-2*x/3",
+        "(x + a)/(x - b/2)^2",
+        "1/(-x - 1)",
+    ],
+)
+def test_latex_of_functions_with_parameters_has_their_denominators(S: str) -> None:
+    answer = kovacic.solve(S, var="x")
+    formulas = formulas_of(answer)
+    value = sympy.sympify(S.replace("^", "**"))
+    assert sympy.simplify(_read_latex(formulas.math(answer.S).latex) - value) == 0
+    assert sympy.simplify(_read_latex(formulas.times(answer.S, "y", "y").latex) - value * sympy.Symbol("y")) == 0
+
+
+@pytest.mark.parametrize(
+    ("S", "text", "latex"),
+    [
+        ("1", "y", "y"),
+        ("-1", "-y", "-y"),
+        ("-2", "-2 y", "-2 y"),
+        ("-x^2", "-x^2 y", "-x^{2} y"),
+        ("2*a*x", "2 a x y", "2 a x y"),
+        ("-1/x", "(-1/x) y", r"-\frac{1}{x} y"),
+        ("1 - x", "(-x + 1) y", r"\left(-x + 1\right) y"),
+        ("0", "0", "0"),
+    ],
+)
+def test_the_normal_form_is_written_as_a_mathematician_would(S: str, text: str, latex: str) -> None:
+    shown = normal_form(kovacic.solve(S, var="x"))
+    assert (shown.text, shown.latex) == (f"y'' = {text}", f"y'' = {latex}")
+
+
 class _Cells(HTMLParser):
     def __init__(self) -> None:
         super().__init__()
@@ -335,7 +383,7 @@ def test_exponents_at_irregular_places() -> None:
 def test_the_command_solves_equations_in_every_view(capsys: pytest.CaptureFixture[str]) -> None:
     bessel = EQUATIONS[0]
     assert run(["solve", bessel]) == 0
-    assert "normal form: y'' = (-1) y" in capsys.readouterr().out
+    assert "normal form: y'' = -y" in capsys.readouterr().out
     assert run(["solve", "--latex", bessel]) == 0
     assert r"\frac{\cos{\left(x \right)}}{\sqrt{x}}" in capsys.readouterr().out
     assert run(["solve", "--explain", bessel, "x"]) == 0

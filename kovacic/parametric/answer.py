@@ -19,7 +19,6 @@ from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.check import CheckReport, Disagreement, Sampler
-from kovacic.parametric.formulas import as_latex, shown
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
 from kovacic.parametric.record import Reader, constant_data, constant_from
@@ -29,6 +28,7 @@ from kovacic.parametric.statements import Point, both
 from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
+from kovacic.views.formula import Formulas, Math
 
 #: Regions that are written unless all are asked for.
 _SCREEN = 24
@@ -235,8 +235,12 @@ class Conditions:
         """The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values."""
         rows = [rf"\text{{{r.verdict}}} & {r.statement.latex()}" for r in in_one_line(self.regions) if r.defined]
         rows.append(rf"\text{{{self.generic}}} & \text{{{self._where_generic}}}")
-        left = f"y'' = \\left({as_latex(self.S, self.variable)}\\right) y"
-        return left + r"\colon\quad \begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
+        return rf"y'' = {self._right.latex}" + r"\colon\quad \begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
+
+    @property
+    def _right(self) -> Math:
+        """S y."""
+        return Formulas(self.variable, self.S.field).times(self.S, "y", "y")
 
     @property
     def _where_generic(self) -> str:
@@ -249,7 +253,7 @@ class Conditions:
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """A map of two parameters, or a strip for one: see `kovacic.parametric.plot.plot`."""
-        title = f"y'' = ({shown(self.S, self.variable)}) y"
+        title = f"y'' = {self._right.text}"
         return plot(
             lambda values: str(self.predicted(self.point(values)) or "S not defined"),
             self.parameters,
@@ -264,7 +268,7 @@ class Conditions:
         With `all=True` every region is written.
         """
         known = f" ({self.assumptions})" if self.assumptions else ""
-        lines = [f"y'' = ({shown(self.S, self.variable)}) y, parameters {', '.join(self.parameters)}{known}"]
+        lines = [f"y'' = {self._right.text}, parameters {', '.join(self.parameters)}{known}"]
         lines += [f"  note: {notice}" for notice in self.notices]
         regions = in_one_line(self.regions)
         number = len(regions) if all or len(regions) <= _SCREEN + 1 else _SCREEN

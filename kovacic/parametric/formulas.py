@@ -19,11 +19,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import square_part
 from kovacic.algebra.sparse import by_power, factorisation
 from kovacic.parametric.functions import over_parameters
+from kovacic.views.formula import symbol
 
-_GREEK = frozenset(
-    {"alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu", "xi"}
-    | {"pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega"}
-)
 #: Terms up to which a quotient is written as a sum.
 _TERMS = 4
 #: A power of a polynomial in the parameters, flint's.
@@ -33,12 +30,6 @@ Power = tuple[Any, int]
 def shown(function: FunctionPoly | RatFunc, variable: str = "x") -> str:
     """In ordinary notation, with ^ for powers, as a quotient of expanded polynomials."""
     return function.to_str(variable).replace("**", "^")
-
-
-def as_latex(function: FunctionPoly | RatFunc, variable: str = "x") -> str:
-    """The same as LaTeX, without dollar signs."""
-    above, below, names = _cleared(function, variable)
-    return _Writer(names, True).sum([_Term(Fraction(1), ((above, 1),), ((below, 1),))])
 
 
 def shifted(text: str, value: Poly) -> str:
@@ -84,17 +75,6 @@ def root_written(square: Poly, *, latex: bool = False) -> str:
         odd, under = -odd, -under
     term = _Term(Fraction(number, other), top, bottom, odd, under)
     return _Writer(names, latex).sum([term])
-
-
-def symbol(name: str) -> str:
-    """A name as LaTeX: Greek letters, digits at the end as an index; the constants I and sqrt(n)."""
-    radical = re.fullmatch(r"sqrt\((.*)\)", name)
-    if radical or name == "I":
-        return rf"\sqrt{{{radical[1]}}}" if radical else r"\mathrm{i}"
-    match = re.fullmatch(r"([^\W\d_]+)_?(\d+)", name)
-    base, index = (match[1], match[2]) if match else (name, "")
-    letter = f"\\{base}" if base in _GREEK else base if len(base) == 1 else rf"\mathrm{{{base}}}"
-    return f"{letter}_{{{index}}}" if index else letter
 
 
 def _cleared(function: FunctionPoly | RatFunc, letter: str) -> tuple[Any, Any, tuple[str, ...]]:

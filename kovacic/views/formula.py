@@ -9,7 +9,6 @@ import re
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, count
-from math import gcd
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
@@ -19,13 +18,12 @@ from kovacic.reading.given import parameters_of
 
 _GREEK = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega"
 # What has another form in LaTeX, in the order in which it is replaced.
-_REPLACEMENTS = [
+_REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
     (re.compile(r"sqrt\(([^()]*)\)"), r"\\sqrt{\1}"),
     (re.compile(r"cbrt\(([^()]*)\)"), r"\\sqrt[3]{\1}"),
     (re.compile(r"root\(([^(),]*), (\d+)\)"), r"\\sqrt[\2]{\1}"),
     (re.compile(r"\*\*(\d+)"), r"^{\1}"),
-    (re.compile(r"\b([A-Za-z])_?(\d+)\b"), r"\1_{\2}"),
-    (re.compile(rf"(?<![A-Za-z\\])({_GREEK.replace(' ', '|')})(?![A-Za-z])"), r"\\\1"),
+    (re.compile(r"(?<![\\\w])[^\W\d]\w*"), lambda match: symbol(match[0])),
     (re.compile(r"\*"), " "),
 ]
 
@@ -103,14 +101,23 @@ class Formulas:
         if _is_long(function):
             return Math(_degrees(function), rf"\text{{{_degrees(function)}}}")
         renamed = self._both_renamed(function)
-        return Math(caret(renamed.to_str(self.variable)), latex_ratfunc(renamed, latex_text(self.variable)))
+        return Math(caret(renamed.to_str(self.variable)), latex_ratfunc(renamed, self.variable))
 
     def factor(self, function: RatFunc | Poly) -> Math:
-        """A function as the factor of a product: in parentheses where it needs them."""
+        """The first factor of a product: sums are in parentheses, in text quotients too."""
         value = self.math(function)
-        if not any(sign in value.text for sign in " /*-"):
-            return value
-        return Math(f"({value.text})", rf"\left({value.latex}\right)")
+        single = value.latex.removeprefix("-").startswith((r"\frac", r"\text")) or " " not in value.text
+        text = f"({value.text})" if set(value.text) & set(" /") else value.text.replace("*", " ")
+        return Math(text, value.latex if single else rf"\left({value.latex}\right)")
+
+    def times(self, function: RatFunc | Poly, text: str, latex: str) -> Math:
+        """`function * name`: 0, -y, 2 x y, (1/x) y, (x + 1) y."""
+        if not function:
+            return Math("0", "0")
+        value = self.factor(function)
+        if value.text in ("1", "-1"):
+            return Math(value.text[:-1] + text, value.latex[:-1] + latex)
+        return Math(f"{value.text} {text}", f"{value.latex} {latex}")
 
     def named(self, text: str, latex: str, function: RatFunc | Poly) -> Math:
         """`name = function`."""
@@ -167,6 +174,17 @@ def latex_text(text: str) -> str:
     return text
 
 
+def symbol(name: str) -> str:
+    """A name as LaTeX: Greek letters, digits at the end and what follows _ as an index; the constants I and sqrt(n)."""
+    radical = re.fullmatch(r"sqrt\((.*)\)", name)
+    if radical or name == "I":
+        return rf"\sqrt{{{radical[1]}}}" if radical else r"\mathrm{i}"
+    match = re.fullmatch(r"([^\W\d_]+)_*(\w*)", name)
+    base, index = (match[1], match[2].replace("_", r"\_")) if match else (name, "")
+    letter = rf"\{base}" if base in _GREEK.split() else base if len(base) == 1 else rf"\mathrm{{{base}}}"
+    return f"{letter}_{{{index}}}" if index else letter
+
+
 def latex_ratfunc(function: RatFunc, variable: str = "x") -> str:
     """A rational function as one fraction with integer coefficients.
 
@@ -174,12 +192,7 @@ def latex_ratfunc(function: RatFunc, variable: str = "x") -> str:
     >>> latex_ratfunc(RatFunc(QQ.poly([1, 0, 1]), QQ.poly([0, 2])))
     '\\\\frac{x^{2} + 1}{2 x}'
     """
-    top, bottom = function.num.common_denominator(), function.den.common_denominator()
-    common = gcd(top, bottom)
-    num, den = function.num * (top * (bottom // common)), function.den * (bottom * (top // common))
-    contents = [int(c.p) for part in (num, den) for c in part.rational_coefficients() if hasattr(c, "p")]
-    content = gcd(*contents) or 1
-    num, den = num / content, den / content
+    num, den = function.cleared()
     above = latex_text(num.integer_str(variable))
     if den == 1:
         return above

@@ -35,8 +35,8 @@ def equation_of(solution: Solution) -> Math:
 
 def normal_form(solution: Solution, y: str = "y") -> Math:
     """y'' = S y."""
-    S = formulas_of(solution).factor(solution.S)
-    return Math(f"{y}'' = {S.text} {y}", f"{y}'' = {S.latex} {y}") if solution.S else Math(f"{y}'' = 0", f"{y}'' = 0")
+    right = formulas_of(solution).times(solution.S, y, y)
+    return Math(f"{y}'' = {right.text}", f"{y}'' = {right.latex}")
 
 
 def omega_of(solution: Solution) -> Math:
@@ -50,9 +50,11 @@ def omega_of(solution: Solution) -> Math:
     for k in range(m - 1, -1, -1):
         if coefficient := riccati.coefficients[k]:
             negative = formulas.math(coefficient).text.removeprefix("(").startswith("-")
-            value, sign = formulas.factor(-coefficient if negative else coefficient), "-" if negative else "+"
-            texts.append(f"{sign} {value.text}" + {0: "", 1: f" {w}"}.get(k, f" {w}^{k}"))
-            latex.append(f"{sign} {value.latex}" + {0: "", 1: f" {w}"}.get(k, f" {w}^{{{k}}}"))
+            positive, sign = -coefficient if negative else coefficient, "-" if negative else "+"
+            power = (w, w) if k == 1 else (f"{w}^{k}", f"{w}^{{{k}}}")
+            value = formulas.times(positive, *power) if k else formulas.factor(positive)
+            texts.append(f"{sign} {value.text}")
+            latex.append(f"{sign} {value.latex}")
     lines = r" \\ \displaystyle ".join(latex)
     return Math("\n".join(texts) + " = 0", rf"\begin{{array}}{{l}} \displaystyle {lines} = 0 \end{{array}}")
 
