@@ -34,7 +34,7 @@ class RatFunc(Immutable):
         elif not reduced:
             if not den:
                 raise ZeroDivisionError("the denominator is zero")
-            if num.field != den.field:
+            if num.field is not den.field and num.field != den.field:
                 num, den = (num, num.field.embed(den)) if num.field.extends(den.field) else (den.field.embed(num), den)
             if den.degree > 0:
                 check_time()

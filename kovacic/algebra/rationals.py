@@ -156,8 +156,8 @@ class RationalPoly(Poly):
         return RationalPoly(self.rep / self.rep.leading_coefficient()) if self.rep else self
 
     def _gcd(self, other: RationalPoly) -> RationalPoly:
-        degree, least = sorted((self.degree, other.degree), reverse=True)
-        if least > _LONG_DEGREE:
+        if self.degree > _LONG_DEGREE and other.degree > _LONG_DEGREE:
+            degree, least = sorted((self.degree, other.degree), reverse=True)
             seconds = _GCD_SECONDS * degree**2 * min(self.height_bits(), other.height_bits())
             if seconds > watched_seconds(inf):  # coprime ones take a moment only, and one prime tells
                 common = self._degree_of_gcd_modulo(other, next(primes()))

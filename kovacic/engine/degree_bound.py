@@ -36,7 +36,8 @@ def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
 
 def _leading_coefficient(place: Place) -> Poly:
     """E with S = num / (t^order E) to leading order at the class of x in K[x]/p."""
-    return place.factor.derivative() ** place.order * place.near[1] % place.factor
+    p, cofactor = place.factor, place.near[1]
+    return cofactor % p if p.degree == 1 else p.derivative() ** place.order * cofactor % p
 
 
 @dataclass(frozen=True)
@@ -122,7 +123,7 @@ def irregular_difference_squared(place: Place) -> Poly:
     c = -p[0] if p.degree == 1 else AlgebraicField(p.field, p).generator
     t = c.field.poly([0, 1])
     end = t**nu
-    N, E = _moved(num, c, nu), _moved(cofactor, c, nu)
+    N, E = (_moved(f, c, nu) for f in (num, cofactor)) if c else (num, cofactor)
     if p.degree > 1:
         slope, power = _moved(p, c, nu + 1) // t, c.field.poly([1])  # p = t slope
         for digit in f"{place.order:b}":

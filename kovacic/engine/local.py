@@ -108,7 +108,7 @@ def rational_omega(c: Chart, Q: Any, degree: int) -> tuple[Any, Any] | None:
     """
     top = degree + c.growth
     order = top + degree + 2
-    u = series_solution(*reduced_equation(c.equation, Q), order)
+    u = series_solution(*reduced_equation(c.equation.expanded(order), Q), order)
     local = (Q * u + u.derivative().left_shift(c.equation.nu)).mul_low(u.inverse_series_trunc(order), order)
     series = c.D.right_shift(c.equation.nu).mul_low(local, order)
     found = rational_function_from_series(series, order, top)

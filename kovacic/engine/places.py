@@ -24,7 +24,7 @@ from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.factors import expansions, product
+from kovacic.algebra.factors import FEW_FACTORS, expansion, expansions, product
 from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -44,8 +44,11 @@ class Kind(Enum):
 class Place:
     """All roots of one irreducible factor, or infinity (the root 0 in the coordinate z = 1/x).
 
-    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den; `near` has N and q with
-    S = N/(factor^order q) to as many terms as the exponents depend on, order/2 or 1.
+    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den.  At a regular place
+    `delta_squared` is the square of the exponent difference Delta where it is the same constant of K at all roots (else
+    None, and Delta is irrational), and `delta` is Delta >= 0 where it is rational.  `logarithm` says that one provably
+    occurs; False only that no proof was found.  `known` has what `near` is, where the expansions at all places were found
+    together.
     """
 
     factor: Poly
@@ -53,53 +56,15 @@ class Place:
     order: int
     num: Poly
     den: Poly
-    near: tuple[Poly, Poly]
-    budget: Budget
+    delta_squared: Poly | None
+    delta: Fraction | None
+    logarithm: bool
+    known: tuple[Poly, Poly] | None
 
     @cached_property
-    def delta_squared(self) -> Poly | None:
-        """The square of the exponent difference at a regular place, where it is the same constant of K at all roots.
-
-        None elsewhere; then Delta is irrational at every root.  It is 1 + 4b with b = num/(p'^2 cofactor) in K[x]/p.
-        """
-        if self.order != 2:
-            return self.num.field.poly([1]) if self.order == 1 else None
-        top, cofactor = self.near
-        if self.factor.degree == 1:
-            return 4 * (top / cofactor) + 1
-        bottom = self.factor.derivative() ** 2 * cofactor % self.factor
-        b = top[bottom.degree] / bottom.lc
-        return 4 * b + 1 if top == bottom * b else None
-
-    @cached_property
-    def delta(self) -> Fraction | None:
-        """Delta >= 0 at a regular place where it is rational, else None."""
-        return None if self.delta_squared is None else rational_square_root(self.delta_squared)
-
-    @cached_property
-    def logarithm(self) -> bool:
-        """Does a logarithm provably occur?  False only says that no proof was found.
-
-        At a place with a positive integer Delta the series with the smaller exponent meets an obstruction at its term
-        number Delta.  If it doesn't vanish modulo a prime, it doesn't vanish; if it does vanish, nothing is claimed (and
-        then there is a logarithm only by a chance of about 1 in 2^60).  Nothing is claimed either where the series would be
-        longer than the limits allow.
-        """
-        if self.order != 2 or self.delta is None or self.delta.denominator != 1:
-            return self.order == 1
-        delta = int(self.delta)
-        if not 0 < delta <= self.budget.limits.unknown_degree:
-            return delta == 0
-        for h in self.num.field.homomorphisms():
-            self.budget.check()
-            try:
-                root = next(simple_roots(h.keeping_degree(self.factor)), None)
-                if root is not None:
-                    num, den = translate(h(self.num), root), translate(h.keeping_degree(self.den), root)
-                    return logarithm_obstruction(local_equation(num, den, 2), delta) != 0
-            except BadPrimeError:
-                pass
-        raise AssertionError("the sequence of primes is infinite")
+    def near(self) -> tuple[Poly, Poly]:
+        """N and q with S = N/(factor^order q) to as many terms as the exponents depend on, order/2 or 1."""
+        return self.known or expansion(self.num, self.den, self.factor, self.order)
 
     @property
     def degree(self) -> int:
@@ -171,15 +136,52 @@ class Problem:
 def analyse(S: RatFunc, budget: Budget) -> Problem:
     """The singular places of y'' = S y and their local data."""
     factors = S.field.factor(S.den) if S.den.degree > 0 else []
+    near = expansions(S.num, S.den, factors) if len(factors) >= FEW_FACTORS else [None] * len(factors)
     places = [
-        Place(factor, False, order, S.num, S.den, near, budget)
-        for (factor, order), near in zip(factors, expansions(S.num, S.den, factors) if factors else [], strict=True)
+        _place(S.num, S.den, factor, order, known, budget, at_infinity=False)
+        for (factor, order), known in zip(factors, near, strict=True)
     ]
     num, den, order = at_infinity(S)
-    z = S.field.poly([0, 1])
-    end = z ** max(order // 2, 1)
-    places.append(Place(z, True, order, num, den, (num % end, den // z**order % end), budget))
+    places.append(_place(num, den, S.field.poly([0, 1]), order, None, budget, at_infinity=True))
     return Problem(S, tuple(places), budget)
+
+
+def _place(
+    num: Poly, den: Poly, p: Poly, order: int, near: tuple[Poly, Poly] | None, budget: Budget, *, at_infinity: bool
+) -> Place:
+    """The place, for a double pole with Delta^2 = 1 + 4b, b = N/(p'^2 q) in K[x]/p."""
+    if order != 2:
+        square, delta = (num.field.poly([1]), Fraction(1)) if order == 1 else (None, None)
+        return Place(p, at_infinity, order, num, den, square, delta, order == 1, near)
+    top, bottom = near = near or expansion(num, den, p, order)
+    if p.degree > 1:
+        bottom = p.derivative() ** 2 * bottom % p
+    b = top[bottom.degree] / bottom.lc
+    square = 4 * b + 1 if p.degree == 1 or top == bottom * b else None
+    delta = None if square is None else rational_square_root(square)
+    logarithm = delta is not None and delta.denominator == 1 and _has_logarithm(num, den, p, int(delta), budget)
+    return Place(p, at_infinity, order, num, den, square, delta, logarithm, near)
+
+
+def _has_logarithm(num: Poly, den: Poly, p: Poly, delta: int, budget: Budget) -> bool:
+    """Does a logarithm provably occur at a double pole with this integer Delta?
+
+    For Delta > 0 the series with the smaller exponent meets an obstruction at its term number Delta.  If it doesn't vanish
+    modulo a prime, it doesn't vanish; if it does vanish, nothing is claimed (and then there is a logarithm only by a chance
+    of about 1 in 2^60).  Nothing is claimed either where the series would be longer than the limits allow.
+    """
+    if not 0 < delta <= budget.limits.unknown_degree:
+        return delta == 0
+    for h in num.field.homomorphisms():
+        budget.check()
+        try:
+            root = next(simple_roots(h.keeping_degree(p)), None)
+            if root is not None:
+                equation = local_equation(translate(h(num), root), translate(h.keeping_degree(den), root), 2)
+                return logarithm_obstruction(equation, delta) != 0
+        except BadPrimeError:
+            pass
+    raise AssertionError("the sequence of primes is infinite")
 
 
 def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:
@@ -216,6 +218,13 @@ class LocalEquation:
     def nu(self) -> int:
         """The order of the pole of omega: max(1, order/2)."""
         return max(1, self.order // 2)
+
+    def expanded(self, order: int) -> LocalEquation:
+        """The same to so many terms, with E = 1 where E is long: a term of a solution takes one scalar product, not three."""
+        if 6 * self.E.degree() <= order:
+            return self
+        size = order + self.order
+        return LocalEquation(self.N.mul_low(self.E.inverse_series_trunc(size), size), self.E**0, self.order)
 
 
 def local_equation(num: Any, den: Any, order: int) -> LocalEquation:

@@ -28,14 +28,12 @@ from kovacic.limits import check_time
 
 def numerators(D: Any, T: Any, R: Any, P: Any, m: int, last: int) -> list[Any]:
     """A_0, ..., A_last of equation (2), over the field or modulo a prime."""
-    sequence, slope = [P], D.derivative()
-    for k in range(last):
-        current = sequence[-1]
-        following = D * current.derivative() + (R - k * slope if k else R) * current
-        if k:
-            following = (following - (m - k + 1) * (T * sequence[-2])) / (k + 1)
-        sequence.append(following)
+    sequence, slope = [P, D * P.derivative() + R * P], D.derivative()
+    for k in range(1, last):
         check_time()
+        R = R - slope
+        following = D * sequence[k].derivative() + R * sequence[k] - (m - k + 1) * (T * sequence[k - 1])
+        sequence.append(following / (k + 1))
     return sequence
 
 

@@ -106,17 +106,18 @@ def _positive(inspector: Inspector, decision: Decision, structure: Structure) ->
             numerators is not None and numerators[1] == riccati.numerators[1],
         ),
         Check("P has its zeros at ordinary points", P.degree == 0 or P.gcd(S.den.over(field)).degree == 0),
-        Check("the invariant is a rational form", _invariant_holds(S, decision, structure)),
+        Check("the invariant is a rational form", _invariant_holds(inspector, decision, structure)),
     ]
 
 
-def _invariant_holds(S: RatFunc, decision: Decision, structure: Structure) -> bool:
+def _invariant_holds(inspector: Inspector, decision: Decision, structure: Structure) -> bool:
     """A rational form of the structure's degree (perhaps a power of the semi-invariant); in case 1 there need not be one."""
     F, f, riccati = decision.invariant, decision.semi_invariant, decision.riccati
     if F is None or f is None or riccati is None:
         return structure is Structure.REDUCIBLE
-    rational = F.degree == INVARIANT_DEGREE[structure] and is_rational(F)
-    return rational and (is_power(F, f) or form_numerators(S, F, riccati.D) is not None)
+    factors = inspector.factors if decision.exclusions else ()  # which the exclusions need as well
+    rational = F.degree == INVARIANT_DEGREE[structure] and is_rational(F, factors)
+    return rational and (is_power(F, f) or form_numerators(inspector.S, F, riccati.D) is not None)
 
 
 def _is_irreducible(field: AlgebraicField) -> bool:

@@ -22,7 +22,7 @@ from kovacic.algebra.modular import (
     square_root_series,
     translate,
 )
-from kovacic.algebra.poly import Homomorphism
+from kovacic.algebra.poly import Homomorphism, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRationalOmega, Rule, Structure
@@ -60,6 +60,11 @@ class Inspector:
     def points(self) -> list[Point]:
         """All singular places, and infinity."""
         return points(self.S, self.budget)
+
+    @property
+    def factors(self) -> list[Poly]:
+        """The irreducible factors of the denominator of S."""
+        return [point.factor for point in self.points[:-1]]
 
     def excludes(self, structure: Structure, evidence: tuple[Evidence, ...]) -> bool:
         """Does the evidence, recomputed, prove that the group doesn't have this structure?

@@ -11,6 +11,7 @@ theta has simple poles with integer residues only.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
 
 from kovacic.algebra.poly import Poly
@@ -33,18 +34,22 @@ def form_numerators(S: RatFunc, F: SemiInvariant, D: Poly) -> list[Poly] | None:
     return None if A.pop() else A
 
 
-def rational_residues(theta: RatFunc) -> list[tuple[Poly, Fraction]] | None:
+def rational_residues(theta: RatFunc, factors: Iterable[Poly] = ()) -> list[tuple[Poly, Fraction]] | None:
     """The irreducible factors of the denominator with the residues at their roots, for simple poles and rational residues.
 
-    None if there is another pole, also at infinity (theta dx), or another residue.
+    None if there is another pole, also at infinity (theta dx), or another residue.  Some `factors` may be known.
     """
     num, den, residues = theta.num, theta.den, []
     if num and num.degree >= den.degree:
         return None
-    field, slope = den.field, den.derivative()
-    for p, order in field.factor(den) if num else []:
+    field, slope, rest, found = den.field, den.derivative(), den, []
+    for p in factors:
+        if (quotient := rest.exact_quotient(p)) is not None:
+            rest = quotient
+            found.append(p)
+    for p in [*found, *(p for p, _ in (field.factor(rest) if rest.degree else []))]:
         above, below = num % p, slope % p
-        residue = above[below.degree] / below.lc if order == 1 else None
+        residue = above[below.degree] / below.lc if below else None
         rational = None if residue is None or above != residue * below else field.rational_value(residue)
         if rational is None:
             return None
@@ -52,9 +57,9 @@ def rational_residues(theta: RatFunc) -> list[tuple[Poly, Fraction]] | None:
     return residues
 
 
-def is_rational(F: SemiInvariant) -> bool:
-    """Is exp(int theta) P a rational function?"""
-    residues = rational_residues(F.theta)
+def is_rational(F: SemiInvariant, factors: Iterable[Poly] = ()) -> bool:
+    """Is exp(int theta) P a rational function?  Some `factors` of the denominator of theta may be known."""
+    residues = rational_residues(F.theta, factors)
     return residues is not None and all(residue.denominator == 1 for _, residue in residues)
 
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.factors import expansions
+from kovacic.algebra.factors import FEW_FACTORS, expansion, expansions
 from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
 from kovacic.algebra.poly import Homomorphism, Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -28,23 +28,23 @@ from kovacic.verify.residue import exponent_difference_squared
 class Point:
     """All roots of an irreducible factor p of den, of multiplicity `order`, with S = num/den; or infinity, with S(1/z)/z^4.
 
-    S = N/(p^order q) with these N and q modulo p^nu, nu = order/2 or 1.
+    `known` has N and q modulo p^nu with S = N/(p^order q), nu = order/2 or 1, where they were found at all points together.
     """
 
     factor: Poly
     order: int
     num: Poly
     den: Poly
-    N: Poly
-    q: Poly
     budget: Budget
+    known: tuple[Poly, Poly] | None = None
     at_infinity: bool = False
 
     @cached_property
     def near(self) -> tuple[Poly, Poly]:
         """N and q; for a double pole N and p'^2 q modulo p."""
         p = self.factor
-        return (self.N % p, p.derivative() ** 2 * self.q % p) if self.order == 2 else (self.N, self.q)
+        N, q = self.known or expansion(self.num, self.den, p, self.order)
+        return (N, p.derivative() ** 2 * q % p) if self.order == 2 and p.degree > 1 else (N, q)
 
     @cached_property
     def name(self) -> str:
@@ -112,15 +112,13 @@ class Point:
 
 def points(S: RatFunc, budget: Budget) -> list[Point]:
     """Every singular place, and infinity even if it is ordinary."""
-    found, factors = list[Point](), S.field.factor(S.den) if S.den.degree else []
-    if factors:
-        near = zip(factors, expansions(S.num, S.den, factors), strict=True)
-        found = [Point(p, k, S.num, S.den, N, q, budget) for (p, k), (N, q) in near]
+    factors = S.field.factor(S.den) if S.den.degree else []
+    near = expansions(S.num, S.den, factors) if len(factors) >= FEW_FACTORS else [None] * len(factors)
+    found = [Point(p, k, S.num, S.den, budget, known) for (p, k), known in zip(factors, near, strict=True)]
     # S(1/z)/z^4 = z^-order num/den, where num and den have the coefficients of S.num and S.den in reversed order.
-    x, order = S.field.poly([0, 1]), S.num.degree - S.den.degree + 4 if S.num else 0
-    num, den, power = S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0)), x ** max(order, 0)
-    found.append(Point(x, max(order, 0), num, den, num % power, den // power % power, budget, at_infinity=True))
-    return found
+    order = S.num.degree - S.den.degree + 4 if S.num else 0
+    num, den = S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0))
+    return [*found, Point(S.field.poly([0, 1]), max(order, 0), num, den, budget, at_infinity=True)]
 
 
 def least_valuation(point: Point, m: int) -> int | None:
@@ -150,6 +148,8 @@ def _is_obstructed(M: Any, E: Any, n: int) -> bool:
 
 def correction(M: Any, E: Any, start: Any, nu: int, count: int) -> Any:
     """u = 1 + O(t), to `count` terms, with u exp(int t^-nu start) a solution of t^(2 nu) E y'' = M y, where there is one."""
+    if 6 * E.degree() > count:  # one scalar product a term instead of three short ones
+        M, E = M.mul_low(E.inverse_series_trunc(count + nu), count + nu), E**0
     rate = start.derivative().left_shift(nu) - (nu * start).left_shift(nu - 1) + start * start
     return series_solution(E.left_shift(nu), 2 * start * E, (rate * E - M).right_shift(nu), count)
 
