@@ -27,6 +27,7 @@ from kovacic.closed_form.jets import jet
 from kovacic.general_solution import dsolve, solve_riccati
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.undetermined import undetermined
+from kovacic.general_solution.values import values_at, wronskian_at
 from kovacic.general_solution.variation import DefiniteIntegral
 from kovacic.reading.equation import parse_equation
 from kovacic.reading.symbolic import read_expression
@@ -700,3 +701,24 @@ def test_an_integral_between_numbers_has_a_value() -> None:
     assert exact.doit() == sympy.Rational(1, 3)
     assert str(exact) == "Integral(x**2, (x, 0, 1))"
     assert pickle.loads(pickle.dumps(exact)) == exact
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["x*exp(2*x)*cos(3*x)", "(x-2)**5*(C1 + C2*log(x))/sqrt(x)", "x**w", "w**x*(x-1)*(x-2)", "besselj(w, x**2)*(x-1)"],
+)
+@pytest.mark.parametrize("point", [1, 2, Rational(3, 7)])
+def test_values_and_slopes_are_those_of_the_derivative(text: str, point: Any) -> None:
+    e, a = sympy.sympify(text), sympy.sympify(point)
+    value, slope = values_at(e, x, a)
+    assert sympy.simplify(value - e.subs(x, a)) == 0
+    assert sympy.simplify(slope - e.diff(x).subs(x, a)) == 0
+
+
+def test_values_at_a_jump_and_of_forms_without_a_value() -> None:
+    step = sympy.Heaviside(x - 1) * exp(x) + x
+    assert values_at(step, x, sympy.Integer(1)) == (1, 1)
+    assert values_at(step, x, sympy.Integer(2)) == (2 + exp(2), 1 + exp(2))
+    assert values_at(sin(x) / x, x, sympy.Integer(0)) == (1, 0)
+    assert values_at(sympy.Integral(exp(w**2), (w, 1, x)), x, sympy.Integer(1)) == (0, sympy.E)
+    assert wronskian_at(1 / x, x, x, sympy.Integer(0)) is None

@@ -83,7 +83,7 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
             angle, second = -angle, -second
         evaluate = angle.has(sympy.atan)  # everything else stays as it is
         c, t = cos(angle, evaluate=evaluate), sin(angle, evaluate=evaluate)
-        first, second = first * c - second * t, first * t + second * c
+        first, second = (first * c, first * t) if second == 0 else (first * c - second * t, first * t + second * c)
     return _without_content(first) * common, _without_content(second) * common
 
 

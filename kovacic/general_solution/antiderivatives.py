@@ -22,6 +22,7 @@ from kovacic.closed_form.integrals import integral, logarithms
 from kovacic.closed_form.product import product
 from kovacic.errors import InputError
 from kovacic.general_solution.undetermined import undetermined
+from kovacic.general_solution.values import size
 from kovacic.reading.from_sympy import parse_sympy
 from kovacic.reading.given import EULER, PI
 
@@ -125,11 +126,11 @@ def _in_waves(term: Expr, x: Expr) -> Expr | None:
             known = {sympy.atan(u): angle, log(u**2 + 1): -2 * log(cos(angle)), u**2 + 1: cos(angle) ** -2}
             found = found.xreplace({x: u}).xreplace(known if back.func is tan else {})
             done.append(TR2i(found.xreplace({u: sin(angle) / cos(angle) if back.func is tan else back})))
-    return min(done, key=sympy.count_ops, default=None)
+    return min(done, key=size, default=None)
 
 
 def _of_product(term: Expr, x: Expr) -> Expr | None:
-    rate = None if term.has(sin, cos, log) else ratfunc(sympy.cancel(term.diff(x) / term), x)
+    rate = None if term.has(sin, cos, log) else _rate(term, x)
     if rate is None:
         return None
     atoms, h = Atoms(x), product(rate)
@@ -137,6 +138,19 @@ def _of_product(term: Expr, x: Expr) -> Expr | None:
     ratio, found = term / (scale * sympy.Mul(*shown)), integral(h, atoms)
     constant = next((c for c in (sympy.powsimp(ratio.subs(x, k)) for k in (2, 3, 5)) if c.is_finite and c != 0), None)
     return None if found is None or constant is None else sympy.expand(constant * found)
+
+
+def _rate(term: Expr, x: Expr) -> RatFunc | None:
+    """The logarithmic derivative, where it is rational; that of t (1 + u/t + ...) for a sum t + u + ..."""
+    first, *rest = sympy.Add.make_args(term)
+    rate = sympy.Integer(0)
+    for factor in sympy.Mul.make_args(first):
+        base, exponent = factor.as_base_exp()
+        rate += exponent.diff(x) * log(base) if not base.has(x) else exponent * base.diff(x) / base
+    found, ratio = ratfunc(rate, x), ratfunc(sympy.Add(1, *(other / first for other in rest)), x) if rest else None
+    if found is None or not rest:
+        return found
+    return None if ratio is None else found + ratio.derivative() / ratio
 
 
 def _rational(g: Expr, x: Expr) -> Expr | None:

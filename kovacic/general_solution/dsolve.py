@@ -19,6 +19,7 @@ from kovacic.general_solution.antiderivatives import NUMBERS
 from kovacic.general_solution.initial_values import as_mapping, constants, read_values
 from kovacic.general_solution.particular import particular_solution, place_of
 from kovacic.general_solution.real_basis import check_one_side, real_basis, real_particular
+from kovacic.general_solution.values import size
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.api import conditions_of
@@ -122,11 +123,15 @@ def _solved(eq: Any, equation: Equation, function: Any, ics: Mapping[Any, Any], 
     factors = [sympy.Mul.make_args(y) for y in (basis.y1, basis.y2)]  # common ones come before the sum
     common = [factor for factor in factors[0] if factor in factors[1]] if c1 != 0 != c2 else []
     first, second = (sympy.Mul(*(factor for factor in own if factor not in common)) for own in factors)
-    general = sympy.Mul(*common, c1 * first + c2 * second) + particular
+    homogeneous = sympy.Add(*(c * y for c, y in ((c1, first), (c2, second)) if c != 0))
+    general = (sympy.Mul(*common, homogeneous) if homogeneous != 0 else homogeneous) + particular
     if given:
-        general = min(general, sympy.expand_mul(general, deep=False), key=sympy.count_ops)
-    general = general.xreplace({sympy.Symbol(name): symbol for name, symbol in symbols.items()})
-    return sympy.Eq(function, general.xreplace({x: function.args[0]}), evaluate=False)
+        general = min(general, sympy.expand_mul(general, deep=False), key=size)
+    own = {sympy.Symbol(name): symbol for name, symbol in symbols.items()} | {x: function.args[0]}
+    changed = {
+        plain: symbol for plain, symbol in own.items() if plain != symbol
+    }  # what is replaced by itself is rebuilt
+    return sympy.Eq(function, general.xreplace(changed) if changed else general, evaluate=False)
 
 
 def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str:

@@ -10,7 +10,6 @@ from typing import Any
 import sympy
 from flint import acb, arb, ctx
 from sympy import acos, atan, cos, cosh, exp, log, sin, sinh, tan, tanh
-from sympy.functions.special.bessel import BesselBase
 from sympy.simplify.fu import TR2i
 
 from kovacic.algebra.apart import last_of
@@ -18,15 +17,16 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import ANTIDERIVATIVES, jet
 from kovacic.errors import InputError
+from kovacic.general_solution.values import SECONDS, size, values_at
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import watched_seconds
 from kovacic.reading.exponential import in_terms_of
 from kovacic.reading.given import Equation
 from kovacic.reading.parser import listed, shown
 
-#: Functions whose values are simplified, in constants of so many operations, and the seconds for a question about a constant.
+#: Functions whose values are simplified, in constants of so many subexpressions.
 _ELEMENTARY = {exp, log, sin, cos, tan, sinh, cosh, tanh, atan, acos}
-_LONGEST, _SECONDS = 100, 10.0
+_LONGEST = 200
 
 
 @dataclass(frozen=True)
@@ -117,15 +117,21 @@ def constants(given: Sequence[Given], basis: Basis, particular: Any, names: Sequ
 
     Raises `InputError` where there is no solution with these values.
     """
-    rows = []
+    rows, known = (
+        [],
+        {
+            point: [values_at(y, basis.x, point) for y in (basis.y1, basis.y2, particular)]
+            for point in dict.fromkeys(item.point for item in given)
+        },
+    )
     for item in given:
-        u, v, w = (value_at(y, basis.x, item.point, item.order) for y in (basis.y1, basis.y2, particular))
+        u, v, w = (pair[item.order] for pair in known[item.point])
         rows.append((u, v, item.value - w))
     initial = len(rows) == 2 and given[0].point == given[1].point and given[0].order != given[1].order
     for (a, b, r), (c, d, s) in combinations(rows, 2):
         determinant = a * d - b * c
-        if initial:  # the Wronskian at an ordinary point
-            W = value_at(basis.wronskian, basis.x, given[0].point) * (1 if given[0].order == 0 else -1)
+        if initial and not sympy.sympify(determinant).is_Rational:  # the Wronskian at an ordinary point, often shorter
+            W = values_at(basis.wronskian, basis.x, given[0].point)[0] * (1 if given[0].order == 0 else -1)
             determinant = W if agree(W, determinant) else determinant
         if initial or not _is_zero(determinant):
             values, used = [tidy((r * d - b * s) / determinant), tidy((a * s - r * c) / determinant)], 2
@@ -147,13 +153,13 @@ def tidy(value: Any) -> Any:
     value = sympy.sympify(value, strict=True)
     irrational = any(not p.exp.is_Rational and not p.base.is_Symbol for p in value.atoms(sympy.Pow))
     functions = {f.func for f in value.atoms(sympy.Function)}
-    long = value.count_ops() > _LONGEST or value.has(sympy.RootSum, sympy.Integral)
+    long = size(value) > _LONGEST or value.has(sympy.RootSum, sympy.Integral)
     if value.is_Rational or irrational or long or not functions <= _ELEMENTARY:
         return value
     if not functions:
         return sympy.radsimp(sympy.cancel(value) if value.free_symbols or value.has(sympy.E) else sympy.expand(value))
     shorter = sympy.cancel(value)
-    return shorter if functions == {exp} else min(map(TR2i, (value, shorter)), key=sympy.count_ops)
+    return shorter if functions == {exp} else min(map(TR2i, (value, shorter)), key=size)
 
 
 def _ball(value: Any) -> Any:
@@ -185,7 +191,7 @@ def _is_zero(value: Any) -> bool:
         ball = _ball(value)
         if ball is not None and not ball.contains(0):
             return False
-    answer = last_of(_zero, value, seconds=watched_seconds(_SECONDS))
+    answer = last_of(_zero, value, seconds=watched_seconds(SECONDS))
     if answer is None or (ball is not None and value.free_symbols and not answer):  # SymPy's numbers break assumptions
         raise NotImplementedError(f"undecided: whether {shown(value, 60)} is zero")
     return bool(answer)
@@ -198,32 +204,3 @@ def _zero(value: Any) -> Iterator[bool]:
     answer = value.equals(0)  # None where neither simplification nor numbers tell
     if answer is not None:
         yield bool(answer)
-
-
-def value_at(expression: Any, x: Any, point: Any, order: int = 0) -> Any:
-    """The value of a derivative at an ordinary point, where the expression may be of the form 0/0.
-
-    At a jump of a step function it is that just before it.
-    """
-    expression = sympy.sympify(expression, strict=True)
-    expression = expression.diff(x, order) if order else expression
-    if expression.has(sympy.Heaviside):  # of x - a
-        jumps = expression.atoms(sympy.Heaviside, sympy.DiracDelta)
-        expression = expression.xreplace({jump: sympy.Integer(0) for jump in jumps if jump.args[0].subs(x, point) == 0})
-    value = expression.subs(x, point)
-    value = value.xreplace({e: sympy.Integer(1) for e in value.atoms(sympy.hyper) if e.argument == 0})
-    if value.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):
-        limit = None
-        if not expression.has(sympy.hyper, BesselBase):  # SymPy takes limits of sqrt(x) besselk(1/4, x^2/2) wrong
-            limit = last_of(_limit, expression, x, point, seconds=watched_seconds(_SECONDS))
-        if limit is None:
-            said = f"the functions of the closed form are singular at {point}, where the solutions aren't"
-            raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
-        value = limit
-    return value.xreplace(
-        {i: sympy.Integer(0) for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:]}
-    )
-
-
-def _limit(expression: Any, x: Any, point: Any) -> Iterator[Any]:
-    yield sympy.limit(expression, x, point)

@@ -24,8 +24,9 @@ from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, in_powers, ratfunc
-from kovacic.general_solution.initial_values import tidy, value_at
+from kovacic.general_solution.initial_values import tidy
 from kovacic.general_solution.undetermined import undetermined
+from kovacic.general_solution.values import values_at
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import Budget
 from kovacic.reading.exponential import in_terms_of
@@ -145,8 +146,8 @@ def _response(right: Expr, basis: Basis, solved: Callable[[Expr], Expr]) -> Expr
             return None
         impulse = jumps[0].func is DiracDelta
         p = sympy.Integer(0) if impulse else solved(g)
-        value, rate = (0, -g.subs(x, a) / abs(slope)) if impulse else (value_at(p, x, a, order) for order in (0, 1))
-        u, v, du, dv = (value_at(y, x, a, order) for order in (0, 1) for y in (basis.y1, basis.y2))
+        value, rate = (0, -g.subs(x, a) / abs(slope)) if impulse else values_at(p, x, a)
+        (u, du), (v, dv) = (values_at(y, x, a) for y in (basis.y1, basis.y2))
         first, second = (value * dv - rate * v) / wronskian, (rate * u - value * du) / wronskian
         total += Heaviside(x - a) * sympy.powsimp(p - tidy(first) * basis.y1 - tidy(second) * basis.y2)
     rest = sympy.Add(*plain)

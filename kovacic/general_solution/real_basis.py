@@ -14,12 +14,13 @@ import sympy
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_numerical_solution
 from kovacic.errors import InputError
+from kovacic.general_solution.values import size
 from kovacic.general_solution.variation import is_solution
 from kovacic.reading.given import Equation
 from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types
-#: The largest real part (in operations, by those of the solution) that is written instead of a solution.
+#: The largest real part (in subexpressions, by those of the solution) that is written instead of a solution.
 _LARGEST = 4
 _COMPLEX = (sympy.re, sympy.im, sympy.Abs, sympy.arg, sympy.atan2)
 
@@ -100,5 +101,5 @@ def _parts(y: Expr, point: Expr, x: Expr) -> list[Expr]:
         for part in sympy.expand(exact, complex=True).as_real_imag()
         if part != 0
     ]
-    short = all(part.count_ops() <= _LARGEST * (y.count_ops() + 5) and not part.has(*_COMPLEX) for part in parts)
+    short = all(size(part) <= _LARGEST * (size(y) + 5) and not part.has(*_COMPLEX) for part in parts)
     return parts if short else [y]

@@ -83,8 +83,9 @@ def _terms(right: Expr, x: Expr) -> dict[Pair, dict[int, Pair]] | None:
 
 def _line(expression: Expr, x: Expr) -> Pair | None:
     """(d, e) for d + e x, None for another expression."""
-    slope = sympy.expand(expression).diff(x)
-    return None if slope.has(x) else (expression.subs(x, 0), slope)
+    rest, linear = sympy.expand(expression).as_independent(x, as_Add=True)
+    slope = sympy.Add(*(term / x for term in sympy.Add.make_args(linear)))
+    return None if slope.has(x) else (rest, slope)
 
 
 def _solved(b: Expr, c: Expr, rate: Expr, frequency: Expr, P: dict[int, Pair]) -> dict[int, Pair] | None:

@@ -6,6 +6,7 @@ Where the integrals aren't known at once, SymPy's simplification and integration
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -21,15 +22,18 @@ from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
 from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
+from kovacic.general_solution.values import size, wronskian_at
 from kovacic.reading.given import Equation
 
 Expr = Any  # SymPy publishes no types
 #: One point in each quadrant, where a solution is substituted: roots on the wrong branch don't pass.
 _POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79)]
-#: The largest expression (in operations) that is handed to SymPy's general simplification.
-_SIMPLIFIED = 150
+#: The largest expression (in subexpressions) that is handed to SymPy's general simplification.
+_SIMPLIFIED = 350
 #: Seconds for the integrals of one equation, at most.
 SECONDS = 20.0
+#: Functions whose values at points aren't known in closed form.
+_UNKNOWN = (sympy.hyper, sympy.RootSum, sympy.Integral)
 #: C1 with C2 and C1 C2' - C1' C2.
 _PAIRS: dict[Any, tuple[Any, Any]] = {
     sympy.airyai: (sympy.airybi, lambda z: 1 / sympy.pi),
@@ -65,15 +69,16 @@ class Basis:
     def wronskian(self) -> Expr:
         """W = c exp(-int b/a dx), where c is found at a point, or by the theory of the functions; else by the definition."""
         known = special_wronskian(self.y1, self.y2, self.x)
-        W = self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2
-        if known is not None or self.equation.change is not None or W.has(sympy.hyper, sympy.RootSum, sympy.Integral):
-            return W if known is None else known
-        kernel = display(product(self.equation.gauge * 2), Atoms(self.x)).xreplace(NUMBERS)
-        for point in (0, 1, -1, 2):
-            c = sympy.expand(W.subs(self.x, point) / kernel.subs(self.x, point))
-            if c != 0 and c.is_finite is not False and not c.has(sympy.nan, sympy.zoo, sympy.Function):
-                return sympy.radsimp(c) * kernel
-        return W
+        if known is not None:
+            return known
+        if self.equation.change is None and not self.y1.has(*_UNKNOWN) and not self.y2.has(*_UNKNOWN):
+            kernel = display(product(self.equation.gauge * 2), Atoms(self.x)).xreplace(NUMBERS)
+            for point in map(sympy.Integer, (0, 1, -1, 2)):
+                W = wronskian_at(self.y1, self.y2, self.x, point)
+                c = sympy.nan if W is None else sympy.expand(W / kernel.subs(self.x, point))
+                if c != 0 and c.is_finite is not False and not c.has(sympy.nan, sympy.zoo, sympy.Function):
+                    return sympy.radsimp(c) * kernel
+        return self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2
 
     def at_once(self, right: Expr) -> Expr | None:
         """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
@@ -84,11 +89,10 @@ class Basis:
         whole = expand(self.y2 * parts[1] - self.y1 * parts[0])
         candidates = []
         for form in (whole, expand(TR8(whole))) if whole.has(sin, cos) else (whole,):  # TR8: products of waves as waves
-            other = (
-                e for e in sympy.Add.make_args(form) if all(powsimp(e / y).has(self.x) for y in (self.y1, self.y2))
-            )
+            terms = sympy.Add.make_args(form)
+            other = (e for e in terms if not any(_is_constant(e / y, self.x) for y in (self.y1, self.y2)))
             candidates.append(sympy.factor_terms(sympy.Add(*other)))
-        found = min(candidates, key=sympy.count_ops)
+        found = min(candidates, key=size)
         return found if is_solution(found, self.equation, right, self.x) else None
 
     def with_integrals(self, right: Expr, start: Expr | None, seconds: float) -> Expr:
@@ -136,9 +140,17 @@ def special_wronskian(y1: Expr, y2: Expr, x: Expr) -> Expr | None:
     return sympy.cancel(W) if W.is_rational_function(x) else W
 
 
+def _is_constant(quotient: Expr, x: Expr) -> bool:
+    """Is it seen to be constant: not if its slope at a point isn't zero."""
+    with suppress(NotImplementedError):
+        if quotient.has(x) and not jet(quotient, x, acb(arb(fmpq(*_POINTS[0])), 1))[1].contains(0):
+            return False
+    return not powsimp(quotient).has(x)
+
+
 def simplified(expression: Expr) -> Expr:
     """Simplified, if it isn't long: only in a process that can be interrupted."""
-    return sympy.simplify(expression) if expression.count_ops() < _SIMPLIFIED else expression
+    return sympy.simplify(expression) if size(expression) < _SIMPLIFIED else expression
 
 
 def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:

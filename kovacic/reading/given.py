@@ -12,6 +12,7 @@ Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 1.1.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from kovacic.algebra.extension import ExtensionPoly
@@ -91,13 +92,13 @@ class Equation:
         if not self.a:
             raise ValueError("the coefficient of the second derivative is zero")
 
-    @property
+    @cached_property
     def S(self) -> RatFunc:
         """The coefficient of the normal form, equation (1)."""
         quotient = self.b / self.a
         return lowered(quotient.derivative() / 2 + quotient * quotient / 4 - self.c / self.a)
 
-    @property
+    @cached_property
     def gauge(self) -> RatFunc:
         """The logarithmic derivative -b/(2a) of the gauge factor."""
         return lowered(-self.b / (2 * self.a))

@@ -47,7 +47,8 @@ def solutions(
             raise VerificationFailed(
                 f"a special function for S = {S} failed its check; please report the equation: {y}"
             )
-    return None if found is None else (found[0].xreplace(writer.symbols), found[1].xreplace(writer.symbols))
+    own = {plain: symbol for plain, symbol in writer.symbols.items() if plain != symbol}
+    return (found[0].xreplace(own), found[1].xreplace(own)) if found and own else found
 
 
 def _written(writer: Writer, pullback: Pullback) -> tuple[Expr, Expr] | None:
