@@ -271,8 +271,8 @@ def distance_lower(system: System, centre: Point) -> arb | None:
 def check_segment(system: System, a: Point, b: Point) -> None:
     """Raise InputError if the closed segment from a to b contains a singular point, with that point and the distances.
 
-    Exact: den(a + t (b - a)) = A(t) + i B(t) with A, B in Q[t]; the segment is singular where gcd(A, B) has a real zero
-    t in [0, 1].
+    Exact: with z = x or, on a vertical line, z = iy for its points, den(z + ...) = A + i B with A, B in Q[x] or Q[y]; the line
+    is singular where gcd(A, B), on the real axis the denominator itself, has a real zero.
     """
     for name, point in (("start", a), ("end", b)):
         if system.is_singular(point):
@@ -285,14 +285,17 @@ def check_segment(system: System, a: Point, b: Point) -> None:
         start, ahead = to_acb(a), to_acb(step)
         if a == b or not any(_may_meet((root - start) / ahead) for root, _ in system.roots("den", 128)):
             return
-    real, imaginary = along(system.den, a, step)
+    first, length = (a.x, step.x) if step.x != 0 else (a.y, step.y)
+    unit = step.scaled(1 / length)
+    real, imaginary = along(system.den, a - unit.scaled(first), unit)
     poly, prec = real.gcd(imaginary).numer(), 128
     while poly.degree() > 0:
+        roots = _isolated(tuple(int(c) for c in poly.coeffs()), prec)
         with working_precision(prec):
-            inside = [t.real for t, _ in poly.complex_roots() if t.imag.is_zero() and _may_meet(t)]
+            inside = [t for z, _ in roots if z.imag.is_zero() and _may_meet(t := (z - first) / length)]
             if not inside:
                 return
-            t = min(inside, key=lambda t: float(t.mid()))
+            t = min((t.real for t in inside), key=lambda t: float(t.mid()))
             if not (t.contains(0) or t.contains(1)):  # the ends were excluded exactly: else refine
                 distance = float(t.mid()) * math.sqrt(to_fraction(step.norm_squared()))
                 raise InputError(
