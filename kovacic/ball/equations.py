@@ -14,7 +14,7 @@ P. Woronetz, Math. Ann. 70 (1911) 410-453; A. S. Kuleshov & D. V. Katasonova (20
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import sympy as sp
@@ -185,9 +185,9 @@ def _turning(frame: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
     return sp.Matrix([W[2, 1], W[0, 2], W[1, 0]])
 
 
-def residuals() -> dict[str, list[Any]]:
-    """For each formula of `PRINTED`, and for (12) and (13): what vanishes if it is right."""
-    p = {name: value.subs(D, PRINTED["D"]) for name, value in PRINTED.items()}
+def residuals() -> Iterator[tuple[str, list[Any]]]:
+    """For each formula of `PRINTED`, and for (12) and (13), in this order: what vanishes if it is right."""
+    p = {name: value.xreplace({D: PRINTED["D"]}) for name, value in PRINTED.items()}
     in_ball = sp.Matrix.hstack(*_axes(u, v))
     south, east, out = _axes(u1, v1)
     in_space = sp.Matrix.hstack(-sin(theta) * south + cos(theta) * east, cos(theta) * south + sin(theta) * east, -out)
@@ -197,44 +197,51 @@ def residuals() -> dict[str, list[Any]]:
     slip = in_ball.T * rate(r, on_ball) - in_space.T * rate(R1 * out, on_sphere)
     turn = _turning(in_ball, on_ball).applyfunc(tidy)
     spin = _turning(in_space, on_sphere) - turn
-    found = {
-        "c_ij": list(slip.subs(rolling)),
-        "n": [spin[2] - p["n"]],
-        "sigma, tau": [spin[0].subs(rolling) - p["tau"] * dv, spin[1].subs(rolling) - p["sigma"] * du],
-    }
+    yield "c_ij", list(slip.xreplace(rolling))
+    yield "n", [spin[2] - p["n"]]
+    yield "sigma, tau", [spin[0].xreplace(rolling) - p["tau"] * dv, spin[1].xreplace(rolling) - p["sigma"] * du]
     # In the frame: rho leads from the centre of mass to the contact point, whose velocity is zero.
     omega = sp.Matrix([p["tau"] * dv, p["sigma"] * du, n])
     rho, axis = ((in_ball.T * vector).applyfunc(tidy) for vector in (r, sp.Matrix([0, 0, 1])))
     velocity, momentum = rho.cross(omega), A1 * omega + (A3 - A1) * omega.dot(axis) * axis
     energy = p["K11"] * du**2 + p["K22"] * dv**2 + 2 * p["K23"] * dv * n + p["K33"] * n**2
-    found["K_ij"] = [m * velocity.dot(velocity) + omega.dot(momentum) - energy]
+    yield "K_ij", [m * velocity.dot(velocity) + omega.dot(momentum) - energy]
     clock = {u: du, du: ddu, dv: ddv, n: dn}
     force, moment = (rate(vector, clock) + (omega + turn).cross(vector) for vector in (m * velocity, momentum))
     inertia = {z: tidy(force.dot(velocity.diff(z)) + moment.dot(omega.diff(z))) for z in (du, dv, n)}
-    theta_ = {V_u: 0, **{name: energy.diff(z) / 2 for name, z in ((T_u, u), (T_du, du), (T_dv, dv), (T_n, n))}}
+    theta_ = {
+        V_u: sp.Integer(0),
+        **{name: energy.diff(z) / 2 for name, z in ((T_u, u), (T_du, du), (T_dv, dv), (T_n, n))},
+    }
     sides = ((du, "dTheta_u'/dt"), (dv, "dTheta_v'/dt"), (n, "dTheta_n/dt"))
-    found["(7)"] = [inertia[z] - rate(energy.diff(z) / 2, clock) + p[name].subs(theta_) for z, name in sides]
+    yield "(7)", [inertia[z] - rate(energy.diff(z) / 2, clock) + p[name].xreplace(theta_) for z, name in sides]
     # omega_3 = tau sin(psi) v' + cos(psi) n with psi = -u, in place of v'.
     slope = (cos(u) * n - w3) / (p["tau"] * sin(u))
     along = {u: 1, n: p["a1"] * n + p["a2"] * w3, w3: p["b1"] * n + p["b2"] * w3}
-    found["a1, a2, b1, b2"] = [
-        inertia[z].subs({ddv: rate(slope, along) * du, dn: along[n] * du}).subs(dv, slope) for z in (dv, n)
-    ]
+    yield (
+        "a1, a2, b1, b2",
+        [inertia[z].xreplace({ddv: rate(slope, along) * du, dn: along[n] * du}).xreplace({dv: slope}) for z in (dv, n)],
+    )
     growth = sp.diff(p["b1"], u) / p["b1"]
     d1 = -(growth + p["a1"] + p["b2"])
     d2 = growth * p["b2"] - sp.diff(p["b2"], u) + p["a1"] * p["b2"] - p["a2"] * p["b1"]
-    found["(11)"] = [p["d1"] - d1, p["d2"] - d2]
+    yield "(11)", [p["d1"] - d1, p["d2"] - d2]
     # The roots in place of m and a: their sum gives a, and their product is linear in 1/m.
     offset = -R * (A3 - A1) * (x1 + x2) / (2 * A3)
     mass = A1 * A3 / (R**2 * (A3 - A1) * x1 * x2 - A1 * R**2 - A3 * offset**2)
     one, two, S = in_roots(R / R1)
     at = {x: cos(u)}
-    found["(12)"] = [
-        part.subs({m: mass, a: offset})
-        for part in (one.subs(at) * sin(u) ** 2 + cos(u) + p["d1"] * sin(u), two.subs(at) * sin(u) ** 2 - p["d2"])
-    ]
-    found["(13)"] = [S - (sp.diff(one, x) / 2 + one**2 / 4 - two)]
-    return found
+    yield (
+        "(12)",
+        [
+            part.xreplace({m: mass, a: offset})
+            for part in (
+                one.xreplace(at) * sin(u) ** 2 + cos(u) + p["d1"] * sin(u),
+                two.xreplace(at) * sin(u) ** 2 - p["d2"],
+            )
+        ],
+    )
+    yield "(13)", [S - (sp.diff(one, x) / 2 + one**2 / 4 - two)]
 
 
 def vanishes(expression: Any) -> bool:
@@ -248,4 +255,4 @@ def vanishes(expression: Any) -> bool:
 
 def holds() -> dict[str, bool]:
     """For each group of formulas: does the derivation confirm it, for all values of the parameters?"""
-    return {name: all(map(vanishes, parts)) for name, parts in residuals().items()}
+    return {name: all(map(vanishes, parts)) for name, parts in residuals()}
