@@ -130,8 +130,11 @@ def test_random_right_hand_sides(equation: tuple[int, int], terms: list) -> None
     found = undetermined(b, c, right, x)
     assert found is not None
     left = found.diff(x, 2) + b * found.diff(x) + c * found - right
-    for point in (Rational(3, 7), Rational(-5, 4)):
-        assert abs(sympy.N(left.subs(x, point), 30)) < 1e-15 * (1 + abs(sympy.N(right.subs(x, point))))
+    values = sympy.lambdify(x, [left, right], "mpmath", cse=True)
+    with mpmath.workdps(30):
+        for point in (mpmath.mpf(3) / 7, -mpmath.mpf(5) / 4):
+            rest, size = map(abs, values(point))
+            assert rest < 1e-15 * (1 + size)
 
 
 @pytest.mark.parametrize("right", [1 / x, exp(x**2), sympy.tan(x), sympy.log(x), sqrt(x), sin(x**2), sin(x) / cos(x)])
@@ -163,8 +166,8 @@ def test_symbols_are_the_users() -> None:
 def test_integration_ends_in_time(right: str) -> None:
     """SymPy's integration runs in a process that is killed; what isn't done is an `Integral`."""
     start = time.monotonic()
-    found = dsolve(f"y'' + 2*y' + 5*y = {right}", limits=kovacic.Limits(seconds=2)).rhs
-    assert time.monotonic() - start < 2 + 1 + 5  # other processes share the machine
+    found = dsolve(f"y'' + 2*y' + 5*y = {right}", limits=kovacic.Limits(seconds=1)).rhs
+    assert time.monotonic() - start < 1 + 1 + 5  # other processes share the machine
     assert found.has(sympy.Integral)
     part = found.subs({C1: 0, C2: 0})
     left = part.diff(x, 2) + 2 * part.diff(x) + 5 * part - read_expression(right)
@@ -597,8 +600,8 @@ def test_particular_solutions_are_real_to_the_left(right: str) -> None:
 def test_values_with_integrals_that_are_left(ics: dict) -> None:
     """SymPy isn't asked for the integrals from one point to another."""
     start = time.monotonic()
-    found = dsolve("x^2*y'' + x*y' + (4*x^2 - 25/4)*y = cos(3*x)", ics=ics, limits=kovacic.Limits(seconds=3)).rhs
-    assert time.monotonic() - start < 3 + 8
+    found = dsolve("x^2*y'' + x*y' + (4*x^2 - 25/4)*y = cos(3*x)", ics=ics, limits=kovacic.Limits(seconds=2)).rhs
+    assert time.monotonic() - start < 2 + 8
     assert found.free_symbols == {x}
 
 

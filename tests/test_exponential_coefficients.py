@@ -242,7 +242,7 @@ def mp_states(coefficient: Any, x0: Any, x: Any, right: Any = lambda x: 0) -> An
 def test_values_in_the_users_variable(
     equation: str, x0: Any, x: Any, params: dict[str, Any], coefficient: Any, right: Any
 ) -> None:
-    with mpmath.workdps(30):
+    with mpmath.workdps(24):
         y, dy = kovacic.solve(equation).at(x, x0=x0, y0=1, dy0=0, digits=20, derivative=True, params=params)
         expected = mp_states(
             coefficient, mpmath.mpf(sympy.Rational(x0)), mpmath.mpf(sympy.Rational(x)), right or (lambda x: 0)
