@@ -21,7 +21,7 @@ from typing import Any
 
 import flint
 
-from kovacic.enclosure import closed_form, frobenius, journey, transport
+from kovacic.enclosure import classical, closed_form, frobenius, journey, transport
 from kovacic.enclosure.evaluate import evaluate_states
 from kovacic.enclosure.monodromy import connection_matrix, monodromy
 
@@ -193,6 +193,8 @@ COUNTED = {
     "evaluations of one": (transport, "states_at"),
     "Frobenius series": (frobenius, "_expand"),
     "closed-form legs": (closed_form.ClosedForm, "leg"),
+    "legs by FLINT's functions": (classical.Classical, "leg"),
+    "Frobenius solutions by these": (classical.Frobenius, "at"),
     "runs": (journey.Traveller, "at"),
 }
 

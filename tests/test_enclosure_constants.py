@@ -146,7 +146,7 @@ def test_solutions_and_roots_that_the_text_names() -> None:
         ("1/(n*x + 1)", {"params": {"n": arb(0, 1)}}, "isn't defined"),
         ("n*x", {"params": {"n": "I"}}, "isn't real"),
         ("y'' = sqrt(2)*y + 1", {}, "rational coefficients"),
-        ("sqrt(2)*x", {"method": "closed form"}, "needs a Liouvillian solution"),
+        ("sqrt(2)*x", {"method": "closed form"}, "is for solutions of case 1 without a quadrature, and pull-backs"),
         ("sqrt(2)/x", {"frobenius": (1, 0), "y0": None, "dy0": None}, "regular point"),
     ],
 )

@@ -4,9 +4,10 @@ The guarantee: the exact value of the solution (in its homotopy class of paths) 
 most 10^-digits relative to the value, unless the problem forbids it (a value that is zero or can't be told from zero, numbers
 that are balls themselves, a limit that was reached); then the ball is wide and an `AccuracyWarning` says why.
 
-Two independent routes: "taylor" (the equation itself, `kovacic.enclosure.transport`; every S) and "closed form"
-(the certificate of a decision, `kovacic.enclosure.closed_form`; solutions of case 1).  A start at a regular singular point
-begins with its Frobenius series (`kovacic.enclosure.frobenius`), whichever the route.
+Two independent routes: "taylor" (the equation itself, `kovacic.enclosure.transport`; every S) and "closed form" (the
+certificate of a decision, `kovacic.enclosure.closed_form`, solutions of case 1; or FLINT's special functions,
+`kovacic.enclosure.classical`, where S is a pull-back of their equations).  A start at a regular singular point begins with its
+Frobenius series (`kovacic.enclosure.frobenius`), unless FLINT's functions have it.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any, Literal, Required, TypedDict, Unpack, overload
@@ -21,6 +23,7 @@ from typing import Any, Literal, Required, TypedDict, Unpack, overload
 from flint import arb
 
 from kovacic.enclosure.ball import Ball
+from kovacic.enclosure.classical import Classical, NotServed, classical_of
 from kovacic.enclosure.closed_form import ClosedForm, closed_form_of
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.journey import Journey
@@ -34,6 +37,11 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
 Path = Sequence[object] | Literal["chain", "above", "below"] | None
 _APART = arb(2) ** -200  # what is nearer to a singular point can't be told from it
+_NO_CLOSED_FORM = (
+    "the method 'closed form' is for solutions of case 1 without a quadrature, and pull-backs of Airy's, Bessel's, Whittaker's "
+    "and Gauss' equations over Q"
+)
+_TAYLOR = "method='taylor' treats every equation"
 _FEW = 8  # targets up to which a closed form costs less than the Taylor steps, which serve many at once
 
 
@@ -170,11 +178,17 @@ def evaluate_states(
     vertices = tuple(as_number(p, "a vertex of the path") for p in polygon)
     start = read_start(problem, x0, y0, dy0, frobenius, which)
     _check_regular(problem, [n for n in (start.place, *targets, *vertices) if not isinstance(n, Singular)])
-    closed = _closed_form(problem, method, len(targets))
     side = path if path in ("above", "below") else None
-    journey = Journey(problem, start, vertices, targets, path == "chain", side, closed)
+    journey = Journey(problem, start, vertices, targets, path == "chain", side)
     with budget.watched():
-        return raise_precision(journey, "taylor" if closed is None else "closed form", digits, budget)
+        closed = _closed_form(problem, method, targets, digits)
+        if closed is not None:
+            try:
+                return raise_precision(replace(journey, closed=closed), "closed form", digits, budget)
+            except NotServed:
+                if method is not None:
+                    raise InputError("the closed form doesn't prove its values on this path", hint=_TAYLOR) from None
+        return raise_precision(journey, "taylor", digits, budget)
 
 
 def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
@@ -192,24 +206,33 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
                 raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
 
 
-def _closed_form(problem: NumericProblem, method: Method | None, count: int) -> ClosedForm | None:
+def _closed_form(
+    problem: NumericProblem, method: Method | None, targets: Sequence[Number], digits: int
+) -> ClosedForm | Classical | None:
     """The closed form, where it is asked for or the cheaper way by a rule that was measured
     (`benchmarks/enclosure_work_precision.py`).
 
     A closed form without quadrature costs about a millisecond whatever the distance, the digits and the solution's zeros, if
-    its polynomial has a moderate degree: less than the Taylor steps to a few points.
+    its polynomial has a moderate degree, and FLINT's functions cost less: less than the Taylor steps to a few points, or to
+    points beside the real axis.
     """
-    if method == "closed form" and problem.right is not None:
-        raise InputError("the method 'closed form' is for equations without a right-hand side", hint="method='taylor'")
-    decided = problem.decision is not None and problem.decision.case == 1 and problem.right is None
-    if method != "closed form" and (method is not None or not decided or count > _FEW):
+    if method == "taylor":
         return None
-    closed = closed_form_of(problem)
-    if closed is not None and (closed.is_elementary if method else closed.is_cheap):
-        return closed
+    if problem.right is not None:
+        if method is not None:
+            raise InputError(
+                "the method 'closed form' is for equations without a right-hand side", hint="method='taylor'"
+            )
+        return None
+    few = len(targets) <= _FEW
+    if problem.decision is not None and problem.decision.case == 1 and (few or method):
+        closed = closed_form_of(problem)
+        if closed is not None and (closed.is_elementary if method else closed.is_cheap):
+            return closed
+    if method or few or not all(isinstance(target, Point) and target.is_real() for target in targets):
+        classical = None if problem.S is None else classical_of(problem.S)
+        if classical is not None and (method or digits <= classical.most_digits):
+            return classical
     if method is not None:
-        raise InputError(
-            "the method 'closed form' is for solutions of case 1 without a quadrature",
-            hint="method='taylor' treats every equation, and the others as fast",
-        )
+        raise InputError(_NO_CLOSED_FORM, hint=_TAYLOR)
     return None

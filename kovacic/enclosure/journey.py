@@ -18,6 +18,7 @@ from typing import Any
 
 from flint import acb
 
+from kovacic.enclosure.classical import Classical, Frobenius
 from kovacic.enclosure.closed_form import ClosedForm
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.embedded import EmbeddedGauge
@@ -45,7 +46,7 @@ class Journey:
     targets: tuple[Number, ...]
     chain: bool = False
     side: str | None = None
-    closed: ClosedForm | None = None
+    closed: ClosedForm | Classical | None = None
 
     @property
     def is_exact(self) -> bool:
@@ -88,7 +89,7 @@ class Traveller:
     """
 
     problem: NumericProblem
-    closed: ClosedForm | None
+    closed: ClosedForm | Classical | None
     gauge: LogDerivative | EmbeddedGauge | None
     prec: int
     budget: Budget
@@ -100,7 +101,12 @@ class Traveller:
 
     @classmethod
     def at(
-        cls, problem: NumericProblem, x0: Point | Singular, closed: ClosedForm | None, prec: int, budget: Budget
+        cls,
+        problem: NumericProblem,
+        x0: Point | Singular,
+        closed: ClosedForm | Classical | None,
+        prec: int,
+        budget: Budget,
     ) -> Traveller:
         """At the start of a journey."""
         gauge: LogDerivative | EmbeddedGauge | None = None
@@ -223,9 +229,14 @@ class Traveller:
         states = [limit(point, start, self.budget)] * count if count else []
         if len(stops) == count:
             return states
-        last, bound = junction(point, stops[-1], self.prec)
-        needed = [not coordinate.is_zero() for coordinate in start]
-        basis, ahead = Basis(point, last, stops[-1], bound, self.prec, self.budget, needed), stops[-1] - last
+        needed, last = [not coordinate.is_zero() for coordinate in start], stops[-1]
+        basis: Basis | Frobenius
+        if isinstance(self.closed, Classical):
+            basis = self.closed.frobenius(point, self.problem.gauge, needed)
+        else:
+            last, bound = junction(point, last, self.prec)
+            basis = Basis(point, last, stops[-1], bound, self.prec, self.budget, needed)
+        ahead = stops[-1] - last
         for stop in stops[count:]:
             step = stop - last
             if step.x * ahead.x + step.y * ahead.y <= 0:

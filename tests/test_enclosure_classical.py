@@ -1,0 +1,239 @@
+"""FLINT's special functions against the Taylor route, and what they must not be used for."""
+
+from __future__ import annotations
+
+import random
+import warnings
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from flint import acb, ctx, fmpq
+
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.enclosure import classical, classical_functions
+from kovacic.enclosure.ball import ball_to_flint
+from kovacic.enclosure.classical import NotServed, classical_of
+from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states
+from kovacic.enclosure.matrices import product
+from kovacic.enclosure.points import Point
+from kovacic.enclosure.problem import System, as_problem
+from kovacic.enclosure.transport import piece_matrices
+from kovacic.errors import InputError
+from kovacic.limits import Budget
+from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
+
+START: dict[str, Any] = {"y0": 1, "dy0": 0}
+BESSEL = "x^2*y'' + x*y' + (x^2 - ({})^2)*y = 0"
+LEGENDRE = "(1-x^2)*y'' - 2*x*y' + 3/7*y = 0"
+
+
+def a_pullback(kind: str, rng: random.Random) -> Pullback:
+    """A standard equation with random constants, and a function of degree 1 or 2."""
+
+    def few(k: int = 6) -> Fraction:
+        return Fraction(rng.choice([-1, 1]) * rng.randint(1, k), rng.randint(1, 3))
+
+    def constant(value: Fraction) -> Any:
+        return QQ.poly([value])
+
+    x = RatFunc(QQ.poly([0, 1]))
+    f = rng.choice(
+        [x * few(), x * few() + few(), x**2 * few(), x**2 * few() + few(), few() / x, 1 + few() / (x - few())]
+    )
+    mu = rng.choice([Fraction(0), Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(7, 4), Fraction(3)])
+    M = mu * mu - Fraction(1, 4) if rng.random() < 0.8 else few()
+    if kind == "Airy":
+        return Pullback(Airy(constant(few())), f)
+    if kind == "Bessel":
+        q, r = rng.choice([(few(), Fraction(0)), (Fraction(0), few())])
+        return Pullback(Confluent(constant(q), constant(r), constant(M)), f)
+    if kind == "Whittaker":
+        return Pullback(Confluent(constant(few()), constant(few()), constant(M)), f)
+    squares = [rng.choice([few(), mu * mu, Fraction(1, 9), Fraction(0), Fraction(4)]) for _ in range(3)]
+    return Pullback(Gauss(*map(constant, squares)), f)
+
+
+def compare(pullback: Pullback, a: Point, b: Point, bits: int) -> bool:
+    """Do both routes agree on the leg?  False where it isn't served; Taylor steps refuse it, too, or go another way."""
+    with ctx.workprec(bits):
+        try:
+            matrix = classical.Classical(pullback).leg(a, b)
+        except NotServed:
+            return False
+    system = System.of(pullback.S)
+    with ctx.workprec(bits + 20):
+        taylor = product(piece_matrices(system, a, b, bits, Budget()))
+        assert all(m.overlaps(n) for m, n in zip(matrix, taylor, strict=True)), (pullback, a, b, bits)
+        assert (matrix[0] * matrix[3] - matrix[1] * matrix[2]).contains(1)
+    return True
+
+
+def places(rng: random.Random, real: bool) -> tuple[Point, Point]:
+    a, b = (Point(Fraction(rng.randint(-40, 40), 8), 0 if real else Fraction(rng.randint(-24, 24), 8)) for _ in "ab")
+    return a, b
+
+
+def agree_on(kind: str, seed: int, count: int) -> int:
+    rng, served = random.Random(f"{kind} {seed}"), 0
+    for _ in range(count):
+        pullback, (a, b) = a_pullback(kind, rng), places(rng, rng.random() < 0.5)
+        if not System.of(pullback.S).is_singular(a) and not System.of(pullback.S).is_singular(b):
+            served += compare(pullback, a, b, rng.choice([60, 100, 250]))
+    return served
+
+
+@pytest.mark.parametrize("kind", ["Airy", "Bessel", "Whittaker", "Gauss"])
+def test_both_routes_agree_on_random_legs(kind: str) -> None:
+    assert agree_on(kind, 1, 60) > 15
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("kind", ["Airy", "Bessel", "Whittaker", "Gauss"])
+def test_both_routes_agree_on_thousands_of_random_legs(kind: str, seed: int) -> None:
+    assert agree_on(kind, 100 + seed, 250) > 60
+
+
+# what is wrong, where, and the class that shows it
+FAULTS = [
+    ("a root", classical_functions, "square_root", lambda v: acb(v).sqrt() * (1 + acb(2) ** -40), "Gauss"),
+    ("a parameter", classical_functions, "square_root", lambda v: v + fmpq(1, 10**9), "Bessel"),
+    (
+        "the branch",
+        classical,
+        "_followed",
+        lambda p, a, b: (acb(classical._at(p, b)) / classical._at(p, a)).log(),
+        "Airy",
+    ),
+    ("the slit", classical, "_avoids", lambda form, a, b, needed: None, "Gauss"),
+    ("the slit", classical, "_avoids", lambda form, a, b, needed: None, "Bessel"),
+]
+
+
+@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: f"{fault[0]}, {fault[4]}")
+def test_a_planted_fault_is_seen(fault: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    _, module, name, wrong, kind = fault
+    monkeypatch.setattr(module, name, wrong)
+    with pytest.raises((AssertionError, InputError)):  # other values, or values beyond a singular point
+        agree_on(kind, 0, 300)
+
+
+@pytest.mark.parametrize(
+    ("equation", "x0", "x"),
+    [
+        ("x", 0, 2),
+        ("x", 0, "-1 + 3*I"),
+        (BESSEL.format("1/3"), 1, 20),
+        (BESSEL.format("1/3"), -1, -3),
+        (BESSEL.format(0), 2, "1 + I"),
+        ("x^2 - 7/3", -1, 2),  # through a zero of f that is an ordinary point
+        ("x^2 - 7/3", 0, 3),
+        ("x^2 - 7/3", 3, 0),
+        ("1/x^3", 1, 5),
+        ("1/4 - 3/x + 3/(4*x^2)", 1, 9),
+        (LEGENDRE, 0, "1/2"),
+        (LEGENDRE, 2, 5),
+        (LEGENDRE, -3, "-5 + I"),
+        ("x*(1-x)*y'' + (5/4 - 11/6*x)*y' - 1/6*y = 0", "1/3", "9/10"),
+    ],
+)
+@pytest.mark.parametrize("digits", [5, 15, 60, 300])
+def test_the_rule_takes_flints_functions_and_both_agree(equation: str, x0: Any, x: Any, digits: int) -> None:
+    (chosen,), (other,) = (
+        evaluate_states(equation, [x], x0=x0, digits=digits, method=method, **START) for method in (None, "taylor")
+    )
+    assert (chosen.run.method, other.run.method) == ("closed form", "taylor")
+    assert chosen.reached
+    assert chosen.y.overlaps(other.y)
+    assert chosen.dy.overlaps(other.dy)
+    assert chosen.y.real == other.y.real
+
+
+@pytest.mark.parametrize(
+    ("equation", "x0", "x", "start"),
+    [
+        (BESSEL.format("1/3"), 0, 3, (2, 3)),
+        (BESSEL.format("1/3"), 0, -3, (2, 3)),
+        (BESSEL.format("1/3"), 0, "1 + 2*I", (1, 1)),
+        (BESSEL.format("1/3"), 0, ["1/2", 3, 40], (0, 1)),
+        (BESSEL.format(2), 0, 3, (0, 1)),
+        ("x^2*y'' + x*y' + (x^2 - 2)*y = 0", 0, 5, (1, 1)),
+        ("x*(1-x)*y'' + (5/4 - 11/6*x)*y' - 1/6*y = 0", 0, "1/3", (1, 2)),
+        ("x*(1-x)*y'' + (5/4 - 11/6*x)*y' - 1/6*y = 0", 1, "1/3", (1, 2)),
+        (LEGENDRE, 1, "1/3", (0, 1)),
+        ("(x+2)^2*y'' + (x+2)*y' + ((x+2)^4 - 1/9)*y = 0", -2, 1, (1, 1)),
+        ("x*y'' + (4/3 - x)*y' - 2/7*y = 0", 0, 3, (1, -1)),
+    ],
+)
+def test_frobenius_solutions_by_flints_functions(equation: str, x0: Any, x: Any, start: Any) -> None:
+    points = x if isinstance(x, list) else [x]
+    found, others = (
+        evaluate_states(equation, points, x0=x0, frobenius=start, digits=30, method=method)
+        for method in ("closed form", "taylor")
+    )
+    for one, other in zip(found, others, strict=True):
+        assert one.run.method == "closed form"
+        assert one.reached
+        assert one.y.overlaps(other.y)
+        assert one.dy.overlaps(other.dy)
+
+
+def test_logarithms_are_left_to_the_series() -> None:
+    (found,) = evaluate_states(BESSEL.format(2), [3], x0=0, frobenius=(1, 0))
+    assert found.run.method == "taylor"
+    with pytest.raises(InputError, match="doesn't prove its values on this path"):
+        evaluate(BESSEL.format(2), 3, x0=0, frobenius=(1, 0), method="closed form")
+
+
+def test_a_leg_over_a_cut_is_left_to_taylor_steps_or_followed() -> None:
+    for order, method in (("1/3", "closed form"), ("0", "taylor")):  # the powers are followed, Y isn't
+        (found,) = evaluate_states(BESSEL.format(order), ["-3 - I"], x0="1 + I", **START)
+        (other,) = evaluate_states(BESSEL.format(order), ["-3 - I"], x0="1 + I", method="taylor", **START)
+        assert found.y.overlaps(other.y)
+        assert found.run.method == method
+
+
+def test_a_path_around_a_singular_point_is_followed() -> None:
+    for order in ("1/3", "0"):
+        options: dict[str, Any] = {"x0": "1 + I", "path": ["-1 + I", "-1 - I", "1 - I"], **START}
+        (found,) = evaluate_states(BESSEL.format(order), ["1 + I"], **options)
+        (other,) = evaluate_states(BESSEL.format(order), ["1 + I"], method="taylor", **options)
+        assert found.run.method == "closed form"
+        assert found.y.overlaps(other.y)
+        assert found.y.contains(1) is False
+
+
+def test_singular_points_are_refused_as_before() -> None:
+    with pytest.raises(InputError, match="through the singular point 0 "):
+        evaluate(BESSEL.format("1/3"), -1, x0=1, **START)
+    with pytest.raises(InputError, match="through the singular point 1 "):
+        evaluate(LEGENDRE, 2, x0=0, **START)
+
+
+def test_far_away_and_many_digits_cost_no_steps() -> None:
+    states = evaluate_states("x", [10**6, -(10**6)], x0=0, **START)
+    assert all(state.reached and state.run.method == "closed form" for state in states)
+    with ctx.workprec(400):
+        airy, zero = acb(-(10**6)).airy(), acb(0).airy()
+        expected = acb.pi() * (zero[3] * airy[0] - zero[1] * airy[2])
+        assert ball_to_flint(states[1].y).overlaps(expected)
+
+
+def test_many_real_points_share_expansions_and_complex_ones_cost_little() -> None:
+    (first, *_) = evaluate_states("x", [Fraction(k, 50) for k in range(30)], x0=0, **START)
+    assert first.run.method == "taylor"
+    circle = [complex(k - 15, 8) / 16 for k in range(30)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", AccuracyWarning)
+        found, others = (evaluate_states("x", circle, x0=0, method=method, **START) for method in (None, "taylor"))
+    assert {state.run.method for state in found} == {"closed form"}
+    assert all(one.y.overlaps(other.y) for one, other in zip(found, others, strict=True))
+
+
+@pytest.mark.parametrize("S", ["x^3 + x + 1", "10^8/x^2 - 1", "x^30 + 1", "1/(x^2-2)^2"])
+def test_other_equations_and_large_parameters_are_left_to_taylor_steps(S: str) -> None:
+    rational = as_problem(S).S
+    assert rational is not None
+    assert classical_of(rational) is None
