@@ -170,6 +170,20 @@ def case_1_apparent(draw: st.DrawFn) -> Example:
     return Example(transform.from_omega(omega), 1, "case 1: apparent")
 
 
+@st.composite
+def case_1_orthogonal(draw: st.DrawFn) -> Example:
+    """Laguerre's and Jacobi's polynomials, x^((a+1)/2) exp(-x/2) L_n^a and x^((a+1)/2) (1-x)^((b+1)/2) P_n(a, b), n <= 60.
+
+    The degree of P is n, far above the least ladder of degrees, and the exponents are fractions [Szego 1939, chapters IV, V].
+    """
+    n, a, b = draw(st.integers(0, 60)), draw(fractions(4, (2, 3, 4, 5))), draw(fractions(4, (2, 3, 5)))
+    if draw(st.booleans()):
+        S = Fraction(1, 4) - (2 * n + a + 1) / (2 * X) + (a * a - 1) / (4 * X**2)
+    else:
+        S = transform.hypergeometric(a, b, 2 * n + a + b + 1)
+    return Example(S, 1, "case 1: orthogonal polynomials")
+
+
 # ------------------------------------------------------------------------------------------------ case 2
 
 
@@ -461,6 +475,7 @@ GENERATORS: dict[str, Callable[[], st.SearchStrategy[Example]]] = {
     "case 1: diagonal": case_1_diagonal,
     "case 1: scalar": case_1_scalar,
     "case 1: apparent": case_1_apparent,
+    "case 1: orthogonal polynomials": case_1_orthogonal,
     "case 2: semi-invariant": case_2_semi_invariant,
     "case 2: quaternion": case_2_quaternion,
     "case 2: dihedral": case_2_dihedral,

@@ -11,9 +11,11 @@ from typing import Any
 
 import pytest
 import strategies
+import textbook
+import transform
 from flint import nmod_poly
 from forged import forged_evidence
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import kovacic
@@ -21,7 +23,7 @@ from kovacic.algebra.modular import rational_function_from_series
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import NoInvariant, NoRationalOmega, SemiInvariant, Structure
-from kovacic.engine.degree_bound import irregular_difference_squared
+from kovacic.engine.degree_bound import DegreeBound, degree_bound, irregular_difference_squared
 from kovacic.engine.places import analyse
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.galois import Ground
@@ -94,6 +96,59 @@ def test_the_search_and_the_kernel_find_the_same_exponents_at_irregular_places(p
     problem = analyse(RatFunc(N, p ** (2 * nu) * q), Budget())
     place = next(place for place in problem.finite_places if place.factor == p)
     assert irregular_difference_squared(place) == exponent_difference_squared(N, q, p, nu)
+
+
+@settings(max_examples=20)
+@given(strategies.irreducibles(3), st.integers(5, 9), strategies.polynomials(0, 26))
+def test_exponents_of_the_search_with_long_numerators(p: Any, nu: int, M: Any) -> None:
+    """sqrt(S) = M/p^nu: its residue at the class of x, and the difference of the exponents is twice that."""
+    assume(p.gcd(M).degree == 0)
+    place = analyse(RatFunc(M * M, p ** (2 * nu)), Budget()).places[0]
+    assert irregular_difference_squared(place) == 4 * _residue(M, p, nu) ** 2 % p
+
+
+@settings(max_examples=80)
+@given(st.one_of(strategies.omegas(), strategies.case_1_orthogonal()))
+@example((X + 1) / (X**2 - 2))
+@example((2 * X + 3) / (X**2 + 1) + 1 / (X - 1) + 1)
+@example((X**2 - 5) / (X**3 - 2) + X)
+@example((X + 1) / (X**2 - 3) + (5 * X - 2) / (X**2 + 1) ** 2)
+def test_a_solution_has_one_of_the_possible_numbers_of_zeros(given_: Any) -> None:
+    """For y with a rational omega the exponents at a place sum up to half its weights, plus or minus the choice there.
+
+    The sums are those of the residues of omega (at infinity 1 minus all of them), and the zeros of y number 1 minus the sum
+    of all exponents: both in the search and in the kernel.
+    """
+    omega = given_ if isinstance(given_, RatFunc) else kovacic.solve(str(given_.S)).omega
+    problem = analyse(transform.from_omega(omega), Budget())
+    places, points = problem.places, Inspector(problem.S, Budget()).points
+    sums = {place: _sum_of_residues(omega, place.factor) for place in problem.finite_places}
+    zeros = sum((_sum_of_residues(omega, p) for p, _ in QQ.factor(omega.den)), Fraction(0)) - sum(sums.values())
+    sums[places[-1]] = 1 - sum(sums.values()) - zeros
+    bound, counts = degree_bound(problem), zero_counts(points)
+    assert isinstance(bound, DegreeBound)
+    assert counts is not None
+    assert zeros <= bound.largest == counts.largest
+    assert [abs(half) for _, half in bound.choices] == [abs(half) for _, half in counts.choices]
+    for place, half in bound.choices:
+        assert abs(half) == abs(sums[place] - Fraction(place.degree * place.weight, 2))
+        allowed, point = bound.exponents(place), next(point for point in points if point.name == place.name)
+        if allowed is not None:
+            assert sums[place] in allowed
+            assert set(allowed) <= {Fraction(place.weight, 2) + sign * half for sign in (1, -1)}
+            assert {e for e, n in counts.by_exponent(point) or [] if n >= zeros} >= {sums[place]}
+    for place, e in sums.items():
+        if place.logarithm and place.delta is not None:
+            assert e == place.degree * (1 + place.delta) / 2
+
+
+def _sum_of_residues(f: RatFunc, p: Any) -> Fraction:
+    """Over the roots of p: the coefficient of 1/x at infinity of the part of f with the powers of p in its denominator."""
+    rest, order = f.den.remove(p)
+    if not order:
+        return Fraction(0)
+    part = f.num * rest.inverse_modulo(p**order) % p**order
+    return (part[order * p.degree - 1] / (p**order).lc).constant()
 
 
 @pytest.mark.parametrize("p", ["x^2+1", "x^2-2", "x^3-2"])
@@ -354,6 +409,14 @@ SOLVABLE = {
     "(16*x - 3)/(16*x^2)": Structure.IMPRIMITIVE,
     "1/x - 3/(16*x^2)": Structure.IMPRIMITIVE,
     "-3/(16*x^2) - 2/(9*(x-1)^2) + 3/(16*x*(x-1))": Structure.TETRAHEDRAL,
+    "(-135*x^2 + 115*x - 108)/(576*x^4 - 1152*x^3 + 576*x^2)": Structure.OCTAHEDRAL,  # 1/2, 1/3, 1/4
+    "(-864*x^2 + 739*x - 675)/(3600*x^4 - 7200*x^3 + 3600*x^2)": Structure.ICOSAHEDRAL,  # 1/2, 1/3, 1/5
+}
+
+# The same groups with an apparent singularity, where the exponent difference is 2.
+SOLVABLE |= {
+    str(transform.pull_back(transform.hypergeometric(Fraction(1, 2), Fraction(1, 3), third), X**2 + 5)): structure
+    for third, structure in zip((Fraction(1, 3), Fraction(1, 4), Fraction(1, 5)), [*Structure][2:], strict=True)
 }
 
 
@@ -387,7 +450,7 @@ def test_which_places_tell_the_solutions_apart(text: str, expected: dict[str, bo
 @pytest.mark.parametrize(
     "omega",
     [1 + 1 / X**3, X + 1 / X**2, 2 + 1 / X**4 + 1 / (X - 1), 1 / X**3 + 1 / (X - 2) ** 2, X**2 + 3 / X**5,
-     1 + 1 / (3 * X), 1 + 2 / (3 * X), X - 1 / (4 * X) + 3 / (5 * (X - 1)), X + 5 / (4 * X)],
+     1 + 1 / X, 1 + 2 / X, X + 3 / X, 1 + 1 / (3 * X), 1 + 2 / (3 * X), X - 1 / (4 * X) + 3 / (5 * (X - 1)), X + 5 / (4 * X)],
     ids=str,
 )  # fmt: skip
 def test_a_rational_omega_is_found_from_every_place(omega: RatFunc) -> None:
@@ -403,6 +466,26 @@ def test_a_rational_omega_is_found_from_every_place(omega: RatFunc) -> None:
             evidence = (NoInvariant(2, prime, 3, 0), NoRationalOmega(counts.largest, prime, point.name))
             assert not inspector._no_rational_omega(evidence[1]), point.name
             assert not inspector.excludes(Structure.REDUCIBLE, evidence)
+
+
+@pytest.mark.parametrize(
+    "S",
+    [Fraction(1, 4) - 3 / X - 4 / (X - 1), Fraction(1, 4) - 6 / X + 2 / X**2 - 3 / (X - 1),
+     Fraction(1, 4) - 7 / X - 9 / (X - 1) + 6 / X**2, 1 + 4 / X + 2 / X**2 + 2 / (X - 1),
+     Fraction(1, 4) - Fraction(19, 3) / X - Fraction(2, 9) / X**2 - 3 / (X - 1), X**2 - 13 + 2 / (X - 1) ** 2 + 1 / X],
+    ids=str,
+)  # fmt: skip
+def test_that_no_omega_is_rational_is_proven_at_every_place(S: RatFunc) -> None:
+    """With room for zeros, as Kovacic's own search finds; logarithms at differences 1, 3, 5; poles."""
+    assert textbook.decide(S.num.coefficients(), S.den.coefficients(), limit=3000)[0] is None  # type: ignore[attr-defined]
+    assert kovacic.solve(str(S)).verified
+    inspector = Inspector(S, Budget())
+    counts, prime = zero_counts(inspector.points), next(QQ.homomorphisms()).p
+    assert counts is not None
+    assert counts.largest >= 0
+    places = [point.name for point in inspector.points if point.tells_solutions_apart]
+    assert len(places) > 1
+    assert all(inspector._no_rational_omega(NoRationalOmega(counts.largest, prime, name)) for name in places)
 
 
 # ------------------------------------------------------------------------------------------- limits
@@ -486,6 +569,7 @@ TORSION = [
     (through(X**5 + 1, 0, 1), 5),  # y - 1 has the divisor 5 P - 5 infinity
     (through(X**7 + 9, 0, 3), 7),
     (through(X**6 + 1, 0, 1), 3),  # (y - 1)/x^3 has the divisor 3 P less its conjugate
+    (through(X**3 + 1, 2, 3)(X**3 + 1) * 9 * X**4, 3),  # the first one for x^3 + 1 in place of x: a zero of order 4
     ((X**2 + 3) ** 2 / (X**6 + 1), 3),  # residues over infinity, where y + x^3 has its zeros and poles
     (X**2 / (X**4 + 3), 2),  # y + x^2
 ]

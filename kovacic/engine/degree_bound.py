@@ -30,7 +30,7 @@ def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
             if place.kind is Kind.REGULAR:
                 top = bottom + 4 * top
             if is_provably_not_a_square(top * bottom % p, p):
-                return NecessaryCondition(Rule.NOT_A_SQUARE, (str(place),))
+                return NecessaryCondition(Rule.NOT_A_SQUARE, (place.name,))
     return None
 
 
@@ -132,7 +132,7 @@ def irregular_difference_squared(place: Place) -> Poly:
     u = N * E % end
     v = u[0].inverse()
     u = u * v
-    root, known = (3 - u) / 2 % t**2, 2  # Newton's first step, from 1
+    root, known = (3 - u) / 2, 2  # Newton's first step, from 1
     while known < nu:
         known = min(2 * known, nu)
         ahead = t**known
@@ -146,8 +146,7 @@ def _moved(f: Poly, c: Poly, count: int) -> Poly:
     """f(t + c) modulo t^count, a long polynomial by halves."""
     t = c.field.poly([0, 1])
     if not c or f.degree < _FEW_TERMS or c.field == f.field:
-        moved = f(t + c) if c else f.over(c.field)
-        return moved if moved.degree < count else moved % t**count
+        return (f(t + c) if c else f.over(c.field)) % t**count
     half = (f.degree + 1) // 2
     high, low = divmod(f, f.field.poly([0, 1]) ** half)
     return (_moved(high, c, count) * (t + c) ** half + _moved(low, c, count)) % t**count

@@ -229,7 +229,7 @@ class LocalEquation:
 
 def local_equation(num: Any, den: Any, order: int) -> LocalEquation:
     """y'' = num/den y modulo p, with a pole of this order at t = 0.  Raises `BadPrimeError` if it has another order."""
-    if any(den.coeffs()[:order]) or not den[order]:
+    if not den[order]:
         raise BadPrimeError("the order of a pole changes")
     if order == 1:
         return LocalEquation(num.left_shift(1), den.right_shift(1), 2)
@@ -252,7 +252,7 @@ def reduced_equation(equation: LocalEquation, Q: Any) -> tuple[Any, Any, Any]:
 def logarithm_obstruction(equation: LocalEquation, delta: int) -> int:
     """The term of order delta that the series with exponent (1 - delta)/2 can't compensate, modulo p."""
     p = equation.p
-    alpha = (1 - delta) * pow(2, -1, p) % p
+    alpha = (1 - delta) * pow(2, -1, p)
     second, first, zeroth = reduced_equation(equation, nmod_poly([alpha], p))
     u = series_solution(second, first, zeroth, delta)
     residual = second * u.derivative().derivative() + first * u.derivative() + zeroth * u

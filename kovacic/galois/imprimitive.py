@@ -179,7 +179,7 @@ def _order_modulo(h: Homomorphism, curve: Curve, l: int) -> int | None:  # noqa:
         points = _moved(points, curve.infinity, p)
     # g = c b Q^2 with b of the branch points, and eta = dx/(s Q) on s^2 = b/c': s = 1/(residue * Q') at a pole shows c'.
     branch = prod((image for image, e, _ in points if e % 2), start=one)
-    above = prod((image ** (e // 2) for image, e, _ in points if e > 1), start=one)
+    above = prod((image for image, e, _ in points if e == 2), start=one)
     below = prod((image ** (-(e // 2)) for image, e, _ in points if e < 0), start=one)
     poles = [
         (image, r, below * _inverse(above.derivative() * (r.numerator * pow(r.denominator, -1, p) % p), image) % image)

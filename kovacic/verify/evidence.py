@@ -109,7 +109,7 @@ class Inspector:
             return not reducible and any(point.logarithm for point in named)
         if rule is Rule.IRREGULAR:
             return structure.case == 3 and any(point.order > 2 for point in named)
-        differences = [point.difference for point in named if 0 < point.order <= 2]
+        differences = [point.difference for point in named]
         return structure.case == 3 and any(d is None or d.denominator not in _ORDERS[structure] for d in differences)
 
     def _at_prime(self, p: int, claim: Callable[[Homomorphism], bool]) -> bool:

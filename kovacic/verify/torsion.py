@@ -58,11 +58,10 @@ class _Divisor:
         while known < most:
             known = min(2 * known, most)
             v = (v - (v * v - self.h) * _inverse(2 * v, radical**known)) % radical**known
-        r0, r1, t0, t1 = U, v % U, one * 0, one
+        r0, r1 = U, v % U
         while 2 * r1.degree() > U.degree():
-            quotient, rest = divmod(r0, r1)
-            r0, r1, t0, t1 = r1, rest, t1, t0 - quotient * t1
-        return bool(2 * t1.degree() + self.h.degree() <= U.degree())
+            r0, r1 = r1, r0 % r1
+        return bool(U.degree() + self.h.degree() <= 2 * r0.degree())  # a = r1, deg b = deg U - deg r0
 
 
 def _divisor(H: RatFunc, residues: set[Fraction], h: Homomorphism) -> _Divisor:
