@@ -18,11 +18,10 @@ import sympy as sp
 from ball_quadratures import quadratures
 from numpy.polynomial import chebyshev
 
-from kovacic.ball import Ball
-from kovacic.ball.dynamics import Dynamics
+from kovacic.ball import Ball, U
+from kovacic.ball.dynamics import Dynamics, Force, potential_of
 from kovacic.ball.motion import State, as_float, solve_motion
 from kovacic.ball.plot import draw
-from kovacic.ball.potential import Force, U, potential_of
 from kovacic.errors import InputError, LimitExceeded
 
 POTENTIAL = sp.Rational(3, 2) * sp.cos(U)

@@ -29,7 +29,7 @@ from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import values_at, wronskian_at
 from kovacic.general_solution.variation import DefiniteIntegral
-from kovacic.reading.equation import parse_equation
+from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import read_expression
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
@@ -292,7 +292,7 @@ def test_the_solutions_of_a_constant_riccati_equation() -> None:
 
 def checked(text: str, solution: sympy.Eq, points: tuple[str, ...] = ("0.37", "2.55"), **values: Any) -> None:
     """The solution of an equation a y'' + b y' + c y = f, substituted, at points and with values for the symbols."""
-    equation, _ = parse_equation(text, variable="x")
+    equation = read_input(text, var="x").equation
     a, b, c = (read_expression(part.to_str("x")) for part in (equation.a, equation.b, equation.c))
     right = read_expression(equation.f.to_str("x")) + (equation.h or 0)
     value = solution.rhs
@@ -432,7 +432,7 @@ def test_steps_and_impulses(left: str, right: str) -> None:
     for side in (0, 1):
         value, force = (e.replace(sympy.Heaviside, partial(step, side)) for e in (solution, forcing))
         force = force.replace(sympy.DiracDelta, lambda *_: sympy.Integer(0))
-        equation, _ = parse_equation(left)
+        equation = read_input(left).equation
         a, b, c = (read_expression(part.to_str("x")) for part in (equation.a, equation.b, equation.c))
         rest = a * value.diff(x, 2) + b * value.diff(x) + c * value - force
         assert abs(sympy.N(rest.subs(x, side + Rational(1, 3)), 30)) < 1e-20

@@ -21,9 +21,9 @@ import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
-from kovacic.reading.equation import parse_equation, parse_sympy_equation
 from kovacic.reading.given import Equation
 from kovacic.reading.lexer import is_equation
+from kovacic.reading.read import read_input
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO = X * 0
@@ -51,9 +51,9 @@ def bessel(order: Fraction) -> Equation:
     ],
 )
 def test_one_equation_in_many_notations(text: str) -> None:
-    equation, notices = parse_equation(text)
-    assert equation == bessel(Fraction(1, 2))
-    assert notices == ()
+    parsed = read_input(text)
+    assert parsed.equation == bessel(Fraction(1, 2))
+    assert parsed.notices == ()
 
 
 @pytest.mark.parametrize(
@@ -69,16 +69,16 @@ def test_one_equation_in_many_notations(text: str) -> None:
     ],
 )
 def test_names_are_found(text: str, variable: str, unknown: str) -> None:
-    equation, _ = parse_equation(text)
+    equation = read_input(text).equation
     assert (equation.variable, equation.unknown) == (variable, unknown)
 
 
 def test_the_names_can_be_given() -> None:
-    equation, notices = parse_equation("y'' + k^2*y = 0", variable="x")
-    assert (equation.variable, len(notices)) == ("x", 1)
-    equation, notices = parse_equation("y'' + k^2*y = 0", variable="k")
-    assert equation.c == X**2
-    assert not notices
+    parsed = read_input("y'' + k^2*y = 0", var="x")
+    assert (parsed.equation.variable, len(parsed.notices)) == ("x", 1)
+    parsed = read_input("y'' + k^2*y = 0", var="k")
+    assert parsed.equation.c == X**2
+    assert not parsed.notices
 
 
 @pytest.mark.parametrize(
@@ -96,7 +96,7 @@ def test_the_names_can_be_given() -> None:
 )
 def test_right_hand_sides(right: str, f: RatFunc, h: sympy.Expr | None) -> None:
     for text in (f"y'' + y = {right}", f"y'' + y - ({right})", f"{right} = y + y''"):
-        equation, _ = parse_equation(text)
+        equation = read_input(text).equation
         assert equation.f == f
         assert equation.h == h
         assert equation.c == 1
@@ -129,7 +129,7 @@ def test_right_hand_sides(right: str, f: RatFunc, h: sympy.Expr | None) -> None:
 )
 def test_refusals_have_a_place(text: str, kind: type, message: str, position: int) -> None:
     with pytest.raises(kind) as caught:
-        parse_equation(text)
+        read_input(text)
     assert message in str(caught.value)
     assert caught.value.position == position
 
@@ -138,8 +138,8 @@ def test_refusals_have_a_place(text: str, kind: type, message: str, position: in
 @settings(max_examples=40)
 def test_text_of_an_equation_reads_back(a: RatFunc, b: RatFunc, c: RatFunc) -> None:
     equation = Equation(a, b, c, b * c)
-    assert parse_equation(str(equation))[0] == equation
-    assert parse_equation(equation.text(caret=False))[0] == equation
+    assert read_input(str(equation)).equation == equation
+    assert read_input(equation.text(caret=False)).equation == equation
 
 
 @given(strategies.rational_functions(), strategies.rational_functions(), strategies.rational_functions())
@@ -149,7 +149,7 @@ def test_sympy_equations_read_like_text(a: RatFunc, b: RatFunc, c: RatFunc) -> N
     A, B, C = (sympy.sympify(value.to_str()) for value in (a, b, c))
     expression = A * y(x).diff(x, 2) + B * y(x).diff(x) + C * y(x)
     for given_form in (expression, sympy.Eq(A * y(x).diff(x, 2), -B * y(x).diff(x) - C * y(x))):
-        assert parse_sympy_equation(given_form)[0] == equation
+        assert read_input(given_form).equation == equation
 
 
 @given(strategies.rational_functions(), strategies.rational_functions())
@@ -235,7 +235,7 @@ def test_garbage_is_refused_with_an_input_error(text: str) -> None:
     if not is_equation(text):
         return
     with contextlib.suppress(kovacic.InputError, kovacic.LimitExceeded):
-        parse_equation(text)
+        read_input(text)
 
 
 @pytest.mark.parametrize(

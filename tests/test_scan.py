@@ -21,7 +21,8 @@ from kovacic.batch.records import LABELS, Record, label_of
 from kovacic.batch.scan import Grid, Template, parse_grid, points, scan_items
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
-from kovacic.reading.expression import parse_rational, parse_with
+from kovacic.reading.expression import parse_with
+from kovacic.reading.read import read_input
 
 fractions = st.fractions(min_value=-50, max_value=50, max_denominator=30)
 
@@ -95,7 +96,7 @@ def test_the_last_parameter_changes_fastest() -> None:
 def test_the_text_of_a_point_means_what_the_parameter_meant(value: Fraction, text: str) -> None:
     arithmetic = Arithmetic()
     direct = parse_with(text, {"x": VARIABLE, "n": arithmetic.constant(value)}, arithmetic)
-    assert parse_rational(substitute(text, {"n": value}), variable="x").S == arithmetic.rational(direct)
+    assert read_input(substitute(text, {"n": value}), var="x").S == arithmetic.rational(direct)
 
 
 def test_only_whole_names_are_parameters() -> None:
@@ -105,9 +106,9 @@ def test_only_whole_names_are_parameters() -> None:
     with pytest.raises(InputError, match="no parameter m"):
         substitute("n*x", {"m": Fraction(2)})
     with pytest.raises(ParseError):
-        parse_rational(substitute("1/2n", {"n": Fraction(2)}))
+        read_input(substitute("1/2n", {"n": Fraction(2)}))
     with pytest.raises(NotRational):
-        parse_rational(substitute("x^n", {"n": Fraction(1, 3)}))
+        read_input(substitute("x^n", {"n": Fraction(1, 3)}))
 
 
 @pytest.mark.parametrize("ranges", [[], ["n=1", "n=2"], ["x=1", "n=1"]])

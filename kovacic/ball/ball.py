@@ -113,8 +113,8 @@ class Ball:
     A3: Scalar
 
     def __post_init__(self) -> None:
-        for name in ("m", "R", "a", "A1", "A3"):
-            value = exact(getattr(self, name), name)
+        for name, given in zip(self.__slots__, self.parameters, strict=True):
+            value = exact(given, name)
             object.__setattr__(self, name, value)
             if name != "a" and sign(value) in (0, -1):
                 raise InputError(f"there is no such body: {name} > 0 fails, as {name} = {value}")
@@ -174,16 +174,20 @@ class BallOnSphere:
         return sp.factor(m * R**2 * (A3 - A1))
 
     @property
-    def B(self) -> sp.Expr:
-        """(A3 + m R^2)(A3 - A1) - A3 m a^2."""
-        m, R, a, A1, A3 = self.ball.parameters
-        return (A3 + m * R**2) * (A3 - A1) - A3 * m * a**2
+    def half(self) -> sp.Expr:
+        """D'(x)/2."""
+        return sp.expand(sp.diff(self.D, X) / 2)
+
+    @property
+    def weight(self) -> sp.Expr:
+        """m R^2 A1."""
+        m, R, _, A1, _ = self.ball.parameters
+        return m * R**2 * A1
 
     @property
     def discriminant(self) -> sp.Expr:
-        """The discriminant of D, -4 m R^2 A1 B; 0: a double root, x1 = x2."""
-        m, R, _, A1, _ = self.ball.parameters
-        return settled(sp.factor(-4 * m * R**2 * A1 * self.B))
+        """The discriminant of D; 0: a double root, x1 = x2."""
+        return settled(sp.factor(4 * (self.half**2 - self.leading * self.D)))
 
     @property
     def roots(self) -> tuple[sp.Expr, ...]:
@@ -206,10 +210,9 @@ class BallOnSphere:
     @property
     def linear_system(self) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
         """a1, a2, b1, b2 divided by sin u, in x: dn/du = a1 n + a2 omega_3, d omega_3/du = b1 n + b2 omega_3."""
-        m, R, _, A1, _ = self.ball.parameters
-        rho, half = self.ratio, sp.diff(self.D, X) / 2
-        parts = (-rho * half, (1 + rho) * self.B, rho * m * R**2 * A1, (1 + rho) * half)
-        a1, a2, b1, b2 = (sp.factor(part / self.D) for part in parts)
+        D, rho, half, weight = self.D, self.ratio, self.half, self.weight
+        across = (1 + rho) * sp.expand(self.leading * D - half**2) / weight
+        a1, a2, b1, b2 = (sp.factor(part / D) for part in (-rho * half, across, rho * weight, (1 + rho) * half))
         return a1, a2, b1, b2
 
     @property
@@ -219,11 +222,10 @@ class BallOnSphere:
         On the plane, where omega_3 sqrt(D) is constant, the limit of (12) for R1 -> infinity: every omega_3 satisfies it, but
         not every solution of it is an omega_3.
         """
-        D = self.D
-        return sp.factor(3 * sp.diff(D, X) / (2 * D)), sp.factor(self.leading * (1 - self.ratio**2) / D)
+        return sp.factor(3 * self.half / self.D), sp.factor(self.leading * (1 - self.ratio**2) / self.D)
 
     @property
     def S(self) -> sp.Expr:
         """The right-hand side of (13), y'' = S(x) y."""
-        D, slope = self.D, sp.diff(self.D, X)
-        return sp.factor((8 * self.leading * (1 + 2 * self.ratio**2) * D - 3 * slope**2) / (16 * D**2))
+        D, half = self.D, self.half
+        return sp.factor((2 * self.leading * (1 + 2 * self.ratio**2) * D - 3 * half**2) / (4 * D**2))

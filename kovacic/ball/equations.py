@@ -31,60 +31,48 @@ du, dv, dtheta, du1, dv1, ddu, ddv, dn = sp.symbols("u' v' theta' u1' v1' u'' v'
 #: The partial derivatives of the kinetic energy Theta, and dV/du.
 T_u, T_du, T_dv, T_n, V_u = sp.symbols("Theta_u Theta_u' Theta_v' Theta_n V_u")
 
-#: How names are written in LaTeX, and what stands on the left of (7).
+#: How names are written in LaTeX.
 _TEX = {
     **{symbol: rf"\dot{{{tex}}}" for symbol, tex in ((du, "u"), (dv, "v"), (dtheta, r"\theta"))},
-    du1: r"\dot{u}_{1}",
-    dv1: r"\dot{v}_{1}",
-    T_u: r"\frac{\partial\Theta}{\partial u}",
-    T_du: r"\frac{\partial\Theta}{\partial\dot{u}}",
-    T_dv: r"\frac{\partial\Theta}{\partial\dot{v}}",
-    T_n: r"\frac{\partial\Theta}{\partial n}",
+    **{symbol: rf"\dot{{{tex}}}_{{1}}" for symbol, tex in ((du1, "u"), (dv1, "v"))},
+    **{
+        symbol: rf"\frac{{\partial\Theta}}{{\partial{tex}}}"
+        for symbol, tex in ((T_u, " u"), (T_du, r"\dot{u}"), (T_dv, r"\dot{v}"), (T_n, " n"))
+    },
     V_u: r"\frac{dV}{du}",
 }
 
-_LEFT = {
-    f"dTheta_{name}/dt": r"\frac{d}{dt}" + _TEX[symbol] for name, symbol in (("u'", T_du), ("v'", T_dv), ("n", T_n))
-}
-
 _k, _eps, _tilt = 1 + R / R1, R + a * cos(u), (A3 - A1) * R * cos(u) + A3 * a
+_s, _c, _rho, _pull = sin(u), cos(u), R / R1, R / (R + R1)
 #: What the paper prints, by name; D is a name in a1, ..., d2.
 PRINTED: dict[str, sp.Expr] = {
-    "c11": -R / R1 * sin(theta),
-    "c12": R / R1 * sin(u) * cos(theta),
-    "c21": R / R1 * cos(theta) / sin(u1),
-    "c22": R / R1 * sin(u) * sin(theta) / sin(u1),
-    "n": -dtheta - cos(u) * dv - cos(u1) * dv1,
+    "c11": -_rho * sin(theta),
+    "c12": _rho * _s * cos(theta),
+    "c21": _rho * cos(theta) / sin(u1),
+    "c22": _rho * _s * sin(theta) / sin(u1),
+    "n": -dtheta - _c * dv - cos(u1) * dv1,
     "sigma": -_k,
-    "tau": _k * sin(u),
-    "K11": _k**2 * (A1 + m * (R**2 + a**2 + 2 * R * a * cos(u))),
-    "K22": _k**2 * sin(u) ** 2 * (m * _eps**2 + A1 * cos(u) ** 2 + A3 * sin(u) ** 2),
-    "K23": _k * sin(u) ** 2 * (m * a * _eps - (A3 - A1) * cos(u)),
-    "K33": (A1 + m * a**2) * sin(u) ** 2 + A3 * cos(u) ** 2,
+    "tau": _k * _s,
+    "K11": _k**2 * (A1 + m * (R**2 + a**2 + 2 * R * a * _c)),
+    "K22": _k**2 * _s**2 * (m * _eps**2 + A1 * _c**2 + A3 * _s**2),
+    "K23": _k * _s**2 * (m * a * _eps - (A3 - A1) * _c),
+    "K33": (A1 + m * a**2) * _s**2 + A3 * _c**2,
     "dTheta_u'/dt": T_u
-    + (1 - R**2 / R1**2) * sin(u) * dv * T_n
-    + R / ((R + R1) * sin(u)) * n * T_dv
-    + m * R * a * sin(u) * n**2
-    + m * R * _k * _eps * sin(u) * n * dv
+    + (1 - _rho**2) * _s * dv * T_n
+    + _pull / _s * n * T_dv
+    + m * R * a * _s * n**2
+    + m * R * _k * _eps * _s * n * dv
     - V_u,
-    "dTheta_v'/dt": -(1 - R**2 / R1**2) * sin(u) * du * T_n
-    - R / (R + R1) * sin(u) * n * T_du
-    - m * R * _k * _eps * sin(u) * du * n,
-    "dTheta_n/dt": R / (R + R1) * sin(u) * dv * T_du
-    - R / ((R + R1) * sin(u)) * du * T_dv
-    - m * R * a * sin(u) * du * n,
-    "D": A1 * A3 + A1 * m * R**2 * sin(u) ** 2 + A3 * m * (R * cos(u) + a) ** 2,
-    "a1": -m * R**2 * _tilt * sin(u) / (R1 * D),
-    "a2": (R1 + R) * ((A3 + m * R**2) * (A3 - A1) - A3 * m * a**2) * sin(u) / (R1 * D),
-    "b1": m * R**3 * A1 * sin(u) / (R1 * D),
-    "b2": m * R * (R1 + R) * _tilt * sin(u) / (R1 * D),
-    "d1": -(
-        2 * m * R**2 * (A3 - A1) * sin(u) ** 2 * cos(u)
-        + (3 - cos(u) ** 2) * m * R * a * A3
-        + A3 * (A1 + m * R**2 + m * a**2) * cos(u)
-    )
-    / (D * sin(u)),
-    "d2": m * R**2 * (R1**2 - R**2) * (A3 - A1) * sin(u) ** 2 / (R1**2 * D),
+    "dTheta_v'/dt": -(1 - _rho**2) * _s * du * T_n - _pull * _s * n * T_du - m * R * _k * _eps * _s * du * n,
+    "dTheta_n/dt": _pull * _s * dv * T_du - _pull / _s * du * T_dv - m * R * a * _s * du * n,
+    "D": A1 * A3 + A1 * m * R**2 * _s**2 + A3 * m * (R * _c + a) ** 2,
+    "a1": -m * R**2 * _tilt * _s / (R1 * D),
+    "a2": (R1 + R) * ((A3 + m * R**2) * (A3 - A1) - A3 * m * a**2) * _s / (R1 * D),
+    "b1": m * R**3 * A1 * _s / (R1 * D),
+    "b2": m * R * (R1 + R) * _tilt * _s / (R1 * D),
+    "d1": -(2 * m * R**2 * (A3 - A1) * _s**2 * _c + (3 - _c**2) * m * R * a * A3 + A3 * (A1 + m * R**2 + m * a**2) * _c)
+    / (D * _s),
+    "d2": m * R**2 * (R1**2 - R**2) * (A3 - A1) * _s**2 / (R1**2 * D),
 }
 
 
@@ -143,17 +131,17 @@ _STEPS = (
 
 def derivation(*, latex: bool = False) -> str:
     """The equations up to (11) for all values of the parameters, line by line; (12) and (13) are those of `in_roots`."""
-    surfaces = (
+    about = (
         "x = R sin(u) cos(v), y = R sin(u) sin(v), z = R cos(u) + a about the centre of mass; (u1, v1) on the sphere"
     )
-    lines = [] if latex else [f"The ball's surface: {surfaces}; theta between the meridians."]
+    lines = [] if latex else [f"The ball's surface: {about}; theta between the meridians."]
+    moments = {"dTheta_u'/dt": T_du, "dTheta_v'/dt": T_dv, "dTheta_n/dt": T_n}
     for title, relation, tex, names in _STEPS:
         lines.append(tex if latex else f"{title}: {relation}")
         for name in names:
-            left = _LEFT.get(name) or sp.latex(sp.Symbol(name))
-            lines.append(
-                f"{left} = {sp.latex(PRINTED[name], symbol_names=_TEX)}" if latex else f"  {name} = {PRINTED[name]}"
-            )
+            left = rf"\frac{{d}}{{dt}}{_TEX[moments[name]]}" if name in moments else sp.latex(sp.Symbol(name))
+            right = sp.latex(PRINTED[name], symbol_names=_TEX) if latex else str(PRINTED[name])
+            lines.append(f"{left} = {right}" if latex else f"  {name} = {right}")
     return "\n".join(lines)
 
 

@@ -21,8 +21,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from kovacic.ball.ball import BallOnSphere, Scalar, exact
-from kovacic.ball.dynamics import LARGEST, Array, Dynamics, colatitude, cross, dot, unsteadiness
-from kovacic.ball.potential import Force, Potential
+from kovacic.ball.dynamics import LARGEST, Array, Dynamics, Force, Potential, colatitude, cross, dot, unsteadiness
 from kovacic.errors import InputError, LimitExceeded
 
 #: Evaluations of the equations for one oscillation (some 20 seconds), and the oscillations that a motion is followed for.

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from kovacic.ball.dynamics import Array
 from kovacic.ball.motion import Motion
@@ -32,15 +33,11 @@ def draw(motion: Motion, times: Array, path: Path | str, *, title: str = "") -> 
     grid = figure.add_gridspec(rows, 2, width_ratios=(1.15, 1))
     _draw_path(figure.add_subplot(grid[:, 0]), motion.contact(times), motion.ball.kappa)
     panels = [figure.add_subplot(grid[k, 1]) for k in range(rows)]
+    spin, force = "spin about the axis of symmetry, ", "normal reaction; below zero the ball would leave the surface"
     curves: list[tuple[Any, str, str, str]] = [
         (motion.u(times), _BLUE, "u (rad)", "colatitude of the contact point on the ball, and its turning points"),
-        (
-            motion.omega_3(times),
-            _ORANGE,
-            r"$\omega_3$ (rad per unit time)",
-            r"spin about the axis of symmetry, $\omega_3$",
-        ),
-        (reaction, _GREEN, "force", "normal reaction; below zero the ball would leave the surface"),
+        (motion.omega_3(times), _ORANGE, r"$\omega_3$ (rad per unit time)", rf"{spin}$\omega_3$"),
+        (reaction, _GREEN, "force", force),
     ]
     for axes, (values, colour, label, heading) in zip(panels[:-1], curves, strict=False):
         axes.plot(times, values, color=colour)
@@ -89,10 +86,8 @@ def _draw_path(axes: Any, points: Array, kappa: float) -> None:
         radius, (X, Y, Z) = abs(1 / kappa), points.mean(axis=0)
         azimuth = np.arctan2(Y, X) if np.hypot(X, Y) > 1e-9 * radius else -np.pi / 3
         elevation = np.clip(np.arctan2(Z, np.hypot(X, Y)), -0.2, 0.7)
-        ca, sa, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
-        view = np.array(
-            [[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]]
-        )  # right, up, towards the eye
+        down, right, towards = Rotation.from_euler("ZY", [azimuth, np.pi / 2 - elevation]).as_matrix().T
+        view = np.array([right, -down, towards])  # the last one towards the eye
         angle = np.linspace(0, 2 * np.pi, 361)
         c, s, zero = radius * np.cos(angle), radius * np.sin(angle), 0.0 * angle
         axes.plot(c, s, color=_GREY, lw=0.9)
@@ -115,6 +110,6 @@ def _draw_path(axes: Any, points: Array, kappa: float) -> None:
 
 def _curve(axes: Any, line: Array, colour: str, front: dict[str, float], back: dict[str, float]) -> None:
     """What lies behind (a third coordinate below 0) in another style."""
-    depth = line[2] if len(line) == 3 else np.ones(line.shape[1])
-    for seen, style in ((depth < 0, back), (depth >= 0, front)):
-        axes.plot(np.where(seen, line[0], np.nan), np.where(seen, line[1], np.nan), color=colour, **style)
+    behind = line[2] < 0 if len(line) == 3 else np.zeros(line.shape[1], dtype=bool)
+    for seen, style in ((behind, back), (~behind, front)):
+        axes.plot(*np.where(seen, line[:2], np.nan), color=colour, **style)

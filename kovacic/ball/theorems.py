@@ -105,9 +105,8 @@ def closed_form(sphere: BallOnSphere) -> ClosedForm:
     >>> closed_form(Ball(m=1, R=1, a=0, A1="1/4", A3="1/4").on_sphere(2)).n
     4*c2
     """
-    m, R, _, A1, _ = sphere.ball.parameters
-    D, lead, rho = sphere.D, sphere.leading, sphere.ratio
-    half, root = sp.expand(sp.diff(D, X) / 2), sp.sqrt(D)
+    D, lead, rho, half = sphere.D, sphere.leading, sphere.ratio, sphere.half
+    root = sp.sqrt(D)
     share = sp.factor(half / (2 * D))
     E = None
     omega: tuple[sp.Expr, ...] = (share + rho * sp.sqrt(lead) / root, share - rho * sp.sqrt(lead) / root)
@@ -137,7 +136,7 @@ def closed_form(sphere: BallOnSphere) -> ClosedForm:
     if len(sphere.roots) == 2 and _is_written_out(rho):
         omega = closed_form_in_roots(rho).omega
     omega_3 = sp.expand(eta / root) if rho == 1 else eta / root
-    return ClosedForm(omega, sp.sqrt(root) * eta, omega_3, (zeta - half * omega_3) / (m * R**2 * A1), E)
+    return ClosedForm(omega, sp.sqrt(root) * eta, omega_3, (zeta - half * omega_3) / sphere.weight, E)
 
 
 def _exponentials(E: sp.Expr, rho: sp.Expr, scale: sp.Expr) -> tuple[sp.Expr, sp.Expr]:

@@ -23,8 +23,8 @@ from kovacic.closed_form.product import product
 from kovacic.errors import InputError
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import size
-from kovacic.reading.from_sympy import parse_sympy
 from kovacic.reading.given import EULER, PI
+from kovacic.reading.read import read_input
 
 Expr = Any  # SymPy publishes no types
 #: The numbers that are parameters in coefficients.
@@ -167,6 +167,6 @@ def ratfunc(expression: Expr, x: Expr) -> RatFunc | None:
     if not expression.is_rational_function(x):
         return None
     try:
-        return parse_sympy(expression.xreplace({sympy.pi: sympy.Symbol(PI)}), variable=x.name).S
+        return read_input(expression.xreplace({sympy.pi: sympy.Symbol(PI)}), var=x.name).S
     except InputError:
         return None

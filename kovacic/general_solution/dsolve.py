@@ -24,10 +24,10 @@ from kovacic.general_solution.variation import Basis
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
-from kovacic.reading.equation import parse_equation, parse_sympy_equation
 from kovacic.reading.exponential import in_exponentials, solution_in_terms_of
 from kovacic.reading.from_sympy import function_of
 from kovacic.reading.given import Equation, Parsed, parameters_of
+from kovacic.reading.source import read_source, source_of
 from kovacic.solution import Solution, solve
 from kovacic.special.answer import special_functions
 
@@ -162,7 +162,7 @@ def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple
     try:
         return _rational(eq, func, var, limits)
     except NotRational:
-        found = in_exponentials(eq, variable=var, limits=limits)
+        found = in_exponentials(source_of(eq, var, equation=True), limits)
         if found is None or found.equation is None or found.equation.change is None:
             raise
         x = sympy.Symbol(found.equation.change.variable)
@@ -176,27 +176,30 @@ def _rational(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equa
     if func is not None and not isinstance(name, UndefinedFunction):
         raise InputError(f"{func!r} isn't a function", hint="give y(x), or y = Function('y')")
     if isinstance(eq, str):
-        variable = var if applied is None else str(applied.args[0])
-        unknown = None if func is None else str(name)
-        eq, _ = parse_equation(eq, variable=variable, unknown=unknown, limits=limits)
+        x, unknown = var if applied is None else str(applied.args[0]), None if func is None else str(name)
+        eq = read_source(source_of(eq, x, limits, unknown=unknown, equation=True), limits).equation
     if isinstance(eq, Equation):
         return eq, applied or (name or sympy.Function(eq.unknown))(sympy.Symbol(eq.variable))
     if not hasattr(eq, "free_symbols"):
         raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
     if func is not None and applied is None:
         found = sorted((f for f in eq.atoms(AppliedUndef) if f.func == func), key=str)
-        whole = [f for f in found if f.args[0].is_Symbol]
-        if not whole:
+        applied = next((f for f in found if f.args[0].is_Symbol), None)
+        if applied is None:
             raise InputError(f"{func} isn't a function in the equation")
-        applied = whole[0]
+
+    def read(given: Any) -> tuple[Equation, Any]:
+        found = read_source(source_of(given, var, unknown=applied, equation=True), limits).equation
+        assert found is not None
+        return found, applied or function_of(given)
+
     try:
-        equation, _, function = parse_sympy_equation(eq, variable=var, unknown=applied, limits=limits)
+        return read(eq)
     except NotRational:
         divided = _divided(eq)
         if divided is None:
             raise
-        equation, _, function = parse_sympy_equation(divided, variable=var, unknown=applied, limits=limits)
-    return equation, function
+        return read(divided)
 
 
 def _divided(eq: Any) -> Any:

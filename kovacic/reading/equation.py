@@ -1,9 +1,9 @@
-"""Texts and SymPy equations into an equation a y'' + b y' + c y = f.
+"""What texts and SymPy's expressions mean that denote an equation a y'' + b y' + c y = f.
 
->>> equation, notices = parse_equation("x^2 y'' + x y' + (x^2 - 1/4) y = 0")
->>> print(equation)
+>>> from kovacic.reading.read import read_input
+>>> print(read_input("x^2 y'' + x y' + (x^2 - 1/4) y = 0").equation)
 x^2*y'' + x*y' + (x^2 - 1/4)*y = 0
->>> print(parse_equation("diff((1-t^2)*diff(y(t),t),t) + 6*y(t) = exp(t)")[0])
+>>> print(read_input("diff((1-t^2)*diff(y(t),t),t) + 6*y(t) = exp(t)").equation)
 (-t^2 + 1)*y'' - 2*t*y' + 6*y = exp(t)
 
 The grammar is that of expressions; an expression without an equals sign is one that is zero.  The unknown function is the
@@ -13,91 +13,29 @@ Within an equation the unknown function may follow a coefficient without a sign:
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
 from typing import Any
 
-from kovacic.errors import InputError, NotLinear, NotRational, ParseError
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.errors import NotLinear, NotRational, ParseError
+from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
-from kovacic.reading.constants import Constants, read_with_constants
+from kovacic.reading.constants import Constants
 from kovacic.reading.expression import Place, RationalReader
-from kovacic.reading.from_sympy import function_of, functions_in, names_of, walked
+from kovacic.reading.from_sympy import functions_in, walked
 from kovacic.reading.given import (
-    DEFAULT_VARIABLE,
     ENERGY,
     EULER,
     FUNCTION_NAMES,
-    NUMBER_NAMES,
     PI,
     TRANSCENDENTAL_HINT,
     UNKNOWN,
     Equation,
     over,
 )
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens, tokens_of
+from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import REST, LinearArithmetic, LinearForm, is_rational
-from kovacic.reading.parser import Site, evaluate
+from kovacic.reading.parser import Site
 
 _LARGEST_ORDER = 100
-
-#: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
-_USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
-
-
-def parse_equation(
-    text: str, *, variable: str | None = None, unknown: str | None = None, limits: Limits = DEFAULT_LIMITS
-) -> tuple[Equation, tuple[str, ...]]:
-    """The equation that `text` denotes, and what the user should know about how it was read.
-
-    Raises `NotLinear` for an equation that isn't linear of second order in one unknown function, `NotRational` if its
-    coefficients aren't rational functions, `ParseError` for what isn't an equation, all with the position where there is
-    one; `LimitExceeded`.
-    """
-    tokens = tokens_of(text, limits, what="the text", hint="for example y'' = (x^2 + 3) y")
-    x, y = names_in_equation(tokens, variable, unknown)
-    return _read(partial(evaluate, tokens), x, y, limits, text)
-
-
-def parse_sympy_equation(
-    value: Any, *, variable: str | None = None, unknown: Any = None, limits: Limits = DEFAULT_LIMITS
-) -> tuple[Equation, tuple[str, ...], Any]:
-    """The equation, what the user should know about how it was read, and the function y(x) that occurs in it.
-
-    Read are `Eq(lhs, rhs)` and expressions that are zero, in an applied function such as y(x) and its derivatives; `unknown`
-    is that function, where more than one occurs.  Raises `NotLinear`, `NotRational` and `LimitExceeded`.
-    """
-    from sympy import E, pi
-
-    expression, function = sympy_equation(value, variable, unknown)
-    names = names_of(expression)
-    for letter, number in ((PI, pi), (EULER, E)):
-        if letter in names and expression.has(number):
-            raise InputError(f"{letter} is a symbol and a number in one equation", hint="rename the symbol")
-    x, y = function.args[0].name, str(function.func)
-    return *_read(partial(walked, expression), x, y, limits, None), function
-
-
-def sympy_equation(value: Any, variable: str | None, unknown: Any) -> tuple[Any, Any]:
-    """An expression that is zero, and the function y(x) in it."""
-    expression = value.lhs - value.rhs if getattr(value, "is_Equality", False) else value
-    function = function_of(expression) if unknown is None else unknown
-    if len(function.args) != 1 or not function.args[0].is_Symbol:
-        raise NotLinear(f"{function} isn't a function of one variable")
-    if variable is not None and function.args[0].name != variable:
-        raise InputError(f"{function} isn't a function of {variable}")
-    return expression, function
-
-
-def _read(
-    walk: Callable[[RationalReader], Any], x: str, y: str, limits: Limits, text: str | None
-) -> tuple[Equation, tuple[str, ...]]:
-    def read(constants: Constants) -> tuple[Equation, tuple[str, ...]]:
-        reader = EquationReader(x, y, limits, constants)
-        equation = reader.equation_of(walk(reader), text)
-        return equation, (*reader.notices(), *constants.notices())
-
-    return read_with_constants(read, limits)
 
 
 class EquationReader(RationalReader):
@@ -261,52 +199,3 @@ class EquationReader(RationalReader):
         if number is None or number.denominator != 1 or number < 0:
             raise NotLinear("the order of a derivative is a number 0, 1, 2, ...", hint="for example diff(y, x, 2)")
         return number.numerator
-
-
-def names_in_equation(tokens: Tokens, variable: str | None, unknown: str | None = None) -> tuple[str, str]:
-    """The names of the variable and of the unknown function, as far as they aren't given."""
-    y = unknown or _unknown_of(tokens)
-    return variable or _variable_of(tokens, y), y
-
-
-def _unknown_of(tokens: Tokens) -> str:
-    """The name that has primes, or that is differentiated; else y."""
-    for kind, piece in zip(tokens.kinds, tokens.pieces, strict=True):
-        bare = piece.rstrip(PRIMES)
-        if kind in ("PRIMED", "HEAD") and bare != piece:
-            if bare[-1] == UNKNOWN and bare[:-1] in _USUAL_VARIABLES:  # xy'' isn't x*y''
-                k = tokens.pieces.index(piece)
-                raise tokens.error(
-                    ParseError, f"{bare} is one name", k, k + 1, hint=f"write {bare[:-1]}*{piece[len(bare) - 1 :]}"
-                )
-            return bare
-    for k, kind in enumerate(tokens.kinds[:-3]):
-        if kind == "HEAD" and tokens.pieces[k] in DERIVATIVES:
-            following, after, inner = tokens.kinds[k + 2], tokens.kinds[k + 3], tokens.pieces[k + 2]
-            if following == "HEAD" and inner not in DERIVATIVES | FUNCTION_NAMES.keys():
-                return inner
-            if following == "NAME" and after in ("COMMA", "RPAR"):
-                return inner
-    return UNKNOWN
-
-
-def _variable_of(tokens: Tokens, unknown: str) -> str:
-    """The argument of the unknown function, or what is differentiated by; else the only name, or x."""
-    kinds = tokens.kinds
-    for k in range(len(kinds) - 3):
-        is_unknown = tokens.pieces[k].rstrip(PRIMES) == unknown
-        if is_unknown and kinds[k : k + 4] == ["HEAD", "LPAR", "NAME", "RPAR"]:
-            return tokens.pieces[k + 2]
-        if is_unknown and kinds[k : k + 3] == ["NAME", "COMMA", "NAME"]:
-            return tokens.pieces[k + 2]
-    excluded = {*NUMBER_NAMES, ENERGY, unknown, "e"}
-    names = [name for name in tokens.names() if name not in excluded]
-    if DEFAULT_VARIABLE in names or not names:
-        return DEFAULT_VARIABLE if unknown != DEFAULT_VARIABLE else "t"
-    usual = [name for name in names if name in _USUAL_VARIABLES]
-    if len(usual) != 1 or len(names) > 1:
-        question = "is it the variable, or a parameter" if len(names) == 1 else "which is the variable"
-        hint = f"write {unknown}''(x) for the derivative, or name the variable: var='x' (--var x)"
-        k = tokens.names()[names[-1]]
-        raise tokens.error(InputError, f"{', '.join(names[:6])}: {question}?", k, k + 1, hint=hint)
-    return usual[0]

@@ -15,8 +15,6 @@ Continuous Dynamical Systems B 10 (2008) 265-293 (Hamiltonian algebrization).
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
 from math import gcd
 from typing import Any
 
@@ -29,33 +27,27 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.errors import NotLinear, NotRational
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import Term
-from kovacic.reading.equation import (
-    EquationReader,
-    names_in_equation,
-    parse_sympy_equation,
-    sympy_equation,
-)
-from kovacic.reading.expression import RationalReader, chosen_variable
-from kovacic.reading.from_sympy import is_sympy_equation, walked
-from kovacic.reading.given import ENERGY, EULER, NUMBER_NAMES, UNKNOWN, Change, Equation, Parsed, lowered, over
-from kovacic.reading.lexer import is_equation, tokens_of
+from kovacic.reading.equation import EquationReader
+from kovacic.reading.given import UNKNOWN, Change, Equation, Parsed, lowered, over
 from kovacic.reading.linear import REST, Symbols
-from kovacic.reading.parser import evaluate
+from kovacic.reading.source import Source, read_source, source_of
 from kovacic.reading.symbolic import read_expression
 
 _HINT = "coefficients are rational in x, or in exp(k*x) and sines, cosines, ... of rational multiples of k*x"
 
 
-def in_exponentials(given: Any, *, variable: str | None, limits: Limits) -> Parsed | None:
+def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     """The equation (1) for an input with such coefficients; None for any other input.
 
     Raises `NotRational` where x occurs beside exp(k x), or rates whose quotient isn't rational.
     """
-    equation = _symbolic(given, variable, limits)
-    if equation is None:
-        return None
-    parts, x, reader = equation
-    rewritten = [_in_exponentials(parts.get(k, sympy.Integer(0)), x) for k in (2, 1, 0, REST)]
+    x, reader = sympy.Symbol(source.variable), _Reader(source.variable, source.unknown, limits, Symbols())  # type: ignore[arg-type]
+    value = source.walk(reader)
+    parts = getattr(value, "parts", {}) if source.unknown else {2: Term(1, 0), 0: reader.arithmetic.negate(value)}
+    found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
+    if max(found, default=0) != 2:
+        raise NotLinear("a linear equation of second order is expected")
+    rewritten = [_in_exponentials(found.get(k, sympy.Integer(0)), x) for k in (2, 1, 0, REST)]
     exponentials = {e for part in rewritten for e in part.atoms(sympy.exp) if e.has(x)}
     if not exponentials:
         return None
@@ -69,12 +61,13 @@ def in_exponentials(given: Any, *, variable: str | None, limits: Limits) -> Pars
     t = sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
     Y = sympy.Function(f"{unknown}_")(t)
     whole = k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y + rest
-    read, notices, _ = parse_sympy_equation(whole.xreplace({T: t}), limits=limits)
-    (p, q, f), expression = _best(read, k, x + offset)
+    read = read_source(source_of(whole.xreplace({T: t}), None, equation=True), limits)
+    assert read.equation is not None
+    (p, q, f), expression = _best(read.equation, k, x + offset)
     denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
     p, q, f = p * denominator, q * denominator, f * denominator
     result = Equation(denominator, p, q, f, None, t.name, unknown, Change(x.name, expression))
-    return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *reader.notices(), *notices), result)
+    return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *reader.notices(), *read.notices), result)
 
 
 def in_terms_of(change: Change, expression: Any, variable: str) -> Any:
@@ -246,35 +239,6 @@ def _deflated(function: RatFunc, g: int) -> RatFunc:
     """f with function = f(T^g)."""
     num, den = ([poly[i] for i in range(0, poly.degree + 1, g)] for poly in (function.num, function.den))
     return RatFunc(function.field.poly(num), function.field.poly(den), reduced=True)
-
-
-def _symbolic(given: Any, variable: str | None, limits: Limits) -> tuple[dict[int, Any], Any, _Reader] | None:
-    """The coefficients of the derivatives and `REST`, as SymPy expressions, x, and the reader."""
-    walk: Callable[[RationalReader], Any]
-    y = ""
-    if isinstance(given, str):
-        tokens = tokens_of(given, limits, what="the text", hint="for example y'' = (x^2 + 3) y")
-        walk = partial(evaluate, tokens)
-        if is_equation(given):
-            x, y = names_in_equation(tokens, variable)
-        else:
-            x = variable or chosen_variable(
-                [n for n in tokens.names() if n not in {*NUMBER_NAMES, ENERGY, UNKNOWN, EULER}]
-            )
-    elif is_sympy_equation(given):
-        expression, function = sympy_equation(given, variable, None)
-        walk, x, y = partial(walked, expression), function.args[0].name, str(function.func)
-    elif isinstance(given, sympy.Expr):
-        walk, x = partial(walked, given), variable or chosen_variable(sorted(s.name for s in given.free_symbols))
-    else:
-        return None
-    reader = _Reader(x, y, limits, Symbols())  # type: ignore[arg-type]
-    value = walk(reader)
-    parts = {2: Term(1, 0), 0: reader.arithmetic.negate(value)} if not y else getattr(value, "parts", {})
-    found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
-    if max(found, default=0) != 2:
-        raise NotLinear("a linear equation of second order is expected")
-    return found, sympy.Symbol(x), reader
 
 
 class _Reader(EquationReader):

@@ -1,42 +1,34 @@
-"""Text into a rational function.
+"""What texts and SymPy's expressions mean that denote rational functions.
 
->>> parsed = parse_rational("3x/(x^2 - 1) + 0.5")
->>> str(parsed.S), parsed.variable, parsed.notices
-('(x**2 + 6*x - 1)/(2*x**2 - 2)', 'x', ('0.5 was taken exactly, as 1/2',))
-
-The rational function grows while the `parser` reads the text, and no part of the text is ever executed.  `arithmetic` checks
-sizes before each operation.
+The rational function grows while the text is read, and no part of it is ever executed.  `arithmetic` checks sizes before each
+operation.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Mapping
 from typing import Any, Protocol
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
-from kovacic.errors import InputError, NotRational, ParseError
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.errors import NotRational
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
-from kovacic.reading.constants import Constants, read_with_constants
+from kovacic.reading.constants import Constants
 from kovacic.reading.given import (
     DEFAULT_VARIABLE,
-    ENERGY,
     FUNCTION_NAMES,
     NUMBER_NAMES,
     TRANSCENDENTAL_HINT,
     UNKNOWN,
-    Parsed,
 )
-from kovacic.reading.lexer import PRIMES, Tokens, tokenize, tokens_of
+from kovacic.reading.lexer import PRIMES, tokenize
+from kovacic.reading.names import as_function
 from kovacic.reading.parser import Site, evaluate, shortened, shown
 
 _SHOWN_DECIMALS = 3
 
 #: The functions that stand for roots, with their index (root has it as its second argument).
 ROOTS = {"sqrt": 2, "cbrt": 3, "root": 0}
-_FUNCTIONS = frozenset({*FUNCTION_NAMES, *ROOTS})
 _LARGEST_INDEX = 100
 
 _ALONE = "give S alone, the factor of y on the right of y'' = S(x) y"
@@ -49,40 +41,10 @@ class Place(Protocol):
         """The operation with its operands, as the user wrote it."""
 
 
-def parse_rational(text: str, *, variable: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:
-    """The rational function over Q, or over a larger field of constants, that `text` denotes.
-
-    Read are `+ - * / ^ **`, parentheses, integers and decimals (taken exactly, with a notice), and products without a
-    sign where a digit or a closing parenthesis meets a letter or an opening one: `3x`, `2(x+1)(x-1)`.  Such a product
-    as a divisor has two readings and is refused: `1/2x`.  Powers bind to the right, stronger than a minus before them.
-    The variable is the only name in the text, else x; or the given one; other names are parameters.
-
-    Raises `ParseError` for what isn't an expression, `NotRational` for what isn't a rational function of one variable,
-    both with the position, and `LimitExceeded` before anything would become larger than the limits allow.
-    """
-    tokens = tokens_of(text, limits, what="the text", hint="give S(x), for example x^2 + 3")
-    if marks := [k for k, kind in enumerate(tokens.kinds) if kind in ("EQUAL", "PRIMED")]:
-        raise tokens.error(NotRational, "an equation, where S alone is expected", marks[0], marks[0] + 1, hint=_ALONE)
-    chosen = variable or _chosen_variable(tokens)
-    _refuse_ambiguous_decimals(tokens, chosen)
-    return read_rational(partial(evaluate, tokens), chosen, limits)
-
-
-def read_rational(walk: Callable[[RationalReader], Any], variable: str, limits: Limits) -> Parsed:
-    """The rational function that a walk over a text or a SymPy expression gives to a reader."""
-
-    def read(constants: Constants) -> Parsed:
-        reader = RationalReader({variable: VARIABLE}, variable, Arithmetic(limits), constants)
-        S = constants.embedded(reader.arithmetic.rational(walk(reader)))
-        return Parsed(S, variable, (*reader.notices(), *constants.notices()))
-
-    return read_with_constants(read, limits)
-
-
 def parse_with(text: str, names: Mapping[str, Value], arithmetic: Arithmetic) -> Value:
     """The value of an expression in these names, whatever field their values belong to.
 
-    Raises `ParseError`, `NotRational` and `LimitExceeded` as `parse_rational` does.
+    Raises `ParseError`, `NotRational` and `LimitExceeded`.
     """
     variable = next((name for name, value in names.items() if value is VARIABLE), DEFAULT_VARIABLE)
     return evaluate(tokenize(text), RationalReader(names, variable, arithmetic))  # type: ignore[no-any-return]
@@ -221,43 +183,3 @@ def usage(name: str) -> str:
         return f"{name} has one argument; S is rational in x, or in exp(k*x), sin(k*x), ..."
     known = ", ".join(sorted(FUNCTION_NAMES))
     return f"for a product write {name}*(...); the functions are {known}, of one argument"
-
-
-def as_function(name: str) -> str | None:
-    """sin(x) for sinx and sin: what a name probably means that looks like a function without parentheses; None for others."""
-    if name in _FUNCTIONS:
-        return f"{name}(x)"
-    return f"{name[:-1]}({name[-1]})" if name[:-1] in _FUNCTIONS and name[-1] in "xtz" else None
-
-
-def chosen_variable(names: list[str]) -> str:
-    """The only name, or x.  Raises `InputError` where neither is among several names."""
-    if len(names) > 1 and DEFAULT_VARIABLE not in names:
-        raise InputError(
-            f"which of {', '.join(names[:6])} is the variable?",
-            hint=f"name it: var={names[0]!r} (--var {names[0]}); the others are parameters",
-        )
-    return names[0] if len(names) == 1 else DEFAULT_VARIABLE
-
-
-def _chosen_variable(tokens: Tokens) -> str:
-    found = tokens.names()
-    names = [name for name in found if name not in {*NUMBER_NAMES, ENERGY, UNKNOWN} and as_function(name) is None]
-    try:
-        return chosen_variable(names)
-    except InputError as error:
-        k = found[names[1]]
-        raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint) from None
-
-
-def _refuse_ambiguous_decimals(tokens: Tokens, variable: str) -> None:
-    """`2e-3` is 0.002, unless the variable is called e: then it might be 2*e - 3."""
-    if variable not in ("e", "E"):
-        return
-    for k, (kind, text) in enumerate(zip(tokens.kinds, tokens.pieces, strict=True)):
-        if kind == "NUMBER" and variable in text:
-            mantissa, _, rest = text.partition(variable)
-            other = f"{mantissa}*{variable} {rest[0]} {rest[1:]}" if rest[0] in "+-" else f"{mantissa}*{variable}{rest}"
-            message = f"{text} can be read as a decimal or as {other}, the variable being {variable}"
-            hint = "write decimals without an exponent, and products with *"
-            raise tokens.error(ParseError, message, k, k + 1, hint=hint)

@@ -7,15 +7,13 @@ cost more than the whole decision.  SymPy is imported only when these functions 
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import partial, reduce
+from functools import reduce
 from operator import index
 from typing import Any
 
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
-from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE
-from kovacic.reading.expression import RationalReader, chosen_variable, read_rational
-from kovacic.reading.given import Parsed
+from kovacic.reading.expression import RationalReader
 from kovacic.reading.parser import shown
 
 
@@ -68,25 +66,6 @@ def _leaf(node: Any, reader: RationalReader) -> Any:
         return reader.arithmetic.constant(exact)
     value = reader.constants.algebraic(node) if node.is_number and node.is_algebraic else None  # type: ignore[union-attr]
     return reader.other_leaf(node) if value is None else value
-
-
-def parse_sympy(expression: Any, *, variable: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:
-    """The rational function that a SymPy expression denotes.
-
-    The variable is the only symbol in the expression, else x; or the one with the given name; other symbols are parameters.
-    Constants may be algebraic numbers: I, radicals, `CRootOf`, `AlgebraicNumber`, cosines of rational angles.  Floats are taken
-    exactly, with a notice.  Raises `NotRational` for whatever isn't a rational function of that variable, and `LimitExceeded`.
-    """
-    import sympy
-
-    if isinstance(expression, sympy.Poly):
-        expression = expression.as_expr()
-    if not isinstance(expression, sympy.Expr):
-        raise InputError(
-            f"{type(expression).__name__!r} isn't a SymPy expression", hint="give S alone, from y'' = S(x) y"
-        )
-    names = names_of(expression)
-    return read_rational(partial(walked, expression), variable or chosen_variable(names), limits)
 
 
 def names_of(expression: Any) -> list[str]:

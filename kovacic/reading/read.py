@@ -13,10 +13,9 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.reading.expression import parse_rational
 from kovacic.reading.given import DEFAULT_VARIABLE, Equation, Parsed
-from kovacic.reading.lexer import is_equation
 from kovacic.reading.parser import shown
+from kovacic.reading.source import read_source, source_of
 
 
 def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, exponentials: bool = False) -> Parsed:
@@ -33,42 +32,28 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, expo
     ('x**2 + 3', 'x**2 + 3')
     """
     variable = _variable_name(var)
-    try:
-        return _read(S, variable, limits)
-    except NotRational as error:
-        if exponentials and (isinstance(S, str) or _is_sympy(S)):
+    if isinstance(S, str) or _is_sympy(S):
+        source = source_of(S, variable, limits)
+        try:
+            return read_source(source, limits)
+        except NotRational as error:
+            if not exponentials:
+                raise
             from kovacic.reading.exponential import in_exponentials
 
             try:
-                found = in_exponentials(S, variable=variable, limits=limits)
+                found = in_exponentials(source, limits)
             except NotRational as other:
                 if other.position is None:  # what isn't rational is the same
                     other.text, other.position, other.length = error.text, error.position, error.length
                 raise
-            if found is not None:
-                return found
-        raise
-
-
-def _read(S: Any, variable: str | None, limits: Limits) -> Parsed:
-    if isinstance(S, str):
-        if is_equation(S):
-            from kovacic.reading.equation import parse_equation
-
-            return _with_equation(*parse_equation(S, variable=variable, limits=limits))
-        return parse_rational(S, variable=variable, limits=limits)
+            if found is None:
+                raise
+            return found
     if isinstance(S, RatFunc | int | Fraction):
         return Parsed(S if isinstance(S, RatFunc) else RatFunc(QQ.poly([S])), variable or DEFAULT_VARIABLE)
     if isinstance(S, Equation):
-        return _with_equation(S, ())
-    if _is_sympy(S):
-        from kovacic.reading.equation import parse_sympy_equation
-        from kovacic.reading.from_sympy import is_sympy_equation, parse_sympy
-
-        if is_sympy_equation(S):
-            equation, notices, _ = parse_sympy_equation(S, variable=variable, limits=limits)
-            return _with_equation(equation, notices)
-        return parse_sympy(S, variable=variable, limits=limits)
+        return Parsed(S.S, S.variable, equation=S)
     if isinstance(S, tuple | list) and len(S) == 2:
         return parse_coefficients(S[0], S[1], variable=variable, limits=limits)
     raise InputError(
@@ -86,22 +71,16 @@ def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits
     if any(map(_is_sympy, given)) and not any(isinstance(value, str | RatFunc) for value in given):
         import sympy
 
-        from kovacic.reading.equation import parse_sympy_equation
-
         symbols = {s.name: s for value in given if _is_sympy(value) for s in sorted(value.free_symbols, key=str)}
         name = _variable_name(var) or (DEFAULT_VARIABLE if len(symbols) != 1 else next(iter(symbols)))
         y = sympy.Function("y" if "y" not in symbols else "y_")(symbols.get(name, sympy.Symbol(name)))
-        equation, notices, _ = parse_sympy_equation(a * y.diff(y.args[0], 2) + b * y.diff() + c * y - f, limits=limits)
-        return _with_equation(equation, notices)
+        given = a * y.diff(y.args[0], 2) + b * y.diff() + c * y - f
+        return read_source(source_of(given, None, unknown=y, equation=True), limits)
     numbers = (int, Fraction)  # which Python prints up to 4300 digits only
     values = [RatFunc(QQ.poly([value])) if isinstance(value, numbers) else value for value in given]
     texts = [value.to_str() if isinstance(value, RatFunc) else str(value) for value in values]
     line = "({})*y'' + ({})*y' + ({})*y = {}".format(*texts)
     return read_input(line, var=var, limits=limits)
-
-
-def _with_equation(equation: Equation, notices: tuple[str, ...]) -> Parsed:
-    return Parsed(equation.S, equation.variable, notices, equation)
 
 
 def _is_sympy(value: Any) -> bool:
