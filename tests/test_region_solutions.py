@@ -22,6 +22,9 @@ CASES: list[tuple[str, dict[str, Any]]] = [
     ("x^2 - e + l*(l+1)/x^2", {"e": 11, "l": 2}),
     ("x^4 + mu*x", {"mu": -8}),
     ("b/x^4 + c/x^3", {"b": 4, "c": 24}),
+    # irregular at a finite point, and the regular one, or the centre, elsewhere
+    ("(b*x^2/(1-x)^2 + r*x/(1-x) + q)/x^4", {"b": R(3, 4), "q": R(1, 4), "r": R(7, 2)}),
+    ("(x^2 + mu*(x-t)^2)/(x-t)^6", {"mu": 7, "t": 1}),
     ("(n*(n+1)*x^2 - n^2 - n - 1)/(x^2-1)^2", {"n": 3}),
     (
         "-(1-l^2)/(4*(x-2)^2)-(1-m^2)/(4*(x-3)^2)-(l^2+m^2-n^2-1)/(4*(x-2)*(x-3))",

@@ -16,111 +16,90 @@ integer, since an imprimitive group becomes reducible over C(sqrt x); n even is 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
+from functools import partial
 
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
-from kovacic.engine.places import Kind, Problem
-from kovacic.parametric.formulas import root_written, shifted
-from kovacic.parametric.functions import over_parameters
+from kovacic.engine.places import Problem
+from kovacic.parametric import generic
+from kovacic.parametric.formulas import root_written
+from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
-from kovacic.parametric.statements import Statement
+from kovacic.parametric.quotient import Coordinate, symmetries
+from kovacic.parametric.regions import Theorem, Verdict
+from kovacic.parametric.solutions import laguerre_solutions
 
 
 @dataclass(frozen=True)
 class Confluent:
-    """Equation (1): the coefficients, n, the coordinate s in words, and is it 1/(x - c) (then v = s y is the unknown)?"""
+    """Equation (1): the coordinate in which it has this form, and the coefficients."""
 
-    n: int
+    coordinate: Coordinate
     b: Poly
     r: Poly
     q: Poly
-    coordinate: str
-    inverted: bool = False
 
     @property
-    def degenerate(self) -> Poly:
-        """What must not vanish for the theorem to hold."""
-        return self.q or self.r
+    def omega(self) -> str:
+        """What the solutions look like in the coordinate s of the form (1)."""
+        n, base = self.coordinate.n, self.coordinate.base
+        z, where = (base, "") if base.isidentifier() else ("s", f", s = {base}")
+        if not self.q:
+            return f"omega of degree 2, rational in {z} and sqrt({z}){where}"
+        power = "" if n == 1 else f" {z}" if n == 2 else f" {z}^{n - 1}"
+        beta, difference = (_signed(square) for square in (self.r * self.r / self.q, 1 + 4 * self.b))
+        natural = "a natural number" if n == 1 else f"a natural multiple of {n}"
+        return (
+            f"omega ={_signed(self.q)}{power} + (1{difference})/(2 {z}) + P'/P{where}, with signs for which "
+            f"deg P = (-{n}{beta}{difference})/2 is {natural}"
+        )
+
+    @property
+    def verdict(self) -> Verdict:
+        """The structure and the family of the groups where a Liouvillian solution exists.
+
+        An irregular point makes the group infinite.  With q = 0 it is imprimitive.  Otherwise a solution with a rational omega
+        has one of two exponential factors, and both occur where each sign of beta fits, as for beta = 0; the group is diagonal
+        then.
+        """
+        if not self.q:
+            return Verdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
+        family = "Borel group, or G_m where both exponential factors occur" if self.r else "G_m"
+        return Verdict(Structure.REDUCIBLE, family=family)
 
 
-def omega(form: Confluent) -> str:
-    """What the solutions look like in the coordinate of the form (1), called s unless it has a name."""
-    n = form.n
-    simple = form.coordinate.isidentifier()
-    z, where = (form.coordinate, "") if simple else ("s", f", s = {form.coordinate}")
-    difference = root_written(1 + 4 * form.b)
-    if not form.q:
-        return f"omega of degree 2, rational in {z} and sqrt({z}){where}"
-    power = "" if n == 1 else f" {z}" if n == 2 else f" {z}^{n - 1}"
-    beta = root_written(form.r * form.r / form.q)
-    natural = "a natural number" if n == 1 else f"a natural multiple of {n}"
-    return (
-        f"omega ={_signed(root_written(form.q))}{power} + (1{_signed(difference)})/(2 {z}) + P'/P{where}, with signs for which "
-        f"deg P = (-{n}{_signed(beta)}{_signed(difference)})/2 is {natural}"
-    )
-
-
-def _signed(root: str) -> str:
+def _signed(square: Poly) -> str:
+    root = root_written(square)
     return "" if root == "0" else f" +- ({root})" if " " in root else f" +- {root}"
 
 
-def group(form: Confluent) -> str:
-    """The family of the groups where a Liouvillian solution exists.
-
-    An irregular point makes the group infinite.  With q = 0 it is imprimitive.  Otherwise a solution with a rational omega has
-    one of two exponential factors, and both occur where each sign of beta fits, as for beta = 0; the group is diagonal then.
-    """
-    if not form.q:
-        return "the infinite dihedral group"
-    return "Borel group, or G_m where both exponential factors occur" if form.r else "G_m"
-
-
 def recognise(problem: Problem, variable: str) -> Confluent | None:
-    """The equation in the form (1), or None; `variable` is the name of x."""
-    singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
-    irregular = [place for place in singular if place.kind is not Kind.REGULAR]
-    if len(irregular) != 1 or len(singular) > 2 or any(place.degree > 1 for place in singular):
-        return None
-    S, field = problem.S, problem.field
-    coordinate = variable
-    x = RatFunc(field.poly([0, 1]))
-    if not irregular[0].at_infinity:
-        # Move the irregular point c to infinity: x = c + 1/z, S -> S(c + 1/z)/z^4.
-        c = -irregular[0].factor[0]
-        S = S(RatFunc(field.poly([1]), field.poly([0, 1])) + c) / x**4
-        coordinate = f"1/({shifted(variable, c)})" if c else f"1/{variable}"
-    regular = [-factor[0] for factor, _ in field.factor(S.den)] if S.den.degree else []
-    if not regular:
-        n = S.num.degree
-        center = field.poly([]) if n < 1 else -S.num[n - 1] / (S.num[n] * n)
-    else:
-        center = regular[0]
-    if center:
-        S = S(x + center)
-        coordinate = shifted(coordinate, center)
-    shift, zero = S.den.degree, field.poly([])
-    if shift > 2 or S.den != field.poly([0] * shift + [1]):
-        return None
-    terms = {power - shift: c for power, c in enumerate(S.num) if c}
-    b = terms.pop(-2, zero)
-    if not terms:
-        return None
-    top = max(terms)
-    q = zero if top % 2 else terms.pop(top)
-    n = top + 2 if top % 2 else top // 2 + 1
-    r = terms.pop(n - 2, zero)
-    return None if terms else Confluent(n, b, r, q, coordinate, not irregular[0].at_infinity)
+    """The equation in the form (1), or None; `variable` is the name of x.
+
+    x^2 S is b + r z + q z^2 with z = x^n.  Where that is b + q x^(2n), 2n is the order of the symmetry.
+    """
+    for symmetric in symmetries(problem, variable):
+        if symmetric.den.degree == 0 < symmetric.num.degree <= 2:
+            b, r, q = (symmetric.num[k] / symmetric.den[0] for k in range(3))
+            coordinate = symmetric.coordinate
+            if not q and coordinate.n % 2 == 0:
+                coordinate, r, q = replace(coordinate, n=coordinate.n // 2), q, r
+            return Confluent(coordinate, b, r, q)
+    return None
 
 
-def solvable(form: Confluent) -> tuple[Structure, Literal[True] | list[Statement]]:
-    """The structure, and when it occurs: True for always, and [] for never."""
-    delta_squared, z = 1 + 4 * form.b, form.b.field.poly([0, 0, 1])
-    beta_squared = form.r * form.r / form.q if form.q else 0 * delta_squared
+def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
+    """The theorem, where it applies."""
+    form = recognise(problem, variable)
+    if form is None:
+        return None
+    n, b, r, q, z = form.coordinate.n, form.b, form.r, form.q, form.b.field.poly([0, 0, 1])
+    delta_squared, beta_squared = 1 + 4 * b, r * r / q if q else 0 * b
     equation = (
-        (z - beta_squared - delta_squared) ** 2 - 4 * beta_squared * delta_squared if form.q else z - 4 * delta_squared
+        (z - beta_squared - delta_squared) ** 2 - 4 * beta_squared * delta_squared if q else z - 4 * delta_squared
     )
-    structure = Structure.REDUCIBLE if form.q else Structure.IMPRIMITIVE
-    return structure, integer_roots(over_parameters(equation), [form.n], 2 * form.n)
+    statements = integer_roots(over_parameters(equation), [n], 2 * n)
+    region = (statements, form.verdict, form.omega, partial(laguerre_solutions, form, variable))
+    name = f"{'Whittaker' if q else 'Bessel'}'s equation in {form.coordinate}: Martinet & Ramis"
+    return Theorem(name, [*generic.undefined(problem), *irreducible_factors(q or r)], [region] * bool(statements))

@@ -17,7 +17,6 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine import invariants
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.engine.riccati import Form, singular_part
-from kovacic.limits import check_time
 from kovacic.parametric.ranks import RankConditions, rank_conditions
 
 #: Q(t), or Q(t) with one square root.
@@ -56,26 +55,27 @@ class Exponents:
     def square(self) -> Poly | None:
         return -self.field.modulus[0] if isinstance(self.field, AlgebraicField) else None
 
-    def operator(self, S: RatFunc) -> tuple[Poly, Poly, Poly]:
-        """Polynomials with A P'' + B P' + C P = 0."""
-        theta = sum((part.theta for part in self.parts), RatFunc(self.field.poly([])))
-        zeroth = theta.derivative() + theta * theta - RatFunc(S.num.over(self.field), S.den.over(self.field))
-        common = theta.den * zeroth.den
-        return common, (2 * theta * common).num, (zeroth * common).num
+    def images(self, problem: Problem, d: int) -> list[Poly]:
+        """The images of 1, x, ..., x^d under D P'' + 2 R P' + ((R' D - R D' + R^2 - T)/D) P, theta = R/D."""
+        D, T = (f.over(self.field) for f in (problem.D, problem.T))
+        R = (sum((part.theta for part in self.parts), RatFunc(0 * D)) * D).num
+        zeroth = (R.derivative() * D - R * D.derivative() + R * R - T) // D
+        powers = [self.field.poly([0] * k + [1]) for k in range(d + 1)]
+        return [D * P.derivative().derivative() + 2 * R * P.derivative() + zeroth * P for P in powers]
 
-    def polynomial(self, S: RatFunc, d: int) -> Poly | None:
+    def polynomial(self, problem: Problem, d: int) -> Poly | None:
         """The only monic P of degree d that can solve the equation: its coefficients from the highest one down.
 
         None where they don't follow from one another.
         """
-        A, B, C = self.operator(S)
-        x, top = self.field.poly([0, 1]), max(A.degree - 2, B.degree - 1, C.degree)
-        P = x**d
+        images = self.images(problem, d)
+        shift = max(image.degree - k for k, image in enumerate(images))
+        P, rest = self.field.poly([0] * d + [1]), images[d]
         for k in range(d - 1, -1, -1):
-            image, own = (A * p.derivative().derivative() + B * p.derivative() + C * p for p in (P, x**k))
-            if not own[k + top]:
+            if not images[k][k + shift]:
                 return None
-            P = P - x**k * (image[k + top] / own[k + top])
+            factor = rest[k + shift] / images[k][k + shift]
+            P, rest = P - self.field.poly([0] * k + [factor]), rest - images[k] * factor
         return P
 
 
@@ -89,14 +89,9 @@ def with_degree(problem: Problem, d: int) -> list[tuple[Exponents, RankCondition
         field = exponents.field
         if field.rational_value(exponents.degree) != d:
             continue
-        A, B, C = exponents.operator(problem.S)
-        images: list[Poly] = []
-        for power in range(d + 1):
-            P = field.poly([0, 1]) ** power
-            image = A * P.derivative().derivative() + B * P.derivative() + C * P
-            images += [image] if isinstance(field, FunctionField) else [image, image * field.generator]
-            check_time()
-        found.append((exponents, rank_conditions(images, problem)))
+        images, one = exponents.images(problem, d), field.poly([1])
+        basis = [one] if isinstance(field, FunctionField) else [one, field.generator]
+        found.append((exponents, rank_conditions([image * root for image in images for root in basis], problem)))
     return found
 
 
@@ -148,18 +143,18 @@ def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
     return [LocalPart(factor, 1 - (sign * ratio - n) / 2, sign * main) for sign in (1, -1)]
 
 
-def least_valuation(place: Place, m: int) -> int | None:
-    """The least valuation of a rational form of degree m, whether or not there is a logarithm at special values."""
-    return invariants.least_valuation(place, m, logarithms=False)
+def least_valuations(problem: Problem, m: int) -> list[int | None]:
+    """Those of a rational form of degree m at the places, whether or not there is a logarithm at special values."""
+    return [invariants.least_valuation(place, m, logarithms=False) for place in problem.places]
 
 
 def number_of_zeros(problem: Problem, m: int) -> int | None:
     """The largest degree of P for a form of degree m; None where there is no such form at any values of the parameters."""
-    valuations = [least_valuation(place, m) for place in problem.places]
-    known = [v for v in valuations if v is not None]
-    if len(known) < len(valuations):
-        return None
-    N = m - known[-1] - sum(v * place.degree for v, place in zip(known, problem.finite_places, strict=False))
+    N = m
+    for place, v in zip(problem.places, least_valuations(problem, m), strict=True):
+        if v is None:
+            return None
+        N -= v * place.degree
     return N if N >= 0 else None
 
 
@@ -168,11 +163,6 @@ def form_conditions(problem: Problem, m: int) -> RankConditions:
     N = number_of_zeros(problem, m)
     if N is None:
         return RankConditions()
-    valuations = [least_valuation(place, m) for place in problem.finite_places]
-    R0 = singular_part(problem, [v for v in valuations if v is not None])
+    R0 = singular_part(problem, [v for v in least_valuations(problem, m)[:-1] if v is not None])
     x = problem.field.poly([0, 1])
-    images = []
-    for j in range(N + 1):
-        images.append(Form(m, R0, x**j).numerators(problem)[-1])
-        check_time()
-    return rank_conditions(images, problem)
+    return rank_conditions([Form(m, R0, x**j).numerators(problem)[-1] for j in range(N + 1)], problem)

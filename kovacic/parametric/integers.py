@@ -117,7 +117,10 @@ class Congruence(Statement):
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         cosets = [Coset(residue, self.modulus) for residue in self.residues]
-        return None if self.form is None else assumptions.meets_classes(self.form, cosets)
+        if self.form is not None:
+            return assumptions.meets_classes(self.form, cosets)
+        roots = [-f[0] for f, _ in self.equation.field.factor(self.equation) if f.degree == 1] if assumptions else []
+        return True if any(assumptions.meets_classes(over_parameters(root), cosets) for root in roots) else None
 
     def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
         return replace(self, letter=free_letter(names), fixed=tuple(fixed))

@@ -144,13 +144,14 @@ class Natural(Statement):
             S, equation = on_hypersurface(self.S, exponents).S, equation_written(exponents)
             if not isinstance(S.num, FunctionPoly) or rational_curve(exponents) is not None:
                 continue
-            for choice, c in with_degree(analyse(S, Budget()), number) or ():
+            problem = analyse(S, Budget())
+            for choice, c in with_degree(problem, number) or ():
                 conditions = " = 0 or ".join(map(shown, c.polynomials))
                 if c.system and not c.complete:
                     conditions = " = 0, ".join(map(shown, c.system))
                 if c.deficient or conditions:
                     where = equation if c.deficient else f"{equation}, {conditions} = 0"
-                    found.append(solution_of_degree(S, choice, number, variable, where))
+                    found.append(solution_of_degree(problem, choice, number, variable, where))
         return tuple(solution for solution in found if solution is not None)
 
     def shown_determinant(self, number: int) -> str:

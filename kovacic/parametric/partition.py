@@ -26,12 +26,13 @@ from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget
-from kovacic.parametric import confluent, generic, quotient, riemann
+from kovacic.parametric import generic
+from kovacic.parametric.confluent import martinet_ramis
 from kovacic.parametric.functions import degrees, denominators, irreducible_factors, union
-from kovacic.parametric.regions import Condition, Verdict
+from kovacic.parametric.quotient import kimura
+from kovacic.parametric.regions import OMEGAS, Condition, Verdict
 from kovacic.parametric.restriction import UndefinedError, leading_factors, missed, on_hypersurface, rational_curve
 from kovacic.parametric.search import Findings, search
-from kovacic.parametric.solutions import jacobi_solutions, laguerre_solutions
 from kovacic.parametric.statements import Statement, Vanishes, both, either
 from kovacic.solution import Solution
 from kovacic.views.sentences import omega_lines
@@ -84,63 +85,18 @@ def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
         # So it is in case 1 at all values where S is defined: see the head of this module.
         regions = [region for region in _degenerate(S, generic.undefined(problem), settings) if not region.defined]
         return _closed(regions, expected, "a rational omega for generic values, and so for all", expected)
-    if riemann.applies(problem):
-        return _kimura(problem, None, expected, settings)
-    form = confluent.recognise(problem, settings.variable)
-    if form is not None:
-        return _confluent(problem, form, expected, settings)
-    symmetric = quotient.recognise(problem, settings.variable)
-    if symmetric is not None:
-        return _kimura(problem, symmetric, expected, settings)
+    theorem = kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
+    if theorem is not None:
+        regions, always = _degenerate(problem.S, theorem.exceptions, settings), Verdict(None)
+        for statements, verdict, omega, origin in theorem.regions:
+            if statements is True:
+                always = verdict
+                break
+            regions.append(Condition(either(statements), verdict, omega=omega, origin=origin))
+        return _closed(regions, always, theorem.name, expected)
     if settings.only_theorems:
         return Partition(expected, "for generic values only", "no theorem covers all values")
     return _by_candidates(problem, expected, settings)
-
-
-def _kimura(problem: Problem, found: quotient.Quotient | None, expected: Verdict, settings: Settings) -> Partition:
-    """By the theorem for the equation itself, or for its quotient."""
-    points = "singular points" if found is None else f"singular points in {found.coordinate}"
-    theory = f"at most three regular {points}: Kimura's theorem"
-    regions = _degenerate(problem.S, generic.confluence(problem), settings)
-    always = Verdict(None)
-    equation = found or quotient.Quotient(problem, 1, settings.variable)
-    for structure, statements, family in quotient.structures(equation):
-        verdict = Verdict(structure, family=family)
-        if statements is True:
-            always = verdict
-            break
-        omega, origin = _SEMI_INVARIANTS[structure], None
-        if structure is Structure.REDUCIBLE:
-            origin = partial(jacobi_solutions, equation, settings.variable)
-            omega = riemann.omega(problem, settings.variable) if found is None else omega
-        regions.append(Condition(either(statements), verdict, omega=omega, origin=origin))
-    return _closed(regions, always, theory, expected)
-
-
-_RATIONAL_OMEGA = "omega = theta + P'/P, theta from the exponents and the polynomial part of sqrt(S), P a polynomial"
-_SEMI_INVARIANTS = {
-    Structure.IMPRIMITIVE: "y1 y2 = sqrt of a rational function; omega of degree 2",
-    Structure.TETRAHEDRAL: "a rational invariant of degree 6; omega of degree 4",
-    Structure.OCTAHEDRAL: "a rational invariant of degree 8; omega of degree 6",
-    Structure.ICOSAHEDRAL: "a rational invariant of degree 12; omega of degree 12",
-    Structure.REDUCIBLE: _RATIONAL_OMEGA,
-}
-
-
-def _confluent(problem: Problem, form: confluent.Confluent, expected: Verdict, settings: Settings) -> Partition:
-    kind = "Whittaker's equation" if form.q else "Bessel's equation"
-    base = form.coordinate if form.coordinate.isidentifier() else f"({form.coordinate})"
-    theory = f"{kind} in {form.coordinate if form.n == 1 else f'{base}^{form.n}'}: Martinet & Ramis"
-    functions = [*generic.undefined(problem), *irreducible_factors(form.degenerate)]
-    regions = _degenerate(problem.S, functions, settings)
-    structure, statements = confluent.solvable(form)
-    verdict = Verdict(structure, family=confluent.group(form))
-    if statements is True:
-        return _closed(regions, verdict, theory, expected)
-    if statements:
-        origin = partial(laguerre_solutions, form, settings.variable)
-        regions.append(Condition(either(statements), verdict, omega=confluent.omega(form), origin=origin))
-    return _closed(regions, Verdict(None), theory, expected)
 
 
 def _closed(regions: list[Condition], verdict: Verdict, theory: str, expected: Verdict) -> Partition:
@@ -182,7 +138,7 @@ def _by_candidates(problem: Problem, expected: Verdict, settings: Settings) -> P
         if structure is not expected.structure and (expected.structure is None or structure is Structure.REDUCIBLE):
             primitive = "binary tetrahedral, octahedral or icosahedral" if structure.case == 3 else None
             verdict = Verdict(structure, family=primitive)
-            omega = _SEMI_INVARIANTS[structure]
+            omega = OMEGAS[structure]
             origin = partial(statement.solutions, settings.variable)
             regions.append(Condition(statement, verdict, omega=omega, origin=origin))
     return Partition(expected, _together(regions) if complete is True else complete, findings.theory, tuple(regions))
@@ -267,7 +223,7 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
     omega, verdict = None, inner.generic
     if verdict.structure is not None:
         decision = decide(restriction.S, settings.budget)
-        omega = omega_text(restriction.S, decision, settings.variable) or _SEMI_INVARIANTS[verdict.structure]
+        omega = omega_text(restriction.S, decision, settings.variable) or OMEGAS[verdict.structure]
         if field.ground == QQ and not decision.undecided:
             verdict = replace(verdict, family=str(group_of(restriction.S, decision)))
     if field.ground != QQ and inner.complete is not True:
@@ -292,7 +248,7 @@ def _on_algebraic(statement: Vanishes, S: RatFunc, inner: Partition, settings: S
     if inner.complete is not True:
         unknown = replace(inner.generic, known=False)
         return Condition(statement, unknown, f"except for special values with {statement.text()}")
-    omega = _RATIONAL_OMEGA
+    omega = OMEGAS[Structure.REDUCIBLE]
     if max(degrees(statement.function)) <= _WRITTEN_OUT:
         omega = omega_text(S, decide(S, settings.budget), settings.variable) or omega
     return Condition(statement, inner.generic, omega=omega)
@@ -304,4 +260,4 @@ def omega_text(S: RatFunc, decision: Decision, variable: str) -> str | None:
         return None
     lines = omega_lines(Solution(S.to_str(variable), variable, S, decision))
     text = " ".join(line.strip() for line in lines)
-    return text if len(text) <= _LONGEST_OMEGA else _SEMI_INVARIANTS[decision.structure]
+    return text if len(text) <= _LONGEST_OMEGA else OMEGAS[decision.structure]

@@ -1,22 +1,23 @@
 """Regions of parameter space, and which of them say nothing new, because every one of their points lies in an earlier one.
 
-Two tests, both sufficient and exact: polynomials that vanish wherever those of a region do, and values of one parameter,
-f(N) for integers N in given classes, that an earlier family g(M) takes as well, with an M that is linear in N.
+The test is sufficient and exact: a region's points are given as functions of fewer parameters, or of an integer k, and what
+earlier regions state is decided for these functions.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import count, groupby
-from typing import Any
+from typing import Any, Literal
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.decision import Decision, Status, Structure
 from kovacic.limits import check_time
-from kovacic.parametric.functions import irreducible_factors, over_parameters, powers_of
+from kovacic.parametric.assumptions import Assumptions, Known
+from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.record import statement_data
@@ -27,6 +28,8 @@ from kovacic.parametric.statements import Both, Either, Statement, Vanishes, bot
 
 #: Characters up to which statements share a line.
 _LINE = 100
+#: From the degree d, if there is one to be chosen.
+Origin = Callable[[int | None], tuple[PolynomialSolution, ...]]
 Chart = tuple[Mapping[str, Poly], Field]
 
 
@@ -77,6 +80,14 @@ _GROUPS = {
     Structure.ICOSAHEDRAL: "binary icosahedral, order 120",
     None: "SL2(C)",
 }
+#: What omega is where a group has the structure, as far as that can be said for all.
+OMEGAS = {
+    Structure.REDUCIBLE: "omega = theta + P'/P, theta from the exponents and the polynomial part of sqrt(S), P a polynomial",
+    Structure.IMPRIMITIVE: "y1 y2 = sqrt of a rational function; omega of degree 2",
+    Structure.TETRAHEDRAL: "a rational invariant of degree 6; omega of degree 4",
+    Structure.OCTAHEDRAL: "a rational invariant of degree 8; omega of degree 6",
+    Structure.ICOSAHEDRAL: "a rational invariant of degree 12; omega of degree 12",
+}
 
 
 @dataclass(frozen=True)
@@ -94,7 +105,7 @@ class Condition:
     defined: bool = True
     omega: str | None = None
     determinants: tuple[str, ...] = ()
-    origin: Callable[[int | None], tuple[PolynomialSolution, ...]] | None = field(default=None, compare=False)
+    origin: Origin | None = field(default=None, compare=False)
 
     def solution(self, number: int | None = None) -> tuple[PolynomialSolution, ...]:
         """Solutions of y'' = S y for all parameters of the region at once, with the degree d that has to be a natural number.
@@ -155,6 +166,19 @@ class Condition:
         return "\n      ".join([first, *self.determinants])
 
 
+@dataclass(frozen=True)
+class Theorem:
+    """What describes all values at which none of the functions in `exceptions` vanishes.
+
+    The regions, in their order, are given by their statements, of which one has to hold (True: the region is all the rest),
+    the verdict, omega in words, and `Condition.origin`.
+    """
+
+    name: str
+    exceptions: list[FunctionPoly]
+    regions: Iterable[tuple[Literal[True] | list[Statement], Verdict, str, Origin | None]]
+
+
 def _mirrored(regions: Sequence[Condition]) -> Iterator[Condition]:
     """The regions, with those of n = 0 and n = -1 in one where what is said in all of them is the same.
 
@@ -203,80 +227,75 @@ def _alternatives(statement: Statement) -> Sequence[Statement]:
 def without_empty(regions: Sequence[Condition]) -> list[Condition]:
     """The regions without those that earlier ones cover, for example because they say the same and more."""
     kept: list[Condition] = []
-    curves: list[tuple[FunctionPoly, ...]] = []
-    roots: list[Congruence] = []
     seen: list[set[Statement | str]] = []
     for region in regions:
         check_time()
-        parts, alternatives = both(region.statement).parts, _alternatives(region.statement)
-        functions = tuple(part.function for part in parts if isinstance(part, Vanishes))
-        own = [part for part in alternatives if isinstance(part, Congruence) and part.form is None]
-        implied = len(own) == len(alternatives) and all(any(_implies(a, b) for b in roots) for a in own)
         # Functions of more and of fewer parameters are the same if their texts are.
+        parts = both(region.statement).parts
         said: set[Statement | str] = {p.text() if isinstance(p, Vanishes | Congruence) else p for p in parts}
-        repeated = any(known <= said for known in seen)
-        if repeated or implied or (len(functions) > 1 and _is_covered(functions, curves)):
-            continue
-        roots += own
-        seen.append(said)
-        if len(functions) == len(parts):
-            curves.append(functions)
-        kept.append(region)
+        charts = _charts(region.statement)
+        if not any(known <= said for known in seen) and not (
+            charts and all(any(_holds_on(known.statement, chart) for known in kept) for chart in charts)
+        ):
+            seen.append(said)
+            kept.append(region)
     return kept
 
 
-def _is_covered(functions: tuple[FunctionPoly, ...], curves: Sequence[tuple[FunctionPoly, ...]]) -> bool:
-    """Do all functions of an earlier region vanish where these do?"""
-    try:
-        chart = _chart(functions)
-        return chart is not None and any(all(g in functions or not _at(g, *chart) for g in known) for known in curves)
-    except ZeroDivisionError:  # at the values that solve for one parameter another function isn't defined
-        return False
+def _charts(statement: Statement) -> list[Chart]:
+    """Values of the parameters that are all of those at which the statement holds, and maybe more; [] where none are known."""
+    functions = tuple(part.function for part in both(statement).parts if isinstance(part, Vanishes))
+    if len(functions) > 1:
+        chart = _common_zeros(functions)
+        return [] if chart is None else [chart]
+    charts: list[Chart] = []
+    for part in _alternatives(statement):
+        spectra = families(part.equation) if isinstance(part, Congruence) and part.form is None else []
+        if not isinstance(part, Congruence) or not spectra:
+            return []
+        (name, f), names = spectra[0], part.equation.field.names
+        k = next(name for name in map("k{}".format, count()) if name not in names)
+        field = FunctionField((*names, k))
+        known = {name: field.generator(name) for name in names}
+        above, below = (_at(over_parameters(g), (known, field)) for g in (f.num, f.den))
+        for residue in part.residues:
+            N = field.generator(k) * part.modulus + residue
+            charts.append(({**known, name: above(N) / below(N)}, field))
+    return charts
 
 
 @lru_cache(maxsize=256)
-def _chart(functions: tuple[FunctionPoly, ...]) -> Chart | None:
-    """Values of the parameters at which the functions vanish, and their field; None where that isn't one piece."""
+def _common_zeros(functions: tuple[FunctionPoly, ...]) -> Chart | None:
+    """Where the functions vanish; None where that isn't one piece."""
     field = functions[0].field
     start: Chart = {name: field.generator(name) for name in field.names}, field
-    before = _chart(functions[:-1]) if len(functions) > 1 else start
-    if before is None or not isinstance(before[1], FunctionField):
+    try:
+        before = _common_zeros(functions[:-1]) if len(functions) > 1 else start
+        factors = irreducible_factors(_at(functions[-1], before)) if before else []
+        if before is None or not isinstance(before[1], FunctionField) or len(factors) != 1:
+            return None
+        smaller, chosen = parametrised(factors[0])
+        after = dict(zip(factors[0].field.names, chosen, strict=True)), smaller
+        return {name: _at(over_parameters(value), after) for name, value in before[0].items()}, smaller
+    except (TypeError, ZeroDivisionError):  # a function on a hypersurface, or one that isn't defined at these values
         return None
-    factors = irreducible_factors(_at(functions[-1], *before))
-    if len(factors) != 1:
-        return None
-    smaller, chosen = parametrised(factors[0])
-    at = dict(zip(factors[0].field.names, chosen, strict=True))
-    return {name: _at(over_parameters(value), at, smaller) for name, value in before[0].items()}, smaller
 
 
-def _at(function: FunctionPoly, values: Mapping[str, Poly], field: Field) -> Poly:
-    return function.value_at([values[name] for name in function.field.names], field)
+def _at(function: FunctionPoly, chart: Chart) -> Poly:
+    return function.value_at([chart[0][name] for name in function.field.names], chart[1])
 
 
-def _implies(family: Congruence, other: Congruence) -> bool:
-    """Does `other` hold wherever `family` does, which says that a parameter is f(N)?"""
-    names, spectra = family.equation.field.names, families(family.equation)
-    if not spectra or other.equation.field.names != names:
-        return False
-    k = next(name for name in map("k{}".format, count()) if name not in names)
-    field = FunctionField((*names, k))
-    known = {name: field.generator(name) for name in names}
-    for residue in family.residues:
-        check_time()
-        N = field.generator(k) * family.modulus + residue
-        above, below = (_at(over_parameters(part), known, field)(N) for part in (spectra[0][1].num, spectra[0][1].den))
-        equation = _at(other.equation, {**known, spectra[0][0]: above / below}, field)
-        if not any(f.degree == 1 and _is_in_classes(over_parameters(-f[0]), other) for f, _ in field.factor(equation)):
+def _holds_on(statement: Statement, chart: Chart) -> bool:
+    """Is it provably true at all of these values, for every integer k that they contain?"""
+    if isinstance(statement, Both | Either):
+        return (all if isinstance(statement, Both) else any)(_holds_on(part, chart) for part in statement.parts)
+    try:
+        if isinstance(statement, Vanishes):
+            return not _at(statement.function, chart)
+        if not isinstance(statement, Congruence) or not isinstance(chart[1], FunctionField):
             return False
-    return True
-
-
-def _is_in_classes(M: FunctionPoly, other: Congruence) -> bool:
-    """Is M, as a function of the last parameter, a linear one that takes integers in the classes to such integers?"""
-    parts = powers_of(M, len(M.field.names) - 1)
-    values = [M.field.rational_value(parts.get(k, 0 * M)) for k in (0, 1)]
-    if not M.den.is_one() or set(parts) - {0, 1} or None in values:
+        equation = over_parameters(_at(statement.equation, chart))
+    except (KeyError, ZeroDivisionError):  # a function of other parameters, or not defined at these values
         return False
-    start, step = (int(v) for v in values if v is not None)
-    return all((start + k * step) % other.modulus in other.residues for k in range(int(other.modulus)))
+    integer = Assumptions(tuple((name, Known(("integer",))) for name in chart[1].names if name not in chart[0]))
+    return Congruence.make(equation, statement.residues, statement.modulus).decided(integer) is True

@@ -22,7 +22,7 @@ from kovacic.decision import Structure
 from kovacic.engine.degree_bound import irregular_difference_squared
 from kovacic.engine.places import Kind, Problem
 from kovacic.errors import LimitExceeded
-from kovacic.parametric.exponents import form_conditions, least_valuation, number_of_zeros, with_degree
+from kovacic.parametric.exponents import form_conditions, least_valuations, number_of_zeros, with_degree
 from kovacic.parametric.functions import over_parameters, union
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import RankConditions
@@ -175,8 +175,8 @@ def _forms(problem: Problem, m: int, findings: Findings) -> bool:
     complete = findings.add(conditions_in_time(problem, m))
     variable: list[tuple[Poly, int]] = []  # the square of the difference, and how often it can occur in the sum
     room = m
-    for place in problem.places:
-        v, square = least_valuation(place, m), place.delta_squared
+    for place, v in zip(problem.places, least_valuations(problem, m), strict=True):
+        square = place.delta_squared
         if place.kind is Kind.REGULAR and square is None:
             return False
         if place.kind is Kind.REGULAR and square is not None and field.rational_value(square) is None:

@@ -21,13 +21,12 @@ from typing import TYPE_CHECKING, Any
 
 from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.poly import Poly
-from kovacic.engine.places import Kind
+from kovacic.engine.places import Kind, Problem
 
 if TYPE_CHECKING:
-    from kovacic.algebra.ratfunc import RatFunc
     from kovacic.parametric.confluent import Confluent
     from kovacic.parametric.exponents import Exponents
-    from kovacic.parametric.quotient import Quotient
+    from kovacic.parametric.quotient import Coordinate
 
 
 @dataclass(frozen=True)
@@ -53,29 +52,31 @@ def laguerre_solutions(form: Confluent, variable: str, _: int | None = None) -> 
 
     if not form.q:
         return ()
-    x, s = sympy.Symbol(variable), read_expression(form.coordinate)
+    x, s, weight = sympy.Symbol(variable), *map(read_expression, (form.coordinate.base, form.coordinate.weight))
     root, delta = _root(form.q), _root(1 + 4 * form.b)
-    beta, n = form.r.to_sympy(x) / root, form.n
+    beta, n = form.r.to_sympy(x) / root, form.coordinate.n
     found = []
     for e, f in product((1, -1), repeat=2):
         degree = sympy.expand((e * beta - f * delta - n) / (2 * n))
         u = sympy.expand(-2 * e * root / n) * s**n
         y = s ** sympy.expand((1 + f * delta) / 2) * sympy.exp(-u / 2) * sympy.assoc_laguerre(degree, f * delta / n, u)
-        found.append(PolynomialSolution(y / s if form.inverted else y, degree))
+        found.append(PolynomialSolution(weight * y, degree))
     return _possible(found)
 
 
-def jacobi_solutions(quotient: Quotient, variable: str, _: int | None = None) -> tuple[PolynomialSolution, ...]:
+def jacobi_solutions(
+    problem: Problem, coordinate: Coordinate, variable: str, _: int | None = None
+) -> tuple[PolynomialSolution, ...]:
     """Equation (2), for all signs for which d can be a natural number; () where three singular points are conjugate."""
     import sympy
 
     from kovacic.parametric.riemann import difference_squared
     from kovacic.reading.symbolic import read_expression
 
-    x, n = sympy.Symbol(variable), quotient.n
-    base, weight = read_expression(quotient.base), read_expression(quotient.weight)
+    x, n = sympy.Symbol(variable), coordinate.n
+    base, weight = map(read_expression, (coordinate.base, coordinate.weight))
     points: list[tuple[Any, Any]] = []
-    for place in quotient.problem.places:
+    for place in problem.places:
         if place.kind is Kind.ORDINARY or place.degree > 2:
             continue
         square = difference_squared(place)
@@ -88,7 +89,7 @@ def jacobi_solutions(quotient: Quotient, variable: str, _: int | None = None) ->
             for sign in (1, -1):
                 c = (-half + sign * sympy.sqrt(sympy.factor(half**2 - 4 * rest))) / 2
                 points.append((c, sympy.sqrt(sympy.simplify(square.to_sympy(x).subs(x, c)))))
-    if len(points) == 2 and quotient.problem.infinity.kind is Kind.ORDINARY:
+    if len(points) == 2 and problem.infinity.kind is Kind.ORDINARY:
         points.append((None, sympy.Integer(1)))
     if len(points) != 3:
         return ()
@@ -106,12 +107,12 @@ def jacobi_solutions(quotient: Quotient, variable: str, _: int | None = None) ->
 
 
 def solution_of_degree(
-    S: RatFunc, exponents: Exponents, d: int, variable: str, where: str
+    problem: Problem, exponents: Exponents, d: int, variable: str, where: str
 ) -> PolynomialSolution | None:
     """exp(int theta) P for one choice of exponents, valid where Delta_d = 0; None where P isn't determined by its degree."""
     import sympy
 
-    P = exponents.polynomial(S, d)
+    P = exponents.polynomial(problem, d)
     if P is None:
         return None
     x = sympy.Symbol(variable)
