@@ -26,7 +26,7 @@ from kovacic.parametric.answer import Conditions
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import without_constant_pivots
 from kovacic.parametric.regions import Verdict
-from kovacic.parametric.restriction import rational_curve
+from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.riemann import kimura
 from kovacic.views.text import render
 from tests.parametric_cases import FAMILIES, Family, hypergeometric, with_squares
@@ -798,14 +798,16 @@ def test_rational_curves(curve: str, values: tuple[int, int]) -> None:
     functions = {"p^2 - q^3": p**2 - q**3, "4*p^3 + 27*q^2": 4 * p**3 + 27 * q**2, "p^5 + 32*q^2": p**5 + 32 * q**2}
     function = functions.get(curve, 3 * p**4 - 5 * q**3)
     assert not function.value_at(values, QQ)
-    found = rational_curve(function)
-    assert found is not None
-    assert not function.value_at(found.values, found.field)
+    found = hypersurface(function)
+    assert found.curve is not None
+    assert not found.at(function)
     # T in p and q, at T's own values of p and q, is T.
-    assert found.parameter.value_at(found.values, found.field) == found.field.generator(found.name)
-    assert rational_curve(p**2 - q**4) is None
-    assert rational_curve(p**2 - q) is None
-    assert rational_curve(p**2 * q - q**3 * p) is None
+    T, parameter = found.curve
+    assert isinstance(found.field, FunctionField)
+    assert found.at(parameter) == found.field.generator(T)
+    assert hypersurface(p**2 - q**4).curve is None
+    assert hypersurface(p**2 - q).curve is None
+    assert hypersurface(p**2 * q - q**3 * p).curve is None
 
 
 def test_natural_numbers_at_a_point() -> None:

@@ -19,12 +19,13 @@ from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.check import CheckReport, Disagreement, Sampler
+from kovacic.parametric.functions import Point, UndefinedError
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
 from kovacic.parametric.record import Reader, constant_data, constant_from
 from kovacic.parametric.regions import Condition, Verdict, in_one_line
-from kovacic.parametric.restriction import NO_CONSTANT, UndefinedError, at_point
-from kovacic.parametric.statements import Point, both
+from kovacic.parametric.restriction import NO_CONSTANT
+from kovacic.parametric.statements import both
 from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
@@ -97,7 +98,7 @@ class Conditions:
             raise InputError(f"S isn't defined at {point}")
         if verdict.known:
             return verdict.case
-        decision = decide(at_point(self.S, point), Budget(self.limits), certify=False)
+        decision = decide(point.restricted(self.S), Budget(self.limits), certify=False)
         if decision.status is Status.UNDECIDED:
             raise LimitExceeded(str(decision.undecided), limit="seconds")
         return decision.case
@@ -107,7 +108,7 @@ class Conditions:
         """The verified answer at a point: the omega that the region makes possible."""
         point = self.point(values)
         try:
-            S = at_point(self.S, point)
+            S = point.restricted(self.S)
         except UndefinedError:
             raise InputError(f"S isn't defined at {point}") from None
         decision = decide(S, Budget(self.limits))
@@ -120,7 +121,7 @@ class Conditions:
     def predicted(self, point: Point) -> Verdict | None:
         """What the regions claim; None where S isn't defined."""
         try:
-            at_point(self.S, point)
+            point.restricted(self.S)
         except UndefinedError:
             return None
         for region in self.regions:
@@ -163,7 +164,7 @@ class Conditions:
                 continue
             inside = predicted.known and any(statement.holds(point) for statement in statements)
             counts["inside" if inside else "outside" if predicted.known else "open"] += 1
-            decision = decide(at_point(self.S, point), budget, certify=False) if predicted.known else None
+            decision = decide(point.restricted(self.S), budget, certify=False) if predicted.known else None
             if decision and decision.status is not Status.UNDECIDED and decision.case != predicted.case:
                 disagreements.append(Disagreement(str(point), predicted.case, decision.case))
         return CheckReport(**counts, disagreements=tuple(disagreements))

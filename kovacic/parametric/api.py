@@ -15,11 +15,11 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.answer import Conditions
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
+from kovacic.parametric.functions import Point
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.partition import Settings, partition
 from kovacic.parametric.regions import Condition, Verdict, without_empty
 from kovacic.parametric.restriction import reduced, with_free_constant
-from kovacic.parametric.statements import Point
 from kovacic.reading.given import Parsed, parameters_of
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import with_values

@@ -15,7 +15,7 @@ from functools import reduce
 from itertools import product
 from math import ceil, floor
 from random import Random
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import arb, fmpq
 
@@ -24,7 +24,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
-from kovacic.parametric.functions import Coset, common_divisor, degrees, element, numerator, over_parameters, powers_of
+from kovacic.parametric.functions import Coset, common_divisor, degrees, element, numerator, over_parameters
 
 _DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
 
@@ -177,17 +177,18 @@ class Assumptions:
         if value is not None:
             number = value.field.rational_value(value)
             return number is not None and any(coset.contains(number) for coset in classes)
-        values, single = self._coset_of(form), _in_one_parameter(form)
+        values, linear = self._coset_of(form), _linear(form)
         if values is not None:
             if not any(values.meets(coset) for coset in classes):
                 return False
             return True if values.is_covered_by(classes) else None
-        if single is not None:
-            constant, name, factor = single
-            solutions = [Coset((c.start - constant) / factor, c.step / abs(factor)) for c in classes]
-            if "noninteger" in self.of(name).words and all(s.is_covered_by([_INTEGERS]) for s in solutions):
+        if linear is not None and len(linear.factors) == 1:
+            ((name, factor),) = linear.factors.items()
+            known = self.of(name)
+            solutions = [Coset((c.start - linear.constant) / factor, c.step / abs(factor)) for c in classes]
+            if "noninteger" in known.words and all(s.is_covered_by([_INTEGERS]) for s in solutions):
                 return False
-            if not any(_has_number_between(s, self.of(name).bounds) for s in solutions):
+            if not any(_has_number_between(s, known.bounds) for s in solutions):
                 return False
         return False if self._is_irrational(form) else None
 
@@ -199,30 +200,26 @@ class Assumptions:
         return False if self._is_nonzero(function) else None
 
     def _value_of(self, function: FunctionPoly) -> Poly | None:
-        """The value of a polynomial that doesn't depend on the parameters without a value; None for any other."""
-        if not self.values:
+        """The value of a polynomial in the parameters that have a value; None for any other."""
+        field, fixed, names = self.values[0][1].field if self.values else QQ, dict(self.values), function.field.names
+        parts = (function, element(function.field, function.den))
+        if any(k and name not in fixed for part in parts for name, k in zip(names, degrees(part), strict=True)):
             return None
-        field, fixed, names = self.values[0][1].field, dict(self.values), function.field.names
-        below = element(function.field, function.den)
-        above, free = ([i for i, k in enumerate(degrees(f)) if k and names[i] not in fixed] for f in (function, below))
-        if not above and not free:
-            return function.value_at([fixed.get(name, 0) for name in names], field)
-        parts = powers_of(function, above[0]) if above and not free else {1: function}
-        if free or any(power and self._value_of(part) != 0 for power, part in parts.items()):
-            return None
-        return self._value_of(parts.get(0, 0 * below) / below)
+        return function.value_at([fixed.get(name, 0) for name in names], field)
 
     def _is_nonzero(self, function: FunctionPoly) -> bool:
         """Can the function be proven to vanish nowhere?"""
-        values, single = self._coset_of(function), _in_one_parameter(numerator(function))
+        above = numerator(function)
+        values, linear = self._coset_of(function), _linear(above)
         if values is not None and not values.contains(Fraction(0)):
             return True
-        if single is not None and not self.of(single[1]).admits(QQ.poly([-single[0] / single[2]])):
-            return True
-        terms = function.num.to_dict()
-        if len(terms) == 1:
-            return all(self.of(name).nonzero for e in terms for name in _powers(function, e))
-        return self._is_irrational(function) or any(self.is_positive(s * numerator(function)) for s in (1, -1))
+        if linear is not None and len(linear.factors) == 1:
+            ((name, factor),) = linear.factors.items()
+            if not self.of(name).admits(QQ.poly([-linear.constant / factor])):
+                return True
+        if len(function.num) == 1:
+            return all(self.of(name).nonzero for name in _names(function))
+        return self._is_irrational(function) or any(self.is_positive(sign * above) for sign in (1, -1))
 
     def is_positive(self, form: FunctionPoly, *, or_zero: bool = False) -> bool:
         """Can a polynomial be proven to be positive, or not negative, everywhere?
@@ -243,22 +240,21 @@ class Assumptions:
 
     def _coset_of(self, form: FunctionPoly) -> Coset | None:
         """A class that contains all values of a polynomial."""
-        names = {name for e in form.num.to_dict() for name in _powers(form, e)}
-        known = {name: coset for name in names if (coset := self.of(name).coset) is not None}
+        known = {name: coset for name in _names(form) if (coset := self.of(name).coset) is not None}
         linear = _linear(form)
-        if not names or len(known) < len(names):
+        if not known or len(known) < len(_names(form)):
             return None
         if linear is not None:
-            terms = [(factor, known[name]) for name, factor in linear[1].items()]
-            start = linear[0] + sum(factor * coset.start for factor, coset in terms)
-            return Coset(start, reduce(common_divisor, (abs(factor) * coset.step for factor, coset in terms)))
+            start = linear.constant + sum(factor * known[name].start for name, factor in linear.factors.items())
+            steps = (abs(factor) * known[name].step for name, factor in linear.factors.items())
+            return Coset(start, reduce(common_divisor, steps))
         integers = form.den.is_one() and all(coset.is_covered_by([_INTEGERS]) for coset in known.values())
         return _INTEGERS if integers else None
 
     def _is_irrational(self, form: FunctionPoly) -> bool:
         """A linear form in which one parameter is irrational and the others are rational."""
         linear = _linear(form)
-        kinds = [self.of(name).rational for name in (linear[1] if linear else ())]
+        kinds = [self.of(name).rational for name in (linear.factors if linear else ())]
         return kinds.count(False) == 1 and None not in kinds
 
 
@@ -312,28 +308,23 @@ def _has_number_between(coset: Coset, bounds: list[Bound]) -> bool:
     return any(low.admits(number) and high.admits(number) for number in (first, first + coset.step))
 
 
-def _linear(form: FunctionPoly) -> tuple[Fraction, dict[str, Fraction]] | None:
-    """The constant term and the coefficients of a linear form in the parameters; None for anything else."""
-    if not form.den.is_constant():
+class _Linear(NamedTuple):
+    """constant + sum of factor * parameter."""
+
+    constant: Fraction
+    factors: dict[str, Fraction]
+
+
+def _linear(form: FunctionPoly) -> _Linear | None:
+    """A linear form in the parameters; None for anything else."""
+    if not form.den.is_constant() or form.num.total_degree() > 1:
         return None
-    constant, factors = Fraction(0), {}
-    for exponents, coefficient in form.num.to_dict().items():
-        value, powers = Fraction(int(coefficient), int(form.den.leading_coefficient())), _powers(form, exponents)
-        if sum(powers.values()) > 1:
-            return None
-        if powers:
-            factors[next(iter(powers))] = value
-        else:
-            constant = value
-    return constant, factors
+    den = int(form.den.leading_coefficient())
+    terms = {e[1:]: Fraction(int(c), den) for e, c in form.num.to_dict().items()}
+    factors = {form.field.names[e.index(1)]: c for e, c in terms.items() if any(e)}
+    return _Linear(next((c for e, c in terms.items() if not any(e)), Fraction(0)), factors)
 
 
-def _in_one_parameter(form: FunctionPoly) -> tuple[Fraction, str, Fraction] | None:
-    """`(a, t, b)` for the form a + b t."""
-    linear = _linear(form)
-    return None if linear is None or len(linear[1]) != 1 else (linear[0], *next(iter(linear[1].items())))
-
-
-def _powers(form: FunctionPoly, exponents: Any) -> dict[str, int]:
-    """The parameters of a monomial with their positive exponents."""
-    return {name: int(k) for name, k in zip(form.field.names, exponents[1:], strict=True) if k}
+def _names(form: FunctionPoly) -> list[str]:
+    """The parameters in the numerator."""
+    return [name for name, k in zip(form.field.names, degrees(form), strict=True) if k]

@@ -12,8 +12,8 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.functions import degrees, powers_of
-from kovacic.parametric.statements import Point, Statement
+from kovacic.parametric.functions import Point, degrees, powers_of
+from kovacic.parametric.statements import Statement
 
 
 @dataclass(frozen=True)

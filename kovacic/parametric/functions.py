@@ -10,8 +10,9 @@ from math import gcd
 from typing import Any
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.rationals import to_fraction
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.sparse import by_power, factorisation
 
 
@@ -67,6 +68,36 @@ def normal_form(function: Poly) -> tuple[FunctionPoly, Fraction, Fraction]:
     above, below = ([int(c) for c in part.coeffs()] for part in (form.num, form.den))
     scale = Fraction(gcd(*below), gcd(*above) * (1 if above[0] > 0 else -1)) if above else Fraction(1)
     return over_parameters(form * scale), scale, shift
+
+
+class UndefinedError(Exception):
+    """S isn't defined at these values of the parameters."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """Values of the parameters, in the order of the names: constants of one field, Q or Q(alpha), or functions of others."""
+
+    names: tuple[str, ...]
+    values: tuple[Poly, ...]
+    field: Field = QQ
+
+    def at(self, function: FunctionPoly) -> Poly:
+        """The value of a polynomial over Q(t).  Raises `ZeroDivisionError` where it isn't defined."""
+        chosen = [self.values[self.names.index(name)] for name in function.field.names]
+        return function.value_at(chosen, self.field)
+
+    def restricted(self, S: RatFunc) -> RatFunc:
+        """S there.  Raises `UndefinedError` where the denominator vanishes identically."""
+        if not isinstance(S.field, FunctionField):
+            return S
+        above, below = (self.at(over_parameters(part)) for part in S.cleared())
+        if not below:
+            raise UndefinedError
+        return RatFunc(above, below)
+
+    def __str__(self) -> str:
+        return ", ".join(f"{name} = {value.to_str()}" for name, value in zip(self.names, self.values, strict=True))
 
 
 @dataclass(frozen=True)

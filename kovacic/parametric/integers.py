@@ -19,9 +19,9 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.formulas import Notation
-from kovacic.parametric.functions import Coset, common_multiple, degrees, normal_form, over_parameters
+from kovacic.parametric.functions import Coset, Point, common_multiple, degrees, normal_form, over_parameters
 from kovacic.parametric.spectra import families, integer_condition, kind
-from kovacic.parametric.statements import Point, Statement
+from kovacic.parametric.statements import Statement
 
 #: What integers are called, the first that isn't a parameter.
 LETTERS = "nNmMkKjJ"

@@ -27,13 +27,13 @@ from kovacic.limits import Budget, Limits
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.exponents import form_conditions, with_degree
 from kovacic.parametric.formulas import Notation, equation_written, shown, written
-from kovacic.parametric.functions import Coset, degrees, irreducible_factors, over_parameters
+from kovacic.parametric.functions import Coset, Point, UndefinedError, degrees, irreducible_factors, over_parameters
 from kovacic.parametric.integers import LETTERS, free_letter, rational_roots
 from kovacic.parametric.ranks import RankConditions
-from kovacic.parametric.restriction import UndefinedError, at_point, on_hypersurface, rational_curve
+from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
 from kovacic.parametric.spectra import alternatives
-from kovacic.parametric.statements import Point, Statement
+from kovacic.parametric.statements import Statement
 
 #: The largest number that is tried for an example.
 _EXAMPLES = 3
@@ -116,7 +116,8 @@ class Natural(Statement):
 
     def _determinants(self, exponents: FunctionPoly, number: int) -> list[Determinant]:
         try:
-            S = on_hypersurface(self.S, exponents).S
+            surface = hypersurface(exponents)
+            S = surface.restricted(self.S)
         except UndefinedError:
             return []
         zero = exponents - exponents
@@ -132,8 +133,7 @@ class Natural(Statement):
         for c in found if found is not None else [RankConditions(complete=False)]:
             factors = (zero,) if c.deficient and m == 1 else c.polynomials if c.complete else None
             determinants.append(Determinant(exponents, factors, c.system or None if factors is None else None))
-        curve = rational_curve(exponents)
-        return determinants if curve is None else [determinant.rewritten(curve.back) for determinant in determinants]
+        return [d.rewritten(surface.back) for d in determinants] if surface.curve else determinants
 
     def solutions(self, variable: str, number: int | None) -> tuple[PolynomialSolution, ...]:
         """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""
@@ -141,8 +141,9 @@ class Natural(Statement):
         if number is None or self.m > 1:
             return ()
         for exponents in dict.fromkeys(e for f in self.factors for e in irreducible_factors(f(Fraction(number)))):
-            S, equation = on_hypersurface(self.S, exponents).S, equation_written(exponents)
-            if not isinstance(S.num, FunctionPoly) or rational_curve(exponents) is not None:
+            surface, equation = hypersurface(exponents), equation_written(exponents)
+            S = surface.restricted(self.S)
+            if not isinstance(S.num, FunctionPoly) or surface.curve:
                 continue
             problem = analyse(S, Budget())
             for choice, c in with_degree(problem, number) or ():
@@ -215,7 +216,7 @@ class Natural(Statement):
 def _structure_at(S: RatFunc, point: Point) -> Structure | None:
     """What the engine says at a point, which several statements ask for; None also where S isn't defined."""
     try:
-        decision = decide(at_point(S, point), Budget(Limits(seconds=_SECONDS)), certify=False)
+        decision = decide(point.restricted(S), Budget(Limits(seconds=_SECONDS)), certify=False)
     except UndefinedError:
         return None
     if decision.status is Status.UNDECIDED:

@@ -28,10 +28,10 @@ from kovacic.galois import group_of
 from kovacic.limits import Budget
 from kovacic.parametric import generic
 from kovacic.parametric.confluent import martinet_ramis
-from kovacic.parametric.functions import degrees, denominators, irreducible_factors, union
+from kovacic.parametric.functions import UndefinedError, degrees, denominators, irreducible_factors, union
 from kovacic.parametric.quotient import kimura
 from kovacic.parametric.regions import OMEGAS, Condition, Verdict
-from kovacic.parametric.restriction import UndefinedError, leading_factors, missed, on_hypersurface, rational_curve
+from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.search import Findings, search
 from kovacic.parametric.statements import Statement, Vanishes, both, either
 from kovacic.solution import Solution
@@ -184,20 +184,20 @@ def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
     """
     regions: list[Condition] = []
     first = Vanishes(function)
-    for other in missed(function):
-        second = Vanishes(other)
+    for other in hypersurface(function).missed:
+        surface, second = hypersurface(other), Vanishes(other)
         try:
-            restriction = on_hypersurface(S, other)
+            restricted = surface.restricted(S)
         except UndefinedError:
             regions.append(Condition(both(first, second), _UNKNOWN, defined=False))
             continue
         regions += _also(_missed(S, other, settings), first)
-        rest = function.value_at(restriction.values, restriction.field)
+        rest = surface.at(function)
         if not isinstance(rest, FunctionPoly):
             regions += _also(_inside(S, other, settings), first)
             continue
         for factor in irreducible_factors(rest):
-            regions += _also(_pieces(restriction.S, factor, settings), first, second)
+            regions += _also(_pieces(restricted, factor, settings), first, second)
     return regions
 
 
@@ -211,30 +211,28 @@ _UNKNOWN = Verdict(None, known=False)
 
 def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Condition]:
     """The regions where a polynomial vanishes, except for the points that `missed` is about; the last one is all the rest."""
-    statement = Vanishes(function)
+    statement, surface = Vanishes(function), hypersurface(function)
     try:
-        restriction = on_hypersurface(S, function)
+        S = surface.restricted(S)
     except UndefinedError:
         return [Condition(statement, _UNKNOWN, defined=False)]
-    inner = partition(restriction.S, settings)
-    field = restriction.field
+    inner, field = partition(S, settings), surface.field
     if isinstance(field, AlgebraicField) and field.ground != QQ:
-        return [_on_algebraic(statement, restriction.S, inner, settings)]
+        return [_on_algebraic(statement, S, inner, settings)]
     omega, verdict = None, inner.generic
     if verdict.structure is not None:
-        decision = decide(restriction.S, settings.budget)
-        omega = omega_text(restriction.S, decision, settings.variable) or OMEGAS[verdict.structure]
+        decision = decide(S, settings.budget)
+        omega = omega_text(S, decision, settings.variable) or OMEGAS[verdict.structure]
         if field.ground == QQ and not decision.undecided:
-            verdict = replace(verdict, family=str(group_of(restriction.S, decision)))
+            verdict = replace(verdict, family=str(group_of(S, decision)))
     if field.ground != QQ and inner.complete is not True:
         verdict = replace(verdict, known=False)
     whole = Condition(statement, verdict, inner.complete, omega=omega)
-    elsewhere = {Vanishes(factor).text() for factor in leading_factors(function)}
+    elsewhere = {Vanishes(factor).text() for factor in surface.leading}
     special = [region for region in inner.regions if both(region.statement).parts[0].text() not in elsewhere]
-    curve = rational_curve(function)
-    if curve is not None:
+    if surface.curve:
         special = [
-            replace(region, statement=region.statement.rewritten(curve.back), omega=None, origin=None)
+            replace(region, statement=region.statement.rewritten(surface.back), omega=None, origin=None)
             for region in special
         ]
         whole = replace(whole, omega=None)

@@ -20,12 +20,12 @@ from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
 from kovacic.errors import InputError
 from kovacic.limits import Limits
-from kovacic.parametric.functions import over_parameters
+from kovacic.parametric.functions import Point, over_parameters
 from kovacic.parametric.integers import Congruence, free_letter
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.riemann import Schwarz
-from kovacic.parametric.statements import Both, Either, Point, Statement, Vanishes
+from kovacic.parametric.statements import Both, Either, Statement, Vanishes
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_with
 from kovacic.reading.given import parameters_of

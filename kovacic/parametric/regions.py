@@ -13,15 +13,14 @@ from itertools import count, groupby
 from typing import Any, Literal
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Field, Poly
 from kovacic.decision import Decision, Status, Structure
 from kovacic.limits import check_time
 from kovacic.parametric.assumptions import Assumptions, Known
-from kovacic.parametric.functions import irreducible_factors, over_parameters
+from kovacic.parametric.functions import Point, irreducible_factors, over_parameters
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.record import statement_data
-from kovacic.parametric.restriction import parametrised
+from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.solutions import PolynomialSolution
 from kovacic.parametric.spectra import families
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both, either
@@ -30,7 +29,6 @@ from kovacic.parametric.statements import Both, Either, Statement, Vanishes, bot
 _LINE = 100
 #: From the degree d, if there is one to be chosen.
 Origin = Callable[[int | None], tuple[PolynomialSolution, ...]]
-Chart = tuple[Mapping[str, Poly], Field]
 
 
 @dataclass(frozen=True)
@@ -242,13 +240,13 @@ def without_empty(regions: Sequence[Condition]) -> list[Condition]:
     return kept
 
 
-def _charts(statement: Statement) -> list[Chart]:
+def _charts(statement: Statement) -> list[Point]:
     """Values of the parameters that are all of those at which the statement holds, and maybe more; [] where none are known."""
     functions = tuple(part.function for part in both(statement).parts if isinstance(part, Vanishes))
     if len(functions) > 1:
         chart = _common_zeros(functions)
         return [] if chart is None else [chart]
-    charts: list[Chart] = []
+    charts: list[Point] = []
     for part in _alternatives(statement):
         spectra = families(part.equation) if isinstance(part, Congruence) and part.form is None else []
         if not isinstance(part, Congruence) or not spectra:
@@ -256,46 +254,42 @@ def _charts(statement: Statement) -> list[Chart]:
         (name, f), names = spectra[0], part.equation.field.names
         k = next(name for name in map("k{}".format, count()) if name not in names)
         field = FunctionField((*names, k))
-        known = {name: field.generator(name) for name in names}
-        above, below = (_at(over_parameters(g), (known, field)) for g in (f.num, f.den))
+        chart = Point(names, tuple(map(field.generator, names)), field)
+        above, below = (chart.at(over_parameters(g)) for g in (f.num, f.den))
         for residue in part.residues:
             N = field.generator(k) * part.modulus + residue
-            charts.append(({**known, name: above(N) / below(N)}, field))
+            values = {n: field.generator(n) for n in names} | {name: above(N) / below(N)}
+            charts.append(Point(names, tuple(values.values()), field))
     return charts
 
 
 @lru_cache(maxsize=256)
-def _common_zeros(functions: tuple[FunctionPoly, ...]) -> Chart | None:
+def _common_zeros(functions: tuple[FunctionPoly, ...]) -> Point | None:
     """Where the functions vanish; None where that isn't one piece."""
     field = functions[0].field
-    start: Chart = {name: field.generator(name) for name in field.names}, field
+    start = Point(field.names, tuple(map(field.generator, field.names)), field)
     try:
         before = _common_zeros(functions[:-1]) if len(functions) > 1 else start
-        factors = irreducible_factors(_at(functions[-1], before)) if before else []
-        if before is None or not isinstance(before[1], FunctionField) or len(factors) != 1:
+        factors = irreducible_factors(before.at(functions[-1])) if before else []
+        if before is None or len(factors) != 1:
             return None
-        smaller, chosen = parametrised(factors[0])
-        after = dict(zip(factors[0].field.names, chosen, strict=True)), smaller
-        return {name: _at(over_parameters(value), after) for name, value in before[0].items()}, smaller
+        after = hypersurface(factors[0])
+        return Point(before.names, tuple(after.at(over_parameters(value)) for value in before.values), after.field)
     except (TypeError, ZeroDivisionError):  # a function on a hypersurface, or one that isn't defined at these values
         return None
 
 
-def _at(function: FunctionPoly, chart: Chart) -> Poly:
-    return function.value_at([chart[0][name] for name in function.field.names], chart[1])
-
-
-def _holds_on(statement: Statement, chart: Chart) -> bool:
+def _holds_on(statement: Statement, chart: Point) -> bool:
     """Is it provably true at all of these values, for every integer k that they contain?"""
     if isinstance(statement, Both | Either):
         return (all if isinstance(statement, Both) else any)(_holds_on(part, chart) for part in statement.parts)
     try:
         if isinstance(statement, Vanishes):
-            return not _at(statement.function, chart)
-        if not isinstance(statement, Congruence) or not isinstance(chart[1], FunctionField):
+            return not chart.at(statement.function)
+        if not isinstance(statement, Congruence) or not isinstance(chart.field, FunctionField):
             return False
-        equation = over_parameters(_at(statement.equation, chart))
-    except (KeyError, ZeroDivisionError):  # a function of other parameters, or not defined at these values
+        equation = over_parameters(chart.at(statement.equation))
+    except (ValueError, ZeroDivisionError):  # a function of other parameters, or not defined at these values
         return False
-    integer = Assumptions(tuple((name, Known(("integer",))) for name in chart[1].names if name not in chart[0]))
+    integer = Assumptions(tuple((name, Known(("integer",))) for name in chart.field.names if name not in chart.names))
     return Congruence.make(equation, statement.residues, statement.modulus).decided(integer) is True

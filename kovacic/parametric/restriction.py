@@ -16,60 +16,57 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.parametric.functions import degrees, element, irreducible_factors, numerator, over_parameters, powers_of
-from kovacic.parametric.statements import Point, Statement
+from kovacic.parametric.functions import (
+    Point,
+    degrees,
+    element,
+    irreducible_factors,
+    numerator,
+    over_parameters,
+    powers_of,
+)
+from kovacic.parametric.statements import Statement
 
 #: The point of no algebraic constant.
 NO_CONSTANT = Point((), ())
 
 
-class UndefinedError(Exception):
-    """S isn't defined at these values of the parameters."""
-
-
 @dataclass(frozen=True)
-class Restriction:
-    """S where the parameters have the given values: constants of `field`, in their order."""
+class Hypersurface(Point):
+    """Where an irreducible polynomial in the parameters vanishes: their values over a field of fewer ones, or an extension.
 
-    S: RatFunc
-    field: Field
-    values: tuple[Poly, ...]
-
-
-def at_point(S: RatFunc, point: Point) -> RatFunc:
-    """S at a point.  Raises `UndefinedError` where the denominator vanishes identically."""
-    field = S.field
-    if not isinstance(field, FunctionField):
-        return S
-    return _restricted(S, [point.values[point.names.index(name)] for name in field.names], point.field).S
-
-
-def _restricted(S: RatFunc, values: list[Poly], field: Field) -> Restriction:
-    above, below = map(over_parameters, S.cleared())
-    den = below.value_at(values, field)
-    if not den:
-        raise UndefinedError
-    return Restriction(RatFunc(above.value_at(values, field), den), field, tuple(values))
-
-
-def on_hypersurface(S: RatFunc, function: FunctionPoly) -> Restriction:
-    """S where an irreducible polynomial in the parameters vanishes.  Raises `UndefinedError` where S isn't defined."""
-    field, values = parametrised(function)
-    return _restricted(S, values, field)
-
-
-def parametrised(function: FunctionPoly) -> tuple[Field, list[Poly]]:
-    """A field, and values of the parameters in it at which an irreducible polynomial vanishes.
-
-    A parameter that occurs linearly is eliminated, which misses the zeros of its coefficient (`missed`); else one becomes
-    algebraic over the others: a number, if there are none.
+    The zeros of the `leading` functions (of fewer parameters) aren't covered, and `missed` are functions of which one vanishes
+    at each zero that isn't covered.  On a curve with two terms `curve` is its parameter: its name, and itself.
     """
-    names, powers = function.field.names, degrees(function)
-    curve = rational_curve(function)
+
+    leading: tuple[FunctionPoly, ...] = ()
+    missed: tuple[FunctionPoly, ...] = ()
+    curve: tuple[str, FunctionPoly] | None = None
+
+    def back(self, function: FunctionPoly) -> FunctionPoly:
+        """A function of the parameter of the curve, and of others, in the original parameters."""
+        if self.curve is None:
+            return function
+        (T, parameter), names = self.curve, function.field.names
+        values = [parameter if name == T else parameter.field.generator(name) for name in names]
+        return over_parameters(function.value_at(values, parameter.field))
+
+
+def hypersurface(function: FunctionPoly) -> Hypersurface:
+    """Values of the parameters at which an irreducible polynomial vanishes.
+
+    A parameter that occurs linearly is eliminated, one with a constant coefficient if there is one; else one becomes algebraic
+    over the others: a number, if there are none.  A linear one with the coefficient A in A t + B misses the zeros of A; these
+    are zeros of the polynomial only if there are two others, since A and B are coprime.
+    """
+    curve = _with_two_terms(function)
     if curve is not None:
-        return curve.field, list(curve.values)
-    linear = _eliminated(function)
-    i = min((k for k, n in enumerate(powers) if n), key=lambda k: powers[k]) if linear is None else linear
+        return curve
+    names, powers = function.field.names, degrees(function)
+    leading = {i: powers_of(function, i)[k] for i, k in enumerate(powers) if k}
+    i = min(
+        leading, key=lambda i: (powers[i], powers[i] == 1 and (not leading[i].num.is_constant(), len(leading[i].num)))
+    )
     rest = FunctionField(tuple(name for name in names if name != names[i]))
     smaller: Field = rest if rest.names else QQ
     values = [rest.generator(name) if name in rest.names else smaller.poly([0]) for name in names]
@@ -77,35 +74,20 @@ def parametrised(function: FunctionPoly) -> tuple[Field, list[Poly]]:
     coefficients = [
         parts[k].value_at(values, smaller) if k in parts else smaller.poly([]) for k in range(powers[i] + 1)
     ]
-    if linear is not None:
+    if powers[i] == 1:
         values[i] = -coefficients[0] / coefficients[1]
-        return smaller, values
+        factors = tuple(irreducible_factors(leading[i]))
+        return Hypersurface(names, tuple(values), smaller, factors, factors if len(leading) > 2 else ())
     extension = AlgebraicField(smaller, smaller.poly([c / coefficients[-1] for c in coefficients]), names[i])
     values[i] = extension.generator
-    return extension, [value.over(extension) for value in values]
+    return Hypersurface(names, tuple(value.over(extension) for value in values), extension)
 
 
-@dataclass(frozen=True)
-class Curve:
-    """A u^p + B v^q = 0 with coprime p, q > 1, as u = alpha T^q, v = beta T^p: the values of all parameters over Q(T, ...).
+def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
+    """A u^p + B v^q = 0 with coprime p, q > 1, as u = alpha T^q, v = beta T^p; None for any other.
 
-    T is a monomial in u and v, `parameter` (at u = v = 0, where T = 0, it isn't defined); `name` is what T is called.
+    T is a monomial in u and v, which isn't defined at u = v = 0.
     """
-
-    field: FunctionField
-    values: tuple[Poly, ...]
-    name: str
-    parameter: FunctionPoly
-
-    def back(self, function: FunctionPoly) -> FunctionPoly:
-        """A function over Q(T, ...) in the original parameters."""
-        field = self.parameter.field
-        values = [self.parameter if name == self.name else field.generator(name) for name in function.field.names]
-        return over_parameters(function.value_at(values, field))
-
-
-def rational_curve(function: FunctionPoly) -> Curve | None:
-    """The parametrisation of a curve with two terms; None for any other."""
     names, terms = function.field.names, function.num.to_dict()
     powers = [(k, int(n), int(c)) for e, c in terms.items() for k, n in enumerate(e[1:]) if n]
     if [sum(map(bool, e)) for e in terms] != [1, 1]:
@@ -125,35 +107,7 @@ def rational_curve(function: FunctionPoly) -> Curve | None:
     u, v = (function.field.generator(names[k]) for k in (i, j))
     a = pow(q, -1, p)
     parameter = (u / alpha) ** a / (v / beta) ** ((a * q - 1) // p)
-    return Curve(field, tuple(values), name, parameter)
-
-
-def leading_factors(function: FunctionPoly) -> list[FunctionPoly]:
-    """The irreducible factors of A where `on_hypersurface` solves A t + B = 0 by t = -B/A.
-
-    It covers the zeros at which none of them vanishes.
-    """
-    curve = rational_curve(function)
-    if curve is not None:
-        return [curve.field.generator(curve.name)]
-    i = _eliminated(function)
-    return [] if i is None else irreducible_factors(powers_of(function, i)[1])
-
-
-def missed(function: FunctionPoly) -> list[FunctionPoly]:
-    """What can vanish at a zero of the function that isn't covered: leading factors, or a parameter at a curve's cusp."""
-    if rational_curve(function) is not None:
-        return [
-            function.field.generator(next(n for n, k in zip(function.field.names, degrees(function), strict=True) if k))
-        ]
-    used = sum(1 for k in degrees(function) if k)
-    return leading_factors(function) if used > 2 else []  # else A and B are coprime polynomials in one parameter
-
-
-def _eliminated(function: FunctionPoly) -> int | None:
-    """The parameter that is eliminated: one that occurs linearly, with a constant coefficient if there is such a one."""
-    factors = {i: powers_of(function, i)[1].num for i, k in enumerate(degrees(function)) if k == 1}
-    return min(factors, key=lambda i: (not factors[i].is_constant(), len(factors[i])), default=None)
+    return Hypersurface(names, tuple(values), field, (T,), (u if i < j else v,), (name, parameter))
 
 
 def with_free_constant(S: RatFunc) -> tuple[RatFunc, RatFunc, Point]:

@@ -33,9 +33,9 @@ from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
 from kovacic.parametric.formulas import root_written, shown
-from kovacic.parametric.functions import common_multiple, normal_form, over_parameters
+from kovacic.parametric.functions import Point, common_multiple, normal_form, over_parameters
 from kovacic.parametric.integers import Congruence, integer_roots
-from kovacic.parametric.statements import Point, Statement
+from kovacic.parametric.statements import Statement
 
 _F = Fraction
 #: Schwarz's rows: the structure, the exponent differences modulo 1, and whether l + m + q must be even.

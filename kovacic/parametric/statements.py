@@ -12,28 +12,9 @@ from dataclasses import dataclass, replace
 from random import Random
 
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Field, Poly
-from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.formulas import equation_written
-from kovacic.parametric.functions import numerator
-
-
-@dataclass(frozen=True)
-class Point:
-    """Values of the parameters: constants of one field, Q or Q(alpha), in the order of the names."""
-
-    names: tuple[str, ...]
-    values: tuple[Poly, ...]
-    field: Field = QQ
-
-    def at(self, function: FunctionPoly) -> Poly:
-        """The value of a polynomial over Q(t).  Raises `ZeroDivisionError` where it isn't defined."""
-        chosen = [self.values[self.names.index(name)] for name in function.field.names]
-        return function.value_at(chosen, self.field)
-
-    def __str__(self) -> str:
-        return ", ".join(f"{name} = {value.to_str()}" for name, value in zip(self.names, self.values, strict=True))
+from kovacic.parametric.functions import Point, numerator
 
 
 class Statement(ABC):
