@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from itertools import count, islice
+from itertools import islice
 from random import Random
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField
-from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Status
@@ -28,6 +27,7 @@ from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.statements import both
 from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
+from kovacic.reading.substitution import number_text
 from kovacic.solution import Solution
 from kovacic.views.formula import Formulas, Math
 
@@ -299,31 +299,25 @@ class Conditions:
 
 def _point(names: tuple[str, ...], values: list[Any], constant: Point, limits: Limits) -> Point:
     """Constants of one field, from numbers, SymPy numbers or text, together with the constant of S."""
-    numbers, field = _constants(values, limits)
-    if field == QQ:
-        field = constant.field
-        numbers = [number.over(field) for number in numbers]
-    elif isinstance(constant.field, AlgebraicField):
-        together = with_root(numbers, field, constant.field, limits)
-        return Point((*names, *constant.names), tuple(together), together[-1].field)
-    return Point((*names, *constant.names), (*numbers, *constant.values), field)
-
-
-def _constants(values: list[Any], limits: Limits) -> tuple[list[Poly], Field]:
-    """The values in one field: the coefficients of one polynomial."""
-    name = next(f"x{k}" for k in count() if not any(f"x{k}" in str(value) for value in values))
-    is_symbolic = any(type(value).__module__.startswith("sympy") for value in values)
-    if is_symbolic and not any(isinstance(value, str) for value in values):
+    if any(type(value).__module__.startswith("sympy") for value in values) and not any(
+        isinstance(v, str) for v in values
+    ):
         import sympy
 
-        x = sympy.Symbol(name)
         try:
-            together: Any = sum((sympy.sympify(v, strict=True) * x**i for i, v in enumerate(values)), sympy.Integer(0))
+            x, terms = sympy.Symbol("x_"), [sympy.sympify(value, strict=True) for value in values]
         except sympy.SympifyError as error:
             raise InputError(f"the values of parameters are numbers, not {error.expr!r}") from None
+        together = sum((value * x**k for k, value in enumerate(terms)), sympy.Integer(0))
     else:
-        together = " + ".join(f"({value})*{name}^{i}" for i, value in enumerate(values))
-    polynomial = read_input(together, var=name, limits=limits).S
-    if not polynomial.is_polynomial or polynomial.field.ground != QQ:
+        together = " + ".join(f"({number_text(value, limits)})*x_^{k}" for k, value in enumerate(values))
+    read = read_input(together, var="x_", limits=limits).S
+    if not read.is_polynomial or read.num.degree >= len(values) or read.field.ground != QQ:
         raise InputError("the values of parameters are numbers")
-    return [polynomial.num[i] for i in range(len(values))], polynomial.field
+    numbers, field = [read.num[k] for k in range(len(values))], read.field
+    if field == QQ:
+        field, numbers = constant.field, [number.over(constant.field) for number in numbers]
+    elif isinstance(constant.field, AlgebraicField):
+        *numbers, root = with_root(numbers, field, constant.field, limits)
+        return Point((*names, *constant.names), (*numbers, root), root.field)
+    return Point((*names, *constant.names), (*numbers, *constant.values), field)

@@ -12,23 +12,30 @@ Theorem [Martinet & Ramis 1989; Duval & Loday-Richaud 1992].  For q != 0 the equ
 SL2, for an imprimitive group needs two branch points, and a finite one no irregular point; SL2 has no subgroup of finite
 index, so the group over C(x) is the same.  For q = 0, r != 0: case 1 never (n odd) and case 2 exactly when 2 Delta/n is an odd
 integer, since an imprimitive group becomes reducible over C(sqrt x); n even is the first kind with n/2 and beta = 0.
+
+In case 1, with signs e, f (both +-1) for which d is a natural number (DLMF 18.8),
+
+    y = weight x^((1 + f Delta)/2) exp(e sqrt(q) x^n/n) L_d^(f Delta/n)(-2 e sqrt(q) x^n/n),             (2)
+
+d = (e beta - f Delta - n)/(2 n).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import product
 
 from kovacic.algebra.poly import Poly
 from kovacic.decision import Structure
 from kovacic.engine.places import Problem
-from kovacic.parametric import generic
+from kovacic.parametric import generic, riemann
 from kovacic.parametric.formulas import root_written
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.quotient import Coordinate, symmetries
 from kovacic.parametric.regions import Theorem, Verdict
-from kovacic.parametric.solutions import laguerre_solutions
+from kovacic.parametric.solutions import PolynomialSolution, possible, root
 
 
 @dataclass(frozen=True)
@@ -79,7 +86,7 @@ def recognise(problem: Problem, variable: str) -> Confluent | None:
 
     x^2 S is b + r z + q z^2 with z = x^n.  Where that is b + q x^(2n), 2n is the order of the symmetry.
     """
-    for symmetric in symmetries(problem, variable):
+    for symmetric in () if riemann.is_fuchsian(problem) else symmetries(problem, variable):
         if symmetric.den.degree == 0 < symmetric.num.degree <= 2:
             b, r, q = (symmetric.num[k] / symmetric.den[0] for k in range(3))
             coordinate = symmetric.coordinate
@@ -87,6 +94,26 @@ def recognise(problem: Problem, variable: str) -> Confluent | None:
                 coordinate, r, q = replace(coordinate, n=coordinate.n // 2), q, r
             return Confluent(coordinate, b, r, q)
     return None
+
+
+def laguerre_solutions(form: Confluent, variable: str, _: int | None = None) -> tuple[PolynomialSolution, ...]:
+    """Equation (2), for all signs for which d can be a natural number."""
+    import sympy
+
+    from kovacic.reading.symbolic import read_expression
+
+    if not form.q:
+        return ()
+    x, s, weight = sympy.Symbol(variable), *map(read_expression, (form.coordinate.base, form.coordinate.weight))
+    rate, delta = root(form.q), root(1 + 4 * form.b)
+    beta, n = form.r.to_sympy(x) / rate, form.coordinate.n
+    found = []
+    for e, f in product((1, -1), repeat=2):
+        degree = sympy.expand((e * beta - f * delta - n) / (2 * n))
+        u = sympy.expand(-2 * e * rate / n) * s**n
+        y = s ** sympy.expand((1 + f * delta) / 2) * sympy.exp(-u / 2) * sympy.assoc_laguerre(degree, f * delta / n, u)
+        found.append(PolynomialSolution(weight * y, degree))
+    return possible(found)
 
 
 def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:

@@ -7,6 +7,7 @@ In the same way the valuations at all places leave a system for the P of a ratio
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
 
@@ -17,6 +18,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine import invariants
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.engine.riccati import Form, singular_part
+from kovacic.limits import check_time
 from kovacic.parametric.ranks import RankConditions, rank_conditions
 
 #: Q(t), or Q(t) with one square root.
@@ -55,20 +57,22 @@ class Exponents:
     def square(self) -> Poly | None:
         return -self.field.modulus[0] if isinstance(self.field, AlgebraicField) else None
 
-    def images(self, problem: Problem, d: int) -> list[Poly]:
+    def images(self, problem: Problem, d: int) -> Iterator[Poly]:
         """The images of 1, x, ..., x^d under D P'' + 2 R P' + ((R' D - R D' + R^2 - T)/D) P, theta = R/D."""
         D, T = (f.over(self.field) for f in (problem.D, problem.T))
         R = (sum((part.theta for part in self.parts), RatFunc(0 * D)) * D).num
         zeroth = (R.derivative() * D - R * D.derivative() + R * R - T) // D
-        powers = [self.field.poly([0] * k + [1]) for k in range(d + 1)]
-        return [D * P.derivative().derivative() + 2 * R * P.derivative() + zeroth * P for P in powers]
+        for k in range(d + 1):
+            check_time()
+            P = self.field.poly([0, 1]) ** k
+            yield D * P.derivative().derivative() + 2 * R * P.derivative() + zeroth * P
 
     def polynomial(self, problem: Problem, d: int) -> Poly | None:
         """The only monic P of degree d that can solve the equation: its coefficients from the highest one down.
 
         None where they don't follow from one another.
         """
-        images = self.images(problem, d)
+        images = [*self.images(problem, d)]
         shift = max(image.degree - k for k, image in enumerate(images))
         P, rest = self.field.poly([0] * d + [1]), images[d]
         for k in range(d - 1, -1, -1):
@@ -89,9 +93,14 @@ def with_degree(problem: Problem, d: int) -> list[tuple[Exponents, RankCondition
         field = exponents.field
         if field.rational_value(exponents.degree) != d:
             continue
-        images, one = exponents.images(problem, d), field.poly([1])
+        one = field.poly([1])
         basis = [one] if isinstance(field, FunctionField) else [one, field.generator]
-        found.append((exponents, rank_conditions([image * root for image in images for root in basis], problem)))
+        found.append(
+            (
+                exponents,
+                rank_conditions([image * root for image in exponents.images(problem, d) for root in basis], problem),
+            )
+        )
     return found
 
 

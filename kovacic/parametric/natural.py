@@ -10,7 +10,8 @@ References: P. Acosta-Humanez & D. Blazquez-Sanz, DCDS-B 10 (2008); A. V. Turbin
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache
@@ -27,10 +28,18 @@ from kovacic.limits import Budget, Limits
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.exponents import form_conditions, with_degree
 from kovacic.parametric.formulas import Notation, equation_written, shown, written
-from kovacic.parametric.functions import Coset, Point, UndefinedError, degrees, irreducible_factors, over_parameters
+from kovacic.parametric.functions import (
+    Coset,
+    Point,
+    UndefinedError,
+    degrees,
+    irreducible_factors,
+    over_parameters,
+    union,
+)
 from kovacic.parametric.integers import LETTERS, free_letter, rational_roots
 from kovacic.parametric.ranks import RankConditions
-from kovacic.parametric.restriction import hypersurface
+from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
 from kovacic.parametric.spectra import alternatives
 from kovacic.parametric.statements import Statement
@@ -105,54 +114,45 @@ class Natural(Statement):
         primitive = structure is not None and structure.case == 3
         return structure is self.structure or (primitive and self.structure.case == 3)
 
+    def _given(self, number: int) -> Iterator[tuple[FunctionPoly, Hypersurface, RatFunc]]:
+        """Where the exponents give the number: a polynomial, its zeros, and S there."""
+        for exponents in union(irreducible_factors(factor(Fraction(number))) for factor in self.factors):
+            surface = hypersurface(exponents)
+            with suppress(UndefinedError):
+                yield exponents, surface, surface.restricted(self.S)
+
     def determinants(self, number: int) -> list[Determinant]:
         """Delta for one natural number, for each way in which the exponents give it."""
-        found: list[Determinant] = []
-        for factor in self.factors:
-            for exponents in irreducible_factors(factor(Fraction(number))):
-                if exponents not in (known.exponents for known in found):
-                    found += self._determinants(exponents, number)
-        return found
-
-    def _determinants(self, exponents: FunctionPoly, number: int) -> list[Determinant]:
-        try:
-            surface = hypersurface(exponents)
-            S = surface.restricted(self.S)
-        except UndefinedError:
-            return []
-        zero = exponents - exponents
-        if S.field == QQ:
-            exists = decide(S, Budget(), certify=False).structure is self.structure
-            return [Determinant(exponents, (zero,) if exists else ())]
-        m, problem = self.m, analyse(S, Budget())
-        found: list[RankConditions] | None = None
-        if isinstance(problem.S.num, FunctionPoly):
-            of_degree = with_degree(problem, number) if m == 1 else [(None, form_conditions(problem, m))]
-            found = None if of_degree is None else [c for _, c in of_degree]
-        determinants = []
-        for c in found if found is not None else [RankConditions(complete=False)]:
-            factors = (zero,) if c.deficient and m == 1 else c.polynomials if c.complete else None
-            determinants.append(Determinant(exponents, factors, c.system or None if factors is None else None))
-        return [d.rewritten(surface.back) for d in determinants] if surface.curve else determinants
+        determinants: list[Determinant] = []
+        for exponents, surface, S in self._given(number):
+            zero, m, found = exponents - exponents, self.m, [RankConditions(complete=False)]
+            if S.field == QQ:
+                exists = decide(S, Budget(), certify=False).structure is self.structure
+                found = [RankConditions((zero,) if exists else ())]
+            elif isinstance(S.num, FunctionPoly):
+                problem = analyse(S, Budget())
+                of_degree = with_degree(problem, number) if m == 1 else [(None, form_conditions(problem, m))]
+                found = found if of_degree is None else [c for _, c in of_degree]
+            for c in found:
+                factors = (zero,) if c.deficient and m == 1 else c.polynomials if c.complete else None
+                determinant = Determinant(exponents, factors, c.system or None if factors is None else None)
+                determinants.append(determinant.rewritten(surface.back) if surface.curve else determinant)
+        return determinants
 
     def solutions(self, variable: str, number: int | None) -> tuple[PolynomialSolution, ...]:
         """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""
         found: list[PolynomialSolution | None] = []
-        if number is None or self.m > 1:
-            return ()
-        for exponents in dict.fromkeys(e for f in self.factors for e in irreducible_factors(f(Fraction(number)))):
-            surface, equation = hypersurface(exponents), equation_written(exponents)
-            S = surface.restricted(self.S)
+        for exponents, surface, S in self._given(number) if number is not None and self.m == 1 else ():
             if not isinstance(S.num, FunctionPoly) or surface.curve:
                 continue
             problem = analyse(S, Budget())
-            for choice, c in with_degree(problem, number) or ():
-                conditions = " = 0 or ".join(map(shown, c.polynomials))
+            for choice, c in with_degree(problem, number or 0) or ():
+                conditions = [f"{' = 0 or '.join(map(shown, c.polynomials))} = 0"] if c.polynomials else []
                 if c.system and not c.complete:
-                    conditions = " = 0, ".join(map(shown, c.system))
+                    conditions = [f"{shown(function)} = 0" for function in c.system]
                 if c.deficient or conditions:
-                    where = equation if c.deficient else f"{equation}, {conditions} = 0"
-                    found.append(solution_of_degree(problem, choice, number, variable, where))
+                    where = ", ".join([equation_written(exponents), *([] if c.deficient else conditions)])
+                    found.append(solution_of_degree(problem, choice, number or 0, variable, where))
         return tuple(solution for solution in found if solution is not None)
 
     def shown_determinant(self, number: int) -> str:

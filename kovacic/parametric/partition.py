@@ -30,7 +30,7 @@ from kovacic.parametric import generic
 from kovacic.parametric.confluent import martinet_ramis
 from kovacic.parametric.functions import UndefinedError, degrees, denominators, irreducible_factors, union
 from kovacic.parametric.quotient import kimura
-from kovacic.parametric.regions import OMEGAS, Condition, Verdict
+from kovacic.parametric.regions import OMEGAS, Condition, Theorem, Verdict
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.search import Findings, search
 from kovacic.parametric.statements import Statement, Vanishes, both, either
@@ -82,28 +82,25 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
 def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
     if expected.known and expected.structure is Structure.REDUCIBLE:
-        # So it is in case 1 at all values where S is defined: see the head of this module.
-        regions = [region for region in _degenerate(S, generic.undefined(problem), settings) if not region.defined]
-        return _closed(regions, expected, "a rational omega for generic values, and so for all", expected)
-    theorem = kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
-    if theorem is not None:
-        regions, always = _degenerate(problem.S, theorem.exceptions, settings), Verdict(None)
-        for statements, verdict, omega, origin in theorem.regions:
-            if statements is True:
-                always = verdict
-                break
-            regions.append(Condition(either(statements), verdict, omega=omega, origin=origin))
-        return _closed(regions, always, theorem.name, expected)
-    if settings.only_theorems:
-        return Partition(expected, "for generic values only", "no theorem covers all values")
-    return _by_candidates(problem, expected, settings)
-
-
-def _closed(regions: list[Condition], verdict: Verdict, theory: str, expected: Verdict) -> Partition:
-    """A partition by a theorem, which the engine's generic answer must confirm."""
-    if expected.known and expected.case != verdict.case:
-        raise AssertionError(f"{theory}: case {verdict.case} contradicts the generic answer, case {expected.case}")
-    return Partition(verdict, _together(regions), theory, tuple(regions))
+        name = "a rational omega for generic values, and so for all"  # where S is defined: see the head of this module
+        theorem: Theorem | None = Theorem(name, generic.undefined(problem), [(True, expected, "", None)])
+    else:
+        theorem = kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
+    if theorem is None:
+        if settings.only_theorems:
+            return Partition(expected, "for generic values only", "no theorem covers all values")
+        return _by_candidates(problem, expected, settings)
+    regions, always = _degenerate(problem.S, theorem.exceptions, settings), Verdict(None)
+    for statements, verdict, omega, origin in theorem.regions:
+        if statements is True:
+            always = verdict
+            break
+        regions.append(Condition(either(statements), verdict, omega=omega, origin=origin))
+    if always == expected and expected.case == 1:
+        regions = [region for region in regions if not region.defined]
+    if expected.known and expected.case != always.case:
+        raise AssertionError(f"{theorem.name}: case {always.case} contradicts the generic answer, case {expected.case}")
+    return Partition(always, _together(regions), theorem.name, tuple(regions))
 
 
 def _together(regions: list[Condition]) -> bool | str:
@@ -217,39 +214,30 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
     except UndefinedError:
         return [Condition(statement, _UNKNOWN, defined=False)]
     inner, field = partition(S, settings), surface.field
-    if isinstance(field, AlgebraicField) and field.ground != QQ:
-        return [_on_algebraic(statement, S, inner, settings)]
-    omega, verdict = None, inner.generic
-    if verdict.structure is not None:
-        decision = decide(S, settings.budget)
-        omega = omega_text(S, decision, settings.variable) or OMEGAS[verdict.structure]
-        if field.ground == QQ and not decision.undecided:
-            verdict = replace(verdict, family=str(group_of(S, decision)))
-    if field.ground != QQ and inner.complete is not True:
+    verdict, complete, omega = inner.generic, inner.complete, None
+    is_algebraic = isinstance(field, AlgebraicField) and field.ground != QQ  # no parameter can be eliminated
+    if is_algebraic and complete is not True:
+        complete = f"except for special values with {statement.text()}"
+    elif verdict.structure is not None:
+        omega = OMEGAS[verdict.structure]
+        if not is_algebraic or max(degrees(function)) <= _WRITTEN_OUT:
+            decision = decide(S, settings.budget)
+            omega = omega_text(S, decision, settings.variable) or omega
+            if field.ground == QQ and not decision.undecided:
+                verdict = replace(verdict, family=str(group_of(S, decision)))
+    if field.ground != QQ and complete is not True:
         verdict = replace(verdict, known=False)
-    whole = Condition(statement, verdict, inner.complete, omega=omega)
     elsewhere = {Vanishes(factor).text() for factor in surface.leading}
     special = [region for region in inner.regions if both(region.statement).parts[0].text() not in elsewhere]
     if surface.curve:
+        omega = None
         special = [
             replace(region, statement=region.statement.rewritten(surface.back), omega=None, origin=None)
             for region in special
         ]
-        whole = replace(whole, omega=None)
-    while special and special[-1].defined and (special[-1].verdict, special[-1].complete) == (verdict, whole.complete):
+    while special and special[-1].defined and (special[-1].verdict, special[-1].complete) == (verdict, complete):
         special.pop()
-    return [*_also(special, statement), whole]
-
-
-def _on_algebraic(statement: Vanishes, S: RatFunc, inner: Partition, settings: Settings) -> Condition:
-    """The region of a hypersurface that no parameter can be eliminated from: decided where all of it is in case 1."""
-    if inner.complete is not True:
-        unknown = replace(inner.generic, known=False)
-        return Condition(statement, unknown, f"except for special values with {statement.text()}")
-    omega = OMEGAS[Structure.REDUCIBLE]
-    if max(degrees(statement.function)) <= _WRITTEN_OUT:
-        omega = omega_text(S, decide(S, settings.budget), settings.variable) or omega
-    return Condition(statement, inner.generic, omega=omega)
+    return [*_also(special, statement), Condition(statement, verdict, complete, omega=omega)]
 
 
 def omega_text(S: RatFunc, decision: Decision, variable: str) -> str | None:

@@ -15,6 +15,12 @@ cyclic quotient of an order that divides n.  So an equation is solvable over bot
   Where these are 0 and infinity, so that the third difference is a half-integer, and 3 divides n, G is the quaternion
   group; else G = H;
 - H octahedral: G is octahedral or tetrahedral (n even); H icosahedral, which is perfect: G = H.
+
+In case 1, w a Moebius map of z with the singular points at w = 0, 1, infinity, and with signs f, g, h for which d is natural,
+
+    y = w^((1 + f l)/2) (1 - w)^((1 + g m)/2) P_d^(f l, g m)(1 - 2 w) / sqrt(dw/dx),  d = (-1 - f l - g m - h n)/2         (1)
+
+(DLMF 18.8; the polynomials of Jacobi vanish for some negative integers as parameters).
 """
 
 from __future__ import annotations
@@ -22,8 +28,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
+from itertools import product
 from math import gcd
-from typing import Literal
+from typing import Any, Literal
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -34,7 +41,7 @@ from kovacic.parametric.formulas import shifted
 from kovacic.parametric.functions import over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.regions import OMEGAS, Theorem, Verdict
-from kovacic.parametric.solutions import jacobi_solutions
+from kovacic.parametric.solutions import PolynomialSolution, possible, root
 from kovacic.parametric.statements import Statement, both, either
 
 Statements = Literal[True] | list[Statement]
@@ -111,9 +118,7 @@ def _recognised(problem: Problem, variable: str) -> tuple[Coordinate, Problem] |
     """A coordinate in which there are at most three singular points, all regular, with the equation in it."""
     if riemann.applies(problem):
         return Coordinate(variable), problem
-    if any(place.kind not in (Kind.ORDINARY, Kind.REGULAR) for place in problem.places):
-        return None
-    for symmetric in symmetries(problem, variable):
+    for symmetric in symmetries(problem, variable) if riemann.is_fuchsian(problem) else ():
         if symmetric.coordinate.n > 1:
             quotient = analyse(symmetric.equation, problem.budget)
             if riemann.applies(quotient):
@@ -140,6 +145,47 @@ def structures(problem: Problem, n: int) -> Iterator[tuple[Structure, Statements
         if structure is Structure.OCTAHEDRAL and n % 2 == 0:
             family = "binary tetrahedral, or octahedral"
         yield structure, statements, family
+
+
+def jacobi_solutions(
+    problem: Problem, coordinate: Coordinate, variable: str, _: int | None = None
+) -> tuple[PolynomialSolution, ...]:
+    """Equation (1), for all signs for which d can be a natural number; () where three singular points are conjugate."""
+    import sympy
+
+    from kovacic.reading.symbolic import read_expression
+
+    x, n = sympy.Symbol(variable), coordinate.n
+    base, weight = map(read_expression, (coordinate.base, coordinate.weight))
+    points: list[tuple[Any, Any]] = []
+    for place in problem.places:
+        if place.kind is Kind.ORDINARY or place.degree > 2:
+            continue
+        square = riemann.difference_squared(place)
+        if place.at_infinity:
+            points.append((None, root(square)))
+        elif place.degree == 1:
+            points.append(((0 * square - place.factor[0]).to_sympy(x), root(square)))
+        else:
+            half, rest = (place.factor[k].to_sympy(x) for k in (1, 0))
+            for sign in (1, -1):
+                c = (-half + sign * sympy.sqrt(sympy.factor(half**2 - 4 * rest))) / 2
+                points.append((c, sympy.sqrt(sympy.simplify(square.to_sympy(x).subs(x, c)))))
+    if len(points) == 2 and problem.infinity.kind is Kind.ORDINARY:
+        points.append((None, sympy.Integer(1)))
+    if len(points) != 3:
+        return ()
+    (c, first), (c1, second), (c2, third) = points
+    z = base**n
+    w = (z - c) / (c1 - c) if c2 is None else (z - c) * (c1 - c2) / ((z - c2) * (c1 - c))
+    jacobian = weight * (1 if c2 is None else z - c2) / (base ** sympy.Rational(n - 1, 2))
+    found = []
+    for f, g, h in product((1, -1), repeat=3):
+        degree = sympy.expand((-1 - f * first - g * second - h * third) / 2)
+        powers = w ** sympy.expand((1 + f * first) / 2) * (1 - w) ** sympy.expand((1 + g * second) / 2)
+        polynomial = sympy.jacobi(degree, f * first, g * second, 1 - 2 * w)
+        found.append(PolynomialSolution(jacobian * powers * polynomial, degree))
+    return possible(found)
 
 
 def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> Statements:

@@ -150,10 +150,15 @@ def _differences(cubic: FunctionPoly) -> list[str]:
     return [root_written(-factor[0]) for factor, k in factors for _ in range(k)]
 
 
+def is_fuchsian(problem: Problem) -> bool:
+    """Are all singular points regular?"""
+    return all(place.kind in (Kind.ORDINARY, Kind.REGULAR) for place in problem.places)
+
+
 def applies(problem: Problem) -> bool:
     """At most three singular points on the sphere, all of them regular."""
-    singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
-    return sum(place.degree for place in singular) <= 3 and all(place.kind is Kind.REGULAR for place in singular)
+    points = sum(place.degree for place in problem.places if place.kind is not Kind.ORDINARY)
+    return points <= 3 and is_fuchsian(problem)
 
 
 def squares_of_differences(problem: Problem) -> FunctionPoly:
