@@ -32,6 +32,8 @@ _UNARY = {
     sympy.erf: "erf",
     sympy.erfi: "erfi",
     sympy.Ei: "ei",
+    sympy.Si: "si",
+    sympy.Ci: "ci",
     sympy.gamma: "gamma",
     sympy.airyai: "airy_ai",
     sympy.airybi: "airy_bi",

@@ -1,6 +1,7 @@
 """int g dx for the integrands that variation of parameters meets, at once, without SymPy's integration.
 
 - Products of powers and exponentials of rational functions (Ei, erf, gamma functions): `kovacic.closed_form.primitive`.
+- Logarithms and inverse tangents times these, by parts; waves times rational functions (sine and cosine integrals).
 - Polynomials times exponentials and waves in x, log(x) or exp(k x): Y' for Y'' = g, by undetermined coefficients.
 - Rational functions of exp(k x), or of s = sin(theta) and c = cos(theta), theta = w x + phi, by partial fractions in
 
@@ -9,11 +10,12 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import sympy
-from sympy import cos, cot, csc, exp, log, sec, sin, tan
-from sympy.simplify.fu import TR2i
+from sympy import atan, cos, cot, csc, exp, log, sec, sin, tan
+from sympy.simplify.fu import TR8, TR2i
 
 from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.ratfunc import RatFunc
@@ -40,16 +42,22 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
     """
     integrand, parts = prepared(integrand), []
     functions = {f.func for f in integrand.atoms(sympy.Function, sympy.Integral)}
-    if not functions <= {exp, log, sin, cos}:
+    if not functions <= {exp, log, sin, cos, atan}:
         return None
     if functions <= {exp} and (whole := _of_product(integrand, x)) is not None:
         return whole
+    rules = (_by_coefficients, _in_logarithms, _in_exponentials, _in_waves, _of_product, _beside_waves)
+    groups: dict[Expr, list[Expr]] = {}  # terms with the same logarithms
     for term in sympy.Add.make_args(integrand):
-        rules = (_by_coefficients, _in_logarithms, _in_exponentials, _in_waves, _of_product)
-        part = next((found for rule in rules if (found := rule(term, x)) is not None), None)
-        if part is None:
+        inverse = [factor for factor in sympy.Mul.make_args(term) if factor.as_base_exp()[0].func in (log, atan)]
+        groups.setdefault(sympy.Mul(*inverse), []).append(term)
+    for inverse, terms in groups.items():
+        found = [next((part for rule in rules if (part := rule(term, x)) is not None), None) for term in terms]
+        if None in found:
+            found = [_by_parts(inverse, sympy.Add(*(term / inverse for term in terms)), x)]
+        if None in found:
             return None
-        parts.append(part)
+        parts += found
     return sympy.Add(*parts)
 
 
@@ -58,7 +66,7 @@ def prepared(integrand: Expr) -> Expr:
     if integrand.has(tan, cot, sec, csc):
         integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
         integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
-    return sympy.expand(integrand)
+    return sympy.expand(integrand, power_exp=False)
 
 
 def in_powers(expression: Expr, t: Expr, u: Expr) -> Expr:
@@ -82,6 +90,7 @@ def _in_logarithms(term: Expr, x: Expr) -> Expr | None:
 
 def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
     """In u = exp(k x), for which x is written."""
+    term = sympy.expand(term)
     rates = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.args[0].subs(x, 0) == 0}
     if not rates or not all(rate.is_Rational for rate in rates.values()):
         return None
@@ -123,7 +132,7 @@ def _in_waves(term: Expr, x: Expr) -> Expr | None:
         found = _rational(sympy.cancel(inner.subs(values) / slope), x)
         if found is not None:
             angle, u = back.args[0], sympy.Dummy()
-            known = {sympy.atan(u): angle, log(u**2 + 1): -2 * log(cos(angle)), u**2 + 1: cos(angle) ** -2}
+            known = {atan(u): angle, log(u**2 + 1): -2 * log(cos(angle)), u**2 + 1: cos(angle) ** -2}
             found = found.xreplace({x: u}).xreplace(known if back.func is tan else {})
             done.append(TR2i(found.xreplace({u: sin(angle) / cos(angle) if back.func is tan else back})))
     return min(done, key=size, default=None)
@@ -136,20 +145,85 @@ def _of_product(term: Expr, x: Expr) -> Expr | None:
     atoms, h = Atoms(x), product(rate)
     scale, shown = factors(h, atoms)
     ratio, found = term / (scale * sympy.Mul(*shown)), integral(h, atoms)
-    constant = next((c for c in (sympy.powsimp(ratio.subs(x, k)) for k in (2, 3, 5)) if c.is_finite and c != 0), None)
+    values = (sympy.powsimp(ratio.subs(x, k)) for k in (2, 3, 5))
+    constant = next((c for c in values if c != 0 and not c.has(sympy.nan, sympy.zoo)), None)
     return None if found is None or constant is None else sympy.expand(constant * found)
 
 
-def _rate(term: Expr, x: Expr) -> RatFunc | None:
+def _by_parts(power: Expr, g: Expr, x: Expr) -> Expr | None:
+    """int g l^m dx = G l^m - int m G l^(m - 1) l' dx for l = log(u) or atan(u), where G is simpler than these."""
+    inverse, m = power.as_base_exp()
+    if inverse.func not in (log, atan) or not m.is_Integer or m < 1:
+        return None
+    G = antiderivative(g, x)
+    if G is None or not {f.func for f in G.atoms(sympy.Function)} <= {exp, sin, cos}:
+        return None
+    rest = antiderivative(sympy.cancel(m * inverse.diff(x)) * G * inverse ** (m - 1), x)
+    return None if rest is None else sympy.expand(G * power) - rest
+
+
+def _beside_waves(term: Expr, x: Expr) -> Expr | None:
+    """int cos(w x + b)/(x - c)^k dx by sine and cosine integrals, after partial fractions."""
+    if not term.has(sin, cos) or term.has(exp, log, atan):
+        return None
+    parts = []
+    for single in sympy.Add.make_args(sympy.expand(TR8(term))):
+        waves = single.atoms(sin, cos)
+        R, wave = (single / next(iter(waves)), next(iter(waves))) if waves else (single, sympy.Integer(1))
+        slope = wave.args[0].diff(x) if waves else sympy.Integer(1)
+        if len(waves) > 1 or not R.is_rational_function(x) or R.has(sin, cos) or slope.has(x):
+            return None
+        for fraction in sympy.Add.make_args(sympy.apart(R, x)):
+            done = undetermined(sympy.Integer(0), sympy.Integer(0), fraction * wave, x)
+            parts.append(_of_product(fraction, x) if not waves else done and sympy.expand(done.diff(x)))
+            if parts[-1] is None:
+                parts[-1] = _at_a_pole(fraction, wave, slope, x)
+            if parts[-1] is None:
+                return None
+    return sympy.Add(*parts)
+
+
+def _at_a_pole(fraction: Expr, wave: Expr, slope: Expr, x: Expr) -> Expr | None:
+    base, exponent = fraction.as_independent(x, as_Add=False)[1].as_base_exp()
+    if not exponent.is_Integer or exponent >= 0 or base.diff(x).has(x):
+        return None
+    c, k = sympy.expand(x - base / base.diff(x)), -int(exponent)
+    total, factor = sympy.Integer(0), sympy.cancel(fraction * (x - c) ** k)
+    while k > 1:
+        total -= factor * wave / ((k - 1) * (x - c) ** (k - 1))
+        factor, wave, k = factor / (k - 1), wave.diff(x), k - 1
+    number, wave = wave.as_independent(x, as_Add=False)
+    u, phase = slope * (x - c), sympy.expand(wave.args[0].subs(x, c))
+    # sin(u + p) = cos(p) sin(u) + sin(p) cos(u), and p + pi/2 for the cosine.
+    a, b = (cos(phase), sin(phase)) if wave.func is sin else (-sin(phase), cos(phase))
+    return total + factor * number * (a * sympy.Si(u) + b * sympy.Ci(u))
+
+
+def _rate(g: Expr, x: Expr) -> RatFunc | None:
     """The logarithmic derivative, where it is rational; that of t (1 + u/t + ...) for a sum t + u + ..."""
-    first, *rest = sympy.Add.make_args(term)
-    rate = sympy.Integer(0)
-    for factor in sympy.Mul.make_args(first):
-        base, exponent = factor.as_base_exp()
-        rate += exponent.diff(x) * log(base) if not base.has(x) else exponent * base.diff(x) / base
-    found, ratio = ratfunc(rate, x), ratfunc(sympy.Add(1, *(other / first for other in rest)), x) if rest else None
-    if found is None or not rest:
+    parts = []
+    for term in sympy.Add.make_args(g):
+        powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(term)]
+        exponent = sympy.Add(*(e for base, e in powers if base is sympy.E))
+        parts.append(([(base, e) for base, e in powers if base is not sympy.E], exponent))
+    (first, E), *rest = parts
+    rates = [ratfunc(E.diff(x), x)]
+    for base, e in first:
+        if base.has(exp) and e.is_Rational:  # SymPy expands exp(-x)/(x + 1) so that this is a sum in the denominator
+            inner = _rate(base, x)
+            rates.append(inner and inner * Fraction(e.p, e.q))
+        else:
+            rates.append(ratfunc(e * base.diff(x) / base if base.has(x) else e.diff(x) * log(base), x))
+    known = [rate for rate in rates if rate is not None]
+    if len(known) < len(rates):
+        return None
+    found, others = sum(known[1:], known[0]), sympy.Integer(1)
+    if not rest:
         return found
+    for powers, exponent in rest:
+        quotient = sympy.Mul(*(base**e for base, e in powers), *(base**-e for base, e in first))
+        others += quotient * exp(sympy.cancel(exponent - E))
+    ratio = ratfunc(others, x)
     return None if ratio is None else found + ratio.derivative() / ratio
 
 

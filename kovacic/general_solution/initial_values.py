@@ -10,7 +10,7 @@ from typing import Any
 import sympy
 from flint import acb, arb, ctx
 from sympy import acos, atan, cos, cosh, exp, log, sin, sinh, tan, tanh
-from sympy.simplify.fu import TR2i
+from sympy.simplify.fu import TR8, TR2i
 
 from kovacic.algebra.apart import last_of
 from kovacic.closed_form.atoms import Atoms
@@ -153,11 +153,13 @@ def tidy(value: Any) -> Any:
     value = sympy.sympify(value, strict=True)
     irrational = any(not p.exp.is_Rational and not p.base.is_Symbol for p in value.atoms(sympy.Pow))
     functions = {f.func for f in value.atoms(sympy.Function)}
-    long = size(value) > _LONGEST or value.has(sympy.RootSum, sympy.Integral)
-    if value.is_Rational or irrational or long or not functions <= _ELEMENTARY:
+    if value.is_Rational or irrational or size(value) > _LONGEST or value.has(sympy.RootSum, sympy.Integral):
         return value
     if not functions:
         return sympy.radsimp(sympy.cancel(value) if value.free_symbols or value.has(sympy.E) else sympy.expand(value))
+    if not functions <= _ELEMENTARY:
+        expanded = sympy.expand(value)
+        return min((value, expanded, sympy.expand(TR8(expanded))), key=size)
     shorter = sympy.cancel(value)
     return shorter if functions == {exp} else min(map(TR2i, (value, shorter)), key=size)
 

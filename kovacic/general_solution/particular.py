@@ -23,7 +23,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product
 from kovacic.errors import LimitExceeded
-from kovacic.general_solution.antiderivatives import NUMBERS, in_powers, ratfunc
+from kovacic.general_solution.antiderivatives import NUMBERS, in_powers, prepared, ratfunc
 from kovacic.general_solution.initial_values import tidy
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import values_at
@@ -67,11 +67,12 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
             found = None
         if found is not None:
             return found
-        terms = sympy.Add.make_args(sympy.expand(right))
-        parts = [at_once(term) for term in terms] if 1 < len(terms) <= _LARGEST_SUM else [None]
-        rest = [term for term, part in zip(terms, parts, strict=True) if part is None] if len(parts) > 1 else [right]
-        integrals = basis.with_integrals(sympy.Add(*rest), start, budget.seconds_left) if rest else 0
-        return sympy.Add(integrals, *(part for part in parts if part is not None))
+        terms = sympy.Add.make_args(prepared(right))
+        parts = {term: at_once(term) for term in terms} if 1 < len(terms) <= _LARGEST_SUM else {}
+        known = {term: part for term, part in parts.items() if part is not None}
+        rest = sympy.Add(*(term for term in terms if term not in known)) if known else right
+        integrals = basis.with_integrals(rest, start, budget.seconds_left) if rest != 0 else 0
+        return sympy.Add(integrals, *known.values())
 
     right = right / Atoms(x).ratio(equation.a).xreplace(NUMBERS)
     if right.has(sympy.DiracDelta, sympy.Heaviside):

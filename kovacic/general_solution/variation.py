@@ -5,7 +5,8 @@ Where the integrals aren't known at once, SymPy's simplification and integration
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -30,8 +31,8 @@ Expr = Any  # SymPy publishes no types
 _POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79)]
 #: The largest expression (in subexpressions) that is handed to SymPy's general simplification.
 _SIMPLIFIED = 350
-#: Seconds for the integrals of one equation, at most.
-SECONDS = 20.0
+#: Seconds for an integral in SymPy's rules, at most: these end in one, or hardly ever.
+SECONDS = 2.0
 #: Functions whose values at points aren't known in closed form.
 _UNKNOWN = (sympy.hyper, sympy.RootSum, sympy.Integral)
 #: C1 with C2 and C1 C2' - C1' C2.
@@ -84,8 +85,9 @@ class Basis:
         """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
         right = prepared(right)
         parts = [antiderivative(y * right / self.wronskian, self.x) for y in (self.y2, self.y1)]
-        if parts[0] is None or parts[1] is None:
-            return None
+        return None if parts[0] is None or parts[1] is None else self._checked(parts, right)
+
+    def _checked(self, parts: Sequence[Expr], right: Expr) -> Expr | None:
         whole = expand(self.y2 * parts[1] - self.y1 * parts[0])
         candidates = []
         for form in (whole, expand(TR8(whole))) if whole.has(sin, cos) else (whole,):  # TR8: products of waves as waves
@@ -97,26 +99,33 @@ class Basis:
 
     def with_integrals(self, right: Expr, start: Expr | None, seconds: float) -> Expr:
         """A solution of y'' + ... = right; integrals that aren't done in time stay, and begin at `start` unless it is None."""
-        stages = last_of(_stages, self, right, start, seconds=min(seconds, SECONDS))
-        if stages is not None:
-            return stages
-        first, second = (_open(y * right / self.wronskian, self.x, start) for y in (self.y2, self.y1))
+        integrands = [powsimp(y * right / self.wronskian) for y in (self.y2, self.y1)]
+        known = [antiderivative(integrand, self.x) for integrand in integrands]
+        asked, limit = [k for k in (0, 1) if known[k] is None], min(seconds, SECONDS)
+        with ThreadPoolExecutor() as pool:  # two processes
+            found = pool.map(lambda k: last_of(_stages, integrands[k], self.x, seconds=limit), asked)
+            for k, stages in zip(asked, found, strict=True):
+                integrands[k], known[k] = stages or (integrands[k], None)
+        if None not in known and self.equation.change is None and (done := self._checked(known, right)) is not None:
+            return done
+        first, second = (_open(g, self.x, start) if G is None else G for g, G in zip(integrands, known, strict=True))
         return self.y2 * second - self.y1 * first
 
 
-def _stages(basis: Basis, right: Expr, start: Expr | None) -> Iterator[Expr]:
-    """The solution as far as it is known, better every time."""
-    y1, y2, x = basis.y1, basis.y2, basis.x
-    integrands = [simplified(y * right / simplified(basis.wronskian)) for y in (y2, y1)]
-    first, second = (_open(integrand, x, start) for integrand in integrands)
-    yield y2 * second - y1 * first
-    first = _integral(integrands[0], x, start)
-    yield y2 * second - y1 * first
-    second = _integral(integrands[1], x, start)
-    result = y2 * second - y1 * first
-    yield result
-    if not result.has(sympy.Integral):
-        yield simplified(expand(result))
+def _stages(integrand: Expr, x: Expr) -> Iterator[tuple[Expr, Expr | None]]:
+    """The integrand in a shorter form, then its integral as well, if SymPy's rules for hand calculation give it."""
+    shorter = simplified(integrand)
+    yield shorter, None
+    parts = []
+    for term in sympy.Add.make_args(prepared(shorter)):
+        done = antiderivative(term, x)
+        forms = (expand(powsimp(term), power_exp=False), term)  # exp(x^2) exp(x) as exp(x^2 + x)
+        tried = (sympy.Integral(form, x).doit(manual=True) for form in forms if done is None)
+        done = next((e for e in tried if not e.has(sympy.Integral)), done)
+        if done is None:
+            return
+        parts.append(done)
+    yield shorter, sympy.Add(*parts)
 
 
 def special_wronskian(y1: Expr, y2: Expr, x: Expr) -> Expr | None:
@@ -160,20 +169,6 @@ def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
     names = {symbol.name for symbol in integrand.free_symbols | start.free_symbols}
     s = next(sympy.Symbol(name) for name in ("s", "t", "u", *(f"s{k}" for k in range(99))) if name not in names)
     return DefiniteIntegral(integrand.subs(x, s), (s, start, x))
-
-
-def _integral(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
-    """The antiderivative, by SymPy's rules for hand calculation where it isn't known, else an `Integral`."""
-    parts = []
-    for term in sympy.Add.make_args(prepared(integrand)):
-        done = antiderivative(term, x)
-        forms = (expand(powsimp(term), power_exp=False), term)  # exp(x^2) exp(x) as exp(x^2 + x)
-        tried = (sympy.Integral(form, x).doit(manual=True) for form in forms if done is None)
-        done = next((e for e in tried if not e.has(sympy.Integral)), done)
-        if done is None:
-            return _open(integrand, x, start)
-        parts.append(done)
-    return sympy.Add(*parts)
 
 
 def is_solution(y: Expr, equation: Equation, right: Expr, x: Expr) -> bool:
