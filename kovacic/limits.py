@@ -101,11 +101,8 @@ def limited(call: Callable[_P, _R]) -> Callable[_P, _R]:
     @wraps(call)
     def within(*arguments: _P.args, **keywords: _P.kwargs) -> _R:
         given = keywords.get("limits") or (getattr(arguments[0], "limits", None) if arguments else None)
-        token = _WATCHED.set(Budget(given if isinstance(given, Limits) else DEFAULT_LIMITS))
-        try:
+        with Budget(given if isinstance(given, Limits) else DEFAULT_LIMITS).watched():
             return call(*arguments, **keywords)
-        finally:
-            _WATCHED.reset(token)
 
     return within
 

@@ -20,7 +20,7 @@ import tempfile
 import time
 import zlib
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any, BinaryIO
@@ -216,14 +216,15 @@ def _csv_item(number: int, row: list[str], header: list[str] | None, var: str | 
 
 
 class Answers(AbstractContextManager["Answers"]):
-    """A file of records, one JSON object a line; a context manager.
+    """A file of records, one JSON object a line, or standard output; a context manager.
 
     Every line is flushed to the system at once, and to the disk every two seconds and at the end.
     """
 
-    def __init__(self, path: Path) -> None:
-        self._stream: IO[str] = path.open("a", encoding="utf-8", errors="backslashreplace", newline="\n")
-        self._on_disk = path.is_file()  # and not a pipe or a device
+    def __init__(self, path: Path | None) -> None:
+        self._own = path and path.open("a", encoding="utf-8", errors="backslashreplace", newline="\n")
+        self._stream: IO[str] = self._own or sys.stdout
+        self._on_disk = path is not None and path.is_file()  # and not a pipe or a device
         self._synced = time.monotonic()
 
     def write(self, record: Record) -> None:
@@ -234,7 +235,7 @@ class Answers(AbstractContextManager["Answers"]):
             self._synced = time.monotonic()
 
     def __exit__(self, *error: object) -> None:
-        with self._stream:
+        with self._own or nullcontext():
             self._stream.flush()
             if self._on_disk:
                 os.fsync(self._stream.fileno())

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from kovacic.cli.many import already_answered, answer_all, batch_options, write_line
+from kovacic.cli.many import already_answered, answer_all, batch_options
 from kovacic.cli.options import OutputFile, var_option
 
 if TYPE_CHECKING:
@@ -54,6 +54,6 @@ def command(
     form = form or guess_format(file)
     with ExitStack() as stack:
         items = read_items(stack.enter_context(opened(file)), form=form, var=var, limits=limits)
-        write = write_line if output is None else stack.enter_context(Answers(output)).write
+        write = stack.enter_context(Answers(output)).write
         count = None if file == "-" else partial(count_items, file, form=form)
         return answer_all(items, write, count=count, done=done, limits=limits, stream=file == "-", **run)

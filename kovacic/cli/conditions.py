@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
-from kovacic.cli.options import assume_option, fitted, limit_option, refuse_options
+from kovacic.cli.options import assume_option, equation_argument, equation_command, fitted, limit_option
 
 if TYPE_CHECKING:
     from kovacic.parametric.check import CheckReport
 
 
-@click.command(context_settings={"ignore_unknown_options": True})
-@click.argument("equation", metavar="S")
+@equation_command()
+@equation_argument("equation", metavar="S")
 @click.option("--json", "as_json", is_flag=True, help="One line of JSON.")
 @click.option("--latex", "as_latex", is_flag=True, help="A LaTeX formula.")
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
@@ -36,7 +36,6 @@ def command(
     """
     from kovacic.parametric.api import conditions
 
-    refuse_options((equation,))
     answer = conditions(equation, **given)
     report = None if samples is None else answer.check(samples)
     shown = answer.explain() if explained else answer.text(all=everything)

@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from typing import Any
 
 import click
 
 from kovacic.cli.main import DECIDED, UNDECIDED
-from kovacic.cli.options import EQUATIONS, fitted, ics_option, limit_option, refuse_options, var_option
-
-if TYPE_CHECKING:
-    from kovacic.limits import Limits
+from kovacic.cli.options import equation_argument, equation_command, fitted, ics_option, limit_option, var_option
 
 
-@click.command(context_settings=EQUATIONS)
-@click.argument("equation", metavar="EQUATION")
+@equation_command()
+@equation_argument("equation", metavar="EQUATION")
 @click.option("--latex", is_flag=True, help="The solution in LaTeX.")
 @ics_option
 @var_option
 @limit_option
-def command(equation: str, latex: bool, ics: str, var: str | None, limits: Limits) -> int:
+def command(equation: str, latex: bool, ics: str, **given: Any) -> int:
     """The general solution of a linear equation of second order; with --ics the one that has these values.
 
     The right-hand side may contain exp, log, sin, cos and the like.  Where nothing is Liouvillian, special functions are
@@ -37,11 +34,10 @@ def command(equation: str, latex: bool, ics: str, var: str | None, limits: Limit
     from kovacic.views.sentences import SCREEN
     from kovacic.views.text import shorter_lines
 
-    refuse_options((equation,))
     try:
-        found = dsolve(equation, ics=ics, var=var, limits=limits)
+        found = dsolve(equation, ics=ics, **given)
     except NotImplementedError as reason:
-        answer = solve(equation, var=var, limits=limits)
+        answer = solve(equation, **given)
         if answer.status is Status.NONE_EXISTS and not answer.special:
             print(fitted(str(reason)))
             return DECIDED
@@ -55,6 +51,6 @@ def command(equation: str, latex: bool, ics: str, var: str | None, limits: Limit
         text = caret(str(found.rhs))
         print(fitted(f"{found.lhs} = {text}"))
         if not ics and len(text) > SCREEN:
-            for line in shorter_lines(solve(equation, var=var, limits=limits), len(text)):
+            for line in shorter_lines(solve(equation, **given), len(text)):
                 print(fitted(line))
     return DECIDED

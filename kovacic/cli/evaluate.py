@@ -7,11 +7,11 @@ from typing import Any
 
 import click
 
-from kovacic.cli.options import EQUATIONS, limit_option, refuse_options
+from kovacic.cli.options import equation_argument, equation_command, limit_option
 
 
-@click.command(context_settings=EQUATIONS)
-@click.argument("equation", metavar="S")
+@equation_command()
+@equation_argument("equation", metavar="S")
 @click.option("--x0", required=True, metavar="NUMBER", help="Where the solution is given.")
 @click.option("--y0", metavar="NUMBER", help="y(x0).")
 @click.option("--dy0", metavar="NUMBER", help="y'(x0).")
@@ -34,7 +34,6 @@ def command(equation: str, points: tuple[str, ...], frobenius: str | None, **opt
     from kovacic.enclosure.evaluate import evaluate_states
     from kovacic.reading.parser import listed
 
-    refuse_options((equation,))
     places = [place for text in points for place in listed(text)]
     basis = None if frobenius is None else listed(frobenius)
     found = evaluate_states(equation, places, frobenius=basis, **options)

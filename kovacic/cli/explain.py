@@ -6,14 +6,22 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from kovacic.cli.options import EQUATIONS, answer_each, assume_option, fitted, limit_option, var_option
+from kovacic.cli.options import (
+    answer_each,
+    assume_option,
+    equation_argument,
+    equation_command,
+    fitted,
+    limit_option,
+    var_option,
+)
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
 
 
-@click.command(context_settings=EQUATIONS)
-@click.argument("equations", metavar="EQUATION...", nargs=-1, required=True)
+@equation_command()
+@equation_argument("equations", metavar="EQUATION...", nargs=-1, required=True)
 @click.option(
     "--format",
     "form",

@@ -56,12 +56,6 @@ def already_answered(output: Path | None, resume: bool) -> Done:
     return Done()
 
 
-def write_line(record: Record) -> None:
-    """A record to standard output, at once."""
-    sys.stdout.write(record.json + "\n")
-    sys.stdout.flush()
-
-
 def answer_all(
     items: Iterable[Item],
     write: Callable[[Record], None],

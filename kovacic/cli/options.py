@@ -7,6 +7,7 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import fields, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -78,8 +79,17 @@ def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
     return found or None
 
 
-#: Options that commands share; equations that begin with - aren't options.
-EQUATIONS = {"ignore_unknown_options": True}
+def _no_option(_: click.Context, __: click.Parameter, given: Any) -> Any:
+    """Unknown options come through as expressions, because -x^2 is one; --jsn isn't."""
+    for argument in (given,) if isinstance(given, str) else given:
+        if argument.startswith("--") and argument[2:3].isalpha():
+            raise click.UsageError(f"no such option: {argument} (write (--x) if it is an expression)")
+    return given
+
+
+#: What commands share; equations that begin with - aren't options.
+equation_command = partial(click.command, context_settings={"ignore_unknown_options": True})
+equation_argument = partial(click.argument, callback=_no_option)
 var_option = click.option(
     "--var", metavar="NAME", help="The name of the variable; by default the only symbol of S, or x."
 )
@@ -124,7 +134,6 @@ def answer_each(
     from kovacic.errors import KovacicError
     from kovacic.solution import solve
 
-    refuse_options(equations)
     outcomes = [DECIDED]
     between = ""
     for text in _expressions(equations):
@@ -147,13 +156,6 @@ def _expressions(arguments: Sequence[str]) -> Iterator[str]:
             yield from (text for line in sys.stdin if (text := line.strip()) and not text.startswith("#"))
         else:
             yield argument
-
-
-def refuse_options(arguments: Sequence[str]) -> None:
-    """Unknown options come through as expressions, because -x^2 is one; --jsn isn't."""
-    for argument in arguments:
-        if argument.startswith("--") and argument[2:3].isalpha():
-            raise click.UsageError(f"no such option: {argument} (write (--x) if it is an expression)")
 
 
 def fitted(text: str) -> str:

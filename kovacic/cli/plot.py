@@ -7,11 +7,11 @@ from typing import Any
 
 import click
 
-from kovacic.cli.options import EQUATIONS, PICTURE, limit_option, refuse_options
+from kovacic.cli.options import PICTURE, equation_argument, equation_command, limit_option
 
 
-@click.command(context_settings=EQUATIONS)
-@click.argument("equation", metavar="EQUATION")
+@equation_command()
+@equation_argument("equation", metavar="EQUATION")
 @click.option("--from", "start", required=True, metavar="A", help="Left end of the interval (a number or p/q).")
 @click.option("--to", "stop", required=True, metavar="B", help="Right end of the interval.")
 @click.option("-o", "--output", type=PICTURE, required=True, help="The file: png, svg or pdf.")
@@ -36,7 +36,6 @@ def command(equation: str, start: str, stop: str, output: Path, **options: Any) 
     from kovacic.errors import needs
     from kovacic.views.plot import plot
 
-    refuse_options((equation,))
     with needs("plot", "a picture"):
         plot(equation, start, stop, title=_title(equation), output=output, **options)
     click.echo(f"wrote {output}")

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from kovacic.cli.many import already_answered, answer_all, batch_options, write_line
-from kovacic.cli.options import EQUATIONS, PICTURE, OutputFile, refuse_options
+from kovacic.cli.many import already_answered, answer_all, batch_options
+from kovacic.cli.options import PICTURE, OutputFile, equation_argument, equation_command
 
 if TYPE_CHECKING:
     from kovacic.batch.records import Record
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from kovacic.limits import Limits
 
 
-@click.command(context_settings=EQUATIONS)
-@click.argument("expression", metavar="S")
-@click.argument("ranges", metavar="NAME=START:STOP:STEP...", nargs=-1, required=True)
+@equation_command()
+@equation_argument("expression", metavar="S")
+@equation_argument("ranges", metavar="NAME=START:STOP:STEP...", nargs=-1, required=True)
 @click.option("-o", "--output", type=OutputFile(), help="Write to this file.")
 @click.option("--resume", is_flag=True, help="Take an interrupted scan up again (JSONL).")
 @click.option("--format", "form", type=click.Choice(["jsonl", "csv"]), help="By default by the name of the output.")
@@ -57,7 +57,6 @@ def command(
     from kovacic.batch.map import draw_map
     from kovacic.batch.scan import parse_grid, scan_items
 
-    refuse_options([expression, *ranges])
     grids = [parse_grid(text) for text in ranges]
     if picture is not None and len(grids) != 2:
         raise click.UsageError("a map needs two parameters")
@@ -87,7 +86,7 @@ def _writer(stack: ExitStack, output: Path | None, form: str, grids: Sequence[Gr
     from kovacic.batch.scan import columns, row
 
     if form == "jsonl":
-        return write_line if output is None else stack.enter_context(Answers(output)).write
+        return stack.enter_context(Answers(output)).write
     stream = sys.stdout
     if output is not None:
         stream = stack.enter_context(output.open("w", encoding="utf-8", newline=""))

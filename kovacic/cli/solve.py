@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from kovacic.cli.options import (
-    EQUATIONS,
     answer_each,
     assume_option,
+    equation_argument,
+    equation_command,
     fitted,
     ics_option,
     limit_option,
@@ -22,8 +23,8 @@ if TYPE_CHECKING:
     from kovacic.solution import Solution
 
 
-@click.command(context_settings=EQUATIONS)
-@click.argument("equations", metavar="S...", nargs=-1, required=True)
+@equation_command()
+@equation_argument("equations", metavar="S...", nargs=-1, required=True)
 @click.option("--json", "as_json", is_flag=True, help="One JSON object (schema 1) a line for each equation.")
 @click.option("--full", is_flag=True, help="With --json: the group and two solutions in closed form as well.")
 @click.option("--latex", is_flag=True, help="The equation and its solutions in LaTeX.")

@@ -54,7 +54,8 @@ class RationalReader:
     """What texts and SymPy expressions mean that denote rational functions.
 
     `names` gives the values of the names that may occur: the variable, and whatever constants the caller's coefficient
-    field has.  `constants` supplies algebraic numbers and parameters; without it both are refused.
+    field has.  `constants` supplies algebraic numbers and parameters; without it both are refused.  `arithmetic` has the
+    operations on the values.  Each method raises `InputError` without a position, which the parser adds.
     """
 
     def __init__(
@@ -100,12 +101,14 @@ class RationalReader:
         raise NotRational(f"the symbol {shortened(name)} beside the variable {self.variable}", hint=hint)
 
     def derivative(self, text: str) -> Value:
+        """A name with primes."""
         raise NotRational(f"{shortened(text)} is a derivative, and S contains none", hint=_ALONE)
 
     def equation(self, left: Value, right: Value) -> Value:
         raise NotRational("an equation, where S alone is expected", hint=_ALONE)
 
     def follows_without_sign(self, name: str) -> bool:
+        """May this name or call be the second factor of an implicit product whose first one ends in a name?"""
         return False
 
     def power(self, base: Value, exponent: Value, place: Place) -> Value:
@@ -115,6 +118,7 @@ class RationalReader:
             return self._rational_power(base, exponent, place)
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Value:
+        """A call of a name, with primes or not; a pair among the arguments is a tuple."""
         index = ROOTS.get(head.rstrip(PRIMES))
         if index is not None and not any(isinstance(argument, tuple) for argument in arguments):
             if len(arguments) == 1 and index:

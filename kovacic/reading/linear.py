@@ -17,12 +17,9 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
-from kovacic.limits import DEFAULT_LIMITS, Limits, check_duration
+from kovacic.limits import Limits, check_duration
 from kovacic.reading.arithmetic import Arithmetic, Term
-from kovacic.reading.expression import RationalReader
-from kovacic.reading.given import FUNCTION_NAMES, RECIPROCALS, parameters_of
-from kovacic.reading.lexer import tokenize
-from kovacic.reading.parser import evaluate
+from kovacic.reading.given import FUNCTION_NAMES, RECIPROCALS
 
 #: Bits of a number in SymPy's expressions: Python prints integers of at most 4300 digits.
 _LARGEST_BITS = 14_000
@@ -83,12 +80,13 @@ class LinearArithmetic(Arithmetic):
         number, field = self.number(value) if function else Fraction(0), function.field
         if number is not None:
             return sympy.Rational(number)
-        names = {name: sympy.Symbol(name) for name in (*parameters_of(field), self.variable)}
+        x = sympy.Symbol(self.variable)
+        num, den = (sympy.Add(*(c.to_sympy(x) * x**k for k, c in enumerate(part) if c)) for part in function.cleared())
         if isinstance(field, AlgebraicField) and field.name.isidentifier() and field.name != "I":
             # Any other name is that of a radical.
-            names[field.name] = chosen_root(sympy.Poly(field.modulus.to_sympy(sympy.Symbol("t"))), field)
-        reader = RationalReader(names, self.variable, LinearArithmetic(DEFAULT_LIMITS), Symbols())  # type: ignore[arg-type]
-        return evaluate(tokenize(function.to_str(self.variable)), reader)
+            root = chosen_root(sympy.Poly(field.modulus.to_sympy(sympy.Symbol("t"))), field)
+            return (num / den).xreplace({sympy.Symbol(field.name): root})
+        return num / den
 
     def _checked(self, value: Any) -> Any:
         """A result of SymPy, a number in our own form."""

@@ -8,13 +8,13 @@ Precedence, from weak to strong: = ; + - ; * / ; unary + - ; implicit product ; 
 A power or a superscript belongs to a number, a name, a parenthesis or a call: x²^3 is refused.  A call f(a, (b, c)) has
 expressions and pairs of expressions as its arguments.  An equation has one equals sign, outside all parentheses.
 
-What the numbers, names and calls mean is a `Reader`'s affair: a rational function, an equation, a SymPy expression.
+What the numbers, names and calls mean is a reader's affair: a rational function, an equation, a SymPy expression.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.reading.lexer import DERIVATIVES, Tokens
@@ -60,30 +60,11 @@ class Site:
         return error
 
 
-class Reader(Protocol):
-    """What a text means.  Each method raises `InputError` without a position, which the parser adds.
+def evaluate(tokens: Tokens, reader: Any) -> Any:
+    """The value of a text to a reader: a `RationalReader`, or what extends it.
 
-    Its `arithmetic` has the operations on its values: `kovacic.reading.arithmetic.Arithmetic`, or what extends it.
+    Raises `ParseError` where it isn't an expression or equation, and what the reader raises, with the place in the text.
     """
-
-    @property
-    def arithmetic(self) -> Any: ...
-    def number(self, text: str) -> Any: ...
-    def name(self, name: str) -> Any: ...
-    def derivative(self, text: str) -> Any:
-        """A name with primes."""
-
-    def power(self, base: Any, exponent: Any, site: Site) -> Any: ...
-    def call(self, head: str, arguments: list[Any], site: Site) -> Any:
-        """A call of a name, with primes or not; a pair among the arguments is a tuple."""
-
-    def equation(self, left: Any, right: Any) -> Any: ...
-    def follows_without_sign(self, name: str) -> bool:
-        """May this name or call be the second factor of an implicit product whose first one ends in a name?"""
-
-
-def evaluate(tokens: Tokens, reader: Reader) -> Any:
-    """The value of a text.  Raises `ParseError` where it isn't an expression or equation, and what the reader raises."""
     site = Site(tokens)
     try:
         return _evaluated(tokens, reader, site)
@@ -93,7 +74,7 @@ def evaluate(tokens: Tokens, reader: Reader) -> Any:
         raise LimitExceeded(f"{site.text()} is nested too deeply for SymPy", limit="text_length") from None
 
 
-def _evaluated(tokens: Tokens, reader: Reader, site: Site) -> Any:
+def _evaluated(tokens: Tokens, reader: Any, site: Site) -> Any:
     kinds, pieces = tokens.kinds, tokens.pieces
     arithmetic, number, name = reader.arithmetic, reader.number, reader.name
     # The operands: their values, their first tokens, and where they are implicit products the second factor's token.
@@ -231,7 +212,7 @@ def _is_argument(pending: Sequence[tuple[int, int]], kinds: Sequence[str]) -> bo
     return level == _OPEN and opened >= 0 and kinds[opened] == "HEAD"
 
 
-def _check_neighbours(tokens: Tokens, reader: Reader, begin: int, right: int) -> None:
+def _check_neighbours(tokens: Tokens, reader: Any, begin: int, right: int) -> None:
     """Refuses a product without a sign whose second factor, from token `right`, can't be told from the first one."""
     left = right - 1
     applied = tokens.pieces[begin] in DERIVATIVES and tokens.kinds[right] == "LPAR"  # D(y)(x)
