@@ -162,3 +162,17 @@ class Decision:
     def case(self) -> int | None:
         """Kovacic's case, 1 to 3; None if there is no Liouvillian solution, or if that is undecided."""
         return None if self.structure is None else self.structure.case
+
+
+@dataclass(frozen=True)
+class GroupClaim:
+    """What is said of the group: the name of its family, as in `kovacic.galois.Kind`, and its parameter n.
+
+    `form` is a rational form of degree 2 for a reducible group, where the decision has none; and the one that shows that a
+    dicyclic group on a curve of positive genus is finite.  `orders` has primes, with orders modulo them, for an infinite one.
+    """
+
+    family: str
+    n: int | None
+    form: SemiInvariant | None = None
+    orders: tuple[tuple[int, int], ...] = ()

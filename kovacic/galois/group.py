@@ -9,8 +9,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any, NamedTuple
 
-from kovacic.decision import SemiInvariant
-from kovacic.verify import GroupClaim
+from kovacic.decision import GroupClaim, SemiInvariant
 
 
 class Kind(Enum):

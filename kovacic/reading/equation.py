@@ -20,7 +20,6 @@ from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
 from kovacic.reading.constants import Constants
 from kovacic.reading.expression import Place, RationalReader
-from kovacic.reading.from_sympy import functions_in, walked
 from kovacic.reading.given import (
     ENERGY,
     EULER,
@@ -53,6 +52,8 @@ class EquationReader(RationalReader):
         """A rational function of x and pi, or of x and e, with that number as a parameter."""
         import sympy
 
+        from kovacic.reading.from_sympy import walked
+
         powers = {e for e in expression.atoms(sympy.exp) if e.args[0].is_Integer}
         names = {sympy.pi: sympy.Symbol(PI), sympy.E: sympy.Symbol(EULER)}
         plain = expression.xreplace({e: names[sympy.E] ** e.args[0] for e in powers} | names)
@@ -83,6 +84,8 @@ class EquationReader(RationalReader):
             raise NotLinear(said, hint=hint, **place)  # type: ignore[arg-type]
         h = None
         if not is_rational(rest):
+            from kovacic.reading.from_sympy import walked
+
             terms = [(term, walked(term, self)) for term in rest.as_ordered_terms()]
             h = -sum(term for term, value in terms if not is_rational(value)) or None
             rest = self.arithmetic.sum([Term(0, 0), *(value for _, value in terms if is_rational(value))])
@@ -91,6 +94,8 @@ class EquationReader(RationalReader):
         return Equation(a, b, c, -r, h, self.variable, y)
 
     def other_leaf(self, node: Any) -> Any:
+        from kovacic.reading.from_sympy import functions_in, walked
+
         if node.is_Derivative:
             value = walked(node.expr, self)
             for symbol, count in node.variable_count:

@@ -18,7 +18,6 @@ References: Kovacic 1986, sections 1 and 4; Hendriks & van der Put, J. Symb. Com
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
@@ -26,25 +25,11 @@ from flint import fmpz
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import Decision, SemiInvariant, Structure
+from kovacic.decision import Decision, GroupClaim, SemiInvariant, Structure
 from kovacic.verify.evidence import Inspector
 from kovacic.verify.identity import form_numerators, is_rational, rational_residues
 from kovacic.verify.residue import residue
 from kovacic.verify.torsion import order_holds
-
-
-@dataclass(frozen=True)
-class GroupClaim:
-    """What is said of the group: the name of its family, as in `kovacic.galois.Kind`, and its parameter n.
-
-    `form` is a rational form of degree 2 for a reducible group, where the decision has none; and the one that shows that a
-    dicyclic group on a curve of positive genus is finite.  `orders` has primes, with orders modulo them, for an infinite one.
-    """
-
-    family: str
-    n: int | None
-    form: SemiInvariant | None = None
-    orders: tuple[tuple[int, int], ...] = ()
 
 
 def group_holds(inspector: Inspector, decision: Decision, claim: GroupClaim) -> bool | None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from html import escape
 
 from kovacic.views.formula import Math
 
@@ -127,13 +126,19 @@ def _mathml(math: Math, display: str = "inline") -> str:
     from latex2mathml.converter import convert
 
     if not math.latex:
-        return f"<code>{escape(math.text)}</code>"
+        return f"<code>{_html_escaped(math.text)}</code>"
     written = convert(math.latex, display=display)
     # A prime is raised and small by itself, and infinity is no operator.
     written = re.sub(
         r"<msup>(<mi>[^<]*</mi>)<mi>(&#x0?203\d;)</mi></msup>", r"\1<mo lspace='0' rspace='0'>\2</mo>", written
     )
     return written.replace("<mo>&#x0221E;</mo>", "<mi>&#x0221E;</mi>")
+
+
+def _html_escaped(text: str) -> str:
+    from html import escape  # with a table of all entities, which no other format needs
+
+    return escape(text)
 
 
 def _latex_escaped(text: str) -> str:
@@ -167,7 +172,7 @@ FORMATS = {
         math=_mathml,
         formula=lambda math: f'<div style="overflow-x:auto; padding:.4em 0">{_mathml(math, "block")}</div>',
         table=_html_table,
-        plain=escape,
+        plain=_html_escaped,
         paragraph=lambda text: f"<p>{text}</p>",
     ),
 }
