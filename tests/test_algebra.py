@@ -325,10 +325,13 @@ def test_a_resonance_is_resolved() -> None:
     assert x.degree == 1
 
 
-@pytest.mark.parametrize("degree", [17, 25, 40])
-def test_inverses_modulo_a_polynomial_of_high_degree_are_those_of_euclid(degree: int) -> None:
-    modulus = QQ.poly([*range(1, degree + 1), Fraction(7, 3)])
-    element = modulus.derivative() * Fraction(1, 5) + 1
+@pytest.mark.parametrize(
+    ("field", "degree"), [(QQ, 17), (QQ, 25), (QQ, 40), (SQRT5, 3), (SQRT5, 8), (CUBIC, 3), (CUBIC, 7)], ids=str
+)
+def test_inverses_modulo_a_polynomial_of_high_degree_are_those_of_euclid(field: AlgebraicField, degree: int) -> None:
+    constant = 1 if field == QQ else field.generator - Fraction(1, 3)
+    modulus = field.poly([constant, *range(2, degree + 1), Fraction(7, 3)])
+    element = modulus.derivative() * Fraction(1, 5) + constant
     inverse = element.inverse_modulo(modulus)
     assert inverse == Poly.inverse_modulo(element, modulus)
     assert (inverse * element - 1) % modulus == 0

@@ -17,11 +17,14 @@ from typing import Any
 from flint import fmpq
 
 from kovacic.algebra import splitting
-from kovacic.algebra.lifting import Lifter
+from kovacic.algebra.lifting import Lifter, inverse_by_primes
 from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
-from kovacic.algebra.rationals import RationalPoly, square_part
+from kovacic.algebra.rationals import QQ, RationalPoly, square_part
 from kovacic.algebra.traces import coefficients_from_traces, power_sums
+
+#: Up to this degree of the modulus, Euclid's algorithm is as fast as lifting.
+_EUCLID_DEGREE = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -254,6 +257,10 @@ class ExtensionPoly(Poly):
             if proposal and not self % proposal[0] and not other % proposal[0]:
                 return proposal[0]  # type: ignore[return-value]
         return self._field.poly([1])
+
+    def inverse_modulo(self, modulus: Poly) -> ExtensionPoly:
+        small = modulus.degree <= _EUCLID_DEGREE or self._field.ground != QQ
+        return super().inverse_modulo(modulus) if small else inverse_by_primes(self, modulus)
 
     def derivative(self) -> ExtensionPoly:
         return ExtensionPoly(self._field, tuple(part.derivative() for part in self.parts))

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
+from functools import cache, reduce
 from typing import Any
 
 from flint import Ordering, fmpz_mpoly_ctx
@@ -27,6 +27,11 @@ from kovacic.limits import check_time
 _FIRST_PRIME_RUN, _QUOTA = 3, 32
 
 
+@cache
+def _ring(parameters: int) -> Any:
+    return fmpz_mpoly_ctx.get(("x", *(f"t{i}" for i in range(parameters))), Ordering.lex)
+
+
 @dataclass(frozen=True, slots=True)
 class FunctionField(Field):
     """The field Q(t1, ..., tk), `names` being the names of the parameters."""
@@ -36,7 +41,7 @@ class FunctionField(Field):
     @property
     def context(self) -> Any:
         """flint's ring Z[x, t1, ..., tk], ordered by powers of x first; its own names are never printed."""
-        return fmpz_mpoly_ctx.get(("x", *(f"t{i}" for i in range(len(self.names)))), Ordering.lex)
+        return _ring(len(self.names))
 
     def generator(self, name: str) -> FunctionPoly:
         """The parameter of this name."""
@@ -181,11 +186,15 @@ class FunctionPoly(Poly):
         return -1 if self.num.is_zero() else int(self.num.degrees()[0])
 
     def __eq__(self, other: object) -> bool:
-        if isinstance(other, FunctionPoly) and other._field == self._field:
+        if isinstance(other, FunctionPoly) and (other._field is self._field or other._field == self._field):
             return bool(self.num == other.num and self.den == other.den)
         return super().__eq__(other)
 
     __hash__ = Poly.__hash__
+
+    @property
+    def is_monic(self) -> bool:
+        return bool(self.num) and bool((self.num if self.degree == 0 else self._columns()[-1]) == self.den)
 
     def __getitem__(self, power: int) -> FunctionPoly:
         terms = {(0, *e[1:]): c for e, c in self.num.to_dict().items() if e[0] == power}

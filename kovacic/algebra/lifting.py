@@ -13,7 +13,9 @@ from typing import Any
 
 from flint import fmpq_poly, fmpz, fmpz_poly, nmod_poly
 
+from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly
+from kovacic.limits import check_time
 
 #: Primes are taken downwards from here: large enough that a bad one is rare, small enough for flint's fast arithmetic.
 _LARGEST = 1 << 60
@@ -84,6 +86,30 @@ class Lifter:
             self._collectors[shape] = self._field.collector(shape)
         proposal = self._collectors[shape].add(bundle[0], coordinates)
         return None if proposal is None else self._field.assemble(proposal)
+
+
+def inverse_by_primes(element: Poly, modulus: Poly) -> Any:
+    """The inverse modulo a polynomial, from inverses modulo primes: as many as the result needs.
+
+    Euclid's algorithm, and flint's over Q, work with numbers as large as resultants.
+    """
+    if element.gcd(modulus).degree > 0:
+        raise ZeroDivisionError("not invertible: the polynomials have a common factor")
+    lifter = Lifter(element.field)
+    for bundle in element.field.bundles():
+        check_time()
+        try:
+            moduli = [h.keeping_degree(modulus) for h in bundle]
+            found = [h(element).xgcd(reduced) for h, reduced in zip(bundle, moduli, strict=True)]
+        except BadPrimeError:
+            continue
+        if any(common.degree() > 0 for common, _, _ in found):
+            continue
+        images = [[cofactor % reduced] for (_, cofactor, _), reduced in zip(found, moduli, strict=True)]
+        proposal = lifter.add(bundle, images)
+        if proposal is not None and (proposal[0] * element - 1) % modulus == 0:
+            return proposal[0]
+    raise AssertionError("there are infinitely many primes")
 
 
 class Residues(Collector):

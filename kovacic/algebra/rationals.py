@@ -13,7 +13,7 @@ from flint import fmpq, fmpq_poly, fmpz, fmpz_poly, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.apart import last_of
-from kovacic.algebra.lifting import Lifter, Residues, primes
+from kovacic.algebra.lifting import Residues, inverse_by_primes, primes
 from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
 from kovacic.limits import check_duration, check_time, watched_seconds
@@ -182,7 +182,7 @@ class RationalPoly(Poly):
 
     def inverse_modulo(self, modulus: Poly) -> RationalPoly:
         small = modulus.degree <= _EUCLID_DEGREE
-        return super().inverse_modulo(modulus) if small else _inverse_by_primes(self, modulus)
+        return super().inverse_modulo(modulus) if small else inverse_by_primes(self, modulus)
 
     def derivative(self) -> RationalPoly:
         return RationalPoly(self.rep.derivative())
@@ -236,29 +236,6 @@ _set_rep = RationalPoly.__dict__["rep"].__set__
 
 def _rational_poly_from_key(numerators: tuple[int, ...], denominator: int) -> RationalPoly:
     return RationalPoly(fmpq_poly(fmpz_poly(list(numerators)), denominator))
-
-
-def _inverse_by_primes(element: RationalPoly, modulus: Poly) -> RationalPoly:
-    """The inverse modulo a polynomial of a high degree, from inverses modulo primes: as many as the result needs.
-
-    Euclid's algorithm over Q, and flint's, work with numbers as large as resultants.
-    """
-    if element.gcd(modulus).degree > 0:
-        raise ZeroDivisionError("not invertible: the polynomials have a common factor")
-    lifter = Lifter(QQ)
-    for bundle in QQ.bundles():
-        check_time()
-        try:
-            image, reduced = bundle[0](element), bundle[0].keeping_degree(modulus)
-        except BadPrimeError:
-            continue
-        common, cofactor, _ = image.xgcd(reduced)
-        if common.degree() > 0:
-            continue
-        proposal = lifter.add(bundle, [[cofactor % reduced]])
-        if proposal is not None and (proposal[0] * element - 1) % modulus == 0:
-            return proposal[0]  # type: ignore[return-value]
-    raise AssertionError("there are infinitely many primes")
 
 
 @dataclass(frozen=True, slots=True)
