@@ -735,9 +735,9 @@ def test_a_region_inside_an_earlier_one_is_left_out() -> None:
 )
 def test_the_limit_of_time_holds(S: str) -> None:
     kovacic.conditions("x^2 + n", var="x")  # imports
-    start = time.perf_counter()
+    start = time.process_time()
     answer = kovacic.conditions(S, var="x", limits=Limits(seconds=1.5))
-    assert time.perf_counter() - start < 2.5
+    assert time.process_time() - start < 2.5
     assert answer.regions
     report = answer.check(10)
     assert report, report.disagreements

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from types import SimpleNamespace
 
 import pytest
 import sympy
@@ -99,7 +100,7 @@ CALLS: dict[str, Callable[[Limits], object]] = {
 @pytest.mark.parametrize("name", CALLS)
 def test_every_call_ends_within_its_time(name: str) -> None:
     """What comes then is a value, `LimitExceeded`, or dsolve's NotImplementedError with the reason."""
-    limits = Limits(seconds=0.5)
+    limits = Limits(seconds=0.25)
     for text in (
         "x^4 + 10002*x + 1",
         HERMITE,
@@ -118,7 +119,7 @@ def test_every_call_ends_within_its_time(name: str) -> None:
         limit = error.limit
     except NotImplementedError as error:
         limit = str(error)
-    assert time.process_time() - begun < 1.5
+    assert time.process_time() - begun < 1.25
     assert limit == "seconds" or (name.startswith("dsolve") and "time limit" in limit)
 
 
@@ -150,8 +151,10 @@ def test_what_is_long_is_said_instead_of_printed() -> None:
     assert formulas.math((X + 1) ** 3).text == "x^3 + 3*x^2 + 3*x + 1"
 
 
-def test_a_long_gcd_is_foreseen_only_where_there_is_one() -> None:
+def test_a_long_gcd_is_foreseen_only_where_there_is_one(monkeypatch: pytest.MonkeyPatch) -> None:
     """Coprime polynomials of any size are told apart by one prime; a common factor of degree 2000 takes seconds."""
+    processor = SimpleNamespace(monotonic=time.process_time)  # the machine may be busy
+    monkeypatch.setattr("kovacic.limits.time", processor)
     f = QQ.poly([3 ** (k % 97 + 40) for k in range(1001)])
     g = QQ.poly([5 ** (k % 89 + 30) for k in range(1002)])
     with Budget(Limits(seconds=0.05)).watched():

@@ -454,11 +454,11 @@ def test_user_text_is_never_executed() -> None:
     ids=lambda value: value[:20],
 )
 def test_limits_hold_before_the_work_is_done(text: str, limit: str) -> None:
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(LimitExceeded) as caught:
         read_input(text)
     assert caught.value.limit == limit
-    assert time.perf_counter() - start < 30  # the work itself takes minutes, or has no end
+    assert time.process_time() - start < 30  # the work itself takes minutes, or has no end
 
 
 def test_limits_are_adjustable() -> None:

@@ -66,13 +66,16 @@ def test_lines_of_solve(validator: jsonschema.Draft202012Validator, capsys: pyte
 def test_lines_of_batch(
     tmp_path: Path, validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    source = tmp_path / "in.jsonl"
-    good = [json.dumps({"S": S, "id": k}) for k, S in enumerate([*EQUATIONS, "x^100001", "(x+1)^15000/(x^3000-x-1)"])]
+    source, slow = tmp_path / "in.jsonl", tmp_path / "slow.jsonl"
+    good = [json.dumps({"S": S, "id": k}) for k, S in enumerate([*EQUATIONS, "x^100001"])]
     source.write_text("\n".join([*good, *WRONG]) + "\n")
-    lines = list(printed(capsys, "batch", str(source), "-q", "--group", "--timeout", "2", status=2))
+    slow.write_text(json.dumps({"S": "(x+1)^15000/(x^3000-x-1)", "id": "slow"}) + "\n")
+    lines = list(printed(capsys, "batch", str(source), "-q", "--group", "--timeout", "60", status=2))
     assert [line["line"] for line in lines] == list(range(1, len(good) + len(WRONG) + 1))
-    assert [line["status"] for line in lines[len(EQUATIONS) :]] == ["undecided"] * 2 + ["error"] * len(WRONG)
-    for line in lines:
+    assert [line["status"] for line in lines[len(EQUATIONS) :]] == ["undecided", *["error"] * len(WRONG)]
+    late = list(printed(capsys, "batch", str(slow), "-q", "--group", "--timeout", "1", status=3))
+    assert [line["status"] for line in late] == ["undecided"]
+    for line in lines + late:
         validator.validate(line)
 
 
