@@ -21,6 +21,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.cli.main import run
 from kovacic.engine.places import analyse
 from kovacic.limits import Budget
+from kovacic.views.breaking import LINE, breakable
 from kovacic.views.explain import rational_form
 from kovacic.views.families import Search, is_natural, search
 from kovacic.views.formula import latex_ratfunc, latex_text
@@ -38,6 +39,15 @@ EQUATIONS = [
     "w'' = sqrt(2)*w/t^2",
     "(1-x^2)*y'' - 2*x*y' + 6*y = x",
     "1/(x^5-x-1)",
+]
+
+#: Formulas of more than a line: functions of a pull-back, square roots of large numbers, a polynomial of degree 12.
+LONG = [
+    "(-8*x^2 - x + 16)/(36*x^4 - 72*x^3 + 36*x^2)",
+    "(96*x^2 - 75*x - 96)/(400*x^4 - 800*x^3 + 400*x^2)",
+    "(-56184274944*x^6 + 287722616832*x^5 - 646252860132*x^4 + 747979016419*x^3 - 464048291925*x^2 + 172132340625*x"
+    " - 41860546875)/(234101145600*x^8 - 1347184742400*x^7 + 3274376403600*x^6 - 4301984462400*x^5 + 3222329205600*x^4"
+    " - 1304893800000*x^3 + 223256250000*x^2)",
 ]
 
 
@@ -188,10 +198,10 @@ def test_an_unknown_format() -> None:
         answer.citation(style="word")
 
 
-def test_latex_compiles(tmp_path: Path) -> None:
-    if shutil.which("pdflatex") is None:
-        pytest.skip("pdflatex isn't installed")
-    body = "\n".join(kovacic.solve(text).explain(format="latex") for text in EQUATIONS[:5])
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex isn't installed")
+def test_latex_compiles_without_overfull_boxes(tmp_path: Path) -> None:
+    answers = [kovacic.solve(text) for text in [*EQUATIONS, *LONG]]
+    body = "\n".join(answer.explain(format="latex") for answer in answers)
     document = (
         "\\documentclass{article}\\usepackage{amsmath,amssymb,graphicx}\\begin{document}\n" + body + "\\end{document}\n"
     )
@@ -199,6 +209,52 @@ def test_latex_compiles(tmp_path: Path) -> None:
     command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "a.tex"]
     done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
     assert b"Overfull" not in done.stdout
+
+
+def test_nothing_wider_than_a_line_is_beyond_a_break() -> None:
+    """What stands between two places where TeX breaks, + and = and \allowbreak outside of groups, is short."""
+    for text in LONG:
+        for formula in re.findall(r"\$\\displaystyle (.*?)\$\\par", kovacic.solve(text).explain(format="latex")):
+            depth = characters = 0
+            for token in re.findall(r"\\[A-Za-z]+|\\.|.", formula):
+                depth += {"{": 1, "}": -1, r"\left": 1, r"\right": -1}.get(token, 0)
+                characters += token not in "{}^ "
+                if depth == 0 and token in ("+", "-", "=", r"\allowbreak"):
+                    characters = 0
+                assert characters <= 2 * LINE  # those above and below a fraction are counted together
+            assert depth == 0
+
+
+@settings(max_examples=25, deadline=None)
+@given(strategies.rational_functions(max_degree=6, bound=99))
+def test_a_broken_formula_has_the_same_value(function: RatFunc) -> None:
+    latex = latex_ratfunc(function)
+    for line in (1000, 20, 5):
+        written = re.sub(r"\\allowbreak ?|\\bigl|\\bigr", "", breakable(latex, line))
+        assert sympy.cancel(_read_latex(written) - sympy.sympify(function.to_str())) == 0
+
+
+@pytest.mark.parametrize(
+    ("latex", "written"),
+    [
+        (r"y = \sqrt[3]{x + 1 + x^{2}}", r"y = \bigl(x + 1 + x^{2}\bigr)^{1/3}"),
+        (r"e^{x + 1 + x^{2}} z", r"\exp\bigl(x + 1 + x^{2}\bigr) z"),
+        (r"\frac{\left(x + 1 + x^{2}\right)^{2}}{2 x}", r"\bigl(x + 1 + x^{2}\bigr)^{2}/\allowbreak \bigl(2 x\bigr)"),
+        (
+            r"{}_{2}F_{1}\left(\begin{matrix} a, b \\ c \end{matrix}\middle| {x} \right)",
+            r"{}_{2}F_{1}\bigl( a, b ; c ; {x}\bigr)",
+        ),
+        (r"\int e^{x}\, dx = \cos{\left(x \right)}", r"\int e^{x}\, dx = \cos{\left(x \right)}"),
+    ],
+)
+def test_how_long_formulas_are_written_on_a_line(latex: str, written: str) -> None:
+    assert breakable(latex, 8).replace(" ", "") == written.replace(" ", "")
+
+
+def test_signs_in_sentences_are_those_of_latex() -> None:
+    text = kovacic.solve("x").explain(format="latex")
+    assert r"even or $>$ 2" in text
+    assert r"order is $\ge" in text
 
 
 class _Tags(HTMLParser):

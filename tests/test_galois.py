@@ -441,6 +441,13 @@ def test_a_normal_form_with_parameters_has_its_group() -> None:
     assert answer.equation_group.name == answer.group.name == "SL2"
 
 
+def test_a_curve_of_genus_one_beside_a_parameter_ends() -> None:
+    """Lame's equation with n = 1: no prime field takes the parameter, so orders modulo primes decide nothing."""
+    group = kovacic.solve("(4*x^3 - 28*x + 24)*y'' + (6*x^2 - 14)*y' = (2*x + B)*y", var="x").group
+    assert group.kind in (Kind.IMPRIMITIVE, Kind.INFINITE_DIHEDRAL)
+    assert group.order is None
+
+
 def test_three_conjugate_semi_invariants() -> None:
     """Exponent differences 1/2 at the roots of x^3 - 2: each pair of lines of the quaternion group belongs to one root."""
     answer = kovacic.solve("-27*x/(8*(x^3-2)^2)")

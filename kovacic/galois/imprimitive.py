@@ -34,6 +34,7 @@ from flint import fmpz, nmod_poly
 from kovacic.algebra.modular import BadPrimeError, simple_roots
 from kovacic.algebra.poly import Field, Homomorphism, Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.algebra.splitting import homomorphisms_modulo
 from kovacic.decision import NoInvariant, SemiInvariant
 from kovacic.engine.invariants import invariants
@@ -157,8 +158,8 @@ def form_of_order(problem: Problem, f: SemiInvariant, n: int) -> SemiInvariant |
 
 
 def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
-    """Homomorphisms to prime fields, from p = 5 on; smaller ones first, since orders grow like p^genus."""
-    primes = (p for p in count(5) if fmpz(p).is_prime())
+    """Homomorphisms to prime fields, from p = 5 on; smaller ones first, since orders grow like p^genus.  Numbers only."""
+    primes = (p for p in (count(5) if field.ground == QQ else ()) if fmpz(p).is_prime())
     tried = islice((h for p in primes for h in homomorphisms_modulo(field, p)), _PRIMES_TRIED)
     return takewhile(lambda h: h.p**genus <= 10**7, tried)
 

@@ -9,7 +9,11 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
+from kovacic.views.breaking import breakable, width
 from kovacic.views.formula import Math
+
+#: Characters in a line of a LaTeX table.
+_PAGE = 66
 
 Sentence = Sequence[str | Math]
 
@@ -98,17 +102,35 @@ def _markdown_table(rows: list[list[str]]) -> str:
 
 
 def _latex_table(rows: list[list[str]]) -> str:
-    lines = [" & ".join(row) + r" \\" for row in rows]
+    """Columns as wide as they are, or with lines that are broken where they would be wider than the page together."""
+    widths = [max(map(width, column)) for column in zip(*rows, strict=True)]
+    long = [sum(widths) > _PAGE and w > _PAGE / 6 for w in widths]
+    narrow = sum(w for w, is_long in zip(widths, long, strict=True) if not is_long)
+    share = max(0.3, 0.9 - narrow / _PAGE) / max(1, sum(w for w, is_long in zip(widths, long, strict=True) if is_long))
+    columns = "".join(
+        rf"p{{{share * w:.2f}\linewidth}}" if is_long else "l" for w, is_long in zip(widths, long, strict=True)
+    )
+    cells = [
+        [
+            rf"\raggedright {breakable(cell, share * w * _PAGE)}" if is_long else cell
+            for cell, is_long, w in zip(row, long, widths, strict=True)
+        ]
+        for row in rows
+    ]
+    lines = [" & ".join(row) + r" \tabularnewline" for row in cells]
     body = "\n".join([lines[0], r"\hline", *lines[1:]])
-    wide = [any(cell.count(" ") > 12 for cell in column) for column in zip(*rows, strict=True)]
-    columns = "".join(r"p{.6\linewidth}" if long else "l" for long in wide)
-    return r"\medskip" + _latex_fitted(f"\\begin{{tabular}}{{{columns}}}\n{body}\n\\end{{tabular}}") + r"\medskip"
+    box = f"\\sbox0{{\\def\\arraystretch{{1.3}}\\begin{{tabular}}{{{columns}}}\n{body}\n\\end{{tabular}}}}"
+    fitted = r"\ifdim\wd0>\linewidth\resizebox{\linewidth}{!}{\usebox0}\else\usebox0\fi"  # graphicx
+    return rf"\medskip{box}\par\noindent{fitted}\par\medskip"
 
 
-def _latex_fitted(box: str) -> str:
-    """A box that is made narrower where it is wider than the line (graphicx)."""
-    narrower = r"\ifdim\wd0>\linewidth\resizebox{\linewidth}{!}{\usebox0}\else\usebox0\fi"
-    return f"\\sbox0{{{box}}}\\par\\noindent{narrower}\\par"
+def _latex_formula(math: Math) -> str:
+    """A paragraph; lines of an array one by one."""
+    lines = math.latex.removeprefix(r"\begin{array}{l} \displaystyle ").removesuffix(r" \end{array}")
+    shown = [
+        rf"\hangindent2em$\displaystyle {breakable(line)}$\par\smallskip" for line in lines.split(r" \\ \displaystyle ")
+    ]
+    return "\n".join([r"\smallskip", *shown])
 
 
 def _html_table(rows: list[list[str]]) -> str:
@@ -144,7 +166,8 @@ def _html_escaped(text: str) -> str:
 def _latex_escaped(text: str) -> str:
     for char in "&%#_{}":
         text = text.replace(char, "\\" + char)
-    return text.replace("^", r"\textasciicircum ")
+    text = text.replace(">=", r"$\ge$").replace("<=", r"$\le$").replace("^", r"\textasciicircum{}")
+    return re.sub("([<>|])", r"$\1$", text)
 
 
 FORMATS = {
@@ -162,8 +185,8 @@ FORMATS = {
     ),
     "latex": Format(  # the body of a document with amsmath, amssymb and graphicx
         heading=lambda text, level: rf"\raggedright\{'section' if level == 1 else 'subsection'}*{{{text}}}",
-        math=lambda math: f"${math.latex}$",
-        formula=lambda math: r"\smallskip" + _latex_fitted(rf"$\displaystyle {math.latex}$") + r"\smallskip",
+        math=lambda math: f"${breakable(math.latex)}$",
+        formula=_latex_formula,
         table=_latex_table,
         plain=_latex_escaped,
     ),

@@ -1,0 +1,149 @@
+r"""Long formulas in LaTeX, written so that TeX can break their lines.
+
+TeX breaks a formula in a paragraph after + and =, but not inside of \frac{}{}, \sqrt{}, \left( \right), a power or braces.
+Where one of these is wider than a line, it is written on the line: (x + 1)/(x - 1), (x + 1)^{1/2}, \exp(...), plain
+parentheses.  Everything narrower is left as it is.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+# A node is a token, or the list of those between braces.
+Node = str | list["Node"]
+
+#: Characters in a line of the class article.
+LINE = 60
+_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+|.", re.DOTALL)
+_BETWEEN_FACTORS = re.compile(r"(?:(?<=[})])(?<!_\{1\})|(?<=[^\w\\]\w)) *(?=\\sqrt|\\left|\\bigl|{}_)")
+_FRACTIONS = (r"\frac", r"\tfrac")
+_WITH_NAME = (r"\operatorname", r"\text", r"\mathrm", r"\mathbb", r"\begin", r"\end", "_")
+_WIDER = {"+": 2.4, "-": 2.4, "=": 2.4, r"\cos": 3, r"\sin": 3, r"\exp": 3}
+_NO_WIDTH = ("", "{", "}", "$", " ", r"\left", r"\right", r"\displaystyle", r"\,", r"\;")
+
+
+def width(latex: str) -> float:
+    """About how many characters wide it is in print."""
+    return _width(_parsed(latex))
+
+
+def breakable(latex: str, line: float = LINE) -> str:
+    r"""The same formula, if it is wider than a line without anything in it that is wider than half a line and can't be broken.
+
+    >>> long = " + ".join(f"x^{{{k}}}" for k in range(30))
+    >>> breakable(r"\frac{" + long + r"}{\sqrt{x}}").endswith(r"x^{29}\bigr)\allowbreak /\allowbreak \sqrt{x}")
+    True
+    """
+    nodes = _parsed(latex)
+    if _width(nodes) <= line:
+        return latex
+    return _BETWEEN_FACTORS.sub(r"\\allowbreak ", _Writer(line / 2).written(nodes))
+
+
+def _parsed(latex: str) -> list[Node]:
+    stack: list[list[Node]] = [[]]
+    for token in _TOKEN.findall(latex):
+        if token == "{":
+            stack.append([])
+        elif token == "}" and len(stack) > 1:
+            group = stack.pop()
+            stack[-1].append(group)
+        else:
+            stack[-1].append(token)
+    return stack[0]
+
+
+def _argument(nodes: list[Node], k: int) -> list[Node]:
+    node = nodes[k]
+    return node if isinstance(node, list) else [node]
+
+
+def _width(nodes: list[Node]) -> float:
+    total, rest = 0.0, iter(nodes)
+    for node in rest:
+        if isinstance(node, list):
+            total += _width(node)
+        elif node in _FRACTIONS:
+            total += max(_width([next(rest, "")]), _width([next(rest, "")]))
+        elif node in ("^", "_"):
+            total += 0.7 * _width([next(rest, "")])
+        elif node.isdigit():
+            total += len(node)
+        elif node not in _NO_WIDTH:
+            total += _WIDER.get(node, 1.1)
+    return total
+
+
+@dataclass(frozen=True)
+class _Writer:
+    """What is wider than `most` is written on the line."""
+
+    most: float
+
+    def written(self, nodes: list[Node]) -> str:
+        written, k = "", 0
+        while k < len(nodes):
+            node, following = nodes[k], nodes[k + 1] if k + 1 < len(nodes) else ""
+            k += 1
+            if isinstance(node, list):
+                written += self.written(node) if _width(node) > self.most else _verbatim([node])
+            elif node in _FRACTIONS and _width(nodes[k - 1 : k + 2]) > self.most:
+                written += f"{self._factor(_argument(nodes, k))}/\\allowbreak {self._factor(_argument(nodes, k + 1))}"
+                k += 2
+            elif node == r"\sqrt" and _width(nodes[k - 1 : k + 4]) > self.most:
+                index = "2"
+                if following == "[":
+                    end = nodes.index("]", k)
+                    index, k = _verbatim(nodes[k + 1 : end]), end + 1
+                written += rf"\bigl({self.written(_argument(nodes, k))}\bigr)^{{1/{index}}}"
+                k += 1
+            elif node == r"\left":
+                end = _closing(nodes, k)
+                inner = nodes[k + 1 : end]
+                wide = following == "(" and _width(inner) > self.most
+                written += rf"\bigl({self._inside(inner)}\bigr)" if wide else _verbatim(nodes[k - 1 : end + 2])
+                k = end + 2
+            elif node == "^" and isinstance(following, list) and _width(following) > self.most and written[-1:] == "e":
+                written = rf"{written[:-1]}\exp\bigl({self.written(following)}\bigr)"
+                k += 1
+            elif node in (*_WITH_NAME, *_FRACTIONS, r"\sqrt", "^"):
+                count = 2 if node in _FRACTIONS else 1
+                written += _verbatim(nodes[k - 1 : k + count])
+                k += count
+            elif node.isdigit() and len(node) > self.most / 2:
+                written += r"\allowbreak ".join(re.findall(r"\d{1,10}", node))
+            else:
+                written += _verbatim([node]) + r"\allowbreak " * (node == ",")
+        return written
+
+    def _inside(self, nodes: list[Node]) -> str:
+        """Between parentheses; parameters and argument of a hypergeometric function in one line, with semicolons."""
+        if r"\middle" not in nodes:
+            return self.written(nodes)
+        matrix, argument = nodes[2 : nodes.index(r"\end")], nodes[nodes.index(r"\middle") + 2 :]
+        rows = _verbatim(matrix).replace(r"\\", ";").replace(r"\frac", r"\tfrac")
+        return f"{rows}; {self.written(argument)}"
+
+    def _factor(self, nodes: list[Node]) -> str:
+        """In parentheses, if it is a sum or a product."""
+        parts = [node for node in nodes if node != " "]
+        end = _closing(parts, 1) + 2 if parts[0] == r"\left" else 2 if parts[0] == r"\sqrt" else 1
+        single = len(parts) == end or (len(parts) == end + 2 and parts[end] == "^")
+        return self.written(nodes) if single else rf"\bigl({self.written(nodes)}\bigr)"
+
+
+def _closing(nodes: list[Node], k: int) -> int:
+    r"""Where the \right is that belongs to the \left before k."""
+    depth = 1
+    while depth:
+        depth += {r"\left": 1, r"\right": -1}.get(str(nodes[k]), 0)
+        k += 1
+    return k - 1
+
+
+def _verbatim(nodes: list[Node]) -> str:
+    return "".join(
+        f"{{{_verbatim(node)}}}" if isinstance(node, list) else node + " " * (node[0] == "\\" and node[-1].isalpha())
+        for node in nodes
+    )
