@@ -96,7 +96,10 @@ def equation(d1: sp.Expr, d2: sp.Expr, variable: sp.Symbol = x) -> tuple[str, st
 
 def normal_form(S: sp.Expr) -> tuple[str, str]:
     """y'' = S y as text and in LaTeX."""
-    return f"y''({x}) = ({S})*y({x})", rf"y'' = \left({sp.latex(S)}\right) y"
+    if S == 0:
+        return f"y''({x}) = 0", "y'' = 0"
+    factor = rf"\left({sp.latex(S)}\right)" if S.is_Add else sp.latex(S)
+    return f"y''({x}) = ({S})*y({x})", f"y'' = {factor} y"
 
 
 def of_ball(sphere: BallOnSphere) -> dict[str, tuple[str, str]]:

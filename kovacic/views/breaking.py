@@ -31,9 +31,8 @@ def width(latex: str) -> float:
 def breakable(latex: str, line: float = LINE) -> str:
     r"""The same formula, if it is wider than a line without anything in it that is wider than half a line and can't be broken.
 
-    >>> long = " + ".join(f"x^{{{k}}}" for k in range(30))
-    >>> breakable(r"\frac{" + long + r"}{\sqrt{x}}").endswith(r"x^{29}\bigr)\allowbreak /\allowbreak \sqrt{x}")
-    True
+    >>> print(breakable(r"\frac{x^{2} + 1}{\sqrt{x}}", line=4))
+    \bigl(x^{2} + 1\bigr)/\allowbreak \sqrt{x}
     """
     nodes = _parsed(latex)
     if _width(nodes) <= line:
