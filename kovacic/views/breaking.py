@@ -32,7 +32,7 @@ def breakable(latex: str, line: float = LINE) -> str:
     r"""The same formula, if it is wider than a line without anything in it that is wider than half a line and can't be broken.
 
     >>> print(breakable(r"\frac{x^{2} + 1}{\sqrt{x}}", line=4))
-    \bigl(x^{2} + 1\bigr)/\allowbreak \sqrt{x}
+    \bigl(x^{2} + 1\bigr)/\allowbreak \sqrt {x}
     """
     nodes = _parsed(latex)
     if _width(nodes) <= line:
@@ -90,13 +90,13 @@ class _Writer:
             elif node in _FRACTIONS and _width(nodes[k - 1 : k + 2]) > self.most:
                 written += f"{self._factor(_argument(nodes, k))}/\\allowbreak {self._factor(_argument(nodes, k + 1))}"
                 k += 2
-            elif node == r"\sqrt" and _width(nodes[k - 1 : k + 4]) > self.most:
-                index = "2"
-                if following == "[":
-                    end = nodes.index("]", k)
-                    index, k = _verbatim(nodes[k + 1 : end]), end + 1
-                written += rf"\bigl({self.written(_argument(nodes, k))}\bigr)^{{1/{index}}}"
-                k += 1
+            elif node == r"\sqrt":
+                end = nodes.index("]", k) + 1 if following == "[" else k
+                index, inside = _verbatim(nodes[k + 1 : end - 1]) or "2", _argument(nodes, end)
+                wide = _width(inside) > self.most
+                root = rf"\bigl({self.written(inside)}\bigr)^{{1/{index}}}"
+                written += root if wide else _verbatim(nodes[k - 1 : end + 1])
+                k = end + 1
             elif node == r"\left":
                 end = _closing(nodes, k)
                 inner = nodes[k + 1 : end]
@@ -106,7 +106,7 @@ class _Writer:
             elif node == "^" and isinstance(following, list) and _width(following) > self.most and written[-1:] == "e":
                 written = rf"{written[:-1]}\exp\bigl({self.written(following)}\bigr)"
                 k += 1
-            elif node in (*_WITH_NAME, *_FRACTIONS, r"\sqrt", "^"):
+            elif node in (*_WITH_NAME, *_FRACTIONS, "^"):
                 count = 2 if node in _FRACTIONS else 1
                 written += _verbatim(nodes[k - 1 : k + count])
                 k += count
