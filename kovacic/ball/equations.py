@@ -134,10 +134,8 @@ _STEPS = (
 
 def derivation(*, latex: bool = False) -> str:
     """The equations up to (11) for all values of the parameters, line by line; (12) and (13) are those of `in_roots`."""
-    about = (
-        "x = R sin(u) cos(v), y = R sin(u) sin(v), z = R cos(u) + a about the centre of mass; (u1, v1) on the sphere"
-    )
-    lines = [] if latex else [f"The ball's surface: {about}; theta between the meridians."]
+    surface = "x = R sin(u) cos(v), y = R sin(u) sin(v), z = R cos(u) + a about the centre of mass"
+    lines = [] if latex else [f"The ball's surface: {surface}; (u1, v1) on the sphere; theta between the meridians."]
     moments = {"dTheta_u'/dt": T_du, "dTheta_v'/dt": T_dv, "dTheta_n/dt": T_n}
     for title, relation, tex, names in _STEPS:
         lines.append(tex if latex else f"{title}: {relation}")
@@ -148,17 +146,6 @@ def derivation(*, latex: bool = False) -> str:
     return "\n".join(lines)
 
 
-def tidy(expression: Any) -> Any:
-    """Expanded, with even powers of sines written in cosines: the one form that each expression has."""
-
-    return sp.expand(
-        sp.expand(expression).replace(
-            lambda z: z.is_Pow and isinstance(z.base, sin) and z.exp.is_Integer and z.exp > 1,
-            lambda z: (1 - cos(z.base.args[0]) ** 2) ** (z.exp // 2) * z.base ** (z.exp % 2),
-        )
-    )
-
-
 def rate(expression: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
     """d/dt, the symbols in `clock` having these rates."""
     return sum((expression.diff(symbol) * speed for symbol, speed in clock.items()), expression * 0)
@@ -166,8 +153,8 @@ def rate(expression: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
 
 def _axes(p: sp.Symbol, q: sp.Symbol) -> tuple[Any, Any, Any]:
     """The unit vectors along the meridian, along the circle and outwards on a sphere of colatitude p, longitude q."""
-    south = sp.Matrix([cos(p) * cos(q), cos(p) * sin(q), -sin(p)])
-    return south, sp.Matrix([-sin(q), cos(q), 0]), sp.Matrix([sin(p) * cos(q), sin(p) * sin(q), cos(p)])
+    out = sp.Matrix([sin(p) * cos(q), sin(p) * sin(q), cos(p)])
+    return out.diff(p), sp.Matrix([-sin(q), cos(q), 0]), out
 
 
 def _turning(frame: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
@@ -186,33 +173,28 @@ def residuals() -> Iterator[tuple[str, list[Any]]]:
     on_ball, on_sphere = {u: du, v: dv}, {u1: du1, v1: dv1, theta: dtheta}
     rolling = {du1: p["c11"] * du + p["c12"] * dv, dv1: p["c21"] * du + p["c22"] * dv}
     slip = in_ball.T * rate(r, on_ball) - in_space.T * rate(R1 * out, on_sphere)
-    turn = _turning(in_ball, on_ball).applyfunc(tidy)
+    turn = _turning(in_ball, on_ball)
     spin = _turning(in_space, on_sphere) - turn
     yield "c_ij", list(slip.xreplace(rolling))
     yield "n", [spin[2] - p["n"]]
     yield "sigma, tau", [spin[0].xreplace(rolling) - p["tau"] * dv, spin[1].xreplace(rolling) - p["sigma"] * du]
     # In the frame: rho leads from the centre of mass to the contact point, whose velocity is zero.
     omega = sp.Matrix([p["tau"] * dv, p["sigma"] * du, n])
-    rho, axis = ((in_ball.T * vector).applyfunc(tidy) for vector in (r, sp.Matrix([0, 0, 1])))
+    rho, axis = (in_ball.T * vector for vector in (r, sp.Matrix([0, 0, 1])))
     velocity, momentum = rho.cross(omega), A1 * omega + (A3 - A1) * omega.dot(axis) * axis
     energy = p["K11"] * du**2 + p["K22"] * dv**2 + 2 * p["K23"] * dv * n + p["K33"] * n**2
     yield "K_ij", [m * velocity.dot(velocity) + omega.dot(momentum) - energy]
     clock = {u: du, du: ddu, dv: ddv, n: dn}
     force, moment = (rate(vector, clock) + (omega + turn).cross(vector) for vector in (m * velocity, momentum))
-    inertia = {z: tidy(force.dot(velocity.diff(z)) + moment.dot(omega.diff(z))) for z in (du, dv, n)}
-    theta_ = {
-        V_u: sp.Integer(0),
-        **{name: energy.diff(z) / 2 for name, z in ((T_u, u), (T_du, du), (T_dv, dv), (T_n, n))},
-    }
+    inertia = {z: force.dot(velocity.diff(z)) + moment.dot(omega.diff(z)) for z in (du, dv, n)}
+    at = {V_u: sp.S.Zero} | {name: energy.diff(z) / 2 for name, z in ((T_u, u), (T_du, du), (T_dv, dv), (T_n, n))}
     sides = ((du, "dTheta_u'/dt"), (dv, "dTheta_v'/dt"), (n, "dTheta_n/dt"))
-    yield "(7)", [inertia[z] - rate(energy.diff(z) / 2, clock) + p[name].xreplace(theta_) for z, name in sides]
+    yield "(7)", [inertia[z] - rate(energy.diff(z) / 2, clock) + p[name].xreplace(at) for z, name in sides]
     # omega_3 = tau sin(psi) v' + cos(psi) n with psi = -u, in place of v'.
     slope = (cos(u) * n - w3) / (p["tau"] * sin(u))
     along = {u: 1, n: p["a1"] * n + p["a2"] * w3, w3: p["b1"] * n + p["b2"] * w3}
-    yield (
-        "a1, a2, b1, b2",
-        [inertia[z].xreplace({ddv: rate(slope, along) * du, dn: along[n] * du}).xreplace({dv: slope}) for z in (dv, n)],
-    )
+    rates = {ddv: rate(slope, along) * du, dn: along[n] * du}
+    yield "a1, a2, b1, b2", [inertia[z].xreplace(rates).xreplace({dv: slope}) for z in (dv, n)]
     growth = sp.diff(p["b1"], u) / p["b1"]
     d1 = -(growth + p["a1"] + p["b2"])
     d2 = growth * p["b2"] - sp.diff(p["b2"], u) + p["a1"] * p["b2"] - p["a2"] * p["b1"]
@@ -221,17 +203,8 @@ def residuals() -> Iterator[tuple[str, list[Any]]]:
     offset = -R * (A3 - A1) * (x1 + x2) / (2 * A3)
     mass = A1 * A3 / (R**2 * (A3 - A1) * x1 * x2 - A1 * R**2 - A3 * offset**2)
     one, two, S = in_roots(R / R1)
-    at = {x: cos(u)}
-    yield (
-        "(12)",
-        [
-            part.xreplace({m: mass, a: offset})
-            for part in (
-                one.xreplace(at) * sin(u) ** 2 + cos(u) + p["d1"] * sin(u),
-                two.xreplace(at) * sin(u) ** 2 - p["d2"],
-            )
-        ],
-    )
+    in_u = one * sin(u) ** 2 + cos(u) + p["d1"] * sin(u), two * sin(u) ** 2 - p["d2"]
+    yield "(12)", [part.xreplace({x: cos(u), m: mass, a: offset}) for part in in_u]
     yield "(13)", [S - (sp.diff(one, x) / 2 + one**2 / 4 - two)]
 
 
