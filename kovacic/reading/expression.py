@@ -22,13 +22,13 @@ from kovacic.reading.given import (
     UNKNOWN,
 )
 from kovacic.reading.lexer import PRIMES, tokenize
-from kovacic.reading.names import as_function
 from kovacic.reading.parser import Site, evaluate, shortened, shown
 
 _SHOWN_DECIMALS = 3
 
 #: The functions that stand for roots, with their index (root has it as its second argument).
 ROOTS = {"sqrt": 2, "cbrt": 3, "root": 0}
+_FUNCTIONS = frozenset({*FUNCTION_NAMES, *ROOTS})
 _LARGEST_INDEX = 100
 
 _ALONE = "give S alone, the factor of y on the right of y'' = S(x) y"
@@ -187,3 +187,10 @@ def usage(name: str) -> str:
         return f"{name} has one argument; S is rational in x, or in exp(k*x), sin(k*x), ..."
     known = ", ".join(sorted(FUNCTION_NAMES))
     return f"for a product write {name}*(...); the functions are {known}, of one argument"
+
+
+def as_function(name: str) -> str | None:
+    """sin(x) for sinx and sin: what a name probably means that looks like a function without parentheses; None for others."""
+    if name in _FUNCTIONS:
+        return f"{name}(x)"
+    return f"{name[:-1]}({name[-1]})" if name[:-1] in _FUNCTIONS and name[-1] in "xtz" else None
