@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import sympy as sp
 
@@ -149,6 +149,12 @@ class Ball:
         return BallOnSphere(self, sp.oo)
 
 
+def system(D: sp.Expr, half: sp.Expr, leading: Any, weight: sp.Expr, rho: sp.Expr) -> tuple[sp.Expr, ...]:
+    """The coefficients a1, a2, b1, b2 of `BallOnSphere.linear_system`; half is D'/2, weight m R^2 A1."""
+    across = sp.expand(leading * D - half**2) / weight
+    return -rho * half / D, (1 + rho) * across / D, rho * weight / D, (1 + rho) * half / D
+
+
 @dataclass(frozen=True, slots=True)
 class BallOnSphere:
     """The ball on the sphere of radius R1: what its equations depend on, and the coefficients of these."""
@@ -210,9 +216,7 @@ class BallOnSphere:
     @property
     def linear_system(self) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
         """a1, a2, b1, b2 divided by sin u, in x: dn/du = a1 n + a2 omega_3, d omega_3/du = b1 n + b2 omega_3."""
-        D, rho, half, weight = self.D, self.ratio, self.half, self.weight
-        across = (1 + rho) * sp.expand(self.leading * D - half**2) / weight
-        a1, a2, b1, b2 = (sp.factor(part / D) for part in (-rho * half, across, rho * weight, (1 + rho) * half))
+        a1, a2, b1, b2 = map(sp.factor, system(self.D, self.half, self.leading, self.weight, self.ratio))
         return a1, a2, b1, b2
 
     @property

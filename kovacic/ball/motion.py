@@ -17,6 +17,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
+import sympy as sp
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
@@ -242,10 +243,9 @@ def _integrate(ball: Dynamics, force: Force, y: Array, rate: float, *, turns: in
         return float(state[3] * state[1] - state[4] * state[0])
 
     speed.terminal = turns or False  # type: ignore[attr-defined]
-    scale = np.ones(18)
-    scale[:3], scale[15:] = rate, ball.R
-    end = 1e12 / rate if turns else 10 / rate
+    scale = np.repeat([rate, 1.0, ball.R], [3, 12, 3])
     options: dict[str, Any] = {"rtol": 2.3e-14, "atol": 1e-16 * scale, "dense_output": True}
+    end = (1e12 if turns else 10) / rate
     result = solve_ivp(rates, (0.0, end), y, method="DOP853", events=speed if turns else None, **options)
     if not result.success or (turns and len(result.t_events[0]) < turns):
         raise LimitExceeded(
@@ -256,10 +256,8 @@ def _integrate(ball: Dynamics, force: Force, y: Array, rate: float, *, turns: in
 
 def as_float(value: Any, name: str) -> float:
     """A float as it is; text and SymPy's numbers are read exactly."""
-    number = float(value) if isinstance(value, float | np.floating) else exact(value, name)
-    if not isinstance(number, float) and not number.is_number:
-        raise InputError(f"{name} = {value} isn't a number")
-    if not abs(float(number)) <= LARGEST:
+    number = sp.Float(value) if isinstance(value, float | np.floating) else exact(value, name)
+    if not number.is_number or not abs(float(number)) <= LARGEST:
         raise InputError(f"{name} = {value} isn't a number that a motion can start with")
     return float(number)
 

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import mpmath
 import sympy as sp
 
-from kovacic.ball.ball import BallOnSphere, X, exact, sign
+from kovacic.ball.ball import BallOnSphere, X, exact, sign, system
 from kovacic.ball.equations import A1, A3, R1, R, in_roots, x1, x2
 from kovacic.errors import InputError
 
@@ -199,8 +199,6 @@ def closed_form_in_roots(rho: sp.Expr) -> ClosedForm:
     return ClosedForm(tuple(omega), y, omega_3, -(A3 - A1) / A1 * spin)
 
 
-def system_in_roots(rho: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+def system_in_roots(rho: sp.Expr) -> tuple[sp.Expr, ...]:
     """The linear system of `BallOnSphere.linear_system` in the roots of D."""
-    alpha, beta, k = X - x1, X - x2, (A3 - A1) / A1
-    z2, half = alpha * beta, (alpha + beta) / 2
-    return -rho * half / z2, -(1 + rho) * k * (x1 - x2) ** 2 / (4 * z2), rho / (k * z2), (1 + rho) * half / z2
+    return system((X - x1) * (X - x2), X - (x1 + x2) / 2, 1, A1 / (A3 - A1), rho)

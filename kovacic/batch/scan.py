@@ -1,9 +1,4 @@
-"""Scans: exact values of parameters, substituted into the text of S; the points as a batch, its records as a table.
-
-A value takes the place of the parameter's name as a number in parentheses, which is what a name is to the grammar: an atom.
-So the result means what the text meant, no arithmetic is done here, and the text of each point can be given to
-`kovacic solve` as it is.
-"""
+"""Scans: exact values of parameters, substituted into the text of S; the points as a batch, its records as a table."""
 
 from __future__ import annotations
 

@@ -18,7 +18,6 @@ from kovacic.cli.options import PICTURE, OutputFile, equation_argument, equation
 if TYPE_CHECKING:
     from kovacic.batch.records import Record
     from kovacic.batch.scan import Grid
-    from kovacic.limits import Limits
 
 
 @equation_command()
@@ -39,7 +38,6 @@ def command(
     form: str | None,
     picture: Path | None,
     var: str | None,
-    limits: Limits,
     **run: Any,
 ) -> int:
     """Decide y'' = S(x) y for every combination of parameter values.
@@ -74,7 +72,7 @@ def command(
             if picture is not None:
                 labels[record.number] = record.label
 
-        status = answer_all(items, noted, count=lambda: prod(map(len, grids)), done=done, limits=limits, **run)
+        status = answer_all(items, noted, count=lambda: prod(map(len, grids)), done=done, **run)
     if picture is not None:
         draw_map(expression, (grids[0], grids[1]), labels, picture)
     return status
