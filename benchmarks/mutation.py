@@ -22,6 +22,7 @@ import argparse
 import ast
 import gc
 import hashlib
+import importlib
 import json
 import multiprocessing
 import os
@@ -37,7 +38,7 @@ from dataclasses import dataclass
 from functools import _lru_cache_wrapper, cache
 from pathlib import Path
 from random import Random
-from types import CodeType, FunctionType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
 import pytest
@@ -184,20 +185,30 @@ def faults(file: str) -> list[Fault]:
     return Planter(file).faults
 
 
-def plant(fault: Fault) -> None:
-    """Exchange the code of the functions of an imported module, and its constants, wherever they are referred to."""
-    path = str(ROOT / fault.file)
-    module = sys.modules[".".join(Path(fault.file).with_suffix("").parts).removesuffix(".__init__")]
+def module_of(file: str) -> ModuleType:
+    return importlib.import_module(".".join(Path(file).with_suffix("").parts).removesuffix(".__init__"))
+
+
+@cache
+def functions_of(file: str) -> list[FunctionType]:
+    """The functions that were defined in a file, wherever they are referred to."""
+    path = str(ROOT / file)
+    return [f for f in gc.get_objects() if isinstance(f, FunctionType) and f.__code__.co_filename == path]
+
+
+def plant(fault: Fault, functions: list[FunctionType]) -> None:
+    """Exchange the code of the functions of a module, and its constants."""
+    module = module_of(fault.file)
     codes, found = dict[tuple[str, int], CodeType](), [Planter(fault.file, fault.number).code()]
     changed = {"__name__": module.__name__}
     exec(found[0], changed)
     for code in found:
         codes[code.co_qualname, code.co_firstlineno] = code
         found += [constant for constant in code.co_consts if isinstance(constant, CodeType)]
-    for function in [f for f in gc.get_objects() if isinstance(f, FunctionType)]:
+    for function in functions:
         old = function.__code__
         new = codes.get((old.co_qualname, old.co_firstlineno))
-        if old.co_filename == path and new is not None and new.co_freevars == old.co_freevars:
+        if new is not None and new.co_freevars == old.co_freevars:
             function.__code__ = new
     for name, value in [] if fault.in_function else [*vars(module).items()]:
         for other in [m for m in sys.modules.values() if name.isupper() and vars(m).get(name) is value]:
@@ -216,6 +227,9 @@ class Runner:
 
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         self.items = session.items
+        for file in self.files:
+            module_of(file)
+        gc.unfreeze()  # what the tests have put aside, for `functions_of`
         self.seconds, self.reached = self.reach()
         wanted = [fault for file in self.files for fault in faults(file)]
         Random(self.options.seed).shuffle(wanted)
@@ -238,14 +252,17 @@ class Runner:
         tree = hashlib.sha256(
             b"".join(p.read_bytes() for d in ("kovacic", "tests") for p in sorted((ROOT / d).rglob("*.py")))
         )
-        store = Path(tempfile.gettempdir()) / f"mutation-{self.options.part}-{tree.hexdigest()[:16]}.json"
+        tree.update(repr(PARTS[self.options.part][1]).encode())
+        store = Path(tempfile.gettempdir()) / f"mutation-{tree.hexdigest()[:16]}.json"
         if not store.exists() and self.fork(self.trace, store, limit=3600.0):
             raise SystemExit("a test fails without a fault")
         seconds, reached = json.loads(store.read_text(encoding="utf-8"))
         return seconds, reached
 
     def trace(self, store: Path) -> bool:
-        files = {str(ROOT / file): file for file in self.files}
+        parts = [part for part in PARTS if PARTS[part][1] == PARTS[self.options.part][1]]
+        files = {str(ROOT / file): file for part in parts for file in files_of(part)}
+        caches = [function for function in gc.get_objects() if isinstance(function, _lru_cache_wrapper)]
         seconds, reached, lines = dict[str, float](), defaultdict[str, list[str]](list), set[str]()
 
         def in_file(frame: Any, event: str, argument: Any) -> Any:
@@ -253,7 +270,7 @@ class Runner:
             return in_file
 
         for item, following in zip(self.items, [*self.items[1:], None], strict=True):
-            for function in [f for f in gc.get_objects() if isinstance(f, _lru_cache_wrapper)]:
+            for function in caches:
                 function.cache_clear()
             lines.clear()
             start = time.process_time()
@@ -273,7 +290,7 @@ class Runner:
         if not fault.in_function:
             lines = [line for line in self.reached if line.startswith(f"{fault.file}:")]
         tests = {test for line in lines for test in self.reached.get(line, []) if self.seconds[test] < SLOWEST}
-        return bool(tests) and self.fork(self.fails, fault, tests, limit=600.0)
+        return bool(tests) and self.fork(self.fails, fault, functions_of(fault.file), tests, limit=600.0)
 
     def fork(self, work: Any, *arguments: Any, limit: float) -> bool:
         """Is the work's answer true, or does it end in another way, or not at all?"""
@@ -295,10 +312,10 @@ class Runner:
         process.join()
         return process.exitcode != 0
 
-    def fails(self, fault: Fault, tests: set[str]) -> bool:
+    def fails(self, fault: Fault, functions: list[FunctionType], tests: set[str]) -> bool:
         """With the fault, does a test fail?"""
         resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
-        plant(fault)
+        plant(fault, functions)
         items = sorted(
             (item for item in self.items if item.nodeid in tests), key=lambda item: self.seconds[item.nodeid]
         )

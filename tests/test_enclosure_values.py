@@ -13,11 +13,13 @@ from typing import Any
 import flint
 import mpmath
 import pytest
-from hypothesis import given
+from flint import acb, acb_poly, fmpq_poly
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
 from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states
+from kovacic.enclosure.exponential import _principal_part
 from kovacic.enclosure.frame import make_frame, shift
 from kovacic.enclosure.matrices import product
 from kovacic.enclosure.monodromy import connection_matrix
@@ -133,11 +135,15 @@ def test_what_isnt_an_exact_finite_number_is_refused(bad: object) -> None:
     st.fractions(-8, 8, max_denominator=64),
     st.fractions(-3, 3, max_denominator=9),
     st.fractions(-3, 3, max_denominator=9),
+    st.sampled_from([(7, -2, 0, 3), (0, 1), (1, 0, 1)]),
 )
+@example([1, 2], Fraction(2), Fraction(1), Fraction(1), Fraction(0), (0, 1))  # the denominator there is 2 + i
+@example([1, 2], Fraction(1), Fraction(0), Fraction(1), Fraction(0), (0, 1))
+@example([1, 2], Fraction(-1), Fraction(0), Fraction(1), Fraction(0), (0, 1))
 def test_the_shifted_equation_is_the_equation(
-    num: list[int], re: Fraction, im: Fraction, step: Fraction, turn: Fraction
+    num: list[int], re: Fraction, im: Fraction, step: Fraction, turn: Fraction, den: tuple[int, ...]
 ) -> None:
-    system = System.make(tuple(num), (7, -2, 0, 3))
+    system = System.make(tuple(num), den)
     re, im = Fraction(round(re * 64), 64), Fraction(round(im * 64), 64)
     centre = Point(re, im)
     scale = Point(step, turn)
@@ -165,6 +171,18 @@ def test_the_shifted_equation_is_the_equation(
     assert left == right
     assert q[0][0] > 0
     assert q[1] is None or q[1][0] == 0
+
+
+@given(
+    st.lists(st.integers(-9, 9), min_size=1, max_size=6), st.lists(st.integers(-9, 9), max_size=4), st.integers(-5, 5)
+)
+def test_the_principal_part_at_a_pole(part: list[int], rest: list[int], at: int) -> None:
+    """Of c_1/t + ... + c_k/t^k + f(t)/(3 t + 1)^4, t = x - at, the coefficients are c_1, ..., c_k."""
+    assume(part[-1])
+    t, third, k = fmpq_poly([-at, 1]), fmpq_poly([1 - 3 * at, 3]) ** 4, len(part)
+    num = sum((c * t ** (k - j) for j, c in enumerate(part, 1)), fmpq_poly([])) * third + fmpq_poly(rest) * t**k
+    found = _principal_part(acb_poly(num), acb_poly(t**k * third), acb(at), k)
+    assert [ball.unique_fmpz() for ball in found] == part
 
 
 @pytest.mark.parametrize("seed", range(40))

@@ -148,6 +148,13 @@ def test_a_divisor_of_infinite_order(w_squared: int) -> None:
     assert (group.name, group.ground) == ("N(T)", Ground.NOT_TORSION)
 
 
+def test_a_divisor_of_infinite_order_of_the_same_order_modulo_two_primes() -> None:
+    """Order 9 modulo 5 and 7, 25 modulo 17: the evidence has two primes that differ."""
+    group = kovacic.solve(transform.from_squared_product((X**4 - 4 * X + 1) / (X + 1) ** 2, 1)).group
+    assert group.ground is Ground.NOT_TORSION
+    assert group.orders == ((5, 9), (17, 25))
+
+
 def test_a_differential_of_the_first_kind() -> None:
     group = kovacic.solve(transform.from_squared_product(X**3 + X + 1, 5)).group
     assert (group.name, group.ground) == ("N(T)", Ground.FIRST_KIND)
@@ -548,18 +555,24 @@ def test_dimensions_of_groups(text: str, name: str, dimension: int) -> None:
     assert (group.name, group.dimension, group.finite) == (name, dimension, dimension == 0)
 
 
-@pytest.mark.parametrize("r", [Fraction(1, 3), Fraction(1, 8)])
-@pytest.mark.parametrize(("n", "m"), [(3, 3), (3, 5), (4, 2), (2, 5)])
-def test_a_gauge_with_its_poles_where_the_exponents_of_a_dicyclic_group_are(n: int, m: int, r: Fraction) -> None:
-    """x = z^2 and y+/y- = ((z-1)/(z+1))^(1/n) ((z-2)/(z+2))^(1/m), gamma = ((x-1)/(x-4))^r: all exponents in z are known."""
-    root = Fraction(1, n) / (X - 1) + Fraction(2, m) / (X - 4)
+@pytest.mark.parametrize("r", [Fraction(1, 3), Fraction(1, 6), Fraction(1, 8), Fraction(1, 10)])
+@pytest.mark.parametrize(("n", "m", "k"), [(3, 3, 1), (3, 5, 1), (4, 2, 1), (2, 5, 1), (3, 3, 2), (5, 5, 4)])
+def test_a_gauge_with_its_poles_where_the_exponents_of_a_dicyclic_group_are(
+    n: int, m: int, k: int, r: Fraction
+) -> None:
+    """x = z^2 and y+/y- = ((z-1)/(z+1))^(1/n) ((z-2)/(z+2))^(k/m), gamma = ((x-1)/(x-4))^r: all exponents in z are known."""
+    root = Fraction(1, n) / (X - 1) + Fraction(2 * k, m) / (X - 4)
     S = transform.from_squared_product(X / (root * root), 1)
-    group = kovacic.solve(with_gauge(S, r / (X - 1) - r / (X - 4))).equation_group
-    assert group.normal_form.n == lcm(n, m)
     half = Fraction(1, 2)
-    rows = [(half, half)]
-    for d, s in ((Fraction(1, n), r), (Fraction(1, m), -r)):
-        rows += [((1 + d) / 2 + s, (1 - d) / 2 + s), ((1 - d) / 2 + s, (1 + d) / 2 + s)]
-    N = lcm(2 * n, 2 * m, 2 * r.denominator)
-    characters = {tuple((a * p + b * q) % 1 for p, q in rows) for a in range(N) for b in range(N)}
-    assert group.order == 2 * len(characters)
+    for gauge, s, at_zero in (
+        (r / (X - 1) - r / (X - 4), r, 0),
+        (r / X, 0, 2 * r),
+    ):  # the other one: gamma = x^r = z^(2r)
+        group = kovacic.solve(with_gauge(S, gauge)).equation_group
+        assert group.normal_form.n == lcm(n, m)
+        rows = [(half + at_zero, half + at_zero)]
+        for d, t in ((Fraction(1, n), s), (Fraction(k, m), -s)):
+            rows += [((1 + d) / 2 + t, (1 - d) / 2 + t), ((1 - d) / 2 + t, (1 + d) / 2 + t)]
+        N = lcm(2 * n, 2 * m, 2 * r.denominator)
+        characters = {tuple((a * p + b * q) % 1 for p, q in rows) for a in range(N) for b in range(N)}
+        assert group.order == 2 * len(characters)

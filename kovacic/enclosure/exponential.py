@@ -128,9 +128,8 @@ class LogDerivative:
 def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[acb, ...]:
     """The coefficients of t^-1, ..., t^-k of num/den at x = zeta + t, a zero of den of multiplicity exactly k."""
     line = acb_poly([zeta, 1])
-    top = (num(line)).coeffs()[:k]
-    bottom = (den(line)).coeffs()[k : 2 * k]  # the first k coefficients are exactly zero
-    quotient = (acb_series(top, k) / acb_series(bottom, k)).coeffs()
+    bottom = den(line).coeffs()[k:]  # the first k coefficients are exactly zero
+    quotient = (acb_series(num(line).coeffs(), k) / acb_series(bottom, k)).coeffs()
     quotient += [acb(0)] * (k - len(quotient))
     return tuple(quotient[k - 1 - j] for j in range(k))
 
