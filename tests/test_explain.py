@@ -21,7 +21,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.cli.main import run
 from kovacic.engine.places import analyse
 from kovacic.limits import Budget
-from kovacic.views.breaking import LINE, breakable
+from kovacic.views.breaking import LINE, breakable, pieces
 from kovacic.views.explain import rational_form
 from kovacic.views.families import Search, is_natural, search
 from kovacic.views.formula import latex_ratfunc, latex_text
@@ -295,6 +295,25 @@ def test_a_page_needs_nothing_from_elsewhere(text: str, picture: bool) -> None:
     assert ("svg" in tags.seen) == picture
     assert "@import" not in page
     assert "url(http" not in page
+
+
+@pytest.mark.parametrize("text", LONG)
+def test_long_formulas_on_a_page_are_many_short_ones(text: str) -> None:
+    page = kovacic.solve(text).explain(format="html")
+    tags = _Tags()
+    tags.feed(page)
+    assert not tags.open
+    assert "<wbr/>" in page
+    assert "<merror" not in page
+    shown = re.findall(r"<math.*?</math>", page, re.DOTALL)
+    assert max(len(re.sub(r"<[^>]*>|&#x[0-9A-F]*;|\s", "", formula)) for formula in shown) <= 3 * LINE
+
+
+def test_the_pieces_of_a_formula_are_the_formula() -> None:
+    formula = r"y = \frac{" + " + ".join(f"{10**k} x^{{{k}}}" for k in range(40)) + r"}{\sqrt{x}} - e^{x}"
+    assert "".join(pieces(formula)).replace(" ", "") == breakable(formula).replace(r"\allowbreak", "").replace(" ", "")
+    assert len(pieces(formula)) > 40
+    assert pieces("y = -x") == ["y = -x"]
 
 
 def test_the_bibliography_has_volume_pages_and_doi() -> None:

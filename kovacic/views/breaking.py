@@ -40,6 +40,20 @@ def breakable(latex: str, line: float = LINE) -> str:
     return _BETWEEN_FACTORS.sub(r"\\allowbreak ", _Writer(line / 2).written(nodes))
 
 
+def pieces(latex: str) -> list[str]:
+    """The parts of a breakable formula between the places where its lines may be broken; a sign begins one."""
+    found, depth, before = [""], 0, ""
+    for token in _TOKEN.findall(breakable(latex)):
+        may_break = depth == 0 and found[-1] and before not in ("", "=", "(")
+        if may_break and token in ("+", "-", r"\allowbreak"):
+            found.append("")
+        found[-1] += token if token != r"\allowbreak" else ""
+        found[-1] = found[-1].lstrip()
+        depth += {"{": 1, "}": -1, r"\left": 1, r"\right": -1}.get(token, 0)
+        before = token if token != " " else before
+    return [piece for piece in found if piece]
+
+
 def _parsed(latex: str) -> list[Node]:
     stack: list[list[Node]] = [[]]
     for token in _TOKEN.findall(latex):

@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
-from kovacic.views.breaking import breakable, width
+from kovacic.views.breaking import LINE, breakable, pieces, width
 from kovacic.views.formula import Math
 
 #: Characters in a line of a LaTeX table.
@@ -124,12 +124,15 @@ def _latex_table(rows: list[list[str]]) -> str:
     return rf"\medskip{box}\par\noindent{fitted}\par\medskip"
 
 
+def _rows(math: Math) -> list[str]:
+    """The lines of an array."""
+    lines = math.latex.removeprefix(r"\begin{array}{l} \displaystyle ").removesuffix(r" \end{array}")
+    return lines.split(r" \\ \displaystyle ")
+
+
 def _latex_formula(math: Math) -> str:
     """A paragraph; lines of an array one by one."""
-    lines = math.latex.removeprefix(r"\begin{array}{l} \displaystyle ").removesuffix(r" \end{array}")
-    shown = [
-        rf"\hangindent2em$\displaystyle {breakable(line)}$\par\smallskip" for line in lines.split(r" \\ \displaystyle ")
-    ]
+    shown = [rf"\hangindent2em$\displaystyle {breakable(row)}$\par\smallskip" for row in _rows(math)]
     return "\n".join([r"\smallskip", *shown])
 
 
@@ -163,6 +166,21 @@ def _html_escaped(text: str) -> str:
     return escape(text)
 
 
+def _html_math(math: Math) -> str:
+    """In a line; of a formula that is wider than a page many small ones, between which browsers break the line."""
+    if width(math.latex) <= 1.5 * LINE:
+        return _mathml(math)
+    parts = [_mathml(Math("", piece if piece[0] not in "+-" else f"{{}} {piece}")) for piece in pieces(math.latex)]
+    return "<wbr/>".join(parts)
+
+
+def _html_formula(math: Math) -> str:
+    rows = _rows(math)
+    if all(width(row) <= 1.5 * LINE for row in rows):
+        return f'<div style="overflow-x:auto; padding:.4em 0">{_mathml(math, "block")}</div>'
+    return "".join(f'<div style="padding:.4em 0">{_html_math(Math(math.text, row))}</div>' for row in rows)
+
+
 def _latex_escaped(text: str) -> str:
     for char in "&%#_{}":
         text = text.replace(char, "\\" + char)
@@ -192,8 +210,8 @@ FORMATS = {
     ),
     "html": Format(
         heading=lambda text, level: f"<h{level}>{text}</h{level}>",
-        math=_mathml,
-        formula=lambda math: f'<div style="overflow-x:auto; padding:.4em 0">{_mathml(math, "block")}</div>',
+        math=_html_math,
+        formula=_html_formula,
         table=_html_table,
         plain=_html_escaped,
         paragraph=lambda text: f"<p>{text}</p>",
