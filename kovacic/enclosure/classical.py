@@ -19,14 +19,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ, to_fraction
-from kovacic.enclosure.classical_functions import Form, form_of, is_integer, rational
+from kovacic.algebra.rationals import QQ
+from kovacic.enclosure.classical_functions import Form, choice_at, form_of, is_integer, rational
+from kovacic.enclosure.constants import Number
 from kovacic.enclosure.exponential import LogDerivative
 from kovacic.enclosure.matrices import Matrix, State, adjugate, fundamental, identity, inverse, multiply
 from kovacic.enclosure.points import Point, to_acb, working_precision
@@ -41,6 +42,7 @@ _POLES = 3  # the place of d among the polynomials
 _PIECES = 400  # into which a leg is cut for that, at most
 _DIGITS, _GAUSS_DIGITS = 20_000, 500  # up to which FLINT's functions cost less than Taylor steps
 _DEGREE = 24  # of S, up to which a pull-back is sought
+_KNOWN = 16  # forms that are kept for other legs and calls
 _LARGEST = 1_000  # parameters of special functions up to which a call of FLINT, which can't be stopped, is short
 
 
@@ -71,10 +73,27 @@ class Classical:
 
     pullback: Pullback
 
-    @property
-    def most_digits(self) -> int:
-        """The digits up to which this is the cheaper way, as measured."""
-        return _GAUSS_DIGITS if isinstance(self.pullback.equation, Gauss) else _DIGITS
+    def most_digits(self, start: Singular | Number) -> int:
+        """The digits up to which this is the cheaper way, as measured: from a singular point there is one function to compute."""
+        if not isinstance(self.pullback.equation, Gauss):
+            return _DIGITS
+        return _GAUSS_DIGITS * 10 if isinstance(start, Singular) else _GAUSS_DIGITS
+
+    @cached_property
+    def _known(self) -> dict[tuple[int, int], tuple[Form, Factors]]:
+        """The forms by their coordinate and the working precision: of several calls, or of several legs."""
+        return {}
+
+    def form_at(self, a: Point) -> tuple[Form, Factors]:
+        """Two solutions near f(a), at the working precision in force."""
+        key = choice_at(self.pullback, a), ctx.prec
+        found = self._known.get(key)
+        if found is None:
+            form = form_of(self.pullback, key[0])
+            if len(self._known) >= _KNOWN:
+                self._known.clear()
+            found = self._known[key] = form, Factors.of(form)
+        return found
 
     def leg(self, a: Point, b: Point) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment; raises NotServed."""
@@ -82,23 +101,15 @@ class Classical:
             return self._leg(a, b)
 
     def _leg(self, a: Point, b: Point) -> Matrix:
-        form = form_of(self.pullback, a)
+        form, factors = self.form_at(a)
         zero = _ordinary_zero(form, a, b)
         if zero is not None:
-            return _finite(multiply(self._from_zero(form, zero, b), adjugate(self._from_zero(form, zero, a))))
-        factors = Factors.of(form)
+            return _finite(multiply(_from_zero(form, factors, zero, b), adjugate(_from_zero(form, factors, zero, a))))
         growths = factors.growths(form, a, b)
         _avoids(form, a, b, (True, True))
         start, end = (fundamental(*factors.states(form, x, (True, True))) for x in (a, b))
         p, q = growths
         return _finite(multiply((end[0] * p, end[1] * q, end[2] * p, end[3] * q), inverse(start)))
-
-    def _from_zero(self, form: Form, zero: Point, x: Point) -> Matrix:
-        """The matrix from an ordinary point of y'' = S y that is a zero of f."""
-        basis = Frobenius(zero, (fmpq(0), fmpq(1)), form, Factors.of(form).without(zero.x), None, (True, True))
-        y1, y2, d1, d2 = basis.at(x)
-        slope = basis.factors.rate(form, 1, zero)  # of the first solution at the point, where the second one's is 1
-        return y1 - slope * y2, y2, d1 - slope * d2, d2
 
     def frobenius(self, point: Singular, gauge: RatFunc | None, needed: Sequence[bool]) -> Frobenius:
         """The Frobenius basis of the user's equation at a rational zero of f, or its solutions that are needed.
@@ -107,16 +118,29 @@ class Classical:
         """
         if not point.is_rational or point.inverted:
             raise NotServed
-        x0, (lower, upper), form = point.near.x, point.exponents(), form_of(self.pullback, point.near)
+        with working_precision(_sharper(ctx.prec)):
+            x0, (lower, upper), (form, factors) = point.near.x, point.exponents(), self.form_at(point.near)
         if not acb(upper).imag.is_zero() or form.n(x0) != 0 or form.d(x0) == 0 or form.powers[0][0] == 0:
             raise NotServed
         if needed[0] and point.difference is not None:
             raise NotServed
-        rest = None
-        if gauge is not None:
-            t, here = QQ.poly([-to_fraction(x0), 1]), to_fraction(x0)
-            rest = gauge - (gauge * t)(here) / t
-        return Frobenius(point.near, (lower, upper), form, Factors.of(form).without(x0), rest or None, needed)
+        rest = None if gauge is None else _without_pole(gauge, point.near)
+        return Frobenius(point.near, (lower, upper), form, factors.without(x0), rest, needed)
+
+
+@lru_cache(maxsize=64)
+def _without_pole(gauge: RatFunc, point: Point) -> RatFunc | None:
+    """Without the part c/(x - x0), at most a simple pole; None for zero."""
+    t = QQ.poly([-point.re, 1])
+    return (gauge - (gauge * t)(point.re) / t) or None
+
+
+def _from_zero(form: Form, factors: Factors, zero: Point, x: Point) -> Matrix:
+    """The matrix from an ordinary point of y'' = S y that is a zero of f."""
+    basis = Frobenius(zero, (fmpq(0), fmpq(1)), form, factors.without(zero.x), None, (True, True))
+    y1, y2, d1, d2 = basis.at(x)
+    slope = basis.factors.rate(form, 1, zero)  # of the first solution at the point, where the second one's is 1
+    return y1 - slope * y2, y2, d1 - slope * d2, d2
 
 
 def _ordinary_zero(form: Form, a: Point, b: Point) -> Point | None:
@@ -206,12 +230,17 @@ class Factors:
         ]
         return [sum(e * log for e, log in zip(row, logs, strict=True)).exp() for row in exponents]
 
+    @cached_property
+    def derivatives(self) -> tuple[fmpq_poly | None, ...]:
+        """Those of the polynomials that aren't constant."""
+        return tuple(poly.derivative() if poly.degree() > 0 else None for poly in self.polynomials)
+
     def rate(self, form: Form, i: int, x: Point) -> acb:
         """The logarithmic derivative of the powers in solution i."""
         total = acb(0)
-        for e, poly in zip(form.exponents(i), self.polynomials, strict=True):
-            if e != 0 and poly.degree() > 0:
-                total += e * acb(_at(poly.derivative(), x) / _at(poly, x))
+        for e, poly, slope in zip(form.exponents(i), self.polynomials, self.derivatives, strict=True):
+            if slope is not None and e != 0:
+                total += e * acb(_at(slope, x) / _at(poly, x))
         return total
 
     def states(self, form: Form, x: Point, needed: Sequence[bool]) -> list[State]:

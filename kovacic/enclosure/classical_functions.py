@@ -79,14 +79,26 @@ def is_integer(number: Any) -> bool:
     return isinstance(number, fmpq) and number.q == 1
 
 
-def form_of(pullback: Pullback, a: Point) -> Form:
-    """Two solutions near f(a)."""
+def choice_at(pullback: Pullback, a: Point) -> int:
+    """Which of the coordinates z, 1 - z, 1/z, ... of Gauss' equation is the smallest at a: there z is between 0 and 1/2 where f
+    is real.  For Confluent equations whether Re f(a) < 0: -f is taken, by the symmetry z -> -z, r -> -r."""
+    if isinstance(pullback.equation, Airy):
+        return 0
+    n, d = _parts(pullback.f)
+    if isinstance(pullback.equation, Confluent):
+        return int((n(a.x) * d(a.x) if a.is_real() else _value(n, d, a).x) < 0)
+    maps = [(k, top, bottom) for k, (top, bottom, *_) in enumerate(_maps(n, d, 0, 0, 0)) if _at(bottom, a) != Point(0)]
+    return min(maps, key=lambda m: _value(m[1], m[2], a).norm_squared())[0]
+
+
+def form_of(pullback: Pullback, choice: int) -> Form:
+    """Two solutions, by this choice of the coordinate."""
     n, d = _parts(pullback.f)
     if isinstance(pullback.equation, Airy):
         return _airy(pullback.equation, n, d)
     if isinstance(pullback.equation, Gauss):
-        return _gauss(pullback.equation, n, d, a)
-    return _confluent(pullback.equation, n, d, a)
+        return _gauss(pullback.equation, n, d, choice)
+    return _confluent(pullback.equation, -n if choice else n, d, -1 if choice else 1)
 
 
 def _airy(equation: Airy, n: fmpq_poly, d: fmpq_poly) -> Form:
@@ -108,11 +120,9 @@ def _each(*solutions: Solution) -> Solutions:
     ]
 
 
-def _confluent(equation: Confluent, n: fmpq_poly, d: fmpq_poly, a: Point) -> Form:
-    """Bessel's and Whittaker's; with Re z >= 0 at a, by the symmetry z -> -z, r -> -r."""
-    q, r, M = (rational(v) for v in (equation.q, equation.r, equation.M))
-    if _value(n, d, a).x < 0:
-        n, r = -n, -r
+def _confluent(equation: Confluent, n: fmpq_poly, d: fmpq_poly, sign: int) -> Form:
+    """Bessel's and Whittaker's, with r of this sign."""
+    q, r, M = rational(equation.q), sign * rational(equation.r), rational(equation.M)
     mu = square_root(M + fmpq(1, 4))
     if q != 0 and r != 0:
         solutions, slit = _whittaker(q, r, mu)
@@ -191,11 +201,9 @@ def _whittaker(q: Any, r: Any, mu: Any) -> tuple[tuple[Solution, Solution], Any]
     return (first(mu), second), rho
 
 
-def _gauss(equation: Gauss, n: fmpq_poly, d: fmpq_poly, a: Point) -> Form:
-    """About the singular point that is nearest to f(a) in one of the six coordinates z, 1 - z, 1/z, ...; there z is between 0
-    and 1/2 where f is real."""
-    A, B, C = (square_root(rational(v)) for v in (equation.A, equation.B, equation.C))
-    maps = [
+def _maps(n: fmpq_poly, d: fmpq_poly, A: Any, B: Any, C: Any) -> list[tuple[fmpq_poly, fmpq_poly, Any, Any, Any]]:
+    """z = n/d, 1 - z, 1/z, z/(z - 1), 1/(1 - z) and (z - 1)/z, with what belongs to their points 0, 1 and infinity."""
+    return [
         (n, d, A, B, C),
         (d - n, d, B, A, C),
         (d, n, C, B, A),
@@ -203,8 +211,12 @@ def _gauss(equation: Gauss, n: fmpq_poly, d: fmpq_poly, a: Point) -> Form:
         (d, d - n, C, A, B),
         (n - d, n, B, C, A),
     ]
-    usable = [m for m in maps if _at(m[1], a) != Point(0)]
-    n, d, e0, e1, e2 = min(usable, key=lambda m: _value(m[0], m[1], a).norm_squared())
+
+
+def _gauss(equation: Gauss, n: fmpq_poly, d: fmpq_poly, choice: int) -> Form:
+    """About the point 0 of one of the coordinates."""
+    differences = (square_root(rational(v)) for v in (equation.A, equation.B, equation.C))
+    n, d, e0, e1, e2 = _maps(n, d, *differences)[choice]
     upper, right = ((1 + e0) / 2, (1 + e1) / 2)
     if not is_integer(e0):
         pair = (_hypergeometric(e0, e1, e2, False), _hypergeometric(-e0, e1, e2, False))

@@ -31,7 +31,7 @@ from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.precision import METHODS, Evaluation, Method, check_digits, raise_precision
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.start import read_start
+from kovacic.enclosure.start import Start, read_start
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
@@ -181,7 +181,7 @@ def evaluate_states(
     side = path if path in ("above", "below") else None
     journey = Journey(problem, start, vertices, targets, path == "chain", side)
     with budget.watched():
-        closed = _closed_form(problem, method, targets, digits)
+        closed = _closed_form(problem, method, start, targets, digits)
         if closed is not None:
             try:
                 return raise_precision(replace(journey, closed=closed), "closed form", digits, budget)
@@ -207,7 +207,7 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
 
 
 def _closed_form(
-    problem: NumericProblem, method: Method | None, targets: Sequence[Number], digits: int
+    problem: NumericProblem, method: Method | None, start: Start, targets: Sequence[Number], digits: int
 ) -> ClosedForm | Classical | None:
     """The closed form, where it is asked for or the cheaper way by a rule that was measured
     (`benchmarks/enclosure_work_precision.py`).
@@ -231,7 +231,7 @@ def _closed_form(
             return closed
     if method or few or not all(isinstance(target, Point) and target.is_real() for target in targets):
         classical = None if problem.S is None else classical_of(problem.S)
-        if classical is not None and (method or digits <= classical.most_digits):
+        if classical is not None and (method or digits <= classical.most_digits(start.place)):
             return classical
     if method is not None:
         raise InputError(_NO_CLOSED_FORM, hint=_TAYLOR)

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from flint import acb, acb_poly, acb_series, arb, ctx
@@ -123,6 +124,13 @@ class LogDerivative:
     def growth(self, a: acb, b: acb) -> acb:
         """exp(int_a^b theta) along the straight segment."""
         return self.exponent(a, b).exp()
+
+
+@lru_cache(maxsize=32)
+def rational_log_derivative(theta: RatFunc, prec: int) -> LogDerivative:
+    """Partial fractions over Q at this precision, which is in force: the gauge of one problem in many calls."""
+    assert prec == ctx.prec
+    return LogDerivative.make(theta, None)
 
 
 def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[acb, ...]:

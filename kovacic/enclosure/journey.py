@@ -16,18 +16,18 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from flint import acb
+from flint import acb, ctx
 
 from kovacic.enclosure.classical import Classical, Frobenius
 from kovacic.enclosure.closed_form import ClosedForm
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.embedded import EmbeddedGauge
-from kovacic.enclosure.exponential import LogDerivative
+from kovacic.enclosure.exponential import LogDerivative, rational_log_derivative
 from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.frobenius import Basis, junction, limit
 from kovacic.enclosure.matrices import Product, State, apply, real_part
 from kovacic.enclosure.points import Point, power_of_two, to_acb
-from kovacic.enclosure.problem import NumericProblem, System, check_segment
+from kovacic.enclosure.problem import NumericProblem, check_segment
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import Start, middle, spread
 from kovacic.enclosure.transport import walk
@@ -113,7 +113,7 @@ class Traveller:
         if problem.embedded is not None and problem.embedded.gauge is not None:
             gauge = problem.embedded.growth_of(problem.embedded.gauge, budget)
         elif problem.gauge is not None:
-            gauge = LogDerivative.make(problem.gauge, None)
+            gauge = rational_log_derivative(problem.gauge, ctx.prec)
         found = cls(problem, closed, gauge, prec, budget, x0, Product(), acb(1), forcing_of(problem))
         if isinstance(x0, Point):
             found._begin(x0)
@@ -126,7 +126,7 @@ class Traveller:
     def _begin(self, x: Point) -> None:
         """From (z, z') to (y, y') at x."""
         if self.problem.gauge is not None:
-            check_segment(System.of(self.problem.gauge), x, x)
+            check_segment(self.problem.gauge_system, x, x)
         if self.gauge is not None:
             self.product.push((acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1)))
         self.here = x
@@ -140,7 +140,7 @@ class Traveller:
                 return result
         here = self.here
         if self.problem.gauge is not None and stops[len(result) :]:
-            check_segment(System.of(self.problem.gauge), here, stops[-1])
+            check_segment(self.problem.gauge_system, here, stops[-1])
         while len(result) < len(stops) and stops[len(result)] == here:
             result.append(self.state(start))
         rest = list(stops[len(result) :])
@@ -236,12 +236,13 @@ class Traveller:
         else:
             last, bound = junction(point, last, self.prec)
             basis = Basis(point, last, stops[-1], bound, self.prec, self.budget, needed)
-        ahead = stops[-1] - last
+        ahead, matrix, place = stops[-1] - last, None, None
         for stop in stops[count:]:
             step = stop - last
             if step.x * ahead.x + step.y * ahead.y <= 0:
-                states.append(apply(basis.at(stop), start))
-        self.product.push(basis.at(last))
+                matrix, place = basis.at(stop), stop
+                states.append(apply(matrix, start))
+        self.product.push(basis.at(last) if matrix is None or place != last else matrix)
         self._begin(last)
         return states
 

@@ -142,6 +142,8 @@ def as_point(value: Any, name: str) -> Point:
     """
     if isinstance(value, Point):
         return value
+    if type(value) is int:
+        return Point(fmpq(value))
     if isinstance(value, bool):
         raise InputError(f"{name} is a truth value ({value}), not a number")
     if isinstance(value, complex):

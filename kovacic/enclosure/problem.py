@@ -13,7 +13,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from flint import acb, arb, fmpq_poly, fmpz_poly
 
@@ -108,6 +108,25 @@ class NumericProblem:
         """True unless a parameter's value is a ball."""
         return self.embedded is None or self.embedded.exact
 
+    @cached_property
+    def gauge_system(self) -> System:
+        """The gauge as num/den: its poles are singular points."""
+        return System((), (1,)) if self.gauge is None else System.of(self.gauge)
+
+    @cached_property
+    def equation(self) -> tuple[fmpq_poly, fmpq_poly, fmpq_poly]:
+        """The user's equation: with the gauge gamma, z'' - 2 gamma z' + (gamma^2 - gamma' - S) z = 0."""
+        num, den = (fmpq_poly(list(part)) for part in (self.system.num, self.system.den))
+        if self.gauge is None:
+            return den, fmpq_poly([]), -num
+        gamma, square = self.gauge, self.gauge * self.gauge - self.gauge.derivative()
+        parts = [part for function in (gamma, square) for part in (function.num, function.den)]
+        p, q, r, s = (part.rep for part in parts if isinstance(part, RationalPoly))
+        common = den
+        for other in (q, s):
+            common = common * other // common.gcd(other)
+        return common, -2 * p * (common // q), r * (common // s) - num * (common // den)
+
     def at(self, prec: int) -> NumericProblem:
         """With the constants to this precision."""
         if self.embedded is None:
@@ -120,7 +139,7 @@ class NumericProblem:
         """Those of the system and the poles of the gauge, as `System.singular_points` gives them."""
         if self.gauge is None:
             return self.system.singular_points(prec)
-        one, other = fmpz_poly(list(self.system.den)), fmpz_poly(list(System.of(self.gauge).den))
+        one, other = fmpz_poly(list(self.system.den)), fmpz_poly(list(self.gauge_system.den))
         both = one * (other // one.gcd(other))
         return System((), tuple(int(c) for c in both.coeffs())).singular_points(prec)
 
@@ -208,20 +227,6 @@ def _specialised(function: RatFunc, values: dict[str, Fraction]) -> RatFunc:
         )
     except ZeroDivisionError:
         raise InputError("the equation isn't defined at these values of the parameters") from None
-
-
-def equation_of(problem: NumericProblem) -> tuple[fmpq_poly, fmpq_poly, fmpq_poly]:
-    """The user's equation: with the gauge gamma, z'' - 2 gamma z' + (gamma^2 - gamma' - S) z = 0."""
-    num, den = (fmpq_poly(list(part)) for part in (problem.system.num, problem.system.den))
-    if problem.gauge is None:
-        return den, fmpq_poly([]), -num
-    gamma, square = problem.gauge, problem.gauge * problem.gauge - problem.gauge.derivative()
-    parts = [part for function in (gamma, square) for part in (function.num, function.den)]
-    p, q, r, s = (part.rep for part in parts if isinstance(part, RationalPoly))
-    common = den
-    for other in (q, s):
-        common = common * other // common.gcd(other)
-    return common, -2 * p * (common // q), r * (common // s) - num * (common // den)
 
 
 @lru_cache(maxsize=64)

@@ -16,7 +16,7 @@ from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
 from flint.utils.flint_exceptions import DomainError
 
 from kovacic.enclosure.points import Point, midpoint, to_acb, working_precision
-from kovacic.enclosure.problem import NumericProblem, equation_of
+from kovacic.enclosure.problem import NumericProblem
 from kovacic.errors import InputError
 
 Coefficients = tuple["fmpq_poly", "fmpq_poly", "fmpq_poly"]  # a, b, c of a y'' + b y' + c y = 0
@@ -56,7 +56,7 @@ class Singular:
 
         Raises InputError at an irregular singular point, and where the ball has none or several.
         """
-        a, b, c = equation_of(problem)
+        a, b, c = problem.equation
         if point is None:
             found = cls(_inverted(a, b, c), fmpq_poly([0, 1]), Point(0), inverted=True)
         elif isinstance(point, Point):

@@ -26,7 +26,7 @@ from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
 from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.matrices import State, product
 from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.problem import NumericProblem, System, equation_of
+from kovacic.enclosure.problem import NumericProblem, System
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.transport import piece_matrices
 from kovacic.errors import InputError, LimitExceeded
@@ -66,7 +66,7 @@ def spread(problem: NumericProblem, number: Number | Singular, state: State) -> 
     if problem.embedded is not None:
         size = max(arb(1), problem.embedded.bound(ball))
     else:
-        a, b, c = (acb_poly(poly)(ball) for poly in equation_of(problem))
+        a, b, c = (acb_poly(poly)(ball) for poly in problem.equation)
         size = max(arb(1), (abs(b / a) + abs(c / a)).upper())
     change = (size * abs(ball - to_acb(middle(number))).upper()).expm1() * max(abs(v).upper() for v in state)
     real = all(v.imag.is_zero() for v in (ball, *state))
