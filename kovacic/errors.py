@@ -38,6 +38,11 @@ class InputError(KovacicError, ValueError):
         self.length = length
         self.hint = hint
 
+    @property
+    def excerpt(self) -> str | None:
+        """The offending part of the text."""
+        return None if self.text is None or self.position is None else self.text[self.position :][: self.length]
+
     def __str__(self) -> str:
         parts = [self.message]
         if self.text is not None and self.position is not None:

@@ -183,10 +183,6 @@ class Solution:
     def at(self, x: Any, *, x0: Any, **options: Any) -> Any:
         """A ball that contains y(x): `y0=` and `dy0=` at x0, or `which="regular"`, or `frobenius=(c1, c2)`; see
         `kovacic.evaluate`.  Only the first of these where coefficients in exp(k x) were given."""
-        if self.change is not None:
-            from kovacic.enclosure.change import evaluate_in_x
-
-            return evaluate_in_x(self, self.change, x, x0=x0, **options)
         from kovacic.enclosure.evaluate import evaluate
 
         return evaluate(self, x, x0=x0, **options)

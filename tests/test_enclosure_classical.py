@@ -20,8 +20,8 @@ from kovacic.enclosure.matrices import product
 from kovacic.enclosure.points import Point
 from kovacic.enclosure.problem import System, as_problem
 from kovacic.enclosure.transport import piece_matrices
-from kovacic.errors import InputError
-from kovacic.limits import Budget
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import Budget, Limits
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 
 START: dict[str, Any] = {"y0": 1, "dy0": 0}
@@ -237,3 +237,11 @@ def test_other_equations_and_large_parameters_are_left_to_taylor_steps(S: str) -
     rational = as_problem(S).S
     assert rational is not None
     assert classical_of(rational) is None
+
+
+def test_a_search_that_ran_out_of_time_isnt_remembered() -> None:
+    rational = as_problem("x + 17/19").S
+    assert rational is not None
+    with Budget(Limits(seconds=1e-9)).watched(), pytest.raises(LimitExceeded):
+        classical_of(rational)
+    assert classical_of(rational) is not None

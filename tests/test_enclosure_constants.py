@@ -159,3 +159,13 @@ def test_what_cant_be_had_is_said(equation: str, options: dict[str, Any], messag
 def test_a_singular_point_that_is_no_fraction_is_refused(S: str) -> None:
     with pytest.raises(InputError, match=r"sqrt\(2\) is a singular point"):
         evaluate(S, "sqrt(2)", x0=0, y0=1, dy0=0)
+
+
+def test_pi_and_e_are_constants_of_a_coefficient_alone_too() -> None:
+    for text in ("pi*x", "e*x"):
+        options: dict[str, Any] = {"x0": 1, "y0": 1, "dy0": 0}
+        alone, whole = (kovacic.evaluate(form, 2, **options) for form in (text, f"y'' = {text}*y"))
+        assert alone == whole == kovacic.solve(text).at(2, **options)
+        size = "pi" if text == "pi*x" else "exp(1)"
+        assert alone.overlaps(kovacic.evaluate("n*x", 2, params={"n": size}, **options))
+    assert kovacic.solve("pi*x").status is kovacic.solve("y'' = pi*x*y").status

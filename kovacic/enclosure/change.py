@@ -36,8 +36,8 @@ def evaluate_in_x(
     x: Any,
     *,
     x0: Any,
-    y0: Any,
-    dy0: Any,
+    y0: Any = None,
+    dy0: Any = None,
     derivative: bool = False,
     digits: int = 15,
     params: Mapping[str, Any] | None = None,
@@ -49,6 +49,8 @@ def evaluate_in_x(
     "sqrt(2)"; from x0 to x the function t must be real and monotone.  Raises `InputError` where it isn't, and what
     `kovacic.evaluate` raises.
     """
+    if y0 is None or dy0 is None:
+        raise InputError("both y0 and dy0 are needed where coefficients are functions of x")
     values = {sympy.Symbol(name): _exact(value, f"the parameter {name}") for name, value in (params or {}).items()}
     t = read_expression(change.expression).xreplace(values)
     variable = sympy.Symbol(change.variable)
@@ -60,7 +62,8 @@ def evaluate_in_x(
     if None in cells or len(set(cells)) > 1:
         hint = f"give points between neighbouring zeros and poles of {slope}, or evaluate the solutions with SymPy"
         raise InputError(f"{t} isn't known to be real and monotone from x0 to x", hint=hint)
-    given = replace(answer, equation=replace(answer.equation, change=None))
+    plain = replace(answer.equation, change=None)
+    given = replace(answer, equation=plain) if hasattr(answer, "decision") else plain
     options |= {"x0": t.subs(variable, start), "y0": y0, "dy0": _exact(dy0, "dy0") / slope.subs(variable, start)}
     found: list[Ball | tuple[Ball, Ball]] = []
     for place in places:

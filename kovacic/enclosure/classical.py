@@ -33,6 +33,7 @@ from kovacic.enclosure.matrices import Matrix, State, adjugate, fundamental, ide
 from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.problem import System, check_segment
 from kovacic.enclosure.singular import Singular
+from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.special.answer import find
 from kovacic.special.pullback import Confluent, Gauss, Pullback
@@ -55,7 +56,11 @@ def classical_of(S: RatFunc) -> Classical | None:
     """The standard equation that S is pulled back from over Q; None where none is found, or its parameters are large."""
     if S.field != QQ or S.num.degree + S.den.degree > _DEGREE:
         return None
-    found = find(S, Budget(Limits(constants=1))).pullback
+    budget = Budget(Limits(constants=1))
+    search = find(S, budget)
+    if search.stopped and budget.seconds_left <= 0:  # an exception isn't kept
+        raise LimitExceeded(search.stopped, limit="seconds")
+    found = search.pullback
     if found is None or found.f.field != QQ:
         return None
     equation, squares = found.equation, []
@@ -74,7 +79,7 @@ class Classical:
     pullback: Pullback
 
     def most_digits(self, start: Singular | Number) -> int:
-        """The digits up to which this is the cheaper way, as measured: from a singular point there is one function to compute."""
+        """The digits up to which this is the cheaper way, as measured: more from a singular point."""
         if not isinstance(self.pullback.equation, Gauss):
             return _DIGITS
         return _GAUSS_DIGITS * 10 if isinstance(start, Singular) else _GAUSS_DIGITS

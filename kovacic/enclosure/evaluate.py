@@ -32,7 +32,7 @@ from kovacic.enclosure.precision import METHODS, Evaluation, Method, check_digit
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import Start, read_start
-from kovacic.errors import InputError
+from kovacic.errors import InputError, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
 Path = Sequence[object] | Literal["chain", "above", "below"] | None
@@ -88,7 +88,8 @@ def evaluate(equation: object, x: object, *, derivative: bool = False, **options
     """A ball that contains y(x) for one solution y of the equation, given by its start at x0.
 
     `equation` is S of y'' = S y (text, SymPy expression, rational function, or a pair of coefficient lists from low to high),
-    an equation a y'' + b y' + c y = f, or a solution of this package; f is rational, or has exp, log, sin, cos, ... in it.
+    an equation a y'' + b y' + c y = f, or a solution of this package; f is rational, or has exp, log, sin, cos, ... in it.  a,
+    b and c may be rational in exp(k x), sin(k x), ..., too (then with y0 and dy0, where that function is real and monotone).
 
     The start is one of
     - `y0`, `dy0`: y(x0) and y'(x0);
@@ -125,6 +126,8 @@ def evaluate(equation: object, x: object, *, derivative: bool = False, **options
     >>> print(f"{evaluate(bessel, 1, x0=0, which='regular'):.15f}")      # J0
     0.765197686557967
     """
+    if getattr(equation, "change", None) is not None:
+        return _in_given_variable(equation, x, derivative, options)
     shape = getattr(x, "shape", None)
     many = shape != () and isinstance(x, Iterable) and not isinstance(x, str)
     points: list[Any] = list(x) if many and not shape else [x]  # type: ignore[call-overload]
@@ -133,7 +136,15 @@ def evaluate(equation: object, x: object, *, derivative: bool = False, **options
 
         points = list(np.asarray(x, dtype=object).flat)
     holes = {i for i, p in enumerate(points) if shape is not None and p != p}
-    results = evaluate_states(equation, [p for i, p in enumerate(points) if i not in holes], **options)
+    try:
+        results = evaluate_states(equation, [p for i, p in enumerate(points) if i not in holes], **options)
+    except NotRational as reason:  # rational in exp(k x), perhaps
+        from kovacic.reading.read import read_input
+
+        parsed = read_input(equation, limits=options.get("limits") or DEFAULT_LIMITS, exponentials=True)
+        if parsed.equation is None or parsed.equation.change is None:
+            raise reason from None
+        return _in_given_variable(parsed, x, derivative, options)
     for result in results:
         if result.note is not None:
             warnings.warn(f"at x = {result.x}: {result.note}", AccuracyWarning, stacklevel=2)
@@ -147,6 +158,13 @@ def evaluate(equation: object, x: object, *, derivative: bool = False, **options
     for i in range(len(points)):
         array[i] = math.nan if i in holes else next(values)
     return array.reshape(shape)
+
+
+def _in_given_variable(equation: Any, x: object, derivative: bool, options: Mapping[str, Any]) -> Any:
+    """As `evaluate`, where the coefficients are rational in a function of x."""
+    from kovacic.enclosure.change import evaluate_in_x
+
+    return evaluate_in_x(equation, equation.equation.change, x, derivative=derivative, **options)
 
 
 def evaluate_states(

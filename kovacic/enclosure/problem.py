@@ -25,7 +25,7 @@ from kovacic.decision import Decision
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.embedded import Embedded
 from kovacic.enclosure.points import Point, midpoint, to_acb, working_precision
-from kovacic.errors import InputError, NotRational
+from kovacic.errors import InputError
 from kovacic.limits import check_duration
 from kovacic.reading.given import EULER, PI, Equation, parameters_of
 
@@ -170,14 +170,7 @@ def _read(equation: object, params: Mapping[str, object] | None, forced: bool, c
     if not isinstance(decision, Decision):
         from kovacic.reading.read import read_input
 
-        decision = None
-        try:
-            found = read_input(equation)
-        except NotRational as reason:  # pi and e are parameters of equations
-            try:
-                found = read_input(f"y'' = ({equation})*y")
-            except InputError:
-                raise reason from None
+        decision, found = None, read_input(equation)
     S, given = found.S, found.equation  # type: ignore[attr-defined]
     gauge = None if given is None else given.gauge or None
     names = parameters_of(S.field) if given is None else parameters_of((given.a + given.b + given.c).field)
@@ -204,7 +197,7 @@ def _read(equation: object, params: Mapping[str, object] | None, forced: bool, c
 
 def _values(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, Number]:
     """The values of the parameters; raises InputError unless there is a real one for each.  pi and e have theirs."""
-    own = {name: text for name, text in ((PI, "pi"), (EULER, "E")) if name in names}
+    own = {name: text for name, text in ((PI, "pi"), (EULER, "exp(1)")) if name in names}
     given = {str(name): as_number(value, f"the parameter {name}") for name, value in (own | dict(params)).items()}
     if set(given) != set(names):
         wanted = ", ".join(names) or "no parameter"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from fractions import Fraction
 from numbers import Rational
 from operator import index
@@ -13,7 +14,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.reading.given import DEFAULT_VARIABLE, Equation, Parsed
+from kovacic.reading.given import DEFAULT_VARIABLE, PI, Equation, Parsed
 from kovacic.reading.parser import shown
 from kovacic.reading.source import read_source, source_of
 
@@ -37,6 +38,9 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, expo
         try:
             return read_source(source, limits)
         except NotRational as error:
+            if not source.unknown and error.excerpt == PI:
+                with suppress(InputError):  # a constant of equations
+                    return read_source(source_of(f"y'' = ({S})*y", variable, limits), limits)
             if not exponentials:
                 raise
             from kovacic.reading.exponential import in_exponentials
