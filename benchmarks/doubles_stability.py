@@ -43,8 +43,8 @@ def enclosure(row: Row) -> dict[str, Any]:
     """Route (b) at x, against the reference."""
     import mpmath
 
-    from kovacic.enclosure.evaluate import evaluate_states
     from kovacic.enclosure.points import Point
+    from kovacic.enclosure.states import evaluate_states
     from kovacic.errors import KovacicError
     from kovacic.limits import Limits
 

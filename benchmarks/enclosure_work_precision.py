@@ -22,8 +22,8 @@ from typing import Any
 import flint
 
 from kovacic.enclosure import classical, closed_form, frobenius, journey, transport
-from kovacic.enclosure.evaluate import evaluate_states
 from kovacic.enclosure.monodromy import connection_matrix, monodromy
+from kovacic.enclosure.states import evaluate_states
 
 RESULTS = Path(__file__).parent / "results"
 PATIENCE = 3.0

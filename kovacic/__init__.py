@@ -19,8 +19,9 @@ _NAMES = {
     "decision": ("Status", "Structure"),
     "doubles.tabulate": ("tabulate",),
     "enclosure.ball": ("Ball",),
-    "enclosure.evaluate": ("AccuracyWarning", "evaluate"),
+    "enclosure.evaluate": ("evaluate",),
     "enclosure.monodromy": ("connection_matrix", "monodromy"),
+    "enclosure.precision": ("AccuracyWarning",),
     "errors": (
         "InputError",
         "KovacicError",

@@ -4,10 +4,10 @@ from kovacic.decision import Status as Status
 from kovacic.decision import Structure as Structure
 from kovacic.doubles.tabulate import tabulate as tabulate
 from kovacic.enclosure.ball import Ball as Ball
-from kovacic.enclosure.evaluate import AccuracyWarning as AccuracyWarning
 from kovacic.enclosure.evaluate import evaluate as evaluate
 from kovacic.enclosure.monodromy import connection_matrix as connection_matrix
 from kovacic.enclosure.monodromy import monodromy as monodromy
+from kovacic.enclosure.precision import AccuracyWarning as AccuracyWarning
 from kovacic.errors import InputError as InputError
 from kovacic.errors import KovacicError as KovacicError
 from kovacic.errors import LimitExceeded as LimitExceeded

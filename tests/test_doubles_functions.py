@@ -24,9 +24,11 @@ from kovacic.doubles.region import BLOCK, MEDIAN, WORST
 from kovacic.doubles.tabulate import TabulatedFunction, tabulate
 from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
 from kovacic.enclosure.closed_form import omega
-from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states
+from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.points import as_point
+from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.problem import as_problem
+from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, LimitExceeded
 
 TETRAHEDRAL = "(-32*x^2 + 27*x - 27)/(144*x^4 - 288*x^3 + 144*x^2)"

@@ -15,10 +15,12 @@ from kovacic.algebra.rationals import QQ
 from kovacic.enclosure import classical, classical_functions
 from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.classical import NotServed, classical_of
-from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states
+from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.matrices import product
 from kovacic.enclosure.points import Point
+from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.problem import System, as_problem
+from kovacic.enclosure.states import evaluate_states
 from kovacic.enclosure.transport import piece_matrices
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits

@@ -16,11 +16,13 @@ import kovacic
 from kovacic.doubles.lambdify import lambdify
 from kovacic.doubles.tabulate import tabulate
 from kovacic.enclosure.ball import Ball, ball_to_flint
-from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states
+from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.monodromy import connection_matrix, monodromy
 from kovacic.enclosure.points import Point
+from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.problem import System, check_segment
+from kovacic.enclosure.states import evaluate_states
 from kovacic.enclosure.transport import cover
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits

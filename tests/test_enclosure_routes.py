@@ -19,11 +19,13 @@ from kovacic.algebra.rationals import QQ
 from kovacic.enclosure.agreement import agrees_with_group, compare, is_fuchsian
 from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.closed_form import closed_form_of
-from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states
+from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.exponential import integral
 from kovacic.enclosure.matrices import identity, multiply
 from kovacic.enclosure.monodromy import connection_matrix, monodromy
+from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.problem import as_problem
+from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.galois import Ground, Group, Kind
 from kovacic.limits import Budget, Limits

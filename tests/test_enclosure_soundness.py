@@ -11,9 +11,9 @@ import pytest
 from flint import acb, arb, ctx, fmpq
 
 from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.evaluate import evaluate_states
 from kovacic.enclosure.monodromy import connection_matrix
 from kovacic.enclosure.precision import Method
+from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError
 
 Function = Callable[[acb], acb]

@@ -18,14 +18,15 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
-from kovacic.enclosure.evaluate import AccuracyWarning, evaluate, evaluate_states
+from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.exponential import _principal_part
 from kovacic.enclosure.frame import make_frame, shift
 from kovacic.enclosure.matrices import product
 from kovacic.enclosure.monodromy import connection_matrix
 from kovacic.enclosure.points import Point, as_point
-from kovacic.enclosure.precision import Method
+from kovacic.enclosure.precision import AccuracyWarning, Method
 from kovacic.enclosure.problem import System, check_segment, distance_lower
+from kovacic.enclosure.states import evaluate_states
 from kovacic.enclosure.transport import cover, piece_matrices
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits

@@ -31,7 +31,7 @@ def command(equation: str, points: tuple[str, ...], frobenius: str | None, **opt
     kovacic evaluate "x" --x0 0 --y0 1 --dy0 0 --at 1,2,3 --digits 30
     kovacic evaluate "x^2*y'' + x*y' + x^2*y = 0" --x0 0 --regular --at 1/2,10
     """
-    from kovacic.enclosure.evaluate import evaluate_states
+    from kovacic.enclosure.states import evaluate_states
     from kovacic.reading.parser import listed
 
     places = [place for text in points for place in listed(text)]

@@ -31,10 +31,11 @@ from kovacic.doubles.region import Measured, Region, region_of
 from kovacic.doubles.tabulate import TabulatedFunction, tabulate
 from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
 from kovacic.enclosure.closed_form import exponentials, finite_base, omega
-from kovacic.enclosure.evaluate import AccuracyWarning, evaluate_states
 from kovacic.enclosure.exponential import LogDerivative, embed
 from kovacic.enclosure.points import Point, as_point, to_acb, working_precision
+from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.problem import NumericProblem, as_problem
+from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.solution import solve

@@ -27,10 +27,10 @@ from flint import acb, acb_mat, arb, arb_mat
 from kovacic.doubles.double_double import Pair, double, horner, scaled, two_sum
 from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks, region_of
 from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.evaluate import evaluate_states
 from kovacic.enclosure.frame import fitting
 from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem, System, as_problem, distance_lower
+from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 

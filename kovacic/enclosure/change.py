@@ -18,10 +18,10 @@ from flint import arb
 
 from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.enclosure.constants import as_number, in_balls, to_ball
-from kovacic.enclosure.evaluate import AccuracyWarning, evaluate_states
 from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.precision import start_bits
+from kovacic.enclosure.precision import AccuracyWarning, start_bits
 from kovacic.enclosure.problem import as_problem
+from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError
 from kovacic.reading.given import Change
 from kovacic.reading.symbolic import read_expression

@@ -15,38 +15,15 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any, Literal, Required, TypedDict, Unpack, overload
 
-from flint import arb
-
 from kovacic.enclosure.ball import Ball
-from kovacic.enclosure.classical import Classical, NotServed, classical_of
-from kovacic.enclosure.closed_form import ClosedForm, closed_form_of
-from kovacic.enclosure.constants import Number, as_number, to_ball
-from kovacic.enclosure.journey import Journey
-from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.precision import METHODS, Evaluation, Method, check_digits, raise_precision
-from kovacic.enclosure.problem import NumericProblem, as_problem
-from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.start import Start, read_start
-from kovacic.errors import InputError, NotRational
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
-
-Path = Sequence[object] | Literal["chain", "above", "below"] | None
-_APART = arb(2) ** -200  # what is nearer to a singular point can't be told from it
-_NO_CLOSED_FORM = (
-    "the method 'closed form' is for solutions of case 1 without a quadrature, and pull-backs of Airy's, Bessel's, Whittaker's "
-    "and Gauss' equations over Q"
-)
-_TAYLOR = "method='taylor' treats every equation"
-_FEW = 8  # targets up to which a closed form costs less than the Taylor steps, which serve many at once
-
-
-class AccuracyWarning(UserWarning):
-    """An enclosure is wider than asked for; the message says why."""
+from kovacic.enclosure.precision import AccuracyWarning, Method
+from kovacic.enclosure.states import Path, evaluate_states
+from kovacic.errors import NotRational
+from kovacic.limits import DEFAULT_LIMITS, Limits
 
 
 class Options(TypedDict, total=False):
@@ -162,95 +139,6 @@ def evaluate(equation: object, x: object, *, derivative: bool = False, **options
 
 def _in_given_variable(equation: Any, x: object, derivative: bool, options: Mapping[str, Any]) -> Any:
     """As `evaluate`, where the coefficients are rational in a function of x."""
-    from kovacic.enclosure.change import evaluate_in_x
+    from kovacic.enclosure.change import evaluate_in_x  # imports SymPy
 
     return evaluate_in_x(equation, equation.equation.change, x, derivative=derivative, **options)
-
-
-def evaluate_states(
-    equation: object,
-    points: Sequence[object],
-    *,
-    x0: object,
-    y0: object = None,
-    dy0: object = None,
-    frobenius: Sequence[object] | None = None,
-    which: str | None = None,
-    params: Mapping[str, object] | None = None,
-    digits: int = 15,
-    method: Method | None = None,
-    path: Path = None,
-    limits: Limits | None = None,
-) -> tuple[Evaluation, ...]:
-    """As `evaluate`, with y and y' and the circumstances, for each of `points` (no warnings: see `Evaluation.note`)."""
-    limits = limits or DEFAULT_LIMITS
-    check_digits(digits, limits)
-    if method is not None and method not in METHODS:
-        raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
-    if isinstance(path, str) and path not in ("chain", "above", "below"):
-        raise InputError(f"unknown path {path!r}", hint='a sequence of vertices, "chain", "above", "below", or None')
-    budget = Budget(limits)
-    problem = as_problem(equation, params, forced=True, constants=True)
-    targets = tuple(as_number(p, "x") for p in points)
-    polygon = () if path is None or isinstance(path, str) else path
-    vertices = tuple(as_number(p, "a vertex of the path") for p in polygon)
-    start = read_start(problem, x0, y0, dy0, frobenius, which)
-    _check_regular(problem, [n for n in (start.place, *targets, *vertices) if not isinstance(n, Singular)])
-    side = path if path in ("above", "below") else None
-    journey = Journey(problem, start, vertices, targets, path == "chain", side)
-    with budget.watched():
-        closed = _closed_form(problem, method, start, targets, digits)
-        if closed is not None:
-            try:
-                return raise_precision(replace(journey, closed=closed), "closed form", digits, budget)
-            except NotServed:
-                if method is not None:
-                    raise InputError("the closed form doesn't prove its values on this path", hint=_TAYLOR) from None
-        return raise_precision(journey, "taylor", digits, budget)
-
-
-def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
-    """Raise InputError for a number such as sqrt(2) that is a singular point; rational points are compared exactly."""
-    constants = problem.embedded
-    unclear = [number for number in numbers if constants is not None or not isinstance(number, Point)]
-    if not unclear:
-        return
-    with working_precision(256):
-        singular = [to_acb(z) for z in problem.singular_points(256)] if constants is None else []
-        for number in unclear:
-            ball = to_ball(number)
-            near = any(abs(ball - z).lower() < _APART for z in singular)
-            if near or (constants is not None and not constants.bound(ball).is_finite()):
-                raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
-
-
-def _closed_form(
-    problem: NumericProblem, method: Method | None, start: Start, targets: Sequence[Number], digits: int
-) -> ClosedForm | Classical | None:
-    """The closed form, where it is asked for or the cheaper way by a rule that was measured
-    (`benchmarks/enclosure_work_precision.py`).
-
-    A closed form without quadrature costs about a millisecond whatever the distance, the digits and the solution's zeros, if
-    its polynomial has a moderate degree, and FLINT's functions cost less: less than the Taylor steps to a few points, or to
-    points beside the real axis.
-    """
-    if method == "taylor":
-        return None
-    if problem.right is not None:
-        if method is not None:
-            raise InputError(
-                "the method 'closed form' is for equations without a right-hand side", hint="method='taylor'"
-            )
-        return None
-    few = len(targets) <= _FEW
-    if problem.decision is not None and problem.decision.case == 1 and (few or method):
-        closed = closed_form_of(problem)
-        if closed is not None and (closed.is_elementary if method else closed.is_cheap):
-            return closed
-    if method or few or not all(isinstance(target, Point) and target.is_real() for target in targets):
-        classical = None if problem.S is None else classical_of(problem.S)
-        if classical is not None and (method or digits <= classical.most_digits(start.place)):
-            return classical
-    if method is not None:
-        raise InputError(_NO_CLOSED_FORM, hint=_TAYLOR)
-    return None

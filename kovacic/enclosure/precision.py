@@ -26,6 +26,10 @@ Method = Literal["taylor", "closed form"]
 METHODS: tuple[Method, ...] = ("taylor", "closed form")
 
 
+class AccuracyWarning(UserWarning):
+    """An enclosure is wider than asked for; the message says why."""
+
+
 @dataclass(frozen=True)
 class Run:
     """`digits` asked for, the route, the working precision, and the number of runs that it took."""

@@ -19,10 +19,10 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from kovacic.enclosure.evaluate import evaluate_states
 from kovacic.enclosure.points import Point, as_point, midpoint
 from kovacic.enclosure.precision import Evaluation
 from kovacic.enclosure.problem import as_problem
+from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 
