@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from kovacic.enclosure.agreement import Agreement
     from kovacic.galois import EquationGroup, Group
     from kovacic.parametric.assumptions import Assumptions
-    from kovacic.parametric.generic import GenericConditions
+    from kovacic.parametric.restriction import GenericConditions
     from kovacic.reading.given import Parsed
     from kovacic.special.answer import SpecialFunctions
 
@@ -227,7 +227,7 @@ class Solution:
     @limited
     def generic_conditions(self) -> GenericConditions:
         """What must not vanish, and which exponents must not be rational, for the answer to hold; empty without parameters."""
-        from kovacic.parametric.generic import generic_conditions
+        from kovacic.parametric.restriction import generic_conditions
 
         return generic_conditions(self)
 

@@ -1,8 +1,9 @@
 """Solutions exp(int theta) P with a P of given degree: theta from a choice of exponents at each place, conditions for P.
 
 At a regular place theta has the residue (1 +- Delta)/2; at an irregular one its polar part is that of +- sqrt S, with a residue
-that follows [Kovacic 1986, sec. 3.1].  P'' + 2 theta P' + (theta' + theta^2 - S) P = 0 is a system for its coefficients.
-In the same way the valuations at all places leave a system for the P of a rational form of degree m in the solutions.
+that follows [Kovacic 1986, sec. 3.1].  With theta = R/D, D P'' + 2 R P' + ((R' D - R D' + R^2 - T)/D) P = 0 is a system for the
+coefficients of P; at values with a solution P follows from its first coefficient.  In the same way the valuations at all places
+leave a system for the P of a rational form of degree m in the solutions.
 """
 
 from __future__ import annotations
@@ -10,8 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
-from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -175,3 +177,59 @@ def form_conditions(problem: Problem, m: int) -> RankConditions:
     R0 = singular_part(problem, [v for v in least_valuations(problem, m)[:-1] if v is not None])
     x = problem.field.poly([0, 1])
     return rank_conditions([Form(m, R0, x**j).numerators(problem)[-1] for j in range(N + 1)], problem)
+
+
+@dataclass(frozen=True)
+class PolynomialSolution:
+    """y solves y'' = S y where `degree` is a natural number; SymPy expressions in the variable and the parameters.
+
+    `where` says what else has to hold.
+    """
+
+    y: Any
+    degree: Any
+    where: str = ""
+
+    def __str__(self) -> str:
+        return f"y = {self.y} where {self.where or f'{self.degree} is a natural number'}"
+
+
+def solution_of_degree(
+    problem: Problem, exponents: Exponents, d: int, variable: str, where: str
+) -> PolynomialSolution | None:
+    """exp(int theta) P for one choice of exponents, valid where Delta_d = 0; None where P isn't determined by its degree."""
+    import sympy
+
+    P = exponents.polynomial(problem, d)
+    if P is None:
+        return None
+    x = sympy.Symbol(variable)
+    c = sympy.Integer(1) if exponents.square is None else sympy.sqrt(sympy.factor(exponents.square.to_sympy(x)))
+
+    def expression(polynomial: Poly) -> Any:
+        parts = polynomial.parts if isinstance(polynomial, ExtensionPoly) else [polynomial]
+        return sum(part.to_sympy(x) * c**k for k, part in enumerate(parts))
+
+    y = expression(P)
+    for part in exponents.parts:
+        exponential = sympy.integrate(sympy.expand(expression(part.main)), x)
+        if part.factor is None:
+            y *= sympy.exp(exponential)
+        else:
+            u = expression(part.factor)
+            y *= u ** sympy.factor(expression(part.exponent)) * sympy.exp(exponential.subs(x, 1 / u))
+    return PolynomialSolution(y, sympy.Integer(d), where)
+
+
+def possible(found: list[PolynomialSolution]) -> tuple[PolynomialSolution, ...]:
+    """Without those whose degree is a number but no natural one, and without repetitions."""
+    possible = (s for s in found if s.degree.free_symbols or (s.degree.is_Integer and s.degree >= 0))
+    return tuple(dict.fromkeys(possible))
+
+
+def root(square: Poly) -> Any:
+    """The square root of a constant, up to its sign."""
+    import sympy
+
+    root, x = square.field.sqrt(square), sympy.Symbol("x")
+    return sympy.sqrt(sympy.factor(square.to_sympy(x))) if root is None else sympy.expand(root.to_sympy(x))

@@ -26,7 +26,7 @@ from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.exponents import form_conditions, with_degree
+from kovacic.parametric.exponents import PolynomialSolution, form_conditions, solution_of_degree, with_degree
 from kovacic.parametric.formulas import Notation, equation_written, shown, written
 from kovacic.parametric.functions import (
     Coset,
@@ -40,7 +40,6 @@ from kovacic.parametric.functions import (
 from kovacic.parametric.integers import LETTERS, free_letter, rational_roots
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import Hypersurface, hypersurface
-from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
 from kovacic.parametric.spectra import alternatives
 from kovacic.parametric.statements import Statement
 

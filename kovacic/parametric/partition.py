@@ -26,14 +26,13 @@ from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget
-from kovacic.parametric import generic
-from kovacic.parametric.confluent import martinet_ramis
+from kovacic.parametric import restriction
 from kovacic.parametric.functions import UndefinedError, degrees, denominators, irreducible_factors, union
-from kovacic.parametric.quotient import kimura
 from kovacic.parametric.regions import OMEGAS, Condition, Theorem, Verdict
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.search import Findings, search
 from kovacic.parametric.statements import Statement, Vanishes, both, either
+from kovacic.parametric.theorems import kimura, martinet_ramis
 from kovacic.solution import Solution
 from kovacic.views.sentences import omega_lines
 
@@ -83,7 +82,7 @@ def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
     if expected.known and expected.structure is Structure.REDUCIBLE:
         name = "a rational omega for generic values, and so for all"  # where S is defined: see the head of this module
-        theorem: Theorem | None = Theorem(name, generic.undefined(problem), [(True, expected, "", None)])
+        theorem: Theorem | None = Theorem(name, restriction.undefined(problem), [(True, expected, "", None)])
     else:
         theorem = kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
     if theorem is None:
@@ -113,7 +112,7 @@ def _by_candidates(problem: Problem, expected: Verdict, settings: Settings) -> P
     complete: bool | str = True
     findings = Findings("polynomial conditions")
     try:
-        regions = _degenerate(problem.S, generic.structure_changes(problem), settings)
+        regions = _degenerate(problem.S, restriction.structure_changes(problem), settings)
         known = {r.statement.function for r in regions if isinstance(r.statement, Vanishes)}
         findings = search(problem)
         if expected.structure is Structure.IMPRIMITIVE:

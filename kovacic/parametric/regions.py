@@ -16,12 +16,12 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.decision import Decision, Status, Structure
 from kovacic.limits import check_time
 from kovacic.parametric.assumptions import Assumptions, Known
+from kovacic.parametric.exponents import PolynomialSolution
 from kovacic.parametric.functions import Point, irreducible_factors, over_parameters
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.record import statement_data
 from kovacic.parametric.restriction import hypersurface
-from kovacic.parametric.solutions import PolynomialSolution
 from kovacic.parametric.spectra import families
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both, either
 

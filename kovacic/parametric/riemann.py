@@ -273,20 +273,18 @@ def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     free = [over_parameters(square) for square, _ in factors if field.rational_value(square) is None]
     if not free or sum(k for _, k in factors) < 3:
         return None
-    first = free[0]
-    root = field.sqrt(first)
+    root = field.sqrt(free[0])
     lines: list[tuple[Fraction, Fraction] | None] = []
     for square, k in factors:
-        number = field.rational_value(square)
-        if number is not None:
+        if field.rational_value(square) is not None:
             constant = rational_square_root(square)
-            lines += [None if constant is None else (_F(0), constant)] * k
-            continue
-        line = _line(square, first, root)
-        if line is None:
-            return None
+            line = None if constant is None else (_F(0), constant)
+        else:
+            line = _line(square, free[0], root)
+            if line is None:
+                return None
         lines += [line] * k
-    return _OneFunction(first, None if root is None else over_parameters(root), tuple(lines))
+    return _OneFunction(free[0], None if root is None else over_parameters(root), tuple(lines))
 
 
 def _line(square: Poly, first: FunctionPoly, root: Poly | None) -> tuple[Fraction, Fraction] | None:
@@ -334,14 +332,7 @@ def _classes(single: _OneFunction, structure: Structure) -> list[Statement]:
 def _split(cubic: FunctionPoly) -> tuple[list[Fraction | None], Poly | None]:
     """The constant exponent differences (None: irrational), and the square of the other one if there is exactly one."""
     field = cubic.field
-    constants: list[Fraction | None] = []
-    variable: list[Poly] = []
-    for factor, multiplicity in field.factor(cubic):
-        coefficients = [field.rational_value(c) for c in factor]
-        if any(c is None for c in coefficients):
-            variable += [-factor[0]] * multiplicity if factor.degree == 1 else [factor] * (2 * multiplicity)
-        elif factor.degree == 1 and coefficients[0] is not None:
-            constants += [rational_square_root(-factor[0])] * multiplicity
-        else:
-            constants += [None] * (factor.degree * multiplicity)
-    return constants, variable[0] if len(variable) == 1 else None
+    roots = [factor for factor, k in field.factor(cubic) for _ in range(k * factor.degree)]
+    variable = [f for f in roots if any(field.rational_value(c) is None for c in f)]
+    fixed = [rational_square_root(-f[0]) if f.degree == 1 else None for f in roots if f not in variable]
+    return fixed, -variable[0][0] if len(variable) == 1 else None

@@ -1,0 +1,303 @@
+"""Theorems about all values of the parameters, for equations that z = s^n brings to a standard one.
+
+An equation is symmetric, S(m(x)) m'(x)^2 = S(x) for a Moebius map m of order n, where m is x -> c + zeta (x - c),
+zeta^n = 1, or that in the coordinate 1/(x - p).  With z = s^n, s = x - c or 1/(x - p) - c, it becomes v'' = S_z v,
+s^2 S = n^2 z^2 S_z + (n^2 - 1)/4 with S in the coordinate s, and the exponent differences at 0 and infinity are divided by n.
+
+1. At most three singular points in z, all of them regular: Kimura's theorem (`riemann`).  C(x) is a cyclic extension of C(z),
+branched at 0 and infinity: the group G over C(x) is normal in the one over C(z), H, with a cyclic quotient of an order that
+divides n.  So an equation is solvable over both or neither, and
+
+- H reducible: G is reducible;
+- H imprimitive: the quadratic extension over which H becomes diagonal is branched where two of the differences are
+  half-integers.  It is C(sqrt z), and G reducible, exactly where those at 0 and infinity are (n even); else G is imprimitive;
+- H tetrahedral: its only cyclic quotient has order 3, with branch points where the differences have the denominator 3.
+  Where these are 0 and infinity, so that the third difference is a half-integer, and 3 divides n, G is the quaternion
+  group; else G = H;
+- H octahedral: G is octahedral or tetrahedral (n even); H icosahedral, which is perfect: G = H.
+
+In case 1, w a Moebius map of z with the singular points at w = 0, 1, infinity, and with signs f, g, h for which d is natural,
+
+    y = w^((1 + f l)/2) (1 - w)^((1 + g m)/2) P_d^(f l, g m)(1 - 2 w) / sqrt(dw/dx),  d = (-1 - f l - g m - h n)/2         (1)
+
+(DLMF 18.8; the polynomials of Jacobi vanish for some negative integers as parameters).
+
+2. One irregular singular point and at most one other.  In a coordinate in which the irregular point is infinity and
+the other one (or any chosen point) is 0,
+
+    S = b/x^2 + r x^(n-2) + q x^(2n-2),   n >= 1,                                                                  (2)
+
+are the equations treated here.  With z = x^n the exponent differences become Delta/n at 0, Delta^2 = 1 + 4b, and, for q != 0,
+beta/n at infinity, beta^2 = r^2/q: Whittaker's equation with 2 kappa = beta/n and 2 mu = Delta/n.
+
+Theorem [Martinet & Ramis 1989; Duval & Loday-Richaud 1992].  For q != 0 the equation has a Liouvillian solution exactly when
+(beta + Delta)/n or (beta - Delta)/n is an odd integer, and then it is reducible (case 1): over C(z) the group is reducible or
+SL2, for an imprimitive group needs two branch points, and a finite one no irregular point; SL2 has no subgroup of finite
+index, so the group over C(x) is the same.  For q = 0, r != 0: case 1 never (n odd) and case 2 exactly when 2 Delta/n is an odd
+integer, since an imprimitive group becomes reducible over C(sqrt x); n even is the first kind with n/2 and beta = 0.
+
+In case 1 there, with signs e, f (both +-1) for which d is a natural number (DLMF 18.8),
+
+    y = weight x^((1 + f Delta)/2) exp(e sqrt(q) x^n/n) L_d^(f Delta/n)(-2 e sqrt(q) x^n/n),             (3)
+
+d = (e beta - f Delta - n)/(2 n).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import product
+from math import gcd
+from typing import Any, Literal
+
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import Structure
+from kovacic.engine.places import Kind, Problem, analyse
+from kovacic.parametric import restriction, riemann
+from kovacic.parametric.exponents import PolynomialSolution, possible, root
+from kovacic.parametric.formulas import root_written, shifted
+from kovacic.parametric.functions import irreducible_factors, over_parameters
+from kovacic.parametric.integers import integer_roots
+from kovacic.parametric.regions import OMEGAS, Theorem, Verdict
+from kovacic.parametric.statements import Statement, both, either
+
+Statements = Literal[True] | list[Statement]
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """z = s^n; `base` is s in words, and y = weight * v with the solution v in s: `weight` is 1 or x - p."""
+
+    base: str
+    n: int = 1
+    weight: str = "1"
+
+    def __str__(self) -> str:
+        if self.n == 1:
+            return self.base
+        return f"{self.base}^{self.n}" if self.base.isidentifier() else f"({self.base})^{self.n}"
+
+
+def symmetries(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Poly, Poly]]:
+    """Coordinates s, n the largest number for which s^2 S, with S in this coordinate, is num/den in z = s^n; num and den.
+
+    They are found by the fixed points that can belong to a group of Moebius maps: the first is infinity, or a pole.
+
+    The other one is the mean of the poles where the first is infinity, or of the zeros if there are none.
+    """
+    S, field = problem.S, problem.field
+    x = RatFunc(field.poly([0, 1]))
+    for pole in (None, *(-place.factor[0] for place in problem.finite_places if place.degree == 1)):
+        moved = S if pole is None else S(1 / x + pole) / x**4
+        points = moved.den if moved.den.degree else moved.num
+        if points.degree < 1:
+            continue
+        center = -points[points.degree - 1] / (points.lc * points.degree)
+        square = (moved(x + center) if center else moved) * x * x
+        n = gcd(*(i for part in (square.num, square.den) for i, c in enumerate(part) if c))
+        weight = "1" if pole is None else shifted(variable, pole)
+        base = shifted(variable if pole is None else f"1/({weight})" if pole else f"1/{variable}", center)
+        num, den = (field.poly([f[i] for i in range(0, f.degree + 1, n or 1)]) for f in (square.num, square.den))
+        yield Coordinate(base, n, weight), num, den
+
+
+def kimura(problem: Problem, variable: str) -> Theorem | None:
+    """Kimura's theorem, where the equation or its quotient has at most three singular points, and regular ones."""
+    for coordinate, equation in _quotients(problem, variable) if riemann.is_fuchsian(problem) else ():
+        if riemann.applies(equation):
+            points = "singular points" if coordinate.n == 1 else f"singular points in {coordinate}"
+            omegas, origin = dict(OMEGAS), partial(jacobi_solutions, equation, coordinate, variable)
+            if coordinate.n == 1:
+                omegas[Structure.REDUCIBLE] = riemann.omega(problem, variable)
+            regions = (
+                (
+                    statements,
+                    Verdict(structure, family=family),
+                    omegas[structure],
+                    origin if structure.case == 1 else None,
+                )
+                for structure, statements, family in structures(equation, coordinate.n)
+            )
+            return Theorem(
+                f"at most three regular {points}: Kimura's theorem", restriction.confluence(problem), regions
+            )
+    return None
+
+
+def _quotients(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Problem]]:
+    """The equation, and those in z = s^n."""
+    yield Coordinate(variable), problem
+    z = problem.field.poly([0, 1])
+    for coordinate, num, den in symmetries(problem, variable):
+        if coordinate.n > 1:
+            n = coordinate.n
+            yield (
+                coordinate,
+                analyse((RatFunc(num, den) - (1 + 0 * z) * (n * n - 1) / 4) / RatFunc(n * z) ** 2, problem.budget),
+            )
+
+
+def structures(problem: Problem, n: int) -> Iterator[tuple[Structure, Statements, str | None]]:
+    """As `riemann.structures`, for the equation in x, with the family of the groups where the structure doesn't say it."""
+    for structure, statements in riemann.structures(problem):
+        family = riemann.group(problem, structure)
+        if structure is Structure.IMPRIMITIVE and n % 2 == 0:
+            diagonal = _with_denominators(problem, (2, 2))
+            if diagonal:
+                yield Structure.REDUCIBLE, diagonal, None
+            if diagonal is True:
+                return
+        if structure is Structure.TETRAHEDRAL and n % 3 == 0:
+            threefold = _with_denominators(problem, (3, 3, 2))
+            if threefold:
+                yield Structure.IMPRIMITIVE, threefold, "the quaternion group"
+            if threefold is True:
+                return
+        if structure is Structure.OCTAHEDRAL and n % 2 == 0:
+            family = "binary tetrahedral, or octahedral"
+        yield structure, statements, family
+
+
+def jacobi_solutions(
+    problem: Problem, coordinate: Coordinate, variable: str, _: int | None = None
+) -> tuple[PolynomialSolution, ...]:
+    """Equation (1), for all signs for which d can be a natural number; () where three singular points are conjugate."""
+    import sympy
+
+    from kovacic.reading.symbolic import read_expression
+
+    x, n = sympy.Symbol(variable), coordinate.n
+    base, weight = map(read_expression, (coordinate.base, coordinate.weight))
+    points: list[tuple[Any, Any]] = []
+    for place in problem.places:
+        if place.kind is Kind.ORDINARY or place.degree > 2:
+            continue
+        square = riemann.difference_squared(place)
+        if place.at_infinity:
+            points.append((None, root(square)))
+        elif place.degree == 1:
+            points.append(((0 * square - place.factor[0]).to_sympy(x), root(square)))
+        else:
+            half, rest = (place.factor[k].to_sympy(x) for k in (1, 0))
+            for sign in (1, -1):
+                c = (-half + sign * sympy.sqrt(sympy.factor(half**2 - 4 * rest))) / 2
+                points.append((c, sympy.sqrt(sympy.simplify(square.to_sympy(x).subs(x, c)))))
+    if len(points) == 2 and problem.infinity.kind is Kind.ORDINARY:
+        points.append((None, sympy.Integer(1)))
+    if len(points) != 3:
+        return ()
+    (c, first), (c1, second), (c2, third) = points
+    z = base**n
+    w = (z - c) / (c1 - c) if c2 is None else (z - c) * (c1 - c2) / ((z - c2) * (c1 - c))
+    jacobian = weight * (1 if c2 is None else z - c2) / (base ** sympy.Rational(n - 1, 2))
+    found = []
+    for f, g, h in product((1, -1), repeat=3):
+        degree = sympy.expand((-1 - f * first - g * second - h * third) / 2)
+        powers = w ** sympy.expand((1 + f * first) / 2) * (1 - w) ** sympy.expand((1 + g * second) / 2)
+        polynomial = sympy.jacobi(degree, f * first, g * second, 1 - 2 * w)
+        found.append(PolynomialSolution(jacobian * powers * polynomial, degree))
+    return possible(found)
+
+
+def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> Statements:
+    """When the exponent differences at 0, at infinity and at the third point have these denominators; [] for never."""
+    squares = [problem.field.poly([1])] * 3
+    for place in problem.places:
+        if place.kind is not Kind.ORDINARY and place.delta_squared is not None:
+            squares[1 if place.at_infinity else 2 if place.factor[0] else 0] = place.delta_squared
+    found: list[Statement] = []
+    for square, denominator in zip(squares, denominators, strict=False):
+        equation = over_parameters(problem.field.poly([-square * denominator**2, 0, 1]))
+        residues = [r for r in range(denominator) if gcd(r, denominator) == 1]
+        statements = integer_roots(equation, residues, denominator)
+        if statements is not True:
+            if not statements:
+                return []
+            statement = either(statements)
+            found += [] if statement in found else [statement]
+    return [both(*found)] if found else True
+
+
+@dataclass(frozen=True)
+class Confluent:
+    """Equation (2): the coordinate in which it has this form, and the coefficients."""
+
+    coordinate: Coordinate
+    b: Poly
+    r: Poly
+    q: Poly
+
+    @property
+    def omega(self) -> str:
+        """What the solutions look like in the coordinate s of the form (2)."""
+        n, base = self.coordinate.n, self.coordinate.base
+        z, where = (base, "") if base.isidentifier() else ("s", f", s = {base}")
+        if not self.q:
+            return f"omega of degree 2, rational in {z} and sqrt({z}){where}"
+        power = "" if n == 1 else f" {z}" if n == 2 else f" {z}^{n - 1}"
+        beta, difference = (_signed(square) for square in (self.r * self.r / self.q, 1 + 4 * self.b))
+        natural = "a natural number" if n == 1 else f"a natural multiple of {n}"
+        return (
+            f"omega ={_signed(self.q)}{power} + (1{difference})/(2 {z}) + P'/P{where}, with signs for which "
+            f"deg P = (-{n}{beta}{difference})/2 is {natural}"
+        )
+
+    @property
+    def verdict(self) -> Verdict:
+        """The structure and the family of the groups where a Liouvillian solution exists.
+
+        An irregular point makes the group infinite.  With q = 0 it is imprimitive.  Otherwise a solution with a rational omega
+        has one of two exponential factors, and both occur where each sign of beta fits, as for beta = 0; the group is diagonal
+        then.
+        """
+        if not self.q:
+            return Verdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
+        family = "Borel group, or G_m where both exponential factors occur" if self.r else "G_m"
+        return Verdict(Structure.REDUCIBLE, family=family)
+
+
+def _signed(square: Poly) -> str:
+    root = root_written(square)
+    return "" if root == "0" else f" +- ({root})" if " " in root else f" +- {root}"
+
+
+def laguerre_solutions(form: Confluent, variable: str, _: int | None = None) -> tuple[PolynomialSolution, ...]:
+    """Equation (3), for all signs for which d can be a natural number."""
+    import sympy
+
+    from kovacic.reading.symbolic import read_expression
+
+    if not form.q:
+        return ()
+    x, s, weight = sympy.Symbol(variable), *map(read_expression, (form.coordinate.base, form.coordinate.weight))
+    rate, delta = root(form.q), root(1 + 4 * form.b)
+    beta, n = form.r.to_sympy(x) / rate, form.coordinate.n
+    found = []
+    for e, f in product((1, -1), repeat=2):
+        degree = sympy.expand((e * beta - f * delta - n) / (2 * n))
+        u = sympy.expand(-2 * e * rate / n) * s**n
+        y = s ** sympy.expand((1 + f * delta) / 2) * sympy.exp(-u / 2) * sympy.assoc_laguerre(degree, f * delta / n, u)
+        found.append(PolynomialSolution(weight * y, degree))
+    return possible(found)
+
+
+def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
+    """The theorem, where s^2 S is b + r z + q z^2; where it is b + q s^(2n), 2n is the order of the symmetry."""
+    for coordinate, num, den in () if riemann.is_fuchsian(problem) else symmetries(problem, variable):
+        if den.degree == 0 < num.degree <= 2:
+            b, r, q = (num[k] / den[0] for k in range(3))
+            if not q and coordinate.n % 2 == 0:
+                coordinate, r, q = replace(coordinate, n=coordinate.n // 2), q, r
+            break
+    else:
+        return None
+    form, n, z = Confluent(coordinate, b, r, q), coordinate.n, problem.field.poly([0, 0, 1])
+    delta, beta = 1 + 4 * b, r * r / q if q else r  # squares
+    equation = (z - beta - delta) ** 2 - 4 * beta * delta if q else z - 4 * delta
+    statements = integer_roots(over_parameters(equation), [n], 2 * n)
+    region = (statements, form.verdict, form.omega, partial(laguerre_solutions, form, variable))
+    name = f"{'Whittaker' if q else 'Bessel'}'s equation in {coordinate}: Martinet & Ramis"
+    return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(q or r)], [region] * bool(statements))
