@@ -1,17 +1,17 @@
 """For which values of the parameters does y'' = S y have Liouvillian solutions?
 
 In goes S over Q(t1, ..., tk), out comes `Conditions`: the partition of parameter space into regions, each an exact statement
-with Kovacic's case, and whether the list is proven to be complete.  Read `api` first, then `partition`.
-- `answer`: what is returned, with views and points, made of `regions`; `check` compares it with the engine, `plot` draws it;
-- `assumptions`: what is known about parameters; `functions`: factors of functions of the parameters; `formulas` and `spectra`:
-  how these and statements about integers are written;
-- `statements`, `integers`, `natural`: exact conditions on the parameters, which can be evaluated at every algebraic point, and
-  determinants Delta_d; `record` writes and reads them as data;
-- `partition`: the theory that applies, regions, their order, and why they are complete;
-- `riemann`: at most three regular singular points (Kimura's theorem with Schwarz's table);
-- `confluent`: one irregular singular point and at most one more, with two or three terms (Whittaker, Bessel, Weber, Airy);
-- `quotient`: symmetric equations whose quotient by a cyclic group of Moebius maps has at most three singular points;
-- `search`: everything else, through the `exponents` and `ranks`: polynomial conditions, or those with a natural number;
-- `solutions`: formulas for the solutions in a region, for all parameters or for one natural number;
-- `generic` and `restriction`: where S itself changes, and S there; algebraic constants beside parameters.
+with Kovacic's case, and whether the list is proven to be complete.  Read `api` first, then `partition`.  One step a module:
+
+1. `api` reads S, and makes an algebraic constant one more parameter; `assumptions` are what is known about the parameters;
+2. `partition` asks the engine for the generic answer, and treats the values at which S changes by recursion on hypersurfaces:
+   `restriction` says which these are, and gives S there;
+3. `theorems` describe all other values where there are few singular points, maybe in z = s^n: Kimura's (`riemann`, at most
+   three regular ones) and that of Martinet & Ramis (one irregular one);
+4. `search` treats everything else, by the `exponents` and the `ranks` of matrices that depend on the parameters;
+5. both give exact `statements` about the parameters, true or false at every algebraic point: a function vanishes, an equation
+   has a root among `integers`, Delta_d vanishes for a `natural` number d; `functions` has what they are made of;
+6. `regions`: statement, case and group, without those that earlier ones cover;
+7. `answer`: what is returned; statements are written by `spectra` and `formulas`, and as data by `record`; `check` compares with
+   the engine at exact points, `plot` draws.
 """

@@ -22,7 +22,7 @@ from kovacic.decision import Structure
 from kovacic.engine.degree_bound import irregular_difference_squared
 from kovacic.engine.places import Kind, Problem
 from kovacic.errors import LimitExceeded
-from kovacic.parametric.exponents import form_conditions, least_valuations, number_of_zeros, with_degree
+from kovacic.parametric.exponents import form_conditions, least_valuations, with_degree
 from kovacic.parametric.functions import over_parameters, union
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import RankConditions
@@ -31,36 +31,6 @@ from kovacic.parametric.ranks import RankConditions
 _COMBINATIONS = 400
 #: The part of the time that the determinants of one kind of invariant may take.
 _SHARE = 0.2
-
-
-def _degrees_that_decide(problem: Problem) -> dict[int, list[Structure]] | None:
-    """Degrees m such that every Liouvillian equation with these exponents has a rational form of one of them, and its group.
-
-    2 and q for the reducible ones, q the common denominator of the exponents: if y1 = prod (x - c)^(e_c) P is the only
-    solution with a rational omega, y1^q is rational; 4 for the imprimitive ones; 12 for the primitive ones.  None where an
-    exponent difference isn't a rational number.
-    """
-    kinds, differences = {place.kind for place in problem.places}, []
-    for place in problem.places:
-        if place.kind is Kind.UNRAMIFIED or (place.kind is Kind.REGULAR and place.delta is None):
-            return None
-        differences += [(1 + place.delta) / 2] if place.kind is Kind.REGULAR and place.delta is not None else []
-    found: dict[int, list[Structure]] = {4: [Structure.IMPRIMITIVE]}
-    if Kind.RAMIFIED not in kinds:
-        for m in {2, lcm(*(difference.denominator for difference in differences))}:
-            found.setdefault(m, []).append(Structure.REDUCIBLE)
-        found.setdefault(12, []).append(Structure.TETRAHEDRAL)
-    return dict(sorted(found.items()))
-
-
-def conditions_in_time(problem: Problem, m: int) -> RankConditions:
-    """The same within a part of the time; without polynomials, and incomplete, where they are too large for that."""
-    try:
-        with problem.budget.share(_SHARE).watched():
-            return form_conditions(problem, m)
-    except LimitExceeded:
-        problem.budget.check()
-        return RankConditions(complete=False)
 
 
 @dataclass
@@ -81,20 +51,54 @@ class Findings:
 def search(problem: Problem) -> Findings:
     """Candidates for the special values of the parameters."""
     degrees = _degrees_that_decide(problem)
+    findings = Findings("exponents that don't depend on the parameters: invariants of bounded degree")
     if degrees is None:
         findings = Findings("the exponents, and polynomials of bounded or natural degree")
         _reducible(problem, findings)
-        _imprimitive(problem, findings)
-        _primitive(problem, findings)
-        return findings
-    findings = Findings("exponents that don't depend on the parameters: invariants of bounded degree")
-    incomplete = [m for m in degrees if not findings.add(conditions_in_time(problem, m))]
+        degrees = _degrees_that_are_possible(problem)
+    by_degree = {m: _forms(problem, m, findings) for m in degrees}
+    findings.unproven += [f"case {degrees[m][0].case}" for m, factors in by_degree.items() if factors is None]
     for structure in (Structure.REDUCIBLE, Structure.IMPRIMITIVE, Structure.TETRAHEDRAL):
-        for m in incomplete:
-            if structure in degrees[m]:
-                equation = over_parameters(problem.field.poly([-(number_of_zeros(problem, m) or 0), 1]))
-                findings.natural.append(Natural(problem.S, m, (equation,), structure))
+        for m, factors in by_degree.items():
+            if factors and structure in degrees[m]:
+                findings.natural.append(Natural(problem.S, m, factors, structure))
     return findings
+
+
+def _degrees_that_decide(problem: Problem) -> dict[int, list[Structure]] | None:
+    """Degrees m such that every Liouvillian equation with these exponents has a rational form of one of them, and its group.
+
+    2 and q for the reducible ones, q the common denominator of the exponents: if y1 = prod (x - c)^(e_c) P is the only
+    solution with a rational omega, y1^q is rational; 4 for the imprimitive ones; 12 for the primitive ones.  None where an
+    exponent difference isn't a rational number.
+    """
+    singular = [place for place in problem.places if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED)]
+    differences = [place.delta for place in singular if place.delta is not None]
+    if len(differences) < len(singular):
+        return None
+    found: dict[int, list[Structure]] = {4: [Structure.IMPRIMITIVE]}
+    if all(place.kind is not Kind.RAMIFIED for place in problem.places):
+        for m in {2, lcm(*(((1 + difference) / 2).denominator for difference in differences))}:
+            found.setdefault(m, []).append(Structure.REDUCIBLE)
+        found.setdefault(12, []).append(Structure.TETRAHEDRAL)
+    return dict(sorted(found.items()))
+
+
+def _degrees_that_are_possible(problem: Problem) -> dict[int, list[Structure]]:
+    """4 where two places can be branch points of case 2 for some values of the parameters; 12 where case 3 isn't excluded."""
+    branch_points = sum(
+        place.degree
+        for place in problem.places
+        if place.kind is Kind.RAMIFIED
+        or (place.kind is Kind.REGULAR and (place.delta is None or place.delta.denominator == 2))
+    )
+    excluded = any(
+        place.kind in (Kind.UNRAMIFIED, Kind.RAMIFIED) or (place.delta is not None and place.delta.denominator > 5)
+        for place in problem.places
+    )
+    possible = {4: branch_points >= 2, 12: not excluded}
+    structures = {4: [Structure.IMPRIMITIVE], 12: [Structure.TETRAHEDRAL]}
+    return {m: structures[m] for m in possible if possible[m]}
 
 
 def _differences(problem: Problem) -> list[Poly] | None:
@@ -149,55 +153,37 @@ def _reducible(problem: Problem, findings: Findings) -> None:
         findings.natural.append(Natural(problem.S, 1, tuple(factors), Structure.REDUCIBLE))
 
 
-def _imprimitive(problem: Problem, findings: Findings) -> None:
-    branch_points = sum(  # places that can be branch points of case 2 for some values of the parameters
-        place.degree
-        for place in problem.places
-        if place.kind is Kind.RAMIFIED
-        or (place.kind is Kind.REGULAR and (place.delta is None or place.delta.denominator == 2))
-    )
-    if branch_points >= 2 and not _forms(problem, 4, findings):
-        findings.unproven.append("case 2")
-
-
-def _primitive(problem: Problem, findings: Findings) -> None:
-    excluded = any(
-        place.kind in (Kind.UNRAMIFIED, Kind.RAMIFIED) or (place.delta is not None and place.delta.denominator > 5)
-        for place in problem.places
-    )
-    if not excluded and not _forms(problem, 12, findings):
-        findings.unproven.append("case 3")
-
-
-def _forms(problem: Problem, m: int, findings: Findings) -> bool:
-    """Conditions for invariants of degree m; False where there are too many combinations of exponents."""
+def _forms(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:
+    """Equations for the number of zeros of invariants of degree m; None where there are too many combinations of exponents."""
     field = problem.field
-    complete = findings.add(conditions_in_time(problem, m))
+    try:
+        with problem.budget.share(_SHARE).watched():
+            complete = findings.add(form_conditions(problem, m))
+    except LimitExceeded:  # too large polynomials for that time
+        problem.budget.check()
+        complete = False
     variable: list[tuple[Poly, int]] = []  # the square of the difference, and how often it can occur in the sum
     room = m
     for place, v in zip(problem.places, least_valuations(problem, m), strict=True):
         square = place.delta_squared
         if place.kind is Kind.REGULAR and square is None:
-            return False
+            return None
         if place.kind is Kind.REGULAR and square is not None and field.rational_value(square) is None:
             variable.append((square, m // 2 * place.degree))
             room -= m // 2 * place.degree
         elif v is None:
-            return True
+            return ()
         else:
             room -= v * place.degree
     if prod(largest + 1 for _, largest in variable) > _COMBINATIONS:
-        return False
+        return None
     factors: list[FunctionPoly] = [] if complete else [over_parameters(field.poly([-room, 1]))]
     for choice in product(*(range(largest + 1) for _, largest in variable)):
         if any(choice):
             chosen = [k * k * square for k, (square, _) in zip(choice, variable, strict=True) if k]
             sums = _signed_sums(chosen, field.poly([0, 1]))(field.poly([-room, 1]))
             factors += [over_parameters(factor) for factor, _ in field.factor(sums) if _may_be_natural(factor)]
-    if factors:
-        structure = Structure.IMPRIMITIVE if m == 4 else Structure.TETRAHEDRAL
-        findings.natural.append(Natural(problem.S, m, tuple(union([factors])), structure))
-    return True
+    return tuple(union([factors]))
 
 
 def _may_be_natural(factor: Poly) -> bool:
