@@ -204,33 +204,26 @@ class Conditions:
         import json
 
         try:
-            return cls._read(json.loads(text) if isinstance(text, str) else text)
+            data = json.loads(text) if isinstance(text, str) else text
+            names, variable, constant = tuple(data["parameters"]), data["variable"], constant_from(data)
+            reader = Reader(FunctionField((*names, *constant.names)), constant.names)
+            regions = tuple(
+                Condition(
+                    reader.statement(region["statement"]),
+                    Verdict.from_dict(region["verdict"]),
+                    region["complete"],
+                    region["defined"],
+                    region["omega"],
+                    tuple(region.get("determinants", ())),
+                )
+                for region in data["regions"]
+            )
+            claim = (Verdict.from_dict(data["generic"]["verdict"]), regions, data["complete"], data["theory"])
+            known = read_assumptions(data["assumptions"], None, names) if data["assumptions"] else NOTHING_ASSUMED
+            S, notices = reader.function(data["S"], variable), tuple(data["notices"])
+            return cls(S, variable, names, *claim, DEFAULT_LIMITS, notices, known, constant)
         except (KeyError, TypeError, ValueError, AttributeError) as error:
             raise InputError(f"this isn't the JSON of conditions: {error}") from None
-
-    @classmethod
-    def _read(cls, data: Mapping[str, Any]) -> Conditions:
-        names, variable = tuple(data["parameters"]), data["variable"]
-        constant = constant_from(data)
-        reader = Reader(FunctionField((*names, *constant.names)), constant.names)
-        S = reader.function(data["S"], variable)
-        regions = [
-            Condition(
-                reader.statement(region["statement"]),
-                Verdict.from_dict(region["verdict"]),
-                region["complete"],
-                region["defined"],
-                region["omega"],
-                tuple(region.get("determinants", ())),
-            )
-            for region in data["regions"]
-        ]
-        known = read_assumptions(data["assumptions"], None, names) if data["assumptions"] else NOTHING_ASSUMED
-        generic, notices = Verdict.from_dict(data["generic"]["verdict"]), tuple(data["notices"])
-        complete, theory = data["complete"], data["theory"]
-        return cls(
-            S, variable, names, generic, tuple(regions), complete, theory, DEFAULT_LIMITS, notices, known, constant
-        )
 
     def latex(self) -> str:
         """The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values."""

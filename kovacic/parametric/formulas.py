@@ -93,10 +93,6 @@ class Notation:
     fixed: tuple[str, ...] = ()
 
     @property
-    def plus_minus(self) -> str:
-        return r" \pm " if self.latex else " +- "
-
-    @property
     def comma(self) -> str:
         return r",\ " if self.latex else ", "
 

@@ -61,9 +61,14 @@ def powers_of(function: FunctionPoly, i: int) -> dict[int, FunctionPoly]:
     return {power: element(function.field, part) for power, part in by_power(function.num, 1 + i).items()}
 
 
+def constant_term(function: Poly) -> Fraction:
+    """That of the Laurent series at 0 of a function of the parameters."""
+    return to_fraction(function.rational_coefficients()[0]) if function else Fraction(0)
+
+
 def normal_form(function: Poly) -> tuple[FunctionPoly, Fraction, Fraction]:
     """`(f, a, b)` with function = f/a + b: f has no constant term (in a Laurent series at 0) and coprime coefficients."""
-    shift = to_fraction(function.rational_coefficients()[0]) if function else Fraction(0)
+    shift = constant_term(function)
     form = over_parameters(function - shift)
     above, below = ([int(c) for c in part.coeffs()] for part in (form.num, form.den))
     scale = Fraction(gcd(*below), gcd(*above) * (1 if above[0] > 0 else -1)) if above else Fraction(1)

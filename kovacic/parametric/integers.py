@@ -73,11 +73,13 @@ class Congruence(Statement):
         """The form that is congruent to one of the numbers; None for an equation of higher degree."""
         return over_parameters(-self.equation[0]) if self.equation.degree == 1 else None
 
-    def _contains(self, number: Fraction) -> bool:
-        return any((number - residue) % self.modulus == 0 for residue in self.residues)
+    @property
+    def cosets(self) -> list[Coset]:
+        """The classes of N."""
+        return [Coset(residue, self.modulus) for residue in self.residues]
 
     def _holds(self, point: Point) -> bool:
-        return any(map(self._contains, rational_roots(point.at(self.equation))))
+        return any(coset.contains(N) for N in rational_roots(point.at(self.equation)) for coset in self.cosets)
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         made = Congruence.make(change(self.equation), self.residues, self.modulus)
@@ -116,11 +118,10 @@ class Congruence(Statement):
         return None
 
     def decided(self, assumptions: Assumptions) -> bool | None:
-        cosets = [Coset(residue, self.modulus) for residue in self.residues]
         if self.form is not None:
-            return assumptions.meets_classes(self.form, cosets)
+            return assumptions.meets_classes(self.form, self.cosets)
         roots = [-f[0] for f, _ in self.equation.field.factor(self.equation) if f.degree == 1] if assumptions else []
-        return True if any(assumptions.meets_classes(over_parameters(root), cosets) for root in roots) else None
+        return True if any(assumptions.meets_classes(over_parameters(root), self.cosets) for root in roots) else None
 
     def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
         return replace(self, letter=free_letter(names), fixed=tuple(fixed))
@@ -179,10 +180,6 @@ def rational_roots(polynomial: Poly) -> list[Fraction]:
         common = polynomial.parts[0]
         for part in polynomial.parts[1:]:
             common = common.gcd(part)
-    roots = (rational(-factor[0]) for factor, _ in QQ.factor(common) if factor.degree == 1) if common.degree > 0 else ()
+    factors = QQ.factor(common) if common.degree > 0 else []
+    roots = (QQ.rational_value(-factor[0]) for factor, _ in factors if factor.degree == 1)
     return [root for root in roots if root is not None]
-
-
-def rational(constant: Poly) -> Fraction | None:
-    """A constant as a rational number, or None."""
-    return constant.field.rational_value(constant)

@@ -17,9 +17,15 @@ from math import floor
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import to_fraction
 from kovacic.parametric.formulas import Notation, root_written
-from kovacic.parametric.functions import degrees, irreducible_factors, numerator, over_parameters, powers_of
+from kovacic.parametric.functions import (
+    constant_term,
+    degrees,
+    irreducible_factors,
+    numerator,
+    over_parameters,
+    powers_of,
+)
 from kovacic.reading.given import ENERGY
 
 #: Characters of a spectrum that is given beside two square roots; and by how many it may be longer than one square root.
@@ -117,10 +123,10 @@ def integer_condition(equation: FunctionPoly, residues: Sequence[int], modulus: 
     if roots is None:
         return best.written(n) if best else ""
     mean, squares = roots
-    constant = floor(_constant_term(mean) / modulus) * modulus
+    constant = floor(constant_term(mean) / modulus) * modulus
     terms = [n.function(over_parameters(mean - constant))] if mean != constant else []
     terms += [root_written(square, latex=n.latex) for square in squares]
-    sum_of_roots = n.plus_minus.join(terms) + n.words(" is " + "".join(kind(residues, modulus)))
+    sum_of_roots = (r" \pm " if n.latex else " +- ").join(terms) + n.words(" is " + "".join(kind(residues, modulus)))
     if best is None:
         return sum_of_roots
     spectrum = best.written(n)
@@ -191,14 +197,14 @@ def _choices(
     if single:
         centered = f(RatFunc(N * modulus + center))
         yield _Spectrum(name, centered, _in_integers(N, u, centered(RatFunc(-N)) == centered))
-    if not single or _constant_term(center).denominator > 1 or u.common_denominator() > 1:
+    if not single or constant_term(center).denominator > 1 or u.common_denominator() > 1:
         form, what = over_parameters(N + center), " is " + "".join(kind(residues, modulus))
         yield _Spectrum(name, f(RatFunc(form)), lambda n: n.comma + n.function(form) + n.words(what))
 
 
 def _in_integers(N: Poly, u: FunctionPoly, even: bool) -> Words:
     """That n + u is an integer; where only n^2 matters: that n + u or n - u - 1 is a natural number."""
-    constant = _constant_term(u)
+    constant = constant_term(u)
     u = over_parameters(u - constant)
     forms = [over_parameters(N + u), over_parameters(N - u - 1)]
     if constant.denominator > 1:
@@ -244,8 +250,3 @@ def _roots(equation: FunctionPoly) -> tuple[FunctionPoly, list[Poly]] | None:
     factors = field.factor(field.poly([-s3, s2, -s1, 1]))
     squares = [-factor[0] for factor, multiplicity in factors for _ in range(multiplicity) if factor.degree == 1]
     return (mean, squares) if len(squares) == 3 else None
-
-
-def _constant_term(form: Poly) -> Fraction:
-    """The constant term of a Laurent series at 0."""
-    return to_fraction(form.rational_coefficients()[0]) if form else Fraction(0)
