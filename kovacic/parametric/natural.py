@@ -109,9 +109,10 @@ class Natural(Statement):
         """Decided by the engine where the exponents allow a natural number: `LimitExceeded` where that takes too long."""
         if not self.numbers_at(point):
             return False
-        structure = _structure_at(self.S, point)
-        primitive = structure is not None and structure.case == 3
-        return structure is self.structure or (primitive and self.structure.case == 3)
+        return self._is_shown_by(_structure_at(self.S, point))
+
+    def _is_shown_by(self, structure: Structure | None) -> bool:
+        return structure is self.structure or (structure is not None and structure.case == self.structure.case == 3)
 
     def _given(self, number: int) -> Iterator[tuple[FunctionPoly, Hypersurface, RatFunc]]:
         """Where the exponents give the number: a polynomial, its zeros, and S there."""
@@ -126,7 +127,7 @@ class Natural(Statement):
         for exponents, surface, S in self._given(number):
             zero, m, found = exponents - exponents, self.m, [RankConditions(complete=False)]
             if S.field == QQ:
-                exists = decide(S, Budget(), certify=False).structure is self.structure
+                exists = self._is_shown_by(decide(S, Budget(), certify=False).structure)
                 found = [RankConditions((zero,) if exists else ())]
             elif isinstance(S.num, FunctionPoly):
                 problem = analyse(S, Budget())

@@ -15,7 +15,7 @@ from typing import Any, Literal
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.decision import Decision, Status, Structure
 from kovacic.limits import check_time
-from kovacic.parametric.assumptions import Assumptions, Known
+from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
 from kovacic.parametric.exponents import PolynomialSolution
 from kovacic.parametric.functions import Point, irreducible_factors, over_parameters
 from kovacic.parametric.integers import Congruence
@@ -231,22 +231,24 @@ def without_empty(regions: Sequence[Condition]) -> list[Condition]:
         # Functions of more and of fewer parameters are the same if their texts are.
         parts = both(region.statement).parts
         said: set[Statement | str] = {p.text() if isinstance(p, Vanishes | Congruence) else p for p in parts}
-        charts = _charts(region.statement)
-        if not any(known <= said for known in seen) and not (
-            charts and all(any(_holds_on(known.statement, chart) for known in kept) for chart in charts)
-        ):
+        repeated = any(known <= said for known in seen)
+        charts = [] if repeated else _charts(region.statement)
+        if not repeated and not (charts and all(any(_holds_on(r.statement, *chart) for r in kept) for chart in charts)):
             seen.append(said)
             kept.append(region)
     return kept
 
 
-def _charts(statement: Statement) -> list[Point]:
-    """Values of the parameters that are all of those at which the statement holds, and maybe more; [] where none are known."""
+def _charts(statement: Statement) -> list[tuple[Point, Assumptions]]:
+    """Values that are all of those at which the statement holds, and maybe more, with what is known of their parameters.
+
+    They are functions of fewer parameters, or of one more, an integer k.  [] where none are known.
+    """
     functions = tuple(part.function for part in both(statement).parts if isinstance(part, Vanishes))
     if len(functions) > 1:
         chart = _common_zeros(functions)
-        return [] if chart is None else [chart]
-    charts: list[Point] = []
+        return [] if chart is None else [(chart, NOTHING_ASSUMED)]
+    charts: list[tuple[Point, Assumptions]] = []
     for part in _alternatives(statement):
         spectra = families(part.equation) if isinstance(part, Congruence) and part.form is None else []
         if not isinstance(part, Congruence) or not spectra:
@@ -259,7 +261,7 @@ def _charts(statement: Statement) -> list[Point]:
         for residue in part.residues:
             N = field.generator(k) * part.modulus + residue
             values = {n: field.generator(n) for n in names} | {name: above(N) / below(N)}
-            charts.append(Point(names, tuple(values.values()), field))
+            charts.append((Point(names, tuple(values.values()), field), Assumptions(((k, Known(("integer",))),))))
     return charts
 
 
@@ -279,17 +281,16 @@ def _common_zeros(functions: tuple[FunctionPoly, ...]) -> Point | None:
         return None
 
 
-def _holds_on(statement: Statement, chart: Point) -> bool:
-    """Is it provably true at all of these values, for every integer k that they contain?"""
+def _holds_on(statement: Statement, chart: Point, known: Assumptions) -> bool:
+    """Is it provably true at all of these values?"""
     if isinstance(statement, Both | Either):
-        return (all if isinstance(statement, Both) else any)(_holds_on(part, chart) for part in statement.parts)
+        return (all if isinstance(statement, Both) else any)(_holds_on(part, chart, known) for part in statement.parts)
     try:
         if isinstance(statement, Vanishes):
             return not chart.at(statement.function)
-        if not isinstance(statement, Congruence) or not isinstance(chart.field, FunctionField):
+        if not isinstance(statement, Congruence) or not known:
             return False
         equation = over_parameters(chart.at(statement.equation))
     except (ValueError, ZeroDivisionError):  # a function of other parameters, or not defined at these values
         return False
-    integer = Assumptions(tuple((name, Known(("integer",))) for name in chart.field.names if name not in chart.names))
-    return Congruence.make(equation, statement.residues, statement.modulus).decided(integer) is True
+    return Congruence.make(equation, statement.residues, statement.modulus).decided(known) is True

@@ -90,8 +90,7 @@ def generic_conditions(solution: Solution) -> GenericConditions:
     if field.ground == QQ or solution.assumed:
         return GenericConditions((), ())
     problem = analyse(solution.S, Budget())
-    above, below = solution.S.cleared()
-    changes = [irreducible_factors(_down(above.lc)), confluence(problem), _common_zeros(above, below)]
+    changes = [structure_changes(problem)]
     riccati, constants = solution.decision.riccati, solution.constants
     if riccati is not None:
         for polynomial in (riccati.P, riccati.D, *riccati.numerators):
