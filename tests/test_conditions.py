@@ -23,11 +23,13 @@ from kovacic.decision import Structure
 from kovacic.galois.group import Kind
 from kovacic.limits import Limits
 from kovacic.parametric.answer import Conditions
+from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import without_constant_pivots
-from kovacic.parametric.regions import Verdict
+from kovacic.parametric.regions import Condition, Verdict, without_empty
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.riemann import kimura
+from kovacic.parametric.statements import Statement, Vanishes, both
 from kovacic.views.text import render
 from tests.parametric_cases import FAMILIES, Family, hypergeometric, with_squares
 from tests.strategies import parametric_equations
@@ -808,6 +810,27 @@ def test_rational_curves(curve: str, values: tuple[int, int]) -> None:
     assert hypersurface(p**2 - q**4).curve is None
     assert hypersurface(p**2 - q).curve is None
     assert hypersurface(p**2 * q - q**3 * p).curve is None
+
+
+def test_what_earlier_regions_cover() -> None:
+    field = FunctionField(("p", "q", "r"))
+    p, q, r = map(field.generator, field.names)
+    N = field.poly([0, 1])
+
+    def root(equation: Any) -> Congruence:
+        return Congruence.make(equation, [0], 1)
+
+    def kept(*statements: Statement) -> list[int]:
+        regions = [Condition(statement, Verdict(None)) for statement in statements]
+        return [regions.index(region) for region in without_empty(regions)]
+
+    squares = root(N**2 - q)
+    assert kept(squares, root(4 * N**2 - q)) == [0]
+    assert kept(squares, root(N**2 - 4 * q), root(N**2 / 4 + N + 1 - q / 4)) == [0, 1]
+    # On the curve p^2 = q^3, q is the square of p/q, which needn't be an integer.
+    assert kept(squares, both(Vanishes(p**2 - q**3), Vanishes(r))) == [0, 1]
+    assert kept(Vanishes(p * q - r), both(Vanishes(p - 2), Vanishes(r - 2 * q))) == [0]
+    assert kept(Vanishes(p * q - r), both(Vanishes(p - 2), Vanishes(r - 3 * q))) == [0, 1]
 
 
 def test_natural_numbers_at_a_point() -> None:
