@@ -82,10 +82,11 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     with budget.watched():
         result = partition(lifted, Settings(budget, parsed.variable, only_theorems=max_degree is None))
     names = (parsed.variable, *parameters_of(lifted.field))
-    distinct = [
-        replace(region, statement=reduced(region.statement, constant).avoiding(names, constant.names))
-        for region in result.regions
-    ]
+    different: dict[str, Condition] = {}
+    for region in result.regions:
+        statement = reduced(region.statement, constant).avoiding(names, constant.names)
+        different.setdefault(statement.text(), replace(region, statement=statement))
+    distinct = [*different.values()]
     with budget.watched(), suppress(LimitExceeded):
         distinct = without_empty(distinct)
     generic, complete, regions = result.generic, result.complete, list[Condition]()

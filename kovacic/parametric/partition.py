@@ -226,8 +226,9 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
                 verdict = replace(verdict, family=str(group_of(S, decision)))
     if field.ground != QQ and complete is not True:
         verdict = replace(verdict, known=False)
-    elsewhere = {Vanishes(factor).text() for factor in surface.leading}
-    special = [region for region in inner.regions if both(region.statement).parts[0].text() not in elsewhere]
+    elsewhere = {str(factor) for factor in surface.leading}  # as texts: of fewer parameters, maybe
+    firsts = ((region, both(region.statement).parts[0]) for region in inner.regions)
+    special = [r for r, first in firsts if not (isinstance(first, Vanishes) and str(first.function) in elsewhere)]
     if surface.curve:
         omega = None
         special = [

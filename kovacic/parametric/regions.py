@@ -225,18 +225,25 @@ def _alternatives(statement: Statement) -> Sequence[Statement]:
 def without_empty(regions: Sequence[Condition]) -> list[Condition]:
     """The regions without those that earlier ones cover, for example because they say the same and more."""
     kept: list[Condition] = []
-    seen: list[set[Statement | str]] = []
+    seen: list[set[Any]] = []
     for region in regions:
         check_time()
-        # Functions of more and of fewer parameters are the same if their texts are.
-        parts = both(region.statement).parts
-        said: set[Statement | str] = {p.text() if isinstance(p, Vanishes | Congruence) else p for p in parts}
+        said = {_key(part) for part in both(region.statement).parts}
         repeated = any(known <= said for known in seen)
         charts = [] if repeated else _charts(region.statement)
         if not repeated and not (charts and all(any(_holds_on(r.statement, *chart) for r in kept) for chart in charts)):
             seen.append(said)
             kept.append(region)
     return kept
+
+
+def _key(statement: Statement) -> Any:
+    """The same for the same statements, also about functions of more and of fewer parameters."""
+    if isinstance(statement, Vanishes):
+        return str(statement.function)
+    if isinstance(statement, Congruence):
+        return str(statement.equation), statement.residues, statement.modulus
+    return statement
 
 
 def _charts(statement: Statement) -> list[tuple[Point, Assumptions]]:

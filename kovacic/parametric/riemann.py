@@ -155,10 +155,14 @@ def is_fuchsian(problem: Problem) -> bool:
     return all(place.kind in (Kind.ORDINARY, Kind.REGULAR) for place in problem.places)
 
 
+def singular_points(problem: Problem) -> int:
+    """How many there are on the sphere."""
+    return sum(place.degree for place in problem.places if place.kind is not Kind.ORDINARY)
+
+
 def applies(problem: Problem) -> bool:
     """At most three singular points on the sphere, all of them regular."""
-    points = sum(place.degree for place in problem.places if place.kind is not Kind.ORDINARY)
-    return points <= 3 and is_fuchsian(problem)
+    return singular_points(problem) <= 3 and is_fuchsian(problem)
 
 
 def squares_of_differences(problem: Problem) -> FunctionPoly:
@@ -221,7 +225,7 @@ def group(problem: Problem, structure: Structure) -> str | None:
 
 def structures(problem: Problem) -> Iterator[tuple[Structure, Literal[True] | list[Statement]]]:
     """Each structure with the statements that say when the group has it and none of those before; True: always."""
-    if sum(place.degree for place in problem.places if place.kind is not Kind.ORDINARY) <= 2:
+    if singular_points(problem) <= 2:
         yield Structure.REDUCIBLE, True
         return
     cubic = squares_of_differences(problem)

@@ -286,7 +286,8 @@ def laguerre_solutions(form: Confluent, variable: str, _: int | None = None) -> 
 
 def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     """The theorem, where s^2 S is b + r z + q z^2; where it is b + q s^(2n), 2n is the order of the symmetry."""
-    for coordinate, num, den in () if riemann.is_fuchsian(problem) else symmetries(problem, variable):
+    is_possible = riemann.singular_points(problem) <= 2 and not riemann.is_fuchsian(problem)
+    for coordinate, num, den in symmetries(problem, variable) if is_possible else ():
         if den.degree == 0 < num.degree <= 2:
             b, r, q = (num[k] / den[0] for k in range(3))
             if not q and coordinate.n % 2 == 0:
