@@ -24,13 +24,23 @@ settings.register_profile("dev", deadline=None, suppress_health_check=SLOW)
 settings.register_profile("fuzz", deadline=None, database=None, suppress_health_check=SLOW, print_blob=True)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 
-#: The modules of `pytest -m quick`: arithmetic, the readers, the engine on published equations, closed forms.
+#: The modules of `pytest -m quick`, with the examples in the docstrings of every room: arithmetic, the readers, the engine on
+#: published equations, groups, closed forms, values with bounds, parameters, JSON, the commands' examples.
 QUICK = {
     "test_algebra",
     "test_bad_primes",
     "test_cases",
+    "test_enclosure_constants",
+    "test_enclosure_defect",
+    "test_enclosure_plot",
     "test_equation",
+    "test_galois",
+    "test_help",
+    "test_invariants",
+    "test_json",
+    "test_parameters",
     "test_parser",
+    "test_public_names",
     "test_readme",
     "test_textbook_equations",
     "test_written_solutions",
@@ -52,7 +62,8 @@ def pytest_collection_finish() -> None:
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
-        if item.path.stem in QUICK and item.get_closest_marker("slow") is None:
+        named = item.path.stem in QUICK or isinstance(item, pytest.DoctestItem)
+        if named and item.get_closest_marker("slow") is None:
             item.add_marker(pytest.mark.quick)
 
 

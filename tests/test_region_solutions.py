@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -100,7 +101,10 @@ def test_the_quartic_has_the_solutions_of_its_paper() -> None:
     [
         (pulled_back(2, "p", "q", "r"), {"p": R(1, 3), "q": R(1, 5), "r": R(53, 15)}),
         (pulled_back(3, "p", "q", "r"), {"p": R(1, 3), "q": R(1, 5), "r": R(53, 15)}),
-        (moved(pulled_back(2, "p", "q", "r"), "(2*x + 1)/(x - 3)"), {"p": R(1, 3), "q": R(1, 5), "r": R(53, 15)}),
+        (
+            lambda: moved(pulled_back(2, "p", "q", "r"), "(2*x + 1)/(x - 3)"),
+            {"p": R(1, 3), "q": R(1, 5), "r": R(53, 15)},
+        ),
         # exponent differences m at the conjugate points, n at infinity
         ("-(1-m^2)*(2*x^2+4)/(4*(x^2-2)^2) - (2*m^2-n^2-1)/(4*(x^2-2))", {"m": R(1, 3), "n": R(17, 3)}),
         ("-(1-m^2)*(2*x^2-6)/(4*(x^2+3)^2) - (2*m^2-n^2-1)/(4*(x^2+3))", {"m": R(1, 3), "n": R(17, 3)}),
@@ -111,8 +115,8 @@ def test_the_quartic_has_the_solutions_of_its_paper() -> None:
         ),
     ],
 )
-def test_quotients_and_conjugate_poles_have_solutions(S: str, values: dict[str, Any]) -> None:
-    test_every_solution_with_a_natural_degree_solves_the_equation(S, values)
+def test_quotients_and_conjugate_poles_have_solutions(S: str | Callable[[], str], values: dict[str, Any]) -> None:
+    test_every_solution_with_a_natural_degree_solves_the_equation(S if isinstance(S, str) else S(), values)
 
 
 @pytest.mark.parametrize(
