@@ -12,10 +12,11 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import NoInvariant
 from kovacic.engine.expansion import polynomial_invariant
-from kovacic.engine.invariants import bounds, invariants, invariants_modulo
+from kovacic.engine.invariants import bounds, invariants, invariants_modulo, least_valuation
 from kovacic.engine.places import analyse
 from kovacic.engine.riccati import Form, hessian, jacobian
 from kovacic.limits import Budget
+from kovacic.verify import local as kernel
 
 X = RatFunc(QQ.poly([0, 1]))
 HALF, THIRD = Fraction(1, 2), Fraction(1, 3)
@@ -24,12 +25,10 @@ SCHWARZ = {6: (HALF, THIRD, THIRD), 8: (HALF, THIRD, Fraction(1, 4)), 12: (HALF,
 
 @pytest.mark.parametrize("m", SCHWARZ)
 @pytest.mark.parametrize("shift", [0, 2, 6])
-@pytest.mark.parametrize("moved", [False, True])
-def test_lifting_by_primes_and_by_the_recurrence_agree(m: int, shift: int, moved: bool) -> None:
+@pytest.mark.parametrize("moved", [(1, 0, 0, 1), (1, 2, 0, 1), (2, 3, 1, 1)])
+def test_lifting_by_primes_and_by_the_recurrence_agree(m: int, shift: int, moved: tuple[int, int, int, int]) -> None:
     first, *others = SCHWARZ[m]
-    S = transform.hypergeometric(first + shift, *others)
-    if moved:
-        S = transform.moebius(S, 2, 3, 1, 1)
+    S = transform.moebius(transform.hypergeometric(first + shift, *others), *moved)
     problem = analyse(S, Budget())
     bound = bounds(problem, m)
     found = invariants(problem, m)
@@ -41,6 +40,15 @@ def test_lifting_by_primes_and_by_the_recurrence_agree(m: int, shift: int, moved
     images = [invariants_modulo(h, problem, m, bound, 6) for h, _ in zip(QQ.homomorphisms(), range(3), strict=False)]
     for h, (space, _) in zip(QQ.homomorphisms(), images, strict=False):
         assert space == [h(found[0].P)]
+
+
+@pytest.mark.parametrize("k", range(3, 10))
+@pytest.mark.parametrize("m", [2, 4, 6, 8, 12])
+def test_valuations_at_irregular_places_in_the_search_and_the_kernel(k: int, m: int) -> None:
+    """There y1 y2 has the valuation k/2, and only its powers can be rational: m k/4, if that is an integer."""
+    S = 1 / X**k + 1
+    (pole, _), point = analyse(S, Budget()).places, kernel.points(S, Budget())[0]
+    assert least_valuation(pole, m) == kernel.least_valuation(point, m) == (None if m * k % 4 else m * k // 4)
 
 
 def test_a_larger_margin_and_another_prime_give_the_same_dimension() -> None:

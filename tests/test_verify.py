@@ -259,6 +259,7 @@ def test_an_order_on_a_curve_of_positive_genus_needs_its_form() -> None:
         assert not verify(S, answer.decision, replace(group.claim, form=form))
     for n in (1, 2, 4, 6):
         assert not verify(S, answer.decision, replace(group.claim, n=n))
+    assert not verify(S, answer.decision, replace(group.claim, family="infinite dihedral"))
     for k in (2, 3, 4):  # a power of the form, which a smaller order explains
         higher = SemiInvariant(6 * k, k * group.form.theta, group.form.P**k)
         assert not verify(S, answer.decision, GroupClaim("dicyclic", 3 * k, higher))
