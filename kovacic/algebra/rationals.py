@@ -22,8 +22,8 @@ from kovacic.limits import check_duration, check_time, watched_seconds
 _EUCLID_DEGREE = 16
 #: Numbers up to this size are printed faster as Python's integers.
 _LONG_BITS = 1000
-#: Above this degree it is tried first whether a polynomial to be factored is a square: gcds with derivatives are slow.
-_ROOT_DEGREE = 50
+#: Above this degree it is tried first whether a polynomial to be factored is a power: gcds with derivatives are slow.
+_ROOT_DEGREE = 100
 #: Above this degree polynomials are factored in a process that can be stopped.
 _LONG_DEGREE = 400
 #: Integers up to this size are factored, to write sqrt(8) as 2*sqrt(2); of larger ones factors of so many bits are found.
@@ -306,13 +306,30 @@ class RationalField(Field):
 
 
 def _factored(polynomial: Any) -> list[tuple[Any, int]]:
-    power = 1
-    try:
-        while polynomial.degree() > _ROOT_DEGREE:
-            polynomial, power = polynomial.sqrt(), 2 * power
-    except DomainError:
-        pass
-    return [(factor, power * k) for factor, k in polynomial.factor()[1]]
+    """The factors; of a power of a squarefree polynomial, as which a prime shows it, those of its root."""
+    degree = polynomial.degree()
+    if degree > _ROOT_DEGREE and (image := nmod_poly(polynomial, next(primes()))).degree() == degree:
+        radical = image // image.gcd(image.derivative())
+        n, rest = divmod(degree, radical.degree())
+        leading = int(image.leading_coefficient())  # of the radical, too
+        if n > 1 and not rest and image * pow(leading, n - 1, image.modulus()) == radical**n:
+            root = _root(fmpq_poly(polynomial, polynomial.leading_coefficient()), n)
+            if root is not None:
+                return [(factor, n * k) for factor, k in root.numer().factor()[1]]
+    return polynomial.factor()[1]  # type: ignore[no-any-return]
+
+
+def _root(power: Any, n: int) -> Any:
+    """The monic r with r^n = power, from the leading coefficients by Newton's iteration for 1/r; None without one."""
+    size = power.degree() // n + 1
+    top = fmpq_poly(power.coeffs()[: -size - 1 : -1])
+    inverse, known = fmpq_poly([1]), 1
+    while known < size:
+        known = min(2 * known, size)
+        inverse += inverse.mul_low(1 - top.mul_low(inverse.pow_trunc(n, known), known), known) / n
+    series = top.mul_low(inverse.pow_trunc(n - 1, size), size)
+    root = fmpq_poly([series[size - 1 - i] for i in range(size)])
+    return root if root**n == power else None
 
 
 def _factored_apart(polynomial: Any) -> list[tuple[Any, int]]:

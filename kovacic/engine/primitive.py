@@ -30,14 +30,6 @@ def decide(problem: Problem, structure: Structure) -> Outcome:
     return Found(structure, partial(_FORMS[structure], problem, found[0]), found[0])
 
 
-def _icosahedral(problem: Problem, F: Form) -> Form:
-    return normalised(F, problem)
-
-
-def _octahedral(problem: Problem, F: Form) -> Form:
-    return root(hessian(F, problem), 2, problem)
-
-
 def _tetrahedral(problem: Problem, F: Form) -> Form:
     """The cube root of T + sqrt(b) F^2 for F = F6.
 
@@ -59,6 +51,6 @@ def _tetrahedral(problem: Problem, F: Form) -> Form:
 
 _FORMS = {
     Structure.TETRAHEDRAL: _tetrahedral,
-    Structure.OCTAHEDRAL: _octahedral,
-    Structure.ICOSAHEDRAL: _icosahedral,
+    Structure.OCTAHEDRAL: lambda problem, F: root(hessian(F, problem), 2, problem),
+    Structure.ICOSAHEDRAL: lambda problem, F: normalised(F, problem),
 }
