@@ -34,7 +34,7 @@ class Structure(Enum):
     @property
     def case(self) -> int:
         """Kovacic's case."""
-        return {"reducible": 1, "imprimitive": 2}.get(self.value, 3)
+        return {"reducible": 1, "imprimitive": 2}.get(self._value_, 3)
 
 
 class Rule(Enum):

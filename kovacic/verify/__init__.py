@@ -21,6 +21,7 @@ from kovacic.verify.identity import form_numerators, is_power, is_rational
 
 #: The structures in the order of the proof, with the degree of omega.
 _OMEGA_DEGREE = dict(zip(Structure, (1, 2, 4, 6, 12), strict=True))
+_EXCLUDED = {structure: f"the Galois group isn't {structure.value} (case {structure.case})" for structure in Structure}
 
 
 @dataclass(frozen=True)
@@ -69,9 +70,8 @@ def verify(
     if claimed != required:
         checks.append(Check("the structures before the answer's are excluded, each once", False))
     for exclusion in decision.exclusions:
-        excluded = exclusion.structure
-        passed = inspector.excludes(excluded, exclusion.evidence)
-        checks.append(Check(f"the Galois group isn't {excluded.value} (case {excluded.case})", passed))
+        passed = inspector.excludes(exclusion.structure, exclusion.evidence)
+        checks.append(Check(_EXCLUDED[exclusion.structure], passed))
     if group is None or not all(check.passed for check in checks):
         return Verification(tuple(checks))
     from kovacic.verify.group import group_holds  # which a decision alone doesn't need
