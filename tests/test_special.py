@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -370,7 +371,7 @@ def test_beside_a_long_formula_there_is_a_short_one() -> None:
     """Hermite's polynomial of degree 60, and closed forms in radicals of 900 characters."""
     long = kovacic.solve("x^2 - 121")
     lines = [*solution_lines(long)]
-    assert "shorter, another pair in special functions:" in lines
+    assert "shorter, in special functions:" in lines
     assert lines[-2:] == [
         "  y1 = exp(-x^2/2)*hyper((-30,), (1/2,), x^2)",
         "  y2 = x*exp(-x^2/2)*hyper((-59/2,), (3/2,), x^2)",
@@ -381,22 +382,33 @@ def test_beside_a_long_formula_there_is_a_short_one() -> None:
 
 
 def test_every_view_offers_the_short_one(capsys: pytest.CaptureFixture[str]) -> None:
-    """`solve`, `explain` and the command dsolve have the same two formulas; not where values are given."""
-    said, first = "horter, another pair in special functions:", "y1 = exp(-x^2/2)*hyper((-30,), (1/2,), x^2)"
+    """`solve`, `explain`, LaTeX, and `dsolve` with values and right-hand sides too."""
+    said, first = "horter, in special functions:", "y1 = exp(-x^2/2)*hyper((-30,), (1/2,), x^2)"
     long = kovacic.solve("x^2 - 121")
     explained = long.explain()
     assert said in explained
     assert first in explained
-    assert said not in kovacic.solve("x^2 - 7").explain()
-    assert main.run(["dsolve", "y'' = (x^2 - 121)*y"]) == 0
-    assert f"s{said}\n  {first}\n  y2 = " in capsys.readouterr().out
-    for arguments in (
-        ["y'' = (x^2 - 7)*y"],
-        ["y'' = (x^2 - 121)*y", "--ics", "y(0)=0, y'(0)=1"],
-        ["y'' = (x^2 - 121)*y + 1"],
-    ):
-        assert main.run(["dsolve", *arguments]) == 0
-        assert said not in capsys.readouterr().out
+    assert said in long._repr_latex_()
+    for short in (kovacic.solve("x^2 - 7"), kovacic.solve("x^2 + 3")):
+        assert said not in short.explain()
+        assert said not in short._repr_latex_()
+    even, odd = "exp(-x^2/2)*hyper((-30,), (1/2,), x^2)", "x*exp(-x^2/2)*hyper((-59/2,), (3/2,), x^2)"
+    for arguments, solution in {
+        ("y'' = (x^2 - 121)*y",): "(C1*hyper((-30,), (1/2,), x^2) + C2*x*hyper((-59/2,), (3/2,), x^2))*exp(-x^2/2)",
+        ("y'' = (x^2 - 121)*y", "--ics", "y(0)=0, y'(0)=1"): odd,
+        ("y'' = (x^2 - 121)*y", "--ics", "y(0)=2, y'(0)=0"): f"2*{even}",
+    }.items():
+        for name in ("dsolve", "solve"):
+            if name == "dsolve" or len(arguments) > 1:
+                assert main.run([name, *arguments]) == 0
+                printed = re.sub(r"\n +", "\n", capsys.readouterr().out)
+                assert f"s{said}\ny(x) = {solution}\n" in printed
+        assert main.run(["dsolve", "--latex", *arguments]) == 0
+        assert "{}_{1}F_{1}" in capsys.readouterr().out.splitlines()[-1]
+    assert main.run(["dsolve", "y'' = (x^2 - 121)*y + 1"]) == 0
+    assert said in capsys.readouterr().out
+    assert main.run(["dsolve", "y'' = (x^2 - 7)*y"]) == 0
+    assert said not in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("name", ["hermite", "legendre", "laguerre"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from typing import Any
 
 import click
@@ -28,14 +29,11 @@ def command(equation: str, latex: bool, ics: str, **given: Any) -> int:
     kovacic dsolve "y'' - 2*x*y' + 2*y = 0" --ics "y(0)=0, y'(0)=5"
     """
     from kovacic.decision import Status
-    from kovacic.general_solution import dsolve
     from kovacic.solution import solve
-    from kovacic.views.formula import caret
-    from kovacic.views.sentences import SCREEN
-    from kovacic.views.text import shorter_lines
 
     try:
-        found = dsolve(equation, ics=ics, **given)
+        for line in general_lines(equation, latex=latex, ics=ics, **given):
+            print(line if latex else fitted(line))
     except NotImplementedError as reason:
         answer = solve(equation, **given)
         if answer.status is Status.NONE_EXISTS and not answer.special:
@@ -43,14 +41,22 @@ def command(equation: str, latex: bool, ics: str, **given: Any) -> int:
             return DECIDED
         print(f"kovacic: {reason}", file=sys.stderr)
         return UNDECIDED
-    if latex:
-        from sympy import latex as formula
-
-        print(formula(found))
-    else:
-        text = caret(str(found.rhs))
-        print(fitted(f"{found.lhs} = {text}"))
-        if not ics and len(text) > SCREEN:
-            for line in shorter_lines(solve(equation, **given), len(text)):
-                print(fitted(line))
     return DECIDED
+
+
+def general_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iterator[str]:
+    """What `dsolve` finds; beside formulas of many lines a shorter one in special functions, if one is known."""
+    from kovacic.general_solution import dsolve, in_special_functions
+    from kovacic.views.formula import caret
+    from kovacic.views.sentences import SHORTER
+
+    found = dsolve(equation, **given)
+    shorter = in_special_functions(found, equation, **given)
+    for k, solution in enumerate([found] if shorter is None else [found, shorter]):
+        if latex:
+            from sympy import latex as formula
+
+            yield from (r"\text{" + SHORTER + "}", formula(solution)) if k else (formula(solution),)
+        else:
+            yield from (SHORTER,) if k else ()
+            yield f"{'  ' if k else ''}{solution.lhs} = {caret(str(solution.rhs))}"

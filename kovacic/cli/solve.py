@@ -68,26 +68,25 @@ def command(
         if explain:
             return (fitted(answer.explain().rstrip("\n")),)
         homogeneous = answer.equation is None or answer.equation.is_homogeneous
-        solutions = solution_lines(answer) if homogeneous and not ics else general_lines(answer, ics)
+        solutions = solution_lines(answer) if homogeneous and not ics else _general_lines(answer, ics)
         return map(fitted, render(answer, style=styled, solutions=None if no_solutions else solutions))
 
     return answer_each(equations, show, gap="" if as_json or latex else "\n", **given)
 
 
-def general_lines(answer: Solution, values: str) -> Iterator[str]:
+def _general_lines(answer: Solution, values: str) -> Iterator[str]:
     """The general solution, or that with the initial values; why not; no line for an undecided equation."""
     if answer.status == "undecided":
         return
-    from kovacic.general_solution import dsolve
+    from kovacic.cli.dsolve import general_lines
     from kovacic.reading.given import Equation
-    from kovacic.views.formula import caret, shortened
+    from kovacic.views.formula import shortened
 
     zero = answer.S * 0
     normal = Equation(zero + 1, zero, -answer.S, zero, variable=answer.variable)
+    equation = answer.text if answer.change else answer.equation or normal
     try:
-        found = dsolve(answer.text if answer.change else answer.equation or normal, ics=values, limits=answer.limits)
+        yield from map(shortened, general_lines(equation, ics=values, limits=answer.limits))
     except NotImplementedError as reason:
         nothing = answer.case is None and not answer.special
         yield str(answer.special) if nothing else f"the solution wasn't written out: {reason}"
-    else:
-        yield f"{found.lhs} = {shortened(caret(str(found.rhs)))}"

@@ -6,7 +6,7 @@ a process of their own.  `initial_values` determine the constants, for solutions
 `riccati` has the solutions of Riccati equations.
 """
 
-from kovacic.general_solution.dsolve import dsolve
+from kovacic.general_solution.dsolve import dsolve, in_special_functions
 from kovacic.general_solution.riccati import RiccatiSolutions, solve_riccati
 
-__all__ = ["RiccatiSolutions", "dsolve", "solve_riccati"]
+__all__ = ["RiccatiSolutions", "dsolve", "in_special_functions", "solve_riccati"]

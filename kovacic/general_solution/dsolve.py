@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from itertools import islice
 from typing import Any
 from warnings import warn
 
 import sympy
+from flint import acb, ctx
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
 from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import at_edges, solutions
+from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import KleinForm
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, NotRational
@@ -30,6 +34,7 @@ from kovacic.reading.given import Equation, Parsed, parameters_of
 from kovacic.reading.source import read_source, source_of
 from kovacic.solution import Solution, solve
 from kovacic.special.answer import special_functions
+from kovacic.views.sentences import SCREEN
 
 
 def dsolve(
@@ -64,6 +69,32 @@ def dsolve(
     >>> print(dsolve("y'' + y = 0", ics="y(0)=0, y(pi/2)=3"))
     Eq(y(x), 3*sin(x))
     """
+    return _general(eq, func, ics, var, limits)
+
+
+def in_special_functions(
+    found: Any,
+    eq: Any,
+    func: Any = None,
+    *,
+    ics: Mapping[Any, Any] | str | None = None,
+    var: str | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+) -> Any:
+    """What `dsolve` has `found`, in special functions: where that is more than a screen, and they take less than half of it.
+
+    None where they take more, or none are known.  Arguments as for `dsolve`.
+    """
+    length = len(str(found.rhs))
+    if length <= SCREEN:
+        return None
+    with suppress(NotImplementedError, InputError):
+        other = _general(eq, func, ics, var, limits, special=True)
+        return other if len(str(other.rhs)) < length / 2 else None
+    return None
+
+
+def _general(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits, *, special: bool = False) -> Any:
     budget = Budget(limits)
     with budget.watched():
         radical = _radical_of(eq)
@@ -74,34 +105,35 @@ def dsolve(
             eq = eq.subs(symbol, value)
         equation, function = _read_equation(eq, func, var, budget.limits)
         try:
-            found = _solved(eq, equation, function, values, budget)
+            found = _solved(eq, equation, function, values, budget, special=special)
         except LimitExceeded as limit:
             raise NotImplementedError(f"undecided: {limit}") from None
         return found if radical is None else found.subs(new, root)
 
 
-def _solved(eq: Any, equation: Equation, function: Any, ics: Mapping[Any, Any], budget: Budget) -> Any:
+def _solved(
+    eq: Any, equation: Equation, function: Any, ics: Mapping[Any, Any], budget: Budget, *, special: bool
+) -> Any:
     known = read_assumptions(None, eq, parameters_of(equation.S.field))
     solution = solve(equation, limits=budget.share(1).limits)
     if solution.status is Status.NONE_EXISTS and known.concerns_exponents:
         solution = solve(equation, assume=known.to_dict(), limits=budget.share(1).limits)
     symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
     given = read_values(ics, function, equation) if ics else ()
-    if solution.case is None:
+    if solution.case is None or special:
         own = {name: symbol for name, symbol in symbols.items() if name != solution.variable}
-        special = special_functions(solution.S, solution.gauge, solution.variable, budget, symbols=own)
-        if not special:
-            raise NotImplementedError(f"{no_solution(solution, known)}; {special}")
+        pair = special_functions(solution.S, solution.gauge, solution.variable, budget, symbols=own)
+        if not pair or (special and not _are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable))):
+            raise NotImplementedError(f"{no_solution(solution, known)}; {pair}")
         if solution.status is Status.UNDECIDED and not solution.known:
-            warn(f"whether there is a Liouvillian solution is {no_solution(solution)}", stacklevel=3)
-        y1, y2 = special
+            warn(f"whether there is a Liouvillian solution is {no_solution(solution)}", stacklevel=4)
+        y1, y2 = pair
     else:
         y1, y2 = form = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
         if isinstance(form.structure, KleinForm):
             poles = Atoms(form.variable).poly(form.structure.J.den)
             if any(poles.subs(form.variable, g.point).equals(0) for g in given):
-                pair = at_edges(form.structure, solution.S, solution.gauge, solution.variable)
-                y1, y2 = pair or (y1, y2)
+                y1, y2 = at_edges(form.structure, solution.S, solution.gauge, solution.variable) or (y1, y2)
     change = equation.change
     x = sympy.Symbol(equation.variable if change is None else change.variable)
     if change is not None:
@@ -132,6 +164,13 @@ def _solved(eq: Any, equation: Equation, function: Any, ics: Mapping[Any, Any], 
         plain: symbol for plain, symbol in own.items() if plain != symbol
     }  # what is replaced by itself is rebuilt
     return sympy.Eq(function, general.xreplace(changed) if changed else general, evaluate=False)
+
+
+def _are_independent(y1: Any, y2: Any, x: Any) -> bool:
+    """Is the Wronskian seen not to be zero at a point?"""
+    with ctx.workdps(DIGITS):
+        (u, du, _), (v, dv, _) = (jet(y, x, acb("0.37", "0.61")) for y in (y1, y2))
+        return not (u * dv - du * v).contains(0)
 
 
 def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str:

@@ -34,7 +34,7 @@ _SIMPLIFIED = 350
 #: Seconds for an integral in SymPy's rules, at most: these end in one, or hardly ever.
 SECONDS = 2.0
 #: Functions whose values at points aren't known in closed form.
-_UNKNOWN = (sympy.hyper, sympy.RootSum, sympy.Integral)
+_UNKNOWN = (sympy.RootSum, sympy.Integral)
 #: C1 with C2 and C1 C2' - C1' C2.
 _PAIRS: dict[Any, tuple[Any, Any]] = {
     sympy.airyai: (sympy.airybi, lambda z: 1 / sympy.pi),

@@ -8,7 +8,7 @@ from kovacic.decision import Status
 from kovacic.errors import LimitExceeded
 from kovacic.views.document import FORMATS, Sentence, Table
 from kovacic.views.formula import Math
-from kovacic.views.sentences import equation_of, normal_form, solutions_of
+from kovacic.views.sentences import SHORTER, equation_of, normal_form, shorter_pair, solutions_of
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
@@ -21,7 +21,10 @@ def latex_view(solution: Solution) -> str:
     """The equation and, where there are some, two solutions, between dollar signs."""
     words = {Status.NONE_EXISTS: r"\text{no Liouvillian solution}", Status.UNDECIDED: r"\text{undecided}"}
     found, _ = _solutions(solution)
+    shorter = shorter_pair(solution, max((len(value.text) for _, value in found), default=0))
     lines = [equation_of(solution).latex, *(f"{name.latex} = {value.latex}" for name, value in found)]
+    if shorter:
+        lines += [rf"\text{{{SHORTER}}}", *(f"{name.latex} = {value.latex}" for name, value in shorter)]
     if solution.status in words:
         lines.insert(1, words[solution.status])
     body = r" \\ ".join(lines)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 #: Characters; beside a longer formula another pair is offered.
 SCREEN = 600
 #: What is said before it.
-SHORTER = "shorter, another pair in special functions:"
+SHORTER = "shorter, in special functions:"
 
 
 def formulas_of(solution: Solution) -> Formulas:

@@ -109,16 +109,10 @@ def solution_lines(solution: Solution) -> Iterator[str]:
     name = unknown_of(solution)
     for k, text in enumerate(pair, start=1):
         yield f"{'  ' if solution.case is None else ''}{name}{k} = {shortened(text)}"
-    yield from shorter_lines(solution, max(map(len, pair), default=0))
-    yield from (f"note: {note}" for note in notes)
-
-
-def shorter_lines(solution: Solution, length: int) -> Iterator[str]:
-    """`shorter_pair` in lines, for a homogeneous equation."""
-    homogeneous = solution.equation is None or solution.equation.is_homogeneous
-    if homogeneous and (shorter := shorter_pair(solution, length)):
+    if shorter := shorter_pair(solution, max(map(len, pair), default=0)):
         yield SHORTER
         yield from (f"  {y.text} = {value.text}" for y, value in shorter)
+    yield from (f"note: {note}" for note in notes)
 
 
 def _written(solution: Solution) -> tuple[tuple[str, ...], tuple[str, ...]]:
