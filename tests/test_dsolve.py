@@ -28,7 +28,7 @@ from kovacic.general_solution import dsolve, solve_riccati
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import values_at, wronskian_at
-from kovacic.general_solution.variation import DefiniteIntegral
+from kovacic.general_solution.variation import Basis, DefiniteIntegral
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import read_expression
 
@@ -701,6 +701,54 @@ def test_values_as_one_text() -> None:
     for text in ("y(0)=1, y(0)=2", "y(0)", "=1"):
         with pytest.raises(kovacic.InputError, match="aren't initial values"):
             dsolve("y'' + y = 0", ics=text)
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("y'' + 5/2*y' + 6*y = 1/x", "y(-3/2)=1, y(1)=2"),
+        ("y'' - x*y = 1/x", "y(-1)=1, y(1)=1"),
+        ("y'' = 1/x^2", "y(-1)=0, y(1)=0"),
+        ("y'' = log(x)", "y(-1)=0, y(1)=0"),
+    ],
+)
+def test_values_on_both_sides_of_a_pole_on_the_right(text: str, values: str) -> None:
+    """Integrals from one to the other would diverge, and logarithms have other branches."""
+    with pytest.raises(kovacic.InputError, match="singular point"):
+        dsolve(text, ics=values)
+    one_side = values.replace("y(-1)", "y(2)").replace("y(-3/2)", "y(2)")
+    assert not dsolve(text, ics=one_side).rhs.has(sympy.nan, sympy.zoo)
+
+
+def test_integrals_of_a_step_begin_at_it() -> None:
+    found = dsolve("y'' + y = Heaviside(x-1)*exp(x^2)", ics="y(0)=0, y'(0)=1").rhs
+    integrals = found.atoms(sympy.Integral)
+    assert integrals
+    assert all(i.limits[0][1:] == (1, x) for i in integrals)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "(1-x^2)*y'' - 2*x*y' + 3/4*y = exp(x)",  # Legendre, DLMF 14.2.3
+        "y'' - 2*x*y' + (1 - 16/x^2)*y = 1/x",  # series at 0 with irrational exponents
+        "y'' = (x^2/4 + 1)*y + 1",  # 1F1 and its value at 0
+        "x*(1-x)*y'' + (1/2 - 3*x)*y' - 5/7*y = 1",
+    ],
+)
+def test_wronskians_of_special_functions(text: str) -> None:
+    """No Wronskian is written out under an integral; that of the two solutions is the one of the equation."""
+    equation = read_input(text).equation
+    assert equation is not None
+    found = dsolve(text).rhs
+    y1, y2 = (found.coeff(c) if found.coeff(c) != 0 else sympy.expand(found).coeff(c) for c in (C1, C2))
+    basis = Basis(y1, y2, x, equation)
+    direct = y1 * y2.diff(x) - y1.diff(x) * y2
+    point = Rational(2, 7)
+    assert abs(sympy.N((direct / basis.wronskian).subs(x, point) - 1, 30)) < 1e-20
+    functions = (sympy.hyper, sympy.legendre)
+    assert not basis.wronskian.has(*functions)
+    assert all(len(i.function.atoms(*functions)) == 1 for i in found.atoms(sympy.Integral))
 
 
 def test_printing_does_not_integrate_numerically() -> None:

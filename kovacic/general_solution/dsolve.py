@@ -22,7 +22,7 @@ from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.general_solution.antiderivatives import NUMBERS
 from kovacic.general_solution.initial_values import as_mapping, constants, read_values
 from kovacic.general_solution.particular import particular_solution, place_of
-from kovacic.general_solution.real_basis import check_one_side, real_basis, real_particular
+from kovacic.general_solution.real_basis import check_integrals, check_one_side, real_basis, real_particular
 from kovacic.general_solution.values import size
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
@@ -146,7 +146,10 @@ def _solved(
     basis = Basis(y1.xreplace(NUMBERS), y2.xreplace(NUMBERS), x, equation)
     particular = particular_solution(basis, given[0].point if given else None, budget)
     if given and change is None:
-        particular = real_particular(particular, equation, x, given[0].point)
+        points = [*dict.fromkeys(g.point for g in given)]
+        check_one_side((particular,), x, points)
+        check_integrals(particular, equation, x, points)
+        particular = real_particular(particular, equation, x, points[0])
     parts = (basis.y1, basis.y2, particular, *(part for g in given for part in (g.point, g.value)))
     taken = symbols.keys() | {symbol.name for e in parts for symbol in getattr(e, "free_symbols", ())}
     names = [*islice(sympy.numbered_symbols("C", start=1, exclude=map(sympy.Symbol, taken)), 2)]

@@ -60,7 +60,7 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
         found = _by_coefficients(equation, right, x)
         return basis.at_once(right) if found is None else found
 
-    def solved(right: Expr) -> Expr:
+    def solved(right: Expr, start: Expr | None) -> Expr:
         try:
             found = at_once(right)
         except LimitExceeded:
@@ -76,10 +76,10 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
 
     right = right / Atoms(x).ratio(equation.a).xreplace(NUMBERS)
     if right.has(sympy.DiracDelta, sympy.Heaviside):
-        found = _response(right, basis, solved)
+        found = _response(right, basis, start, solved)
         if found is not None:
             return found
-    return solved(right)
+    return solved(right, start)
 
 
 def _by_coefficients(equation: Equation, right: Expr, x: Expr) -> Expr:
@@ -125,10 +125,12 @@ def _polynomial_solution(equation: Equation, right: RatFunc) -> Poly | None:
     return None if found is None else sum((p * k for p, k in zip(powers, found, strict=True)), f * 0)
 
 
-def _response(right: Expr, basis: Basis, solved: Callable[[Expr], Expr]) -> Expr | None:
+def _response(
+    right: Expr, basis: Basis, start: Expr | None, solved: Callable[[Expr, Expr | None], Expr]
+) -> Expr | None:
     """A solution for a right-hand side with steps and impulses at constant points, None for one of another form.
 
-    `solved` gives a solution for a right-hand side without them.
+    `solved` gives a solution for a right-hand side without them, with integrals from a point on.
     """
     right, x = sympy.expand(right), basis.x
     plain, total = [], sympy.Integer(0)
@@ -146,13 +148,13 @@ def _response(right: Expr, basis: Basis, solved: Callable[[Expr], Expr]) -> Expr
         if wronskian.has(sympy.nan, sympy.zoo, sympy.oo) or wronskian == 0:
             return None
         impulse = jumps[0].func is DiracDelta
-        p = sympy.Integer(0) if impulse else solved(g)
+        p = sympy.Integer(0) if impulse else solved(g, a)
         value, rate = (0, -g.subs(x, a) / abs(slope)) if impulse else values_at(p, x, a)
         (u, du), (v, dv) = (values_at(y, x, a) for y in (basis.y1, basis.y2))
         first, second = (value * dv - rate * v) / wronskian, (rate * u - value * du) / wronskian
         total += Heaviside(x - a) * sympy.powsimp(p - tidy(first) * basis.y1 - tidy(second) * basis.y2)
     rest = sympy.Add(*plain)
-    return total + (solved(rest) if rest != 0 else 0)
+    return total + (solved(rest, start) if rest != 0 else 0)
 
 
 def place_of(jump: Expr, x: Expr) -> tuple[Expr, Expr] | None:

@@ -11,6 +11,7 @@ from typing import Any
 
 import sympy
 
+from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_numerical_solution
 from kovacic.errors import InputError
@@ -45,12 +46,25 @@ def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> 
     return y1, y2
 
 
-def check_one_side(pair: tuple[Expr, Expr], x: Expr, points: Sequence[Expr]) -> None:
+def check_one_side(solutions: Sequence[Expr], x: Expr, points: Sequence[Expr]) -> None:
     """Raises `ValueError` where a singular point lies between two of the points, so that no real solution joins them."""
-    sides = {frozenset(e for y in pair for e in _negative(y, x, p)) for p in points if p.is_real}
+    sides = {frozenset(e for y in solutions for e in _negative(y, x, p)) for p in points if p.is_real}
     if len(sides) > 1:
         said = ", ".join(map(str, points))
         raise InputError(f"a singular point of the equation lies between {said}: on each side the solutions are others")
+
+
+def check_integrals(y: Expr, equation: Equation, x: Expr, points: Sequence[Expr]) -> None:
+    """Raises `InputError` where an integral that is left would lead over a singular point of the equation."""
+    if len(points) < 2 or not y.has(sympy.Integral) or not all(p.is_real for p in points):
+        return
+    first, last = sympy.Min(*points), sympy.Max(*points)
+    for quotient in (equation.f / equation.a, equation.b / equation.a, equation.c / equation.a):
+        if quotient.den.degree > 0 and quotient.field == QQ:
+            for root in sympy.real_roots(Atoms(x).poly(quotient.den)):
+                if first < root < last:
+                    said = f"a singular point, {root}, lies between {', '.join(map(str, points))}"
+                    raise InputError(f"{said}: on each side the solutions are others")
 
 
 def real_particular(y: Expr, equation: Equation, x: Expr, point: Expr) -> Expr:

@@ -27,8 +27,8 @@ from kovacic.general_solution.values import size, wronskian_at
 from kovacic.reading.given import Equation
 
 Expr = Any  # SymPy publishes no types
-#: One point in each quadrant, where a solution is substituted: roots on the wrong branch don't pass.
-_POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79)]
+#: Points x/101 + i y/89 in each quadrant and on the axis, where a solution is substituted: wrong branches of roots don't pass.
+_POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79), (23, 0), (67, 0), (173, 0), (431, 0), (-41, 0), (-257, 0)]
 #: The largest expression (in subexpressions) that is handed to SymPy's general simplification.
 _SIMPLIFIED = 350
 #: Seconds for an integral in SymPy's rules, at most: these end in one, or hardly ever.
@@ -37,10 +37,14 @@ SECONDS = 2.0
 _UNKNOWN = (sympy.RootSum, sympy.Integral)
 #: C1 with C2 and C1 C2' - C1' C2.
 _PAIRS: dict[Any, tuple[Any, Any]] = {
-    sympy.airyai: (sympy.airybi, lambda z: 1 / sympy.pi),
-    sympy.besselj: (sympy.bessely, lambda z: 2 / (sympy.pi * z)),
-    sympy.besseli: (sympy.besselk, lambda z: -1 / z),
-    sympy.jn: (sympy.yn, lambda z: z**-2),
+    sympy.airyai: (sympy.airybi, lambda *args: 1 / sympy.pi),
+    sympy.besselj: (sympy.bessely, lambda nu, z: 2 / (sympy.pi * z)),
+    sympy.besseli: (sympy.besselk, lambda nu, z: -1 / z),
+    sympy.jn: (sympy.yn, lambda n, z: z**-2),
+    sympy.legendre: (
+        lambda nu, z: sympy.legendre(nu, -z),
+        lambda nu, z: 2 * sin(sympy.pi * nu) / (sympy.pi * (z**2 - 1)),
+    ),
 }
 
 
@@ -74,12 +78,37 @@ class Basis:
             return known
         if self.equation.change is None and not self.y1.has(*_UNKNOWN) and not self.y2.has(*_UNKNOWN):
             kernel = display(product(self.equation.gauge * 2), Atoms(self.x)).xreplace(NUMBERS)
-            for point in map(sympy.Integer, (0, 1, -1, 2)):
-                W = wronskian_at(self.y1, self.y2, self.x, point)
-                c = sympy.nan if W is None else sympy.expand(W / kernel.subs(self.x, point))
-                if c != 0 and c.is_finite is not False and not c.has(sympy.nan, sympy.zoo, sympy.Function):
-                    return sympy.radsimp(c) * kernel
+            for c in self._quotients(kernel):
+                known = c.is_finite is not False and not c.has(sympy.nan, sympy.zoo)
+                if c != 0 and known and {f.func for f in c.atoms(sympy.Function)} <= {sympy.gamma}:
+                    W = sympy.radsimp(sympy.gammasimp(c) if c.has(sympy.gamma) else c) * kernel
+                    if self._is_wronskian(W):
+                        return W
+                    break
         return self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2
+
+    def _is_wronskian(self, W: Expr) -> bool:
+        """Is the constant the same wherever roots have other branches?"""
+        powers = (p for e in (self.y1, self.y2) for p in e.atoms(sympy.Pow))
+        if not any(p.base.has(self.x) and not p.exp.is_Integer for p in powers):
+            return True
+        with ctx.workdps(2 * DIGITS), suppress(NotImplementedError):
+            for point in _points():
+                (u, du, _), (v, dv, _), (w, _, _) = (jet(e, self.x, point) for e in (self.y1, self.y2, W))
+                if not abs(u * dv - du * v - w) < arb(10) ** -DIGITS * (abs(u * dv) + abs(du * v)):
+                    return False
+            return True
+        return False
+
+    def _quotients(self, kernel: Expr) -> Iterator[Expr]:
+        """W/kernel at points, and at 0 from y ~ x^e for series in x."""
+        for point in map(sympy.Integer, (0, 1, -1, 2)):
+            W = wronskian_at(self.y1, self.y2, self.x, point)
+            yield sympy.nan if W is None else expand(W / kernel.subs(self.x, point))
+        series = [f for f in self.y1.atoms(sympy.hyper) | self.y2.atoms(sympy.hyper) if f.argument.subs(self.x, 0) == 0]
+        u, v = (y.xreplace(dict.fromkeys(series, sympy.Integer(1))) for y in (self.y1, self.y2))
+        if series and not u.has(sympy.hyper) and not v.has(sympy.hyper):
+            yield expand(expand(u * v.diff(self.x) - u.diff(self.x) * v) / kernel).subs(self.x, 0)
 
     def at_once(self, right: Expr) -> Expr | None:
         """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
@@ -101,7 +130,7 @@ class Basis:
         """A solution of y'' + ... = right; integrals that aren't done in time stay, and begin at `start` unless it is None."""
         integrands = [powsimp(y * right / self.wronskian) for y in (self.y2, self.y1)]
         known = [antiderivative(integrand, self.x) for integrand in integrands]
-        asked, limit = [k for k in (0, 1) if known[k] is None], min(seconds, SECONDS)
+        asked, limit = [k for k in (0, 1) if known[k] is None], min(seconds / 2, SECONDS)
         with ThreadPoolExecutor() as pool:  # two processes
             found = pool.map(lambda k: last_of(_stages, integrands[k], self.x, seconds=limit), asked)
             for k, stages in zip(asked, found, strict=True):
@@ -129,9 +158,9 @@ def _stages(integrand: Expr, x: Expr) -> Iterator[tuple[Expr, Expr | None]]:
 
 
 def special_wronskian(y1: Expr, y2: Expr, x: Expr) -> Expr | None:
-    """y1 y2' - y1' y2 for pairs P C1(z), P C2(z) of Airy or Bessel functions: P^2 z' (C1 C2' - C1' C2)(z); None for others.
+    """W for pairs P C1(z), P C2(z) of Airy, Bessel or Legendre functions: P^2 z' (C1 C2' - C1' C2)(z); None for others.
 
-    Reference: DLMF 9.2.7, 10.5.2, 10.28.2, 10.50.1.
+    Reference: DLMF 9.2.7, 10.5.2, 10.28.2, 10.50.1, 14.2.3.
 
     >>> x = sympy.Symbol("x")
     >>> print(special_wronskian(x * sympy.besselj(0, x**2), x * sympy.bessely(0, x**2), x))
@@ -145,14 +174,14 @@ def special_wronskian(y1: Expr, y2: Expr, x: Expr) -> Expr | None:
     P, z = y1 / function, function.args[-1]
     if P.has(*_PAIRS) or y2 / partner(*function.args) != P:
         return None
-    W = P**2 * z.diff(x) * value(z)
-    return sympy.cancel(W) if W.is_rational_function(x) else W
+    W = P**2 * z.diff(x) * value(*function.args)
+    return None if W == 0 else sympy.cancel(W) if W.is_rational_function(x) else W
 
 
 def _is_constant(quotient: Expr, x: Expr) -> bool:
     """Is it seen to be constant: not if its slope at a point isn't zero."""
     with suppress(NotImplementedError):
-        if quotient.has(x) and not jet(quotient, x, acb(arb(fmpq(*_POINTS[0])), 1))[1].contains(0):
+        if quotient.has(x) and not jet(quotient, x, next(_points()))[1].contains(0):
             return False
     return not powsimp(quotient).has(x)
 
@@ -171,12 +200,15 @@ def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
     return DefiniteIntegral(integrand.subs(x, s), (s, start, x))
 
 
+def _points() -> Iterator[Any]:
+    return (acb(arb(fmpq(real, 101)), arb(fmpq(imaginary, 89))) for real, imaginary in _POINTS)
+
+
 def is_solution(y: Expr, equation: Equation, right: Expr, x: Expr) -> bool:
-    """Does y satisfy y'' + (b/a) y' + (c/a) y = right at a point in each quadrant, to 50 digits?"""
+    """Does y satisfy y'' + (b/a) y' + (c/a) y = right at points in each quadrant and on the axis, to 50 digits?"""
     b, c = (Atoms(x).ratio(part / equation.a).xreplace(NUMBERS) for part in (equation.b, equation.c))
     with ctx.workdps(DIGITS + 15):
-        for real, imaginary in _POINTS:
-            point = acb(arb(fmpq(real, 101)), arb(fmpq(imaginary, 89)))
+        for point in _points():
             try:
                 (value, first, second), (force, p, q) = jet(y, x, point), (jet(e, x, point)[0] for e in (right, b, c))
             except NotImplementedError:
