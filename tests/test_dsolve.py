@@ -22,6 +22,7 @@ from hypothesis import strategies as st
 from sympy import I, Rational, cos, exp, sin, sqrt
 
 import kovacic
+from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.form import at_edges
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution import dsolve, solve_riccati
@@ -718,6 +719,29 @@ def test_values_on_both_sides_of_a_pole_on_the_right(text: str, values: str) -> 
         dsolve(text, ics=values)
     one_side = values.replace("y(-1)", "y(2)").replace("y(-3/2)", "y(2)")
     assert not dsolve(text, ics=one_side).rhs.has(sympy.nan, sympy.zoo)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x*(1-x)*y'' + (1/2 - 3*x)*y' - 5/7*y = exp(x)",
+        "x*(x-1)*y'' + 7/2*x*y' + y = exp(x)",
+        "x*(x-1)*y'' + (3/2 - 2*x)*y' + 2*y = sin(x)",
+    ],
+)
+def test_integrals_that_are_left_between_singular_points(text: str) -> None:
+    """Substituted with any antiderivatives: the Wronskian had another branch between 0 and 1, or beyond."""
+    equation = read_input(text).equation
+    assert equation is not None
+    a, b, c = (Atoms(x).ratio(e) for e in (equation.a, equation.b, equation.c))
+    part = dsolve(text).rhs.subs({C1: 0, C2: 0})
+    assert part.has(sympy.Integral)
+    for point in ("2/7", "-3/5", "9/4", "17/2", "4/5"):
+        with flint.ctx.workdps(40):
+            value = flint.acb(flint.arb(flint.fmpq(*map(int, point.split("/")))))
+            y0, y1, y2 = jet(part, x, value)
+            A, B, C, F = (jet(e, x, value)[0] for e in (a, b, c, sympy.sympify(equation.h)))
+            assert abs(A * y2 + B * y1 + C * y0 - F) < 1e-20 * abs(A * y2)
 
 
 def test_integrals_of_a_step_begin_at_it() -> None:

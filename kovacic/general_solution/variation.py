@@ -104,7 +104,8 @@ class Basis:
         """W/kernel at points, and at 0 from y ~ x^e for series in x."""
         for point in map(sympy.Integer, (0, 1, -1, 2)):
             W = wronskian_at(self.y1, self.y2, self.x, point)
-            yield sympy.nan if W is None else expand(W / kernel.subs(self.x, point))
+            c = sympy.nan if W is None else expand(W / kernel.subs(self.x, point))
+            yield expand(TR8(c)) if c.has(sin, cos) else c
         series = [f for f in self.y1.atoms(sympy.hyper) | self.y2.atoms(sympy.hyper) if f.argument.subs(self.x, 0) == 0]
         u, v = (y.xreplace(dict.fromkeys(series, sympy.Integer(1))) for y in (self.y1, self.y2))
         if series and not u.has(sympy.hyper) and not v.has(sympy.hyper):
@@ -138,6 +139,11 @@ class Basis:
         if None not in known and self.equation.change is None and (done := self._checked(known, right)) is not None:
             return done
         first, second = (_open(g, self.x, start) if G is None else G for g, G in zip(integrands, known, strict=True))
+        found = self.y2 * second - self.y1 * first
+        if self.equation.change is not None or is_solution(found, self.equation, right, self.x):
+            return found
+        W = self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2  # it holds wherever the solutions do
+        first, second = (_open(y * right / W, self.x, start) for y in (self.y2, self.y1))
         return self.y2 * second - self.y1 * first
 
 
