@@ -22,7 +22,7 @@ from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.general_solution.antiderivatives import NUMBERS
 from kovacic.general_solution.initial_values import as_mapping, constants, read_values
 from kovacic.general_solution.particular import particular_solution, place_of
-from kovacic.general_solution.real_basis import check_integrals, check_one_side, real_basis, real_particular
+from kovacic.general_solution.real_basis import check_integrals, check_one_side, poles_of, real_basis, real_particular
 from kovacic.general_solution.values import size
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
@@ -143,12 +143,13 @@ def _solved(
         places = [place[0] for place in (place_of(jump, x) for jump in jumps) if place is not None]
         check_one_side((y1, y2), x, [*dict.fromkeys([*(g.point for g in given), *places])])
         y1, y2 = real_basis(solution, y1, y2, x, given[0].point)
+    points = [*dict.fromkeys(g.point for g in given)]
+    poles = poles_of(equation, x) if len(points) > 1 and change is None else []
     basis = Basis(y1.xreplace(NUMBERS), y2.xreplace(NUMBERS), x, equation)
     particular = particular_solution(basis, given[0].point if given else None, budget)
     if given and change is None:
-        points = [*dict.fromkeys(g.point for g in given)]
         check_one_side((particular,), x, points)
-        check_integrals(particular, equation, x, points)
+        check_integrals(particular, poles, points)
         particular = real_particular(particular, equation, x, points[0])
     parts = (basis.y1, basis.y2, particular, *(part for g in given for part in (g.point, g.value)))
     taken = symbols.keys() | {symbol.name for e in parts for symbol in getattr(e, "free_symbols", ())}

@@ -16,7 +16,7 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_numerical_solution
 from kovacic.errors import InputError
 from kovacic.general_solution.values import size
-from kovacic.general_solution.variation import is_solution
+from kovacic.general_solution.variation import is_solution, rates
 from kovacic.reading.given import Equation
 from kovacic.solution import Solution
 
@@ -54,17 +54,21 @@ def check_one_side(solutions: Sequence[Expr], x: Expr, points: Sequence[Expr]) -
         raise InputError(f"a singular point of the equation lies between {said}: on each side the solutions are others")
 
 
-def check_integrals(y: Expr, equation: Equation, x: Expr, points: Sequence[Expr]) -> None:
+def poles_of(equation: Equation, x: Expr) -> list[Expr]:
+    """The real singular points, those of the right-hand side too, of an equation over Q."""
+    quotients = (part / equation.a for part in (equation.f, equation.b, equation.c))
+    polynomials = [q.den for q in quotients if q.den.degree > 0 and q.field == QQ]
+    return [root for p in polynomials for root in sympy.real_roots(Atoms(x).poly(p))]
+
+
+def check_integrals(y: Expr, poles: Sequence[Expr], points: Sequence[Expr]) -> None:
     """Raises `InputError` where an integral that is left would lead over a singular point of the equation."""
-    if len(points) < 2 or not y.has(sympy.Integral) or not all(p.is_real for p in points):
-        return
-    first, last = sympy.Min(*points), sympy.Max(*points)
-    for quotient in (equation.f / equation.a, equation.b / equation.a, equation.c / equation.a):
-        if quotient.den.degree > 0 and quotient.field == QQ:
-            for root in sympy.real_roots(Atoms(x).poly(quotient.den)):
-                if first < root < last:
-                    said = f"a singular point, {root}, lies between {', '.join(map(str, points))}"
-                    raise InputError(f"{said}: on each side the solutions are others")
+    if y.has(sympy.Integral) and all(p.is_real for p in points):
+        first, last = sympy.Min(*points), sympy.Max(*points)
+        for pole in poles:
+            if first < pole < last:
+                said = f"a singular point, {pole}, lies between {', '.join(map(str, points))}"
+                raise InputError(f"{said}: on each side the solutions are others")
 
 
 def real_particular(y: Expr, equation: Equation, x: Expr, point: Expr) -> Expr:
@@ -73,8 +77,9 @@ def real_particular(y: Expr, equation: Equation, x: Expr, point: Expr) -> Expr:
     if not negative or y.has(sympy.Integral, sympy.Heaviside):
         return y
     right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
+    coefficients = rates(equation, x)
     candidates = [y.xreplace({e: e.func(-u, *e.args[1:]) for e, u in negative.items()}), *_parts(y, point, x)[:1]]
-    return next((found for found in candidates if is_solution(found, equation, right, x)), y)
+    return next((found for found in candidates if is_solution(found, coefficients, right, x)), y)
 
 
 def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:

@@ -115,9 +115,11 @@ class Basis:
         """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
         right = prepared(right)
         parts = [antiderivative(y * right / self.wronskian, self.x) for y in (self.y2, self.y1)]
-        return None if parts[0] is None or parts[1] is None else self._checked(parts, right)
+        return (
+            None if parts[0] is None or parts[1] is None else self._checked(parts, right, rates(self.equation, self.x))
+        )
 
-    def _checked(self, parts: Sequence[Expr], right: Expr) -> Expr | None:
+    def _checked(self, parts: Sequence[Expr], right: Expr, coefficients: tuple[Expr, Expr]) -> Expr | None:
         whole = expand(self.y2 * parts[1] - self.y1 * parts[0])
         candidates = []
         for form in (whole, expand(TR8(whole))) if whole.has(sin, cos) else (whole,):  # TR8: products of waves as waves
@@ -125,10 +127,11 @@ class Basis:
             other = (e for e in terms if not any(_is_constant(e / y, self.x) for y in (self.y1, self.y2)))
             candidates.append(sympy.factor_terms(sympy.Add(*other)))
         found = min(candidates, key=size)
-        return found if is_solution(found, self.equation, right, self.x) else None
+        return found if is_solution(found, coefficients, right, self.x) else None
 
     def with_integrals(self, right: Expr, start: Expr | None, seconds: float) -> Expr:
         """A solution of y'' + ... = right; integrals that aren't done in time stay, and begin at `start` unless it is None."""
+        coefficients = rates(self.equation, self.x)  # while there is time
         integrands = [powsimp(y * right / self.wronskian) for y in (self.y2, self.y1)]
         known = [antiderivative(integrand, self.x) for integrand in integrands]
         asked, limit = [k for k in (0, 1) if known[k] is None], min(seconds / 2, SECONDS)
@@ -136,11 +139,15 @@ class Basis:
             found = pool.map(lambda k: last_of(_stages, integrands[k], self.x, seconds=limit), asked)
             for k, stages in zip(asked, found, strict=True):
                 integrands[k], known[k] = stages or (integrands[k], None)
-        if None not in known and self.equation.change is None and (done := self._checked(known, right)) is not None:
+        if (
+            None not in known
+            and self.equation.change is None
+            and (done := self._checked(known, right, coefficients)) is not None
+        ):
             return done
         first, second = (_open(g, self.x, start) if G is None else G for g, G in zip(integrands, known, strict=True))
         found = self.y2 * second - self.y1 * first
-        if self.equation.change is not None or is_solution(found, self.equation, right, self.x):
+        if self.equation.change is not None or is_solution(found, coefficients, right, self.x):
             return found
         W = self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2  # it holds wherever the solutions do
         first, second = (_open(y * right / W, self.x, start) for y in (self.y2, self.y1))
@@ -210,9 +217,15 @@ def _points() -> Iterator[Any]:
     return (acb(arb(fmpq(real, 101)), arb(fmpq(imaginary, 89))) for real, imaginary in _POINTS)
 
 
-def is_solution(y: Expr, equation: Equation, right: Expr, x: Expr) -> bool:
-    """Does y satisfy y'' + (b/a) y' + (c/a) y = right at points in each quadrant and on the axis, to 50 digits?"""
+def rates(equation: Equation, x: Expr) -> tuple[Expr, Expr]:
+    """b/a and c/a."""
     b, c = (Atoms(x).ratio(part / equation.a).xreplace(NUMBERS) for part in (equation.b, equation.c))
+    return b, c
+
+
+def is_solution(y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) -> bool:
+    """Does y satisfy y'' + (b/a) y' + (c/a) y = right at points in each quadrant and on the axis, to 50 digits?"""
+    b, c = coefficients
     with ctx.workdps(DIGITS + 15):
         for point in _points():
             try:
