@@ -31,17 +31,20 @@ from kovacic.enclosure.constants import Number
 from kovacic.enclosure.exponential import LogDerivative
 from kovacic.enclosure.matrices import Matrix, State, adjugate, fundamental, identity, inverse, multiply
 from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.problem import System, check_segment
+from kovacic.enclosure.problem import System, check_segment, distance_lower
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.special.answer import find
-from kovacic.special.pullback import Confluent, Gauss, Pullback
+from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 
 _BITS = 64  # in which the course of a leg is proven
 _POLES = 3  # the place of d among the polynomials
 _PIECES = 400  # into which a leg is cut for that, at most
-_DIGITS, _GAUSS_DIGITS = 20_000, 500  # up to which FLINT's functions cost less than Taylor steps
+#: Digits up to which FLINT's functions cost less than Taylor steps, once the pull-back is known, on a short way and on others.
+_NEAR: dict[type, int] = {Airy: 20_000, Confluent: 500, Gauss: 0}
+_FAR: dict[type, int] = {Airy: 20_000, Confluent: 20_000, Gauss: 5_000}
+_NOTHING_NEAR = 4  # what counts as the distance to singular points where there are none
 _DEGREE = 24  # of S, up to which a pull-back is sought
 _KNOWN = 16  # forms that are kept for other legs and calls
 _LARGEST = 1_000  # parameters of special functions up to which a call of FLINT, which can't be stopped, is short
@@ -78,11 +81,10 @@ class Classical:
 
     pullback: Pullback
 
-    def most_digits(self, start: Singular | Number) -> int:
-        """The digits up to which this is the cheaper way, as measured: more from a singular point."""
-        if not isinstance(self.pullback.equation, Gauss):
-            return _DIGITS
-        return _GAUSS_DIGITS * 10 if isinstance(start, Singular) else _GAUSS_DIGITS
+    def is_cheaper(self, digits: int, system: System, start: Singular | Number, targets: Sequence[Number]) -> bool:
+        """Do FLINT's functions cost less than Taylor steps, as measured?  On a short way a disc or two do the same."""
+        kind = type(self.pullback.equation)
+        return digits <= _NEAR[kind] or (digits <= _FAR[kind] and not is_short(system, start, targets))
 
     @cached_property
     def _known(self) -> dict[tuple[int, int], tuple[Form, Factors]]:
@@ -131,6 +133,14 @@ class Classical:
             raise NotServed
         rest = None if gauge is None else _without_pole(gauge, point.near)
         return Frobenius(point.near, (lower, upper), form, factors.without(x0), rest, needed)
+
+
+def is_short(system: System, start: Singular | Number, targets: Sequence[Number]) -> bool:
+    """Do a disc or two of Taylor's series reach all targets, which are within half the distance to the singular points?"""
+    if not isinstance(start, Point):
+        return False
+    near = distance_lower(system, start) or _NOTHING_NEAR
+    return all(isinstance(x, Point) and bool(abs(to_acb(x - start)) < near / 2) for x in targets)
 
 
 @lru_cache(maxsize=64)

@@ -8,7 +8,7 @@ from typing import Literal
 
 from flint import arb
 
-from kovacic.enclosure.classical import Classical, NotServed, classical_of
+from kovacic.enclosure.classical import Classical, NotServed, classical_of, is_short
 from kovacic.enclosure.closed_form import ClosedForm, closed_form_of
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.journey import Journey
@@ -16,7 +16,7 @@ from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.precision import METHODS, Evaluation, Method, check_digits, raise_precision
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.start import Start, read_start
+from kovacic.enclosure.start import read_start
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
@@ -27,6 +27,7 @@ _NO_CLOSED_FORM = (
     "and Gauss' equations over Q"
 )
 _TAYLOR = "method='taylor' treats every equation"
+_MANY_DIGITS = 100  # from which Taylor steps to a point take a millisecond
 _FEW = 8  # targets up to which a closed form costs less than the Taylor steps, which serve many at once
 
 
@@ -62,7 +63,7 @@ def evaluate_states(
     side = path if path in ("above", "below") else None
     journey = Journey(problem, start, vertices, targets, path == "chain", side)
     with budget.watched():
-        closed = _closed_form(problem, method, start, targets, digits)
+        closed = _closed_form(journey, method, digits)
         if closed is not None:
             try:
                 return raise_precision(replace(journey, closed=closed), "closed form", digits, budget)
@@ -87,18 +88,18 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
                 raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
 
 
-def _closed_form(
-    problem: NumericProblem, method: Method | None, start: Start, targets: Sequence[Number], digits: int
-) -> ClosedForm | Classical | None:
+def _closed_form(journey: Journey, method: Method | None, digits: int) -> ClosedForm | Classical | None:
     """The closed form, where it is asked for or the cheaper way by a rule that was measured
     (`benchmarks/enclosure_work_precision.py`).
 
     A closed form without quadrature costs about a millisecond whatever the distance, the digits and the solution's zeros, if
-    its polynomial has a moderate degree, and FLINT's functions cost less: less than the Taylor steps to a few points, or to
-    points beside the real axis.
+    its polynomial has a moderate degree: less than the Taylor steps to a few points.  FLINT's functions cost less, also for
+    many points beside the real axis; but a pull-back has to be found, once, in a millisecond or so: of an S that wasn't
+    decided before it isn't looked for where a Taylor step or two to a few digits do.
     """
     if method == "taylor":
         return None
+    problem, targets = journey.problem, journey.targets
     if problem.right is not None:
         if method is not None:
             raise InputError(
@@ -110,9 +111,14 @@ def _closed_form(
         closed = closed_form_of(problem)
         if closed is not None and (closed.is_elementary if method else closed.is_cheap):
             return closed
-    if method or few or not all(isinstance(target, Point) and target.is_real() for target in targets):
+    way = journey.start.place, (*journey.vertices, *targets)
+    if few:
+        sought = problem.decision is not None or digits >= _MANY_DIGITS or not is_short(problem.system, *way)
+    else:
+        sought = not all(isinstance(target, Point) and target.is_real() for target in targets)
+    if method or sought:
         classical = None if problem.S is None else classical_of(problem.S)
-        if classical is not None and (method or digits <= classical.most_digits(start.place)):
+        if classical is not None and (method or classical.is_cheaper(digits, problem.system, *way)):
             return classical
     if method is not None:
         raise InputError(_NO_CLOSED_FORM, hint=_TAYLOR)
