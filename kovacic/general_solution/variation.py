@@ -134,6 +134,7 @@ class Basis:
         coefficients = rates(self.equation, self.x)  # while there is time
         integrands = [powsimp(y * right / self.wronskian) for y in (self.y2, self.y1)]
         known = [antiderivative(integrand, self.x) for integrand in integrands]
+        plain, own = list(integrands), list(known)
         asked, limit = [k for k in (0, 1) if known[k] is None], min(seconds / 2, SECONDS)
         with ThreadPoolExecutor() as pool:  # two processes
             found = pool.map(lambda k: last_of(_stages, integrands[k], self.x, seconds=limit), asked)
@@ -142,16 +143,18 @@ class Basis:
         if (
             None not in known
             and self.equation.change is None
-            and (done := self._checked(known, right, coefficients)) is not None
+            and (whole := self._checked(known, right, coefficients)) is not None
         ):
-            return done
-        first, second = (_open(g, self.x, start) if G is None else G for g, G in zip(integrands, known, strict=True))
-        found = self.y2 * second - self.y1 * first
-        if self.equation.change is not None or is_solution(found, coefficients, right, self.x):
-            return found
+            return whole
         W = self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2  # it holds wherever the solutions do
-        first, second = (_open(y * right / W, self.x, start) for y in (self.y2, self.y1))
-        return self.y2 * second - self.y1 * first
+        direct = [y * right / W for y in (self.y2, self.y1)]
+        tried = ((integrands, known), (plain, own), (direct, (None, None)))  # SymPy's forms may have other branches
+        for forms, done in tried:
+            first, second = (_open(g, self.x, start) if G is None else G for g, G in zip(forms, done, strict=True))
+            found = self.y2 * second - self.y1 * first
+            if forms is direct or self.equation.change is not None or is_solution(found, coefficients, right, self.x):
+                break
+        return found
 
 
 def _stages(integrand: Expr, x: Expr) -> Iterator[tuple[Expr, Expr | None]]:
