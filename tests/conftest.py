@@ -63,7 +63,7 @@ def pytest_collection_finish() -> None:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         named = item.path.stem in QUICK or isinstance(item, pytest.DoctestItem)
-        if named and item.get_closest_marker("slow") is None:
+        if named and not any(map(item.get_closest_marker, ("slow", "long"))):
             item.add_marker(pytest.mark.quick)
 
 

@@ -205,7 +205,9 @@ def random_starts(seed, count):
         yield sphere, State(float(u), *(float(x) for x in generator.normal(size=3) * sizes))
 
 
-@pytest.mark.parametrize(("seed", "count"), [(1, 60), pytest.param(2, 500, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    ("seed", "count"), [pytest.param(1, 60, marks=pytest.mark.long), pytest.param(2, 500, marks=pytest.mark.slow)]
+)
 def test_no_start_is_refused_but_the_asymptotic(seed, count):
     """Energy and both closed forms hold over three periods; what is refused is next to an unstable steady motion."""
     refused = asymptotic = 0

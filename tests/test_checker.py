@@ -148,6 +148,7 @@ def check_generated(example: strategies.Example) -> None:
     assert said == "checked" or said.startswith(REASONS), said
 
 
+@pytest.mark.long
 @settings(max_examples=100)
 @given(strategies.examples())
 def test_generated_answers_are_checked(example: strategies.Example) -> None:

@@ -122,6 +122,7 @@ constants = st.sampled_from(
 )
 
 
+@pytest.mark.long
 @settings(max_examples=60, deadline=None)
 @given(constants, st.lists(waves, min_size=1, max_size=3))
 def test_random_right_hand_sides(equation: tuple[int, int], terms: list) -> None:
@@ -721,6 +722,7 @@ def test_values_on_both_sides_of_a_pole_on_the_right(text: str, values: str) -> 
     assert not dsolve(text, ics=one_side).rhs.has(sympy.nan, sympy.zoo)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "text",
     [

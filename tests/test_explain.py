@@ -119,6 +119,7 @@ def test_kovacic_s_third_example_line_by_line() -> None:
     assert outcomes == [([7, 4, 3], 1), ([8, 5, 3], 1)]
 
 
+@pytest.mark.long
 @settings(max_examples=25, deadline=None)
 @given(strategies.examples("case", "odd"))
 def test_the_paper_s_steps_find_what_the_engine_finds(example: strategies.Example) -> None:
