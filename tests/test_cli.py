@@ -281,7 +281,7 @@ def test_ctrl_c_is_status_130() -> None:
         ("kovacic.general_solution.dsolve", ["solve", "y'' = y + x"]),
         ("kovacic.views.products.written", ["solve", "1"]),
         (
-            "kovacic.enclosure.states.evaluate_states",
+            "kovacic.enclosure.evaluate.evaluate",
             ["evaluate", "x", "--x0=0", "--y0=1", "--dy0=0", "--at=1"],
         ),
     ],

@@ -11,6 +11,7 @@ import pytest
 import sympy
 
 import kovacic
+from kovacic.cli import main
 from kovacic.reading.read import read_input
 from kovacic.views.text import render
 
@@ -315,3 +316,40 @@ def test_the_first_line_is_what_the_user_asked(text: str) -> None:
     assert str(answer).startswith(title)
     again = kovacic.solve(title)
     assert (again.S, again.equation) == (answer.S, answer.equation)
+
+
+@pytest.mark.parametrize(
+    ("text", "second", "real"),
+    [
+        ("y'' = (2 + cos(x))*y", lambda t, y, d: (2 + mpmath.cos(t)) * y, True),
+        ("y'' = (sin(x)^2 - 2)*y", lambda t, y, d: (mpmath.sin(t) ** 2 - 2) * y, True),
+        ("y'' = y/(2 + cos(x))", lambda t, y, d: y / (2 + mpmath.cos(t)), True),
+        ("y'' = exp(I*x)*y", lambda t, y, d: mpmath.expj(t) * y, False),
+    ],
+)
+def test_real_is_real_on_the_unit_circle_too(text: str, second: Any, real: bool) -> None:
+    """A real ball for a real equation, the values those of an independent integrator."""
+    value, slope = kovacic.evaluate(text, "3/2", x0=0, y0=1, dy0=0, derivative=True)
+    with mpmath.workdps(20):
+        start = [mpmath.mpf(1), mpmath.mpf(0)]
+        own = mpmath.odefun(lambda t, state: [state[1], second(t, *state)], 0, start)(mpmath.mpf(3) / 2)
+    for ball, number in zip((value, slope), own, strict=True):
+        assert ball.real is real
+        assert abs(complex(ball) - complex(number)) < 1e-14
+
+
+def test_the_shell_and_none_as_an_option(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main.run(["evaluate", "exp(x)", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1,2"]) == 0
+    with mpmath.workdps(20):  # the modified Bessel functions of 2 e^(x/2)
+        a, b = (mpmath.besseli(0, 2, derivative=1), mpmath.diff(lambda z: mpmath.besselk(0, z), 2))
+        wronskian = mpmath.besseli(0, 2) * b - a * mpmath.besselk(0, 2)
+        z = 2 * mpmath.exp(mpmath.mpf(1) / 2)
+        value = (b * mpmath.besseli(0, z) - a * mpmath.besselk(0, z)) / wronskian
+    assert capsys.readouterr().out.startswith(f"y(1) = {mpmath.nstr(value, 14)}")
+    start = {"x0": 0, "y0": 1, "dy0": 0}
+    assert float(kovacic.evaluate("exp(x)", 1, **start, path=None, which=None, frobenius=None)) == pytest.approx(
+        float(value)
+    )
+    for option in ({"path": "above"}, {"which": "regular"}, {"frobenius": (1, 0)}):
+        with pytest.raises(kovacic.InputError, match="functions of x"):
+            kovacic.evaluate("exp(x)", 1, **start, **option)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from typing import Any
 
 import click
@@ -31,14 +32,16 @@ def command(equation: str, points: tuple[str, ...], frobenius: str | None, **opt
     kovacic evaluate "x" --x0 0 --y0 1 --dy0 0 --at 1,2,3 --digits 30
     kovacic evaluate "x^2*y'' + x*y' + x^2*y = 0" --x0 0 --regular --at 1/2,10
     """
-    from kovacic.enclosure.states import evaluate_states
+    from kovacic.enclosure.evaluate import evaluate
+    from kovacic.enclosure.precision import AccuracyWarning
     from kovacic.reading.parser import listed
 
     places = [place for text in points for place in listed(text)]
     basis = None if frobenius is None else listed(frobenius)
-    found = evaluate_states(equation, places, frobenius=basis, **options)
-    for place, state in zip(places, found, strict=True):
-        print(f"y({place}) = {state.y}", flush=True)
-        print(f"y'({place}) = {state.dy}", flush=True)
-        if state.note is not None:
-            print(f"kovacic: at {place}: {state.note}", file=sys.stderr)
+    with warnings.catch_warnings(record=True, action="always", category=AccuracyWarning) as notes:
+        found = evaluate(equation, places, derivative=True, frobenius=basis, **options)
+    for place, (y, dy) in zip(places, found, strict=True):
+        print(f"y({place}) = {y}")
+        print(f"y'({place}) = {dy}")
+    for note in notes:
+        print(f"kovacic: {note.message}", file=sys.stderr)

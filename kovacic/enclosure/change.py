@@ -14,8 +14,9 @@ from dataclasses import replace
 from typing import Any
 
 import sympy
-from flint import arb
+from flint import acb, arb
 
+from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.enclosure.constants import as_number, in_balls, to_ball
 from kovacic.enclosure.points import Point, to_acb, working_precision
@@ -51,6 +52,11 @@ def evaluate_in_x(
     """
     if y0 is None or dy0 is None:
         raise InputError("both y0 and dy0 are needed where coefficients are functions of x")
+    for name in ("path", "which", "frobenius"):
+        if options.pop(name, None) is not None:
+            raise InputError(
+                f"{name} isn't for equations whose coefficients are functions of x", hint="give y0 and dy0"
+            )
     values = {sympy.Symbol(name): _exact(value, f"the parameter {name}") for name, value in (params or {}).items()}
     t = read_expression(change.expression).xreplace(values)
     variable = sympy.Symbol(change.variable)
@@ -65,6 +71,7 @@ def evaluate_in_x(
     plain = replace(answer.equation, change=None)
     given = replace(answer, equation=plain) if hasattr(answer, "decision") else plain
     options |= {"x0": t.subs(variable, start), "y0": y0, "dy0": _exact(dy0, "dy0") / slope.subs(variable, start)}
+    real = circle and bool(to_ball(as_number(y0, "y0")).imag.is_zero()) and _is_real(answer.equation, rate)
     found: list[Ball | tuple[Ball, Ball]] = []
     for place in places:
         count = _chords(given, params, place - start, rate) if circle else 1
@@ -74,8 +81,9 @@ def evaluate_in_x(
         if state.note is not None:
             warnings.warn(f"at {variable} = {place}: {state.note}", AccuracyWarning, stacklevel=3)
         with working_precision(2 * start_bits(digits)):
-            dy = in_balls(slope.subs(variable, place), {}) * state.state[1]
-        found.append((state.y, finite_ball(dy)) if derivative else state.y)
+            both = state.state[0], in_balls(slope.subs(variable, place), {}) * state.state[1]
+        y, dy = (finite_ball(acb(value.real) if real else value) for value in both)
+        found.append((y, dy) if derivative else y)
     return tuple(found) if many else found[0]
 
 
@@ -89,6 +97,21 @@ def _exact(value: Any, name: str) -> Any:
     if number.fixed:
         raise InputError(f"{name} is a ball", hint="an exact number is needed, where coefficients aren't rational")
     return read_expression(value, names={}) if isinstance(value, str) else value
+
+
+def _is_real(equation: Any, rate: Any) -> bool:
+    """Are the coefficients of y' and y and the right-hand side real for real x, where t = exp(rate x) runs on the unit circle?
+
+    Exact: a function of t is real there if t -> 1/t and conjugate coefficients leave it the same.
+    """
+    t = sympy.Dummy(real=True)
+    atoms = Atoms(t)
+    b, c, f = (atoms.ratio(part / equation.a) for part in (equation.b, equation.c, equation.f))
+    for value in (rate * (t * b - 1), (rate * t) ** 2 * c, (rate * t) ** 2 * f):
+        here = value.xreplace({s: sympy.Dummy(real=True) for s in value.free_symbols if s != t})
+        if sympy.cancel(here - sympy.conjugate(here).xreplace({t: 1 / t})) != 0:
+            return False
+    return equation.h is None
 
 
 def _chords(answer: Any, params: Mapping[str, Any] | None, length: Any, rate: Any) -> int:
