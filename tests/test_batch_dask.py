@@ -19,6 +19,7 @@ from kovacic.batch.backends import CHUNK
 from kovacic.errors import InputError
 
 pytestmark = [
+    pytest.mark.long,
     pytest.mark.skipif(find_spec("distributed") is None, reason="needs dask.distributed"),
     # Dask's sockets are closed by its event loop, which ends with the process.
     pytest.mark.filterwarnings("default"),

@@ -705,6 +705,7 @@ def test_values_as_one_text() -> None:
             dsolve("y'' + y = 0", ics=text)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("text", "values"),
     [

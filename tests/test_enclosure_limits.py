@@ -74,6 +74,7 @@ def test_the_growth_is_the_integral_of_the_root() -> None:
     assert least_growth(System.make((), (1,)), Point(Fraction(2)), Point(Fraction(1))) == 0
 
 
+@pytest.mark.long
 def test_digits_lost_by_a_recessive_start_are_had_or_the_reason_is_said_at_once() -> None:
     value = evaluate("1", 5000, x0=0, y0=1, dy0=-1)  # others grow by exp(5000): twice 2171 digits are lost
     with flint.ctx.workprec(200):

@@ -12,6 +12,7 @@ nbclient = pytest.importorskip("nbclient")
 NOTEBOOK = Path(__file__).parent.parent / "examples" / "kovacic.ipynb"
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore")
 def test_the_notebook_runs() -> None:
     notebook = nbformat.read(NOTEBOOK, as_version=4)

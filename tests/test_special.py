@@ -381,6 +381,7 @@ def test_beside_a_long_formula_there_is_a_short_one() -> None:
     assert not any("special" in line for line in solution_lines(kovacic.solve("x^2 - 7")))
 
 
+@pytest.mark.long
 def test_every_view_offers_the_short_one(capsys: pytest.CaptureFixture[str]) -> None:
     """`solve`, `explain`, LaTeX, and `dsolve` with values and right-hand sides too."""
     said, first = "horter, in special functions:", "y1 = exp(-x^2/2)*hyper((-30,), (1/2,), x^2)"
