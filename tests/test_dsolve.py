@@ -75,6 +75,7 @@ def test_checkodesol_agrees(left: sympy.Expr) -> None:
     assert sympy.checkodesol(left, dsolve(sympy.Eq(left, 0)), y(x)) == (True, 0)
 
 
+@pytest.mark.long
 def test_an_integral_that_is_not_done() -> None:
     solution = dsolve("y'' - y = exp(x^3)")
     assert solution.rhs.has(sympy.Integral)
@@ -164,6 +165,7 @@ def test_symbols_are_the_users() -> None:
     assert w not in found.free_symbols
 
 
+@pytest.mark.long
 def test_a_known_integral_beside_one_that_is_left() -> None:
     found = dsolve("y'' - 2*y' + y = (x^2 + 1)*exp(2*x - 1/x)/(x*(x^2 - 1))").rhs
     assert found.has(sympy.Ei(x - 1 / x))
@@ -754,6 +756,7 @@ def test_integrals_of_a_step_begin_at_it() -> None:
     assert all(i.limits[0][1:] == (1, x) for i in integrals)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "text",
     [
