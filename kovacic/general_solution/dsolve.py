@@ -131,8 +131,8 @@ def _solved(
     else:
         y1, y2 = form = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
         if isinstance(form.structure, KleinForm):
-            poles = Atoms(form.variable).poly(form.structure.J.den)
-            if any(poles.subs(form.variable, g.point).equals(0) for g in given):
+            J_poles = Atoms(form.variable).poly(form.structure.J.den)
+            if any(J_poles.subs(form.variable, g.point).equals(0) for g in given):
                 y1, y2 = at_edges(form.structure, solution.S, solution.gauge, solution.variable) or (y1, y2)
     change = equation.change
     x = sympy.Symbol(equation.variable if change is None else change.variable)
@@ -166,7 +166,7 @@ def _solved(
     own = {sympy.Symbol(name): symbol for name, symbol in symbols.items()} | {x: function.args[0]}
     changed = {
         plain: symbol for plain, symbol in own.items() if plain != symbol
-    }  # what is replaced by itself is rebuilt
+    }  # a replacement by itself rebuilds all
     return sympy.Eq(function, general.xreplace(changed) if changed else general, evaluate=False)
 
 

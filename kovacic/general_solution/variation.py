@@ -85,6 +85,11 @@ class Basis:
                     if self._is_wronskian(W):
                         return W
                     break
+        return self._by_definition
+
+    @property
+    def _by_definition(self) -> Expr:
+        """The Wronskian wherever the solutions are defined, on any branch."""
         return self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2
 
     def _is_wronskian(self, W: Expr) -> bool:
@@ -146,8 +151,7 @@ class Basis:
             and (whole := self._checked(known, right, coefficients)) is not None
         ):
             return whole
-        W = self.y1 * self.y2.diff(self.x) - self.y1.diff(self.x) * self.y2  # it holds wherever the solutions do
-        direct = [y * right / W for y in (self.y2, self.y1)]
+        direct = [y * right / self._by_definition for y in (self.y2, self.y1)]
         tried = ((integrands, known), (plain, own), (direct, (None, None)))  # SymPy's forms may have other branches
         for forms, done in tried:
             first, second = (_open(g, self.x, start) if G is None else G for g, G in zip(forms, done, strict=True))
