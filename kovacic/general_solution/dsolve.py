@@ -230,11 +230,12 @@ def _rational(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equa
         applied = next((f for f in found if f.args[0].is_Symbol), None)
         if applied is None:
             raise InputError(f"{func} isn't a function in the equation")
+    function = function_of(eq) if applied is None else applied
 
     def read(given: Any) -> tuple[Equation, Any]:
-        found = read_source(source_of(given, var, unknown=applied, equation=True), limits).equation
+        found = read_source(source_of(given, var, unknown=function, equation=True), limits).equation
         assert found is not None
-        return found, applied or function_of(given)
+        return found, function
 
     try:
         return read(eq)

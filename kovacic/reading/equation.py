@@ -97,26 +97,33 @@ class EquationReader(RationalReader):
         from kovacic.reading.from_sympy import functions_in, walked
 
         if node.is_Derivative:
+            if any(s.name != self.variable or not getattr(n, "is_Integer", False) for s, n in node.variable_count):
+                raise NotLinear(f"{node} isn't a derivative with respect to {self.variable}")
+            order = int(node.derivative_count)
+            if self._is_unknown(node.expr):
+                return _derivative_of_unknown(order)
             value = walked(node.expr, self)
-            for symbol, count in node.variable_count:
-                if symbol.name != self.variable or not getattr(count, "is_Integer", False):
-                    raise NotLinear(f"{node} isn't a derivative with respect to {self.variable}")
-                for _ in range(int(count)):
-                    value = self.arithmetic.derivative(value)
+            for _ in range(order):
+                value = self.arithmetic.derivative(value)
             return value
+        if self._is_unknown(node):
+            return _derivative_of_unknown(0)
         from sympy import Symbol
 
         plain = node.xreplace({symbol: Symbol(symbol.name) for symbol in node.free_symbols})
-        functions = {str(function) for function in functions_in(plain)}
-        if functions and str(plain) == f"{self.unknown}({self.variable})":
-            return self._derivative_of_unknown("")
-        if functions:
+        if functions_in(plain):
             raise NotLinear(f"{self.unknown}({self.variable}) within {plain}: the equation isn't linear")
         return plain
 
+    def _is_unknown(self, node: Any) -> bool:
+        """Is it the unknown function of the variable?"""
+        if node.func.__name__ != self.unknown or len(node.args) != 1:
+            return False
+        return bool(node.args[0].is_Symbol and node.args[0].name == self.variable)
+
     def name(self, name: str) -> Any:
         if name == self.unknown:
-            return self._derivative_of_unknown("")
+            return _derivative_of_unknown(0)
         if name != self.variable and name in ("e", "pi", "π"):
             import sympy
 
@@ -130,7 +137,7 @@ class EquationReader(RationalReader):
         if name != self.unknown:
             hint = f"there is one unknown function, here {self.unknown}; write products with *: x*y''"
             raise NotLinear(f"{text} is a derivative of something else than {self.unknown}", hint=hint)
-        return self._derivative_of_unknown(text[len(name) :])
+        return _derivative_of_unknown(_order_of(text[len(name) :]))
 
     def equation(self, left: Any, right: Any) -> Any:
         if not isinstance(left, LinearForm):  # f = a y'' + b y' + c y
@@ -160,7 +167,7 @@ class EquationReader(RationalReader):
         if bare == self.unknown:
             if len(arguments) != 1 or not self._is_variable(arguments[0]):
                 raise NotLinear(f"{self.unknown} is a function of {self.variable} alone")
-            return self._derivative_of_unknown(head[len(bare) :])
+            return _derivative_of_unknown(_order_of(head[len(bare) :]))
         if head in DERIVATIVES:
             return self._differentiated(arguments)
         if head in self.names:
@@ -172,10 +179,6 @@ class EquationReader(RationalReader):
             if head not in FUNCTION_NAMES or len(arguments) != 1 or isinstance(arguments[0], tuple):
                 raise
             return self.arithmetic.applied(head, arguments[0])
-
-    def _derivative_of_unknown(self, primes: str) -> LinearForm:
-        order = sum(2 if mark == "″" else 1 for mark in primes)
-        return LinearForm({order: Term(1, 0)})
 
     def _is_variable(self, value: Any) -> bool:
         return is_rational(value) and bool(self.arithmetic.closed(value) == self.arithmetic.closed(VARIABLE))
@@ -204,3 +207,11 @@ class EquationReader(RationalReader):
         if number is None or number.denominator != 1 or number < 0:
             raise NotLinear("the order of a derivative is a number 0, 1, 2, ...", hint="for example diff(y, x, 2)")
         return number.numerator
+
+
+def _derivative_of_unknown(order: int) -> LinearForm:
+    return LinearForm({order: Term(1, 0)})
+
+
+def _order_of(primes: str) -> int:
+    return sum(2 if mark == "″" else 1 for mark in primes)

@@ -70,8 +70,7 @@ def _leaf(node: Any, reader: RationalReader) -> Any:
 
 def names_of(expression: Any) -> list[str]:
     """The names of the symbols, in alphabetical order.  Refuses what would be lost in them."""
-    symbols = sorted(expression.free_symbols, key=str)
-    names = [symbol.name for symbol in symbols]
+    names = sorted(symbol.name for symbol in expression.free_symbols)
     if len(set(names)) < len(names):
         raise InputError(
             f"different symbols have the same name: {', '.join(names)}", hint="use one symbol x throughout"
@@ -99,9 +98,10 @@ def function_of(expression: Any) -> Any:
     """The unknown function, the only one in the expression or the one that is differentiated."""
     from sympy import Derivative
 
-    functions = functions_in(expression)
-    derived = {d.expr for d in expression.atoms(Derivative)} & functions
-    candidates = derived if len(derived) == 1 else functions
+    candidates = functions = functions_in(expression)
+    if len(functions) > 1:
+        derived = {d.expr for d in expression.atoms(Derivative)} & functions
+        candidates = derived if len(derived) == 1 else functions
     if len(candidates) != 1:
         found = ", ".join(sorted(map(str, functions))) or "none"
         raise NotLinear(f"one unknown function is expected, and there are: {found}", hint="write y(x) for it")

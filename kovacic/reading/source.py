@@ -74,7 +74,9 @@ def _sympy_source(given: Any, variable: str | None, unknown: Any, equation: bool
             raise InputError(f"{type(expression).__name__!r} isn't a SymPy expression", hint=hint)
         names = names_of(expression)
         return Source(partial(walked, expression), variable or _chosen_variable(names))
-    expression = given.lhs - given.rhs if getattr(given, "is_Equality", False) else given
+    expression = given
+    if getattr(given, "is_Equality", False):
+        expression = given.lhs - given.rhs if given.rhs != 0 else given.lhs
     function = function_of(expression) if unknown is None else unknown
     if len(function.args) != 1 or not function.args[0].is_Symbol:
         raise NotLinear(f"{function} isn't a function of one variable")
