@@ -5,7 +5,7 @@ The balls contain the values.  A function of the variable is its Taylor series, 
 An unevaluated or elliptic integral counts as an antiderivative with an arbitrary constant: its value is taken as 1, and its
 derivatives are those of the integrand.  In y1 int y1^-2 and exp(int ...) the constant changes the solution into another one.
 
-Reference: DLMF 10.6, 10.29 (Bessel), 13.6, 16.3 (hypergeometric), 18.5, 18.9 (polynomials).
+Reference: DLMF 10.2, 10.6, 10.25, 10.29 (Bessel), 13.6, 16.3 (hypergeometric), 18.5, 18.9 (polynomials).
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ class _Evaluator:
         if (rule := _DERIVATIVES.get(e.func)) is not None:
             *parameters, z = map(self, e.args)
             z = _lifted(z)
-            return _taylor(z, [rule(k, parameters, z[0]) for k in range(3)])
+            return _taylor(z, rule(parameters, z[0]))
         if e.is_Symbol:
             return parameter_value(e.name)
         if not e.free_symbols:
@@ -169,23 +169,23 @@ def _number(e: Any) -> Number:
 # ------------------------------------------------------------------------------------------ special functions
 
 
-def _bessel(name: str, k: int, parameters: Sequence[Number], z: Number) -> Number:
-    """2^k times the k-th derivative is a sum over neighbours: (C_(nu-1) - C_(nu+1))/2 for J and Y, + for I, and -(+) for K."""
+def _bessel(name: str, parameters: Sequence[Number], z: Number) -> list[Number]:
+    """C, C' = +-C_(nu-1) - (nu/z) C, with - for K, and C'' by Bessel's equation, modified for I and K."""
     (nu,) = parameters
-    inner, outer = {"bessel_i": (1, 1), "bessel_k": (1, -1)}.get(name, (-1, 1))
-    total = acb(0)
-    for j in range(k + 1):
-        total += (1, k, 1)[j] * inner**j * getattr(acb, name)(z, nu - k + 2 * j)
-    return total * outer**k / 2**k
+    function = getattr(acb, name)
+    C, below = function(z, nu), function(z, nu - 1)
+    slope = (-below if name == "bessel_k" else below) - nu / z * C
+    sign = 1 if name in ("bessel_i", "bessel_k") else -1
+    return [C, slope, (sign + (nu / z) ** 2) * C - slope / z]
 
 
-def _hermite(k: int, parameters: Sequence[Number], z: Number) -> Number:
+def _hermite(parameters: Sequence[Number], z: Number) -> list[Number]:
     (n,) = parameters
-    return 2**k * prod((n - i for i in range(k)), start=acb(1)) * z.hermite_h(n - k)
+    return [2**k * prod((n - i for i in range(k)), start=acb(1)) * z.hermite_h(n - k) for k in range(3)]
 
 
-#: (k, parameters, z) -> the k-th derivative, k <= 2.
-_DERIVATIVES: dict[Any, Callable[[int, Sequence[Number], Number], Number]] = {
+#: (parameters, z) -> the function and its first two derivatives.
+_DERIVATIVES: dict[Any, Callable[[Sequence[Number], Number], list[Number]]] = {
     sympy.besselj: partial(_bessel, "bessel_j"),
     sympy.bessely: partial(_bessel, "bessel_y"),
     sympy.besseli: partial(_bessel, "bessel_i"),
