@@ -196,7 +196,7 @@ COUNTED = {
     "Frobenius series": (frobenius, "_expand"),
     "closed-form legs": (closed_form.ClosedForm, "leg"),
     "legs by FLINT's functions": (classical.Classical, "leg"),
-    "Frobenius solutions by these": (classical.Frobenius, "at"),
+    "Frobenius solutions by these": (classical.Solutions, "_frobenius"),
     "runs": (journey.Traveller, "at"),
 }
 

@@ -91,6 +91,18 @@ def test_both_routes_agree_on_random_legs(kind: str) -> None:
     assert agree_on(kind, 1, 60) > 15
 
 
+@pytest.mark.parametrize("ends", [("0", "1/2"), ("1/2", "0"), ("0", "-1/3"), ("-1/3", "1/2"), ("1/4", "1/2")])
+@pytest.mark.parametrize(("slope", "order"), [(0, 2), (1, 2), (Fraction(-1, 2), 2), (1, 3), (Fraction(1, 2), 5)])
+def test_a_leg_from_to_and_through_an_ordinary_zero_of_the_function(
+    slope: Fraction, order: int, ends: tuple[str, str]
+) -> None:
+    # f = x^k (1 + slope x) and exponents 1/2 +- 1/(2 k) at 0: the first solution has a slope at 0 unless that is 0
+    constants = [QQ.poly([v]) for v in (1, 0, Fraction(1, 4 * order**2) - Fraction(1, 4))]
+    x = RatFunc(QQ.poly([0, 1]))
+    a, b = (Point(Fraction(end)) for end in ends)
+    assert compare(Pullback(Confluent(*constants), x**order * (1 + x * slope)), a, b, 120)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(10))
 @pytest.mark.parametrize("kind", ["Airy", "Bessel", "Whittaker", "Gauss"])

@@ -28,8 +28,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.enclosure.classical_functions import Form, choice_at, form_of, is_integer, rational
 from kovacic.enclosure.constants import Number
-from kovacic.enclosure.exponential import LogDerivative
-from kovacic.enclosure.matrices import Matrix, State, adjugate, fundamental, identity, inverse, multiply
+from kovacic.enclosure.exponential import rational_log_derivative
+from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.problem import System, check_segment, distance_lower
 from kovacic.enclosure.singular import Singular
@@ -39,14 +39,12 @@ from kovacic.special.answer import find
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 
 _BITS = 64  # in which the course of a leg is proven
-_POLES = 3  # the place of d among the polynomials
 _PIECES = 400  # into which a leg is cut for that, at most
 #: Digits up to which FLINT's functions cost less than Taylor steps, once the pull-back is known, on a short way and on others.
 _NEAR: dict[type, int] = {Airy: 20_000, Confluent: 500, Gauss: 0}
 _FAR: dict[type, int] = {Airy: 20_000, Confluent: 20_000, Gauss: 5_000}
 _NOTHING_NEAR = 4  # what counts as the distance to singular points where there are none
 _DEGREE = 24  # of S, up to which a pull-back is sought
-_KNOWN = 16  # forms that are kept for other legs and calls
 _LARGEST = 1_000  # parameters of special functions up to which a call of FLINT, which can't be stopped, is short
 
 
@@ -75,7 +73,7 @@ def classical_of(S: RatFunc) -> Classical | None:
     return Classical(found) if all(abs(v) < _LARGEST**2 for v in squares) else None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Classical:
     """A pull-back, and the transition matrices and Frobenius solutions that follow from it."""
 
@@ -86,53 +84,48 @@ class Classical:
         kind = type(self.pullback.equation)
         return digits <= _NEAR[kind] or (digits <= _FAR[kind] and not is_short(system, start, targets))
 
-    @cached_property
-    def _known(self) -> dict[tuple[int, int], tuple[Form, Factors]]:
-        """The forms by their coordinate and the working precision: of several calls, or of several legs."""
-        return {}
-
-    def form_at(self, a: Point) -> tuple[Form, Factors]:
-        """Two solutions near f(a), at the working precision in force."""
-        key = choice_at(self.pullback, a), ctx.prec
-        found = self._known.get(key)
-        if found is None:
-            form = form_of(self.pullback, key[0])
-            if len(self._known) >= _KNOWN:
-                self._known.clear()
-            found = self._known[key] = form, Factors.of(form)
-        return found
-
     def leg(self, a: Point, b: Point) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment; raises NotServed."""
         with working_precision(_sharper(ctx.prec)):
-            return self._leg(a, b)
+            start = _start(self, a, False, ctx.prec)
+            zero = _ordinary_zero(start.form, a, b)
+            if zero is None:
+                return _finite(multiply(start.at(b), start.coordinates))
+            basis = _start(self, zero, True, ctx.prec)
+            return _finite(multiply(basis.at(b), basis.coordinates if a == zero else inverse(basis.at(a))))
 
-    def _leg(self, a: Point, b: Point) -> Matrix:
-        form, factors = self.form_at(a)
-        zero = _ordinary_zero(form, a, b)
-        if zero is not None:
-            return _finite(multiply(_from_zero(form, factors, zero, b), adjugate(_from_zero(form, factors, zero, a))))
-        growths = factors.growths(form, a, b)
-        _avoids(form, a, b, (True, True))
-        start, end = (fundamental(*factors.states(form, x, (True, True))) for x in (a, b))
-        p, q = growths
-        return _finite(multiply((end[0] * p, end[1] * q, end[2] * p, end[3] * q), inverse(start)))
 
-    def frobenius(self, point: Singular, gauge: RatFunc | None, needed: Sequence[bool]) -> Frobenius:
-        """The Frobenius basis of the user's equation at a rational zero of f, or its solutions that are needed.
+@lru_cache(maxsize=64)
+def _start(classical: Classical, a: Point, is_zero: bool, prec: int) -> Solutions:
+    """The solutions from a, perhaps an ordinary zero of f, on, at this precision, which is in force."""
+    form = _form(classical, choice_at(classical.pullback, a), prec)
+    return Solutions.make(form, a, (fmpq(0), fmpq(1)) if is_zero else None)
 
-        Raises NotServed at other points, and where a solution is needed that may have a logarithm.
-        """
-        if not point.is_rational or point.inverted:
-            raise NotServed
-        with working_precision(_sharper(ctx.prec)):
-            x0, (lower, upper), (form, factors) = point.near.x, point.exponents(), self.form_at(point.near)
-        if not acb(upper).imag.is_zero() or form.n(x0) != 0 or form.d(x0) == 0 or form.powers[0][0] == 0:
-            raise NotServed
-        if needed[0] and point.difference is not None:
-            raise NotServed
-        rest = None if gauge is None else _without_pole(gauge, point.near)
-        return Frobenius(point.near, (lower, upper), form, factors.without(x0), rest, needed)
+
+@lru_cache(maxsize=16)
+def _form(classical: Classical, choice: int, prec: int) -> Form:
+    return form_of(classical.pullback, choice)
+
+
+@lru_cache(maxsize=64)
+def frobenius(
+    classical: Classical, point: Singular, gauge: RatFunc | None, needed: tuple[bool, bool], prec: int
+) -> Solutions:
+    """The Frobenius basis of the user's equation at a rational zero of f, or its solutions that are needed, at this precision.
+
+    Raises NotServed at other points, and where a solution is needed that may have a logarithm.
+    """
+    if not point.is_rational or point.inverted:
+        raise NotServed
+    with working_precision(_sharper(prec)):
+        x0, (lower, upper) = point.near.x, point.exponents()
+        form = _form(classical, choice_at(classical.pullback, point.near), ctx.prec)
+    if not acb(upper).imag.is_zero() or form.n(x0) != 0 or form.d(x0) == 0 or form.powers[0][0] == 0:
+        raise NotServed
+    if needed[0] and point.difference is not None:
+        raise NotServed
+    rest = None if gauge is None else _without_pole(gauge, point.near)
+    return Solutions.make(form, point.near, (lower, upper), rest, needed)
 
 
 def is_short(system: System, start: Singular | Number, targets: Sequence[Number]) -> bool:
@@ -150,14 +143,6 @@ def _without_pole(gauge: RatFunc, point: Point) -> RatFunc | None:
     return (gauge - (gauge * t)(point.re) / t) or None
 
 
-def _from_zero(form: Form, factors: Factors, zero: Point, x: Point) -> Matrix:
-    """The matrix from an ordinary point of y'' = S y that is a zero of f."""
-    basis = Frobenius(zero, (fmpq(0), fmpq(1)), form, factors.without(zero.x), None, (True, True))
-    y1, y2, d1, d2 = basis.at(x)
-    slope = basis.factors.rate(form, 1, zero)  # of the first solution at the point, where the second one's is 1
-    return y1 - slope * y2, y2, d1 - slope * d2, d2
-
-
 def _ordinary_zero(form: Form, a: Point, b: Point) -> Point | None:
     """A zero of f on a real leg that is an ordinary point of y'' = S y: where f^(1/2 +- mu) has the orders 1/2 +- 1/2."""
     if form.n.degree() < 2 or not a.is_real() or not b.is_real() or form.powers[0][0] == 0:
@@ -167,42 +152,87 @@ def _ordinary_zero(form: Form, a: Point, b: Point) -> Point | None:
     return Point(zeros[0]) if zeros else None
 
 
-@dataclass(frozen=True)
-class Frobenius:
-    """Frobenius solutions at a real point, by their exponents; `factors` and `gauge` are without the powers of t."""
+@dataclass(frozen=True, eq=False)
+class Solutions:
+    """The solutions (1) on straight ways from a point, with the powers that are 1 there, times a gauge that is 1 there; or with
+    `exponents` Frobenius solutions, to the exponents in this order: then `factors` and `gauge` are without the powers of t.
 
-    point: Point
-    exponents: tuple[Any, Any]
+    `factors` are those of W, n, d - n and d that aren't constant, with their exponents in either solution.
+    """
+
     form: Form
-    factors: Factors
+    point: Point
+    factors: tuple[tuple[fmpq_poly, fmpq_poly, tuple[Any, Any]], ...]
+    exponents: tuple[Any, Any] | None
     gauge: RatFunc | None
-    needed: Sequence[bool]
+    needed: tuple[bool, bool]
+
+    @classmethod
+    def make(
+        cls,
+        form: Form,
+        point: Point,
+        exponents: tuple[Any, Any] | None = None,
+        gauge: RatFunc | None = None,
+        needed: tuple[bool, bool] = (True, True),
+    ) -> Solutions:
+        """The solutions that are needed (in the order of the exponents)."""
+        n, d, factors = form.n, form.d, []
+        for poly, powers in zip((n.derivative() * d - n * d.derivative(), n, d - n, d), form.exponents, strict=True):
+            if exponents is not None:
+                t = fmpq_poly([-point.x, 1])
+                while poly != 0 and poly(point.x) == 0:
+                    poly //= t
+            if poly.degree() > 0 and (poly == d or any(e != 0 for e in powers)):  # d: f has no pole on the way
+                factors.append((poly, poly.derivative(), powers))
+        return cls(form, point, tuple(factors), exponents, gauge, needed)
+
+    @cached_property
+    def coordinates(self) -> Matrix:
+        """The matrix from (y, y') at the point to coordinates in these solutions."""
+        return inverse(self.at(self.point))
 
     def at(self, x: Point) -> Matrix:
         """The values and slopes at x (the columns: the two solutions; zero where one isn't needed); raises NotServed."""
-        if self.point == x:
-            return identity()
-        with working_precision(_sharper(ctx.prec)):
-            return self._at(x)
+        if self.exponents is not None:
+            if self.point == x:  # an ordinary point, where the second solution in the form's order is 1
+                rate = sum((powers[1] * acb(slope(x.x) / poly(x.x)) for poly, slope, powers in self.factors), acb(0))
+                return acb(1), acb(0), rate, acb(1)
+            with working_precision(_sharper(ctx.prec)):
+                return _finite(fundamental(*self._frobenius(x, self.exponents)))
+        return fundamental(*self._states(x, (True, True)))
 
-    def _at(self, x: Point) -> Matrix:
-        a, form, columns = self.point, self.form, []
-        growths = self.factors.growths(form, a, x)
-        _avoids(form, a, x, self.needed)
-        t, growth, rate = to_acb(x - a), acb(1), acb(0)
+    def _states(self, x: Point, needed: tuple[bool, bool]) -> list[State]:
+        """With the powers, in the order of the form."""
+        form = self.form
+        logs = [_followed(poly, self.point, x) for poly, *_ in self.factors]
+        if x != self.point:
+            _avoids(form, self.point, x, needed[::-1])
+        n, d = _at(form.n, x), _at(form.d, x)
+        slope = acb((_at(form.n.derivative(), x) - n / d * _at(form.d.derivative(), x)) / d)
+        rates = [acb(_at(derivative, x) / _at(poly, x)) for poly, derivative, _ in self.factors]
+        found = []
+        for i, (E, dE) in enumerate(form.values(acb(n / d), needed)):
+            exponents = [powers[i] for _, _, powers in self.factors]
+            rate = sum((e * value for e, value in zip(exponents, rates, strict=True)), acb(0))
+            power = sum((e * log for e, log in zip(exponents, logs, strict=True)), acb(0)).exp()
+            found.append((E * power, (rate * E + slope * dE) * power))
+        return found
+
+    def _frobenius(self, x: Point, exponents: tuple[Any, Any]) -> list[State]:
+        t, growth, rate, columns = to_acb(x - self.point), acb(1), acb(0), []
         if self.gauge is not None:
-            check_segment(System.of(self.gauge), a, x)
-            theta = LogDerivative.make(self.gauge, None)
-            growth, rate = theta.growth(to_acb(a), to_acb(x)), theta.value(to_acb(x))
-        states = self.factors.states(form, x, self.needed[::-1])
-        for (y, dy), power, exponent in zip(states[::-1], growths[::-1], self.exponents, strict=True):
-            factor = growth * power
-            y, dy = y * factor, (dy + (exponent / t + rate) * y) * factor
+            check_segment(System.of(self.gauge), self.point, x)
+            theta = rational_log_derivative(self.gauge, ctx.prec)
+            growth, rate = theta.growth(to_acb(self.point), to_acb(x)), theta.value(to_acb(x))
+        first, second = self._states(x, self.needed[::-1])
+        for (y, dy), exponent in zip((second, first), exponents, strict=True):
+            y, dy = y * growth, (dy + (exponent / t + rate) * y) * growth
             if x.is_real():
                 y, dy = acb(y.real), acb(dy.real)
             power = t ** int(exponent.p) if is_integer(exponent) else (exponent * t.log()).exp()
             columns.append((y * power, dy * power))
-        return _finite(fundamental(*columns))
+        return columns
 
 
 def _sharper(bits: int) -> int:
@@ -214,56 +244,6 @@ def _finite(matrix: Matrix) -> Matrix:
     if not all(entry.is_finite() for entry in matrix):
         raise NotServed
     return matrix
-
-
-@dataclass(frozen=True)
-class Factors:
-    """W, n, d - n and d, or what is left of them."""
-
-    polynomials: tuple[fmpq_poly, ...]
-
-    @classmethod
-    def of(cls, form: Form) -> Factors:
-        n, d = form.n, form.d
-        return cls((n.derivative() * d - n * d.derivative(), n, d - n, d))
-
-    def without(self, x0: Any) -> Factors:
-        """Without their factors x - x0."""
-        polynomials, t = [], fmpq_poly([-x0, 1])
-        for poly in self.polynomials:
-            while poly != 0 and poly(x0) == 0:
-                poly //= t
-            polynomials.append(poly)
-        return Factors(tuple(polynomials))
-
-    def growths(self, form: Form, a: Point, b: Point) -> list[acb]:
-        """The powers in both solutions at b over those at a, continued along the segment, which has no pole of f."""
-        exponents = [form.exponents(i) for i in (0, 1)]
-        logs = [
-            _followed(poly, a, b) if k == _POLES or any(row[k] != 0 for row in exponents) else acb(0)
-            for k, poly in enumerate(self.polynomials)
-        ]
-        return [sum(e * log for e, log in zip(row, logs, strict=True)).exp() for row in exponents]
-
-    @cached_property
-    def derivatives(self) -> tuple[fmpq_poly | None, ...]:
-        """Those of the polynomials that aren't constant."""
-        return tuple(poly.derivative() if poly.degree() > 0 else None for poly in self.polynomials)
-
-    def rate(self, form: Form, i: int, x: Point) -> acb:
-        """The logarithmic derivative of the powers in solution i."""
-        total = acb(0)
-        for e, poly, slope in zip(form.exponents(i), self.polynomials, self.derivatives, strict=True):
-            if slope is not None and e != 0:
-                total += e * acb(_at(slope, x) / _at(poly, x))
-        return total
-
-    def states(self, form: Form, x: Point, needed: Sequence[bool]) -> list[State]:
-        """y and y' of both solutions without the powers: as if these were 1 at x; zeros for one that isn't needed."""
-        n, d = _at(form.n, x), _at(form.d, x)
-        slope = acb((_at(form.n.derivative(), x) - n / d * _at(form.d.derivative(), x)) / d)
-        values = form.values(acb(n / d), needed)
-        return [(E, self.rate(form, i, x) * E + slope * dE) for i, (E, dE) in enumerate(values)]
 
 
 def _at(poly: fmpq_poly, x: Point) -> Any:

@@ -47,10 +47,11 @@ class Form:
     values: Solutions
     slits: tuple[Any, Any] = (None, None)
 
-    def exponents(self, i: int) -> tuple[Any, Any, Any, Any]:
-        """The exponents of W, n, d - n and d in solution i: f'^(-1/2) z^alpha (1 - z)^beta."""
-        alpha, beta = self.powers[i]
-        return -_HALF, alpha, beta, 1 - alpha - beta
+    @property
+    def exponents(self) -> list[tuple[Any, Any]]:
+        """Those of W, n, d - n and d in either solution, f'^(-1/2) z^alpha (1 - z)^beta."""
+        rows = [(-_HALF, alpha, beta, 1 - alpha - beta) for alpha, beta in self.powers]
+        return list(zip(*rows, strict=True))
 
 
 def _parts(f: RatFunc) -> tuple[fmpq_poly, fmpq_poly]:

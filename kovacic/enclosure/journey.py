@@ -18,7 +18,7 @@ from typing import Any
 
 from flint import acb, ctx
 
-from kovacic.enclosure.classical import Classical, Frobenius
+from kovacic.enclosure.classical import Classical, Solutions, frobenius
 from kovacic.enclosure.closed_form import ClosedForm
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.embedded import EmbeddedGauge
@@ -229,10 +229,10 @@ class Traveller:
         states = [limit(point, start, self.budget)] * count if count else []
         if len(stops) == count:
             return states
-        needed, last = [not coordinate.is_zero() for coordinate in start], stops[-1]
-        basis: Basis | Frobenius
+        needed, last = (not start[0].is_zero(), not start[1].is_zero()), stops[-1]
+        basis: Basis | Solutions
         if isinstance(self.closed, Classical):
-            basis = self.closed.frobenius(point, self.problem.gauge, needed)
+            basis = frobenius(self.closed, point, self.problem.gauge, needed, ctx.prec)
         else:
             last, bound = junction(point, last, self.prec)
             basis = Basis(point, last, stops[-1], bound, self.prec, self.budget, needed)

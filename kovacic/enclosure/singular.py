@@ -36,7 +36,7 @@ class Operator:
         return Operator(*([kind(v) for v in part] for part in (self.A, self.B, self.C)))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Singular:
     """A regular singular point, or an ordinary one, of the user's equation.
 
