@@ -1,7 +1,7 @@
 """Kovacic's algorithm: closed-form (Liouvillian) solutions of y'' = S(x) y, or a proof that there are none.
 
 Text, a SymPy expression or coefficients go in (`solve`), a frozen and verified `Solution` comes out.  The modules to read
-first: `kovacic.solution`, then `kovacic.engine.decide`, where the cases are taken in turn.
+first: `kovacic.api`, then `kovacic.engine.decide`, where the cases are taken in turn.
 
 >>> import kovacic
 >>> kovacic.solve("x^2 + 3").case
@@ -15,6 +15,7 @@ __version__ = "0.2.0"
 #: The public names by their modules; each is imported when it is first used, so that `import kovacic` costs nothing.
 #: (lazy_loader would do the same, but it and what it imports cost 8 ms at every start, ten times as much as this.)
 _NAMES = {
+    "api": ("Verdict", "decide", "solve"),
     "batch": ("solve_many",),
     "decision": ("Status", "Structure"),
     "doubles.tabulate": ("tabulate",),
@@ -36,7 +37,7 @@ _NAMES = {
     "limits": ("Limits",),
     "parametric.api": ("conditions",),
     "reading.given": ("Equation",),
-    "solution": ("Solution", "Verdict", "decide", "solve"),
+    "solution": ("Solution",),
 }
 _MODULES = {name: f"kovacic.{module}" for module, names in _NAMES.items() for name in names}
 

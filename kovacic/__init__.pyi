@@ -1,4 +1,7 @@
 # Written by tests/test_public_names.py.
+from kovacic.api import Verdict as Verdict
+from kovacic.api import decide as decide
+from kovacic.api import solve as solve
 from kovacic.batch import solve_many as solve_many
 from kovacic.decision import Status as Status
 from kovacic.decision import Structure as Structure
@@ -22,8 +25,5 @@ from kovacic.limits import Limits as Limits
 from kovacic.parametric.api import conditions as conditions
 from kovacic.reading.given import Equation as Equation
 from kovacic.solution import Solution as Solution
-from kovacic.solution import Verdict as Verdict
-from kovacic.solution import decide as decide
-from kovacic.solution import solve as solve
 
 __version__: str

@@ -502,7 +502,7 @@ def test_an_answer_whose_check_is_not_finished_is_undecided(monkeypatch: pytest.
     def exhausted(*_: Any, **__: Any) -> None:
         raise LimitExceeded("the time limit of 1 s is used up", limit="seconds")
 
-    monkeypatch.setattr("kovacic.solution.verify", exhausted)
+    monkeypatch.setattr("kovacic.api.verify", exhausted)
     answer = kovacic.solve("x^2 + 3")
     assert answer.status is kovacic.Status.UNDECIDED
     assert answer.reason == "while the answer was verified: the time limit of 1 s is used up"

@@ -156,7 +156,7 @@ def _nearest_root(modulus: Poly, target: Any) -> tuple[Fraction, Fraction]:
 
 def _roots(modulus: Poly, target: Any) -> list[Any]:
     """Balls around the roots of a polynomial over Q, the nearest one to the target first."""
-    integral = fmpz_poly([int(c * modulus.common_denominator()) for c in modulus.rational_coefficients()])
+    integral = fmpz_poly([int(c * modulus.content()[1]) for c in modulus.rational_coefficients()])
     return sorted((root for root, _ in integral.complex_roots()), key=lambda root: float(abs(root - target).mid()))
 
 

@@ -11,15 +11,14 @@ import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import lcm
 from typing import Any
 
 from flint import fmpq
 
 from kovacic.algebra import splitting
 from kovacic.algebra.lifting import Lifter, inverse_by_primes
-from kovacic.algebra.modular import BadPrimeError
-from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
+from kovacic.algebra.modular import BadPrimeError, Collector, Homomorphism
+from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.algebra.rationals import QQ, RationalPoly, square_part
 from kovacic.algebra.traces import coefficients_from_traces, power_sums
 
@@ -153,23 +152,23 @@ class AlgebraicField(Field):
 class ExtensionPoly(Poly):
     """A polynomial over K(c): the tuple of its coordinates with respect to 1, c, c**2, ..., polynomials over K."""
 
-    __slots__ = ("_field", "parts")
+    __slots__ = ("field", "parts")
 
-    _field: AlgebraicField
+    field: AlgebraicField
     parts: tuple[Poly, ...]
 
     def __init__(self, field: AlgebraicField, parts: tuple[Poly, ...]) -> None:
-        object.__setattr__(self, "_field", field)
+        object.__setattr__(self, "field", field)
         object.__setattr__(self, "parts", parts)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return ExtensionPoly, (self._field, self.parts)
+        return ExtensionPoly, (self.field, self.parts)
 
     def key(self) -> tuple[Any, ...]:
         return tuple(part.key() for part in self.parts)
 
     def __eq__(self, other: object) -> bool:
-        same = isinstance(other, ExtensionPoly) and other._field is self._field
+        same = isinstance(other, ExtensionPoly) and other.field is self.field
         return self.parts == other.parts if same else super().__eq__(other)  # type: ignore[attr-defined]
 
     __hash__ = Poly.__hash__
@@ -178,25 +177,21 @@ class ExtensionPoly(Poly):
         return [leaf for part in self.parts for leaf in part.leaves()]
 
     @property
-    def field(self) -> AlgebraicField:
-        return self._field
-
-    @property
     def degree(self) -> int:
         return max(part.degree for part in self.parts)
 
     def __getitem__(self, power: int) -> ExtensionPoly:
-        return ExtensionPoly(self._field, tuple(part[power] for part in self.parts))
+        return ExtensionPoly(self.field, tuple(part[power] for part in self.parts))
 
     def __neg__(self) -> ExtensionPoly:
-        return ExtensionPoly(self._field, tuple(-part for part in self.parts))
+        return ExtensionPoly(self.field, tuple(-part for part in self.parts))
 
     def _add(self, other: ExtensionPoly) -> ExtensionPoly:
-        return ExtensionPoly(self._field, tuple(a + b for a, b in zip(self.parts, other.parts, strict=True)))
+        return ExtensionPoly(self.field, tuple(a + b for a, b in zip(self.parts, other.parts, strict=True)))
 
     def _mul(self, other: ExtensionPoly) -> ExtensionPoly:
-        n, modulus = self._field.dimension, self._field.modulus
-        products: list[Poly] = [self._field.base.poly([])] * (2 * n - 1)
+        n, modulus = self.field.dimension, self.field.modulus
+        products: list[Poly] = [self.field.base.poly([])] * (2 * n - 1)
         for i, a in enumerate(self.parts):
             if a:
                 for j, b in enumerate(other.parts):
@@ -206,10 +201,10 @@ class ExtensionPoly(Poly):
             if products[top]:
                 for i in range(n):
                     products[top - n + i] = products[top - n + i] - products[top] * modulus[i]
-        return ExtensionPoly(self._field, tuple(products[:n]))
+        return ExtensionPoly(self.field, tuple(products[:n]))
 
     def __mul__(self, other: Poly | Scalar) -> ExtensionPoly:
-        field = self._field
+        field = self.field
         below = isinstance(other, Poly) and other.field is not field and field.extends(other.field)
         if below or isinstance(other, (int, Fraction)):
             return ExtensionPoly(field, tuple(part * other for part in self.parts))
@@ -222,29 +217,29 @@ class ExtensionPoly(Poly):
 
     def _divmod(self, other: ExtensionPoly) -> tuple[ExtensionPoly, ExtensionPoly]:
         if self.degree < other.degree:
-            return self._field.poly([]), self
+            return self.field.poly([]), self
         inverse = other.lc.inverse()
         if other.degree == 0:
-            return self._mul(inverse), self._field.poly([])
+            return self._mul(inverse), self.field.poly([])
         if not any(other.parts[1:]):
             pairs = [divmod(part, other.parts[0]) for part in self.parts]
-            return tuple(ExtensionPoly(self._field, parts) for parts in zip(*pairs, strict=True))  # type: ignore[return-value]
-        remainder, quotient = self, [self._field.poly([])] * max(self.degree - other.degree + 1, 0)
-        x = self._field.poly([0, 1])
+            return tuple(ExtensionPoly(self.field, parts) for parts in zip(*pairs, strict=True))  # type: ignore[return-value]
+        remainder, quotient = self, [self.field.poly([])] * max(self.degree - other.degree + 1, 0)
+        x = self.field.poly([0, 1])
         while remainder.degree >= other.degree:
             shift = remainder.degree - other.degree
             quotient[shift] = remainder.lc._mul(inverse)
             remainder = remainder - quotient[shift]._mul(x**shift)._mul(other)
-        return self._field.poly(quotient), remainder
+        return self.field.poly(quotient), remainder
 
     def _gcd(self, other: ExtensionPoly) -> ExtensionPoly:
         """Through its images modulo primes, checked by division."""
         if not self or not other:
             return (self or other).monic()
         if self.degree == 0 or other.degree == 0:
-            return self._field.poly([1])
-        lifter = Lifter(self._field)
-        for bundle in self._field.bundles():
+            return self.field.poly([1])
+        lifter = Lifter(self.field)
+        for bundle in self.field.bundles():
             try:
                 images = [[h.keeping_degree(self).gcd(h.keeping_degree(other))] for h in bundle]
             except BadPrimeError:
@@ -256,36 +251,36 @@ class ExtensionPoly(Poly):
             proposal = lifter.add(bundle, images)
             if proposal and not self % proposal[0] and not other % proposal[0]:
                 return proposal[0]  # type: ignore[return-value]
-        return self._field.poly([1])
+        return self.field.poly([1])
 
     def inverse_modulo(self, modulus: Poly) -> ExtensionPoly:
-        small = modulus.degree <= _EUCLID_DEGREE or self._field.ground != QQ
+        small = modulus.degree <= _EUCLID_DEGREE or self.field.ground != QQ
         return super().inverse_modulo(modulus) if small else inverse_by_primes(self, modulus)
 
     def derivative(self) -> ExtensionPoly:
-        return ExtensionPoly(self._field, tuple(part.derivative() for part in self.parts))
+        return ExtensionPoly(self.field, tuple(part.derivative() for part in self.parts))
 
     def inverse(self) -> ExtensionPoly:
         if self.degree > 0:
             raise ValueError("only constants have an inverse")
-        base = self._field.base
+        base = self.field.base
         if not any(self.parts[1:]):
-            return ExtensionPoly(self._field, (self.parts[0].inverse(), *self.parts[1:]))
-        element = base.poly([part[0] for part in self.parts]).inverse_modulo(self._field.modulus)
-        return ExtensionPoly(self._field, tuple(element[i] for i in range(self._field.dimension)))
+            return ExtensionPoly(self.field, (self.parts[0].inverse(), *self.parts[1:]))
+        element = base.poly([part[0] for part in self.parts]).inverse_modulo(self.field.modulus)
+        return ExtensionPoly(self.field, tuple(element[i] for i in range(self.field.dimension)))
 
     def to_sympy(self, variable: Any) -> Any:
         """As for every polynomial; the generator is a radical where it is called so, else a symbol."""
         from sympy import Add, Pow, Rational, Symbol
 
-        field = self._field
+        field = self.field
         generator = Symbol(field.name)
         if field.name == "I" or not field.name.isidentifier():  # sqrt(2), root(2, 5): its power is in the field below
             generator = Pow(-field.modulus[0].to_sympy(variable), Rational(1, field.modulus.degree))
         return Add(*(part.to_sympy(variable) * generator**i for i, part in enumerate(self.parts) if part))
 
     def rational_coefficients(self) -> tuple[Any, ...]:
-        width = self._field.base.absolute_degree
+        width = self.field.base.absolute_degree
         result: list[Any] = []
         for power in range(self.degree + 1):
             for part in self.parts:
@@ -293,14 +288,11 @@ class ExtensionPoly(Poly):
                 result += [*coordinates, *[fmpq(0)] * (width - len(coordinates))]
         return tuple(result)
 
-    def common_denominator(self) -> int:
-        return lcm(*(part.common_denominator() for part in self.parts))
-
     def height_bits(self) -> int:
         return max(part.height_bits() for part in self.parts)
 
     def coefficient_strings(self) -> list[str]:
-        base, name = self._field.base, self._field.name
+        base, name = self.field.base, self.field.name
         return [base.poly([part[power] for part in self.parts]).integer_str(name) for power in range(self.degree + 1)]
 
 

@@ -17,8 +17,9 @@ from flint import Ordering, fmpz_mpoly_ctx
 
 from kovacic.algebra.interpolation import Evaluation, Samples
 from kovacic.algebra.lifting import primes
-from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
-from kovacic.algebra.rationals import square_part
+from kovacic.algebra.modular import Collector, Homomorphism
+from kovacic.algebra.poly import Field, Poly, Scalar
+from kovacic.algebra.rationals import RationalPoly, square_part
 from kovacic.algebra.sparse import by_power, constant_term, factorisation, laurent_constant, square_root
 from kovacic.algebra.text import joined_monomials
 from kovacic.limits import check_time
@@ -83,10 +84,11 @@ class FunctionField(Field):
         return not isinstance(other, FunctionField) and other.absolute_degree == 1
 
     def embed(self, polynomial: Poly) -> FunctionPoly:
-        denominator = polynomial.common_denominator()
-        k = len(self.names)
-        terms = {(i, *[0] * k): int(c * denominator) for i, c in enumerate(polynomial.rational_coefficients()) if c}
-        return self.make(self.context.from_dict(terms), self.context.constant(denominator))
+        if not isinstance(polynomial, RationalPoly):
+            raise TypeError("a polynomial over Q is expected")
+        num, den, k = polynomial.rep.numer(), polynomial.rep.denom(), len(self.names)
+        terms = {(i, *[0] * k): c for i, c in enumerate(num.coeffs()) if c}
+        return FunctionPoly(self, self.context.from_dict(terms), self.context.constant(den))
 
     def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
         assert isinstance(polynomial, FunctionPoly)
@@ -147,7 +149,7 @@ class FunctionField(Field):
         if not leaves:
             return num, den
         multiple = reduce(lambda m, leaf: m * (leaf.den // m.gcd(leaf.den)), leaves, self.context.constant(1))
-        contents = [leaf.content() * (multiple // leaf.den) for leaf in leaves]
+        contents = [leaf.numerator_content() * (multiple // leaf.den) for leaf in leaves]
         scale: Poly = self.make(multiple, reduce(lambda a, b: a.gcd(b), contents, self.context.constant(0)))
         if int((leaves[-1] * scale).num.leading_coefficient()) < 0:  # that of the denominator, if it isn't zero
             scale = -scale
@@ -160,33 +162,29 @@ class FunctionField(Field):
 class FunctionPoly(Poly):
     """A polynomial in x over Q(t): `num/den` in lowest terms, den in Z[t] with a positive leading coefficient."""
 
-    __slots__ = ("_field", "den", "num")
+    __slots__ = ("den", "field", "num")
 
-    _field: FunctionField
+    field: FunctionField
     num: Any
     den: Any
 
     def __init__(self, field: FunctionField, num: Any, den: Any) -> None:
-        object.__setattr__(self, "_field", field)
+        object.__setattr__(self, "field", field)
         object.__setattr__(self, "num", num)
         object.__setattr__(self, "den", den)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _from_key, (self._field, *self.key())
+        return _from_key, (self.field, *self.key())
 
     def key(self) -> tuple[Any, ...]:
         return _terms(self.num), _terms(self.den)
-
-    @property
-    def field(self) -> FunctionField:
-        return self._field
 
     @property
     def degree(self) -> int:
         return -1 if self.num.is_zero() else int(self.num.degrees()[0])
 
     def __eq__(self, other: object) -> bool:
-        if isinstance(other, FunctionPoly) and (other._field is self._field or other._field == self._field):
+        if isinstance(other, FunctionPoly) and (other.field is self.field or other.field == self.field):
             return bool(self.num == other.num and self.den == other.den)
         return super().__eq__(other)
 
@@ -198,35 +196,35 @@ class FunctionPoly(Poly):
 
     def __getitem__(self, power: int) -> FunctionPoly:
         terms = {(0, *e[1:]): c for e, c in self.num.to_dict().items() if e[0] == power}
-        return self._field.make(self._field.context.from_dict(terms), self.den)
+        return self.field.make(self.field.context.from_dict(terms), self.den)
 
     def coefficients(self) -> list[FunctionPoly]:
         """The coefficients from low to high."""
-        return [self._field.make(c, self.den) for c in self._columns()]
+        return [self.field.make(c, self.den) for c in self._columns()]
 
     def _columns(self) -> list[Any]:
         """The coefficients of the powers of x in the numerator, as polynomials in the parameters."""
-        columns, zero = by_power(self.num, 0), self._field.context.constant(0)
+        columns, zero = by_power(self.num, 0), self.field.context.constant(0)
         return [columns.get(k, zero) for k in range(self.degree + 1)]
 
-    def content(self) -> Any:
+    def numerator_content(self) -> Any:
         """The greatest common divisor in Z[t] of the coefficients of the numerator."""
-        return reduce(lambda a, b: a.gcd(b), self._columns(), self._field.context.constant(0))
+        return reduce(lambda a, b: a.gcd(b), self._columns(), self.field.context.constant(0))
 
     def __neg__(self) -> FunctionPoly:
-        return FunctionPoly(self._field, -self.num, self.den)
+        return FunctionPoly(self.field, -self.num, self.den)
 
     def _add(self, other: FunctionPoly) -> FunctionPoly:
         if self.den == other.den:
-            return self._field.make(self.num + other.num, self.den)
-        return self._field.make(self.num * other.den + other.num * self.den, self.den * other.den)
+            return self.field.make(self.num + other.num, self.den)
+        return self.field.make(self.num * other.den + other.num * self.den, self.den * other.den)
 
     def _mul(self, other: FunctionPoly) -> FunctionPoly:
-        return self._field.make(self.num * other.num, self.den * other.den)
+        return self.field.make(self.num * other.num, self.den * other.den)
 
     def _divmod(self, other: FunctionPoly) -> tuple[FunctionPoly, FunctionPoly]:
         """Pseudo-division of the numerators: scale * a = quotient * b + remainder."""
-        field, context = self._field, self._field.context
+        field, context = self.field, self.field.context
         if other.degree == 0:
             return self._mul(other.inverse()), field.poly([])
         x, lead, n = context.gen(0), other._columns()[-1], other.degree
@@ -251,15 +249,15 @@ class FunctionPoly(Poly):
             raise ZeroDivisionError("an exact quotient needs a divisor that isn't zero")
         if pair[0] is not self:
             return pair[0].exact_quotient(pair[1])  # type: ignore[no-any-return]
-        content = pair[1].content()
+        content = pair[1].numerator_content()
         quotient, remainder = divmod(self.num, pair[1].num // content)
-        return None if remainder else self._field.make(quotient * pair[1].den, self.den * content)
+        return None if remainder else self.field.make(quotient * pair[1].den, self.den * content)
 
     def _gcd(self, other: FunctionPoly) -> FunctionPoly:
-        return FunctionPoly(self._field, self.num.gcd(other.num), self._field.context.constant(1)).monic()
+        return FunctionPoly(self.field, self.num.gcd(other.num), self.field.context.constant(1)).monic()
 
     def derivative(self) -> FunctionPoly:
-        return self._field.make(self.num.derivative(0), self.den)
+        return self.field.make(self.num.derivative(0), self.den)
 
     def inverse(self) -> FunctionPoly:
         if self.degree > 0:
@@ -267,16 +265,16 @@ class FunctionPoly(Poly):
         if not self:
             raise ZeroDivisionError("zero has no inverse")
         negative = int(self.num.leading_coefficient()) < 0
-        return FunctionPoly(self._field, -self.den if negative else self.den, -self.num if negative else self.num)
+        return FunctionPoly(self.field, -self.den if negative else self.den, -self.num if negative else self.num)
 
     def square_part(self) -> tuple[FunctionPoly, FunctionPoly]:
         """(c, d) for a constant other than 0: it is c^2 d, d a polynomial without squares of polynomials or integers."""
         number, factors = (self.num * self.den).factor_squarefree()
         outer, inner = square_part(Fraction(int(number)))
-        c, d = self._field.context.constant(int(outer)), self._field.context.constant(inner)
+        c, d = self.field.context.constant(int(outer)), self.field.context.constant(inner)
         for factor, exponent in factors:
             c, d = c * factor ** (int(exponent) // 2), d * factor ** (int(exponent) % 2)
-        return self._field.make(c, self.den), self._field.make(d, self._field.context.constant(1))
+        return self.field.make(c, self.den), self.field.make(d, self.field.context.constant(1))
 
     @property
     def is_written_with_minus(self) -> bool:
@@ -286,7 +284,7 @@ class FunctionPoly(Poly):
     def to_sympy(self, variable: Any) -> Any:
         from sympy import Add, Mul, Pow, Symbol
 
-        symbols = [variable, *map(Symbol, self._field.names)]
+        symbols = [variable, *map(Symbol, self.field.names)]
 
         def expression(part: Any) -> Any:
             return Add(*(Mul(int(c), *map(Pow, symbols, map(int, powers))) for powers, c in part.to_dict().items()))
@@ -300,16 +298,13 @@ class FunctionPoly(Poly):
         """
         return tuple(laurent_constant(c.num, c.den, 1) for c in self.coefficients())
 
-    def common_denominator(self) -> int:
-        return int(abs(self.den.content())) if not self.den.is_one() else 1
-
     def height_bits(self) -> int:
         values = [*self.num.coeffs(), *self.den.coeffs()]
         return max((int(c).bit_length() for c in values), default=0)
 
     def coefficient_strings(self) -> list[str]:
         return [
-            joined_monomials({tuple(map(int, e[1:])): int(c) for e, c in one.num.to_dict().items()}, self._field.names)
+            joined_monomials({tuple(map(int, e[1:])): int(c) for e, c in one.num.to_dict().items()}, self.field.names)
             for one in self
         ]
 

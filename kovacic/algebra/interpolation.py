@@ -16,8 +16,8 @@ from typing import Any
 from flint import nmod_poly
 
 from kovacic.algebra.lifting import chinese_remainders, reconstruct_vector
-from kovacic.algebra.modular import BadPrimeError, null_space
-from kovacic.algebra.poly import Collector, Homomorphism, Poly
+from kovacic.algebra.modular import BadPrimeError, Collector, Homomorphism, null_space
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import RationalHomomorphism, RationalPoly
 from kovacic.errors import LimitExceeded
 

@@ -13,8 +13,8 @@ from typing import Any
 
 from flint import fmpq_poly, fmpz, fmpz_poly, nmod_poly
 
-from kovacic.algebra.modular import BadPrimeError
-from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly
+from kovacic.algebra.modular import BadPrimeError, Collector, Homomorphism
+from kovacic.algebra.poly import Field, Poly
 from kovacic.limits import check_time
 
 #: Primes are taken downwards from here: large enough that a bad one is rare, small enough for flint's fast arithmetic.

@@ -17,7 +17,7 @@ from fractions import Fraction
 from math import gcd, lcm
 from typing import Any, Self
 
-from kovacic.algebra.modular import BadPrimeError
+from kovacic.algebra.modular import Collector, Homomorphism
 from kovacic.algebra.text import joined_terms, quotient_text
 
 Scalar = int | Fraction
@@ -53,7 +53,7 @@ class Poly(Immutable, ABC):
 
     @abstractmethod
     def __getitem__(self, power: int) -> Self:
-        """The coefficient of `x**power`, as a constant polynomial."""
+        """The coefficient of `x**power`, as a constant polynomial; 0 for a negative power."""
 
     @abstractmethod
     def __neg__(self) -> Self: ...
@@ -160,15 +160,10 @@ class Poly(Immutable, ABC):
     def __pow__(self, exponent: int) -> Self:
         if exponent < 0:
             raise ValueError("a polynomial has no negative powers")
-        result: Any = self.field.poly([1])
-        base = self
-        while exponent:
-            if exponent & 1:
-                result = result._mul(base)
-            exponent >>= 1
-            if exponent:
-                base = base._mul(base)
-        return result  # type: ignore[no-any-return]
+        if exponent < 2:
+            return self if exponent else self.field.poly([1])  # type: ignore[return-value]
+        root = self ** (exponent // 2)
+        return root._mul(root)._mul(self) if exponent % 2 else root._mul(root)
 
     def __eq__(self, other: object) -> bool:
         pair = self._common(other)
@@ -220,14 +215,12 @@ class Poly(Immutable, ABC):
 
     def remove(self, factor: Poly) -> tuple[Self, int]:
         """`(q, k)` with `self = q * factor**k` and k as large as possible; self must not be zero."""
-        rest, count, powers = self, 0, [factor]
-        while (quotient := rest.exact_quotient(powers[-1])) is not None:
-            rest, count = quotient, 2 * count + 1
-            powers.append(powers[-1] * powers[-1])
-        for k in range(len(powers) - 2, -1, -1):
-            if (quotient := rest.exact_quotient(powers[k])) is not None:
-                rest, count = quotient, count + 2**k
-        return rest, count
+        quotient = self.exact_quotient(factor)
+        if quotient is None:
+            return self, 0
+        rest, k = quotient.remove(factor * factor)
+        last = rest.exact_quotient(factor)
+        return (rest, 2 * k + 1) if last is None else (last, 2 * k + 2)
 
     def reversed(self, shift: int = 0) -> Self:
         """`x**(degree + shift) * self(1/x)`."""
@@ -250,10 +243,6 @@ class Poly(Immutable, ABC):
         if not r1:
             raise ZeroDivisionError("not invertible: the polynomials have a common factor")
         return (t1 * r1.inverse()) % modulus  # type: ignore[no-any-return]
-
-    def common_denominator(self) -> int:
-        """The least positive integer d such that d * self has integer coordinates."""
-        return lcm(*(int(c.q) for c in self.rational_coefficients()))
 
     def content(self) -> tuple[int, int]:
         """`(p, q)` in lowest terms, p/q > 0 such that self * q/p has coprime integer coordinates; (1, 1) for zero."""
@@ -287,52 +276,6 @@ def quotient_str(num: Poly, den: Poly, variable: str) -> str:
     """`num/den`, in lowest terms, in Python/SymPy syntax with integer coefficients."""
     num, den = num.field.ground.cleared(num, den)
     return quotient_text(num.integer_str(variable), den.integer_str(variable))
-
-
-class Homomorphism(ABC):
-    """A ring homomorphism from the p-integral elements of a field to F_p, extended to polynomials."""
-
-    __slots__ = ()
-
-    p: int
-
-    @property
-    def ground(self) -> Homomorphism:
-        """The homomorphism of Q, or of Q(t), that this one extends."""
-        return self
-
-    @abstractmethod
-    def __call__(self, polynomial: Poly) -> Any:
-        """The image as an `nmod_poly`.  Raises `BadPrimeError` where a coefficient isn't p-integral."""
-
-    def keeping_degree(self, polynomial: Poly) -> Any:
-        """The image; `BadPrimeError` if the leading coefficient vanishes."""
-        image = self(polynomial)
-        if image.degree() != polynomial.degree:
-            raise BadPrimeError(f"{self.p} divides a leading coefficient")
-        return image
-
-
-class Collector(ABC):
-    """Images of polynomials of one shape (how many, and how long), from which their coordinates are guessed."""
-
-    __slots__ = ("_next_attempt", "primes_used", "shape")
-
-    def __init__(self, shape: tuple[int, ...]) -> None:
-        self.shape = shape
-        self.primes_used, self._next_attempt = 0, 1
-
-    @abstractmethod
-    def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:
-        """Add the images under a homomorphism; a proposal when one is due and there is one, else None."""
-
-    def _is_due(self) -> bool:
-        """One more prime was used: with which the next guess is made, after a third more of them than for the last one."""
-        self.primes_used += 1
-        if self.primes_used < self._next_attempt:
-            return False
-        self._next_attempt = self.primes_used + 1 + self.primes_used // 3
-        return True
 
 
 class Field(ABC):
@@ -401,14 +344,6 @@ class Field(ABC):
     def homomorphisms(self) -> Iterator[Homomorphism]:
         """One homomorphism for each usable prime."""
         return (bundle[0] for bundle in self.bundles())
-
-    def scalar(self, polynomial: Poly, power: int) -> Any:
-        """The coefficient of `x**power` (0 for negative powers) in the field's fastest type for `+ - * /` and truth."""
-        return polynomial[power] if power >= 0 else self.poly([])
-
-    def from_scalars(self, coefficients: Sequence[Any]) -> Poly:
-        """The polynomial with coefficients, low to high, of the type of `scalar`."""
-        return self.poly(coefficients)
 
     def cleared(self, num: Poly, den: Poly) -> tuple[Poly, Poly]:
         """A common multiple of two polynomials over an extension of this ground field by one of its elements.

@@ -86,8 +86,7 @@ class RatFunc(Immutable):
     __radd__ = __add__
 
     def __sub__(self, other: RatFunc | Poly | Scalar) -> RatFunc:
-        value = self._coerce(other)
-        return NotImplemented if value is None else self + (-value)
+        return self + -other
 
     def __rsub__(self, other: RatFunc | Poly | Scalar) -> RatFunc:
         return -self + other

@@ -14,8 +14,8 @@ from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.apart import last_of
 from kovacic.algebra.lifting import Residues, inverse_by_primes, primes
-from kovacic.algebra.modular import BadPrimeError
-from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly, Scalar
+from kovacic.algebra.modular import BadPrimeError, Collector, Homomorphism
+from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.limits import check_duration, check_time, watched_seconds
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
@@ -203,9 +203,6 @@ class RationalPoly(Poly):
     def rational_coefficients(self) -> tuple[Any, ...]:
         return tuple(self.rep.coeffs())
 
-    def common_denominator(self) -> int:
-        return int(self.rep.denom())
-
     def content(self) -> tuple[int, int]:
         return int(self.rep.numer().content()) or 1, int(self.rep.denom())
 
@@ -288,12 +285,6 @@ class RationalField(Field):
 
     def assemble(self, coordinates: Sequence[Any]) -> list[Poly]:
         return [RationalPoly(c) for c in coordinates]
-
-    def scalar(self, polynomial: Poly, power: int) -> Any:
-        return polynomial.rep[power] if power >= 0 else fmpq(0)  # type: ignore[attr-defined]
-
-    def from_scalars(self, coefficients: Sequence[Any]) -> Poly:
-        return RationalPoly(fmpq_poly(list(coefficients)))
 
     def sqrt(self, constant: Poly) -> Poly | None:
         value = constant.rep[0]  # type: ignore[attr-defined]

@@ -72,14 +72,14 @@ class FieldSeries:
 
     def __init__(self, field: Field, width: int) -> None:
         self._field, self._width = field, width
-        self._terms = [field.scalar(field.poly([1]), 0)]
-        self._zero = self._terms[0] * 0
+        self._terms = [field.poly([1])]
+        self._zero = field.poly([])
 
     def term(self, n: int) -> Any:
         return self._terms[n]
 
     def polynomial(self, count: int) -> Poly:
-        return self._field.from_scalars(self._terms[:count])
+        return self._field.poly(self._terms[:count])
 
     def extend(self, pivot: Any, factors: Sequence[Any]) -> Any:
         window = self._terms[: -self._width - 1 : -1]
@@ -93,7 +93,7 @@ class _Operator:
     """`second P'' + first P' + zeroth P`: it takes x^k to sum_j L_j(k) x^(k+s-j), L_j(k) = a_j k (k-1) + b_j k + c_j."""
 
     field: Field
-    coefficients: list[tuple[Any, Any, Any]]
+    coefficients: list[tuple[Any, ...]]
 
     def L(self, j: int, k: int) -> Any:
         a, b, c = self.coefficients[j]
@@ -108,21 +108,12 @@ class _Operator:
 
 
 def _operator(second: Poly, first: Poly, zeroth: Poly) -> _Operator:
-    field = first.field
+    field, parts = first.field, list[Any]([second, first, zeroth])
     shift = max(second.degree - 2, first.degree - 1, zeroth.degree)
     if field == QQ:
-        scale = lcm(*(f.common_denominator() for f in (second, first, zeroth)))
-        second, first, zeroth = second * scale, first * scale, zeroth * scale
-
-    def scalar(f: Poly, power: int) -> Any:
-        value = field.scalar(f, power)
-        return value.p if field == QQ else value
-
-    columns = range(shift + 3)
-    return _Operator(
-        field,
-        [(scalar(second, shift + 2 - j), scalar(first, shift + 1 - j), scalar(zeroth, shift - j)) for j in columns],
-    )
+        scale = lcm(*(f.content()[1] for f in parts))
+        parts = [(f * scale).rep.numer() for f in parts]
+    return _Operator(field, [tuple(f[shift + 2 - i - j] for i, f in enumerate(parts)) for j in range(shift + 3)])
 
 
 def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int) -> Poly | None:
@@ -146,7 +137,7 @@ def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int) ->
         factor = next((-r / q for r, q in zip(main.remainder, other.remainder, strict=True) if q), None)
         if factor is None or any(r + factor * q for r, q in zip(main.remainder, other.remainder, strict=True)):
             return None
-        P = P + other.polynomial * operator.field.from_scalars([factor])
+        P = P + other.polynomial * operator.field.poly([factor])
     return P
 
 
@@ -175,5 +166,4 @@ def _descend(operator: _Operator, start: int) -> _Descent | None:
                 return None
             free = k
     downwards = series.polynomial(start + 1)
-    field = operator.field
-    return _Descent(field.from_scalars([field.scalar(downwards, start - k) for k in range(start + 1)]), free, remainder)
+    return _Descent(downwards.reversed(start - downwards.degree), free, remainder)

@@ -17,8 +17,8 @@ from typing import Any
 from flint import fmpq, fmpq_poly, fmpz_mat, nmod_mat, nmod_poly
 
 from kovacic.algebra.lifting import chinese_remainders, primes
-from kovacic.algebra.modular import BadPrimeError, simple_roots
-from kovacic.algebra.poly import Collector, Field, Homomorphism, Poly
+from kovacic.algebra.modular import BadPrimeError, Collector, Homomorphism, simple_roots
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ, RationalHomomorphism
 
 #: From this degree on a number field may have too few primes that split completely; so many primes are tried.

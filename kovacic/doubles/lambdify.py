@@ -25,6 +25,7 @@ from typing import Any
 import numpy as np
 from flint import acb
 
+from kovacic.api import solve
 from kovacic.doubles.arrangement import product_form
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Measured, Region, region_of
@@ -38,7 +39,6 @@ from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
-from kovacic.solution import solve
 
 TINY, HUGE = 2.0**-960, 2.0**1020
 """Where values count."""

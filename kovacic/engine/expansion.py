@@ -109,7 +109,7 @@ def _coefficients(
         if factor.degree > 0:
             R = R + v * (D // factor) * factor.derivative()
     T = num * (D * D // den)
-    scale = lcm(D.common_denominator(), R.common_denominator(), T.common_denominator())
+    scale = lcm(*(f.content()[1] for f in (D, R, T)))
     return (D * scale).rep.numer(), (R * scale).rep.numer(), (T * scale**2).rep.numer(), point  # type: ignore[attr-defined]
 
 

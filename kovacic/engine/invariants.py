@@ -18,6 +18,7 @@ from typing import Any
 from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.modular import (
     BadPrimeError,
+    Homomorphism,
     echelon_by_degree,
     fundamental_system,
     null_space,
@@ -25,7 +26,7 @@ from kovacic.algebra.modular import (
     power_series,
     translate,
 )
-from kovacic.algebra.poly import Homomorphism, Poly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import NoInvariant
 from kovacic.engine.expansion import polynomial_invariant

@@ -18,6 +18,7 @@ from flint import nmod_poly
 
 from kovacic.algebra.modular import (
     BadPrimeError,
+    Homomorphism,
     rational_function_from_series,
     reverse,
     series_solution,
@@ -26,7 +27,6 @@ from kovacic.algebra.modular import (
     square_root_series,
     translate,
 )
-from kovacic.algebra.poly import Homomorphism
 from kovacic.engine.places import Kind, LocalEquation, Place, Problem, local_equation, reduced_equation
 
 

@@ -17,8 +17,8 @@ from typing import Any
 
 from kovacic.algebra.extension import adjoined_square_root
 from kovacic.algebra.lifting import Lifter
-from kovacic.algebra.modular import BadPrimeError
-from kovacic.algebra.poly import Homomorphism, Poly
+from kovacic.algebra.modular import BadPrimeError, Homomorphism
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.decision import Evidence, Exclusion, NoInvariant, NoRationalOmega, Structure

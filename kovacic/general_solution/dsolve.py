@@ -12,6 +12,7 @@ import sympy
 from flint import acb, ctx
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
+from kovacic.api import solve
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import at_edges, solutions
@@ -32,7 +33,7 @@ from kovacic.reading.exponential import in_exponentials, solution_in_terms_of
 from kovacic.reading.from_sympy import function_of
 from kovacic.reading.given import Equation, Parsed, parameters_of
 from kovacic.reading.source import read_source, source_of
-from kovacic.solution import Solution, solve
+from kovacic.solution import Solution
 from kovacic.special.answer import special_functions
 from kovacic.views.sentences import SCREEN
 

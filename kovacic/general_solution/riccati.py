@@ -7,11 +7,12 @@ from typing import Any
 
 import sympy
 
+from kovacic.api import solve
 from kovacic.closed_form.atoms import Atoms
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.reading.given import Equation
-from kovacic.solution import Solution, solve
+from kovacic.solution import Solution
 
 
 @dataclass(frozen=True)

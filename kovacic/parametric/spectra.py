@@ -197,7 +197,7 @@ def _choices(
     if single:
         centered = f(RatFunc(N * modulus + center))
         yield _Spectrum(name, centered, _in_integers(N, u, centered(RatFunc(-N)) == centered))
-    if not single or constant_term(center).denominator > 1 or u.common_denominator() > 1:
+    if not single or constant_term(center).denominator > 1 or int(u.den.content()) > 1:
         form, what = over_parameters(N + center), " is " + "".join(kind(residues, modulus))
         yield _Spectrum(name, f(RatFunc(form)), lambda n: n.comma + n.function(form) + n.words(what))
 

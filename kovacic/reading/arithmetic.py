@@ -204,7 +204,7 @@ class Arithmetic:
         if base.is_constant:
             bits = n * base.height_bits()
         else:  # height(P**n) <= |P|_1**n, the sum of the moduli of the coefficients
-            denominator = base.common_denominator()
+            denominator = base.content()[1]
             norm = sum(abs(int(c.p)) * (denominator // int(c.q)) for c in base.rational_coefficients())
             bits = n * max((norm - 1).bit_length(), (denominator - 1).bit_length())
         self._check(n * base.degree, bits)

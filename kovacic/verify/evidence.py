@@ -12,6 +12,7 @@ from flint import nmod_poly
 
 from kovacic.algebra.modular import (
     BadPrimeError,
+    Homomorphism,
     fundamental_system,
     null_space,
     ordinary_point,
@@ -22,7 +23,7 @@ from kovacic.algebra.modular import (
     square_root_series,
     translate,
 )
-from kovacic.algebra.poly import Homomorphism, Poly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRationalOmega, Rule, Structure

@@ -15,8 +15,8 @@ from typing import Any
 from flint import nmod_poly
 
 from kovacic.algebra.factors import FEW_FACTORS, expansion, expansions
-from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
-from kovacic.algebra.poly import Homomorphism, Poly
+from kovacic.algebra.modular import BadPrimeError, Homomorphism, series_solution, simple_roots, translate
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, trace_of_square_root
@@ -71,11 +71,10 @@ class Point:
             return Fraction(1) if self.order < 2 else None
         # S = b/(x - c)^2 + ... with b = N/(p'^2 q), and Delta^2 = 1 + 4b.
         top, bottom = self.near
-        field, n = self.factor.field, bottom.degree
-        ratio = field.from_scalars([field.scalar(top, n) / field.scalar(bottom, n)])
+        ratio = top[bottom.degree] / bottom.lc
         if top != ratio * bottom:
             return None
-        square = field.rational_value(4 * ratio + 1)
+        square = ratio.field.rational_value(4 * ratio + 1)
         if square is None or square < 0:
             return None
         root = Fraction(isqrt(square.numerator), isqrt(square.denominator))

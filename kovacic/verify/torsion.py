@@ -20,8 +20,7 @@ from typing import Any
 
 from flint import fmpz, nmod_poly
 
-from kovacic.algebra.modular import BadPrimeError
-from kovacic.algebra.poly import Homomorphism
+from kovacic.algebra.modular import BadPrimeError, Homomorphism
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.splitting import homomorphisms_modulo
 from kovacic.limits import Budget
