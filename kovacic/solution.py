@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from kovacic.doubles.product_form import ProductForm
     from kovacic.doubles.tabulate import TabulatedFunction
     from kovacic.enclosure.agreement import Agreement
+    from kovacic.enclosure.problem import NumericProblem
     from kovacic.galois import EquationGroup, Group
     from kovacic.parametric.assumptions import Assumptions
     from kovacic.parametric.restriction import GenericConditions
@@ -169,6 +170,13 @@ class Solution:
             plain = {symbol: type(symbol)(name) for name, symbol in symbols.items()}
             found = replace(found, y1=found.y1.xreplace(plain), y2=found.y2.xreplace(plain))
         return self._in_given_variable(found)  # type: ignore[no-any-return]
+
+    @cached_property
+    def numeric(self) -> NumericProblem:
+        """What `at` and its relatives evaluate, read once."""
+        from kovacic.enclosure.problem import read_problem
+
+        return read_problem(self)
 
     @property
     def solutions(self) -> tuple[Any, ...]:

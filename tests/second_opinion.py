@@ -51,7 +51,7 @@ from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, inte
 from kovacic.enclosure.matrices import Matrix, adjugate, fundamental, multiply, product
 from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.problem import as_problem
-from kovacic.limits import Budget
+from kovacic.limits import check_time
 
 Found = TypeVar("Found")
 
@@ -60,7 +60,7 @@ _DEPTH = 200
 
 def transition(solution: Solution, vertices: Sequence[object], prec: int) -> Matrix:
     """The transition matrix along the polygon, from the certificate of a decision; in case 1 one with a rational omega."""
-    points, budget = [as_point(v, "a vertex") for v in vertices], Budget()
+    points = [as_point(v, "a vertex") for v in vertices]
     decision = solution.decision
     assert decision.semi_invariant is not None
     assert decision.structure is not None
@@ -70,11 +70,11 @@ def transition(solution: Solution, vertices: Sequence[object], prec: int) -> Mat
             if decision.case == 1:
                 closed = closed_form_of(as_problem(solution))
                 assert closed is not None
-                matrices.append(quadrature_leg(closed, to_acb(a), to_acb(b), budget))
+                matrices.append(quadrature_leg(closed, to_acb(a), to_acb(b)))
             elif decision.case == 2:
-                matrices += pair_leg(solution.S, decision.semi_invariant, a, b, budget)
+                matrices += pair_leg(solution.S, decision.semi_invariant, a, b)
             else:
-                matrices += klein_leg(charts(solution.S, decision.structure, decision.invariant), a, b, budget)
+                matrices += klein_leg(charts(solution.S, decision.structure, decision.invariant), a, b)
         return product(matrices)
 
 
@@ -95,7 +95,7 @@ class Piece:
         return to_acb(self.a).union(to_acb(self.b))
 
 
-def cut(piece: Piece, found_on: Callable[[Piece], Found | None], budget: Budget) -> list[tuple[Piece, Found]] | None:
+def cut(piece: Piece, found_on: Callable[[Piece], Found | None]) -> list[tuple[Piece, Found]] | None:
     """The piece in halves, quarters, ... so that `found_on` gives an answer on each of them, with the answers.
 
     None if 2^-200 of the length is too long at the working precision in force.
@@ -103,7 +103,7 @@ def cut(piece: Piece, found_on: Callable[[Piece], Found | None], budget: Budget)
     result: list[tuple[Piece, Found]] = []
     open_pieces = [(piece, 0)]
     while open_pieces:
-        budget.check()
+        check_time()
         current, depth = open_pieces.pop()
         found = found_on(current)
         if found is not None:
@@ -123,7 +123,7 @@ def values(poly: acb_poly, x: acb) -> acb:
     return value
 
 
-def quadrature_leg(closed: ClosedForm, a: acb, b: acb, budget: Budget) -> Matrix:
+def quadrature_leg(closed: ClosedForm, a: acb, b: acb) -> Matrix:
     """Case 1, whatever E is."""
     theta, B = LogDerivative.make(closed.first.theta, None), Quotient.make(closed.reduction[1], None)
     P, A = embed(closed.first.P, None), embed(closed.reduction[0], None)
@@ -136,7 +136,7 @@ def quadrature_leg(closed: ClosedForm, a: acb, b: acb, budget: Budget) -> Matrix
         y, dy = E * p, E * (t * p + P.derivative()(x))
         return fundamental((y, dy), (alpha / E + y * area, (A.derivative()(x) - t * alpha + B(x) * p) / E + dy * area))
 
-    at_b = states(b, theta.growth(a, b), integral(integrand, a, b, budget))
+    at_b = states(b, theta.growth(a, b), integral(integrand, a, b))
     return multiply(at_b, adjugate(states(a, acb(1), acb(0))))  # the Wronskian is 1
 
 
@@ -170,13 +170,13 @@ def unknown() -> Matrix:
     return nothing, nothing, nothing, nothing
 
 
-def pair_leg(S: RatFunc, f: SemiInvariant, a: Point, b: Point, budget: Budget) -> list[Matrix]:
+def pair_leg(S: RatFunc, f: SemiInvariant, a: Point, b: Point) -> list[Matrix]:
     """Case 2, equation (2): the leg is cut into pieces with a fixed sign."""
     pair = Pair.make(S, f, to_acb(a))
-    pieces = cut(Piece(a, b), pair.sign_on, budget)
+    pieces = cut(Piece(a, b), pair.sign_on)
     if pieces is None:
         return [unknown()]
-    return [pair.matrix(sign, to_acb(piece.a), to_acb(piece.b), budget) for piece, sign in pieces]
+    return [pair.matrix(sign, to_acb(piece.a), to_acb(piece.b)) for piece, sign in pieces]
 
 
 @dataclass(frozen=True)
@@ -217,7 +217,7 @@ class Pair:
         """w for E = 1 at x."""
         return self.w / self.theta.growth(self.origin, x)
 
-    def matrix(self, sign: int, a: acb, b: acb, budget: Budget) -> Matrix:
+    def matrix(self, sign: int, a: acb, b: acb) -> Matrix:
         """The transition matrix from a to b, a piece with this sign of the leg that begins at `origin`."""
         w = sign * self.wronskian(a)
 
@@ -230,7 +230,7 @@ class Pair:
             slope, f = omega(x), E * self.P(x)
             return (y, y * slope), (f / y, (E * self.first(x) - f * slope) / y)
 
-        growth = integral(omega, a, b, budget).exp()
+        growth = integral(omega, a, b).exp()
         at_a, at_b = states(a, acb(1), acb(1)), states(b, self.theta.growth(a, b), growth)
         return quotient(fundamental(*at_b), fundamental(*at_a))
 
@@ -294,14 +294,14 @@ def charts(S: RatFunc, structure: Structure, invariant: Any) -> tuple[Chart, Cha
     )
 
 
-def klein_leg(pairs: tuple[Chart, ...], a: Point, b: Point, budget: Budget) -> list[Matrix]:
+def klein_leg(pairs: tuple[Chart, ...], a: Point, b: Point) -> list[Matrix]:
     """The matrices of the pieces of the leg from a to b, in order."""
     arguments = {chart: Quotient.make(chart.z, None) for chart in pairs}
 
     def chart_on(piece: Piece) -> Chart | None:
         return next((chart for chart in pairs if _off_the_cut(arguments[chart](piece.box()))), None)
 
-    pieces = cut(Piece(a, b), chart_on, budget)
+    pieces = cut(Piece(a, b), chart_on)
     if pieces is None:
         return [unknown()]
     prepared = {chart: tuple(_prepared(solution) for solution in chart.pair) for _, chart in pieces}

@@ -66,7 +66,7 @@ def compare(pullback: Pullback, a: Point, b: Point, bits: int) -> bool:
             return False
     system = System.of(pullback.S)
     with ctx.workprec(bits + 20):
-        taylor = product(piece_matrices(system, a, b, bits, Budget()))
+        taylor = product(piece_matrices(system, a, b, bits))
         assert all(m.overlaps(n) for m, n in zip(matrix, taylor, strict=True)), (pullback, a, b, bits)
         assert (matrix[0] * matrix[3] - matrix[1] * matrix[2]).contains(1)
     return True

@@ -15,7 +15,6 @@ from kovacic.enclosure.frobenius import Majorant
 from kovacic.enclosure.points import Point, working_precision
 from kovacic.enclosure.problem import System
 from kovacic.enclosure.taylor import _cut, _proven_defect, _recurrence, error_radii, expand
-from kovacic.limits import Budget
 
 Gauss = tuple[int, int]
 
@@ -45,7 +44,7 @@ def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, sta
     """With positive coefficients all terms are, and rounded down they end in zeros: there is no other error, and it grows
     like n^3/6."""
     parts: tuple[Parts, Parts] = (p, None), ([q_0], None)
-    re, im = _recurrence(*parts, 1500, start, 1, Budget())
+    re, im = _recurrence(*parts, 1500, start, 1)
     assert len(re) > 100
     bound = _proven_defect(*parts, 0, re, im, 1)
     exact = exact_defect(*parts, re, im)
@@ -68,7 +67,7 @@ def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, sta
 def test_the_last_terms_are_counted(p: Parts, q: Parts, bits: int, start: int) -> None:
     """The recurrence stops at terms below 2^bits, which the defect then contains, times the coefficients and n^2."""
     quiet = bits + 6
-    re, im = _recurrence(p, q, 200, start, 1 << quiet, Budget())
+    re, im = _recurrence(p, q, 200, start, 1 << quiet)
     exact = exact_defect(p, q, re, im)
     assert exact <= _proven_defect(p, q, 0, re, im, 1 << quiet)
     if bits and len(q[0]) > 1 and p[0]:
@@ -85,7 +84,7 @@ def test_bits_that_are_cut_off_are_counted(which: str, is_complex: bool, start: 
     p: Parts = [(3 << excess) + low_p] * 2, [(1 << excess) + low_p] * 2 if is_complex else None
     q: Parts = [5 << excess, (1 << excess) + low_q], [0, (2 << excess) + low_q] if is_complex else None
     trimmed = _cut(p, excess), _cut(q, excess)
-    re, im = _recurrence(*trimmed, 150, start, 1 << 8, Budget())
+    re, im = _recurrence(*trimmed, 150, start, 1 << 8)
     exact = exact_defect(p, q, re, im)
     assert exact <= _proven_defect(*trimmed, excess, re, im, 1 << 8)
     assert exact > len(re) ** 3 * q[0][0] << 60  # what was cut off is most of it
@@ -101,7 +100,7 @@ def test_bits_that_are_cut_off_are_counted(which: str, is_complex: bool, start: 
 def test_expansions_know_their_defect(system: System, centre: Point, prec: int) -> None:
     frame = make_frame(system, centre, -2)
     assert frame is not None
-    expansion = expand(frame, prec, Budget())
+    expansion = expand(frame, prec)
     p, q = shift(system, centre, Point(frame.scale))
     assert (frame.p, frame.q) == (p, q)
     for (re, im), defect in zip(expansion.columns, expansion.defect, strict=True):

@@ -25,7 +25,7 @@ from kovacic.enclosure.problem import System, check_segment
 from kovacic.enclosure.states import evaluate_states
 from kovacic.enclosure.transport import cover
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Budget, Limits
+from kovacic.limits import Limits
 from kovacic.views.plot import sample
 
 START: dict[str, Any] = {"y0": 1, "dy0": 0}
@@ -61,7 +61,7 @@ def test_no_path_takes_fewer_steps_than_the_bound(seed: int) -> None:
     num = tuple(rng.randrange(-9, 10) * 10 ** rng.randrange(0, 6) for _ in range(rng.randrange(1, 4)))
     system = System.make((*num, 1), (1, 0, 1) if rng.random() < 0.5 else (1,))
     a, b = (Point(Fraction(rng.randrange(-40, 41), 4), Fraction(rng.randrange(2, 9), 8)) for _ in "ab")
-    steps = len(list(cover(system, a, b, 60, Budget(Limits()))))
+    steps = len(list(cover(system, a, b, 60)))
     assert least_growth(system, a, b) <= 2 * 110 * math.log(2) * steps
 
 

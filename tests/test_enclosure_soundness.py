@@ -6,11 +6,14 @@ import random
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 import pytest
 from flint import acb, arb, ctx, fmpq
 
+from kovacic.enclosure import transport
 from kovacic.enclosure.ball import ball_to_flint
+from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.monodromy import connection_matrix
 from kovacic.enclosure.precision import Method
 from kovacic.enclosure.states import evaluate_states
@@ -200,3 +203,43 @@ def test_connection_matrices_turn_coordinates(seed: int) -> None:
     assert from_one.y.overlaps(from_other.y)
     assert from_one.dy.overlaps(from_other.dy)
     assert from_one.y.digits > 18
+
+
+def off_axis(rng: random.Random, count: int) -> list[complex]:
+    """Points around 0 and 2 + i, some of them twice, in no order."""
+    found = [complex(rng.randint(-24, 24) / 8, rng.choice([-1, 1]) * rng.randint(1, 24) / 8) for _ in range(count)]
+    found += [*found[: count // 4], 2 + 1j, 0j]
+    rng.shuffle(found)
+    return found
+
+
+@pytest.mark.parametrize("S", ["x^3 + x + 1", "(x + 3)/(x^2 + 1)", "1/(x - 1)^2 + 2/(x^2 + 2)", "1 + 1/(8*x + 3)^3"])
+@pytest.mark.parametrize("x0", ["1/5", 2 + 1j])
+def test_values_at_many_complex_points_are_those_at_each_alone(S: str, x0: Any) -> None:
+    """One expansion serves the points of its disc, on the right side of every singular point."""
+    rng = random.Random(f"{S} {x0}")
+    points = [x for x in off_axis(rng, 40) if abs(x) > 1.5 or rng.random() < 0.5]
+    start: dict[str, Any] = {"x0": x0, "y0": 1, "dy0": Fraction(-2, 3), "method": "taylor"}
+    alone: dict[complex, Any] = {}
+    for x in set(points):
+        try:
+            alone[x] = evaluate(S, x, derivative=True, digits=20, **start)
+        except InputError:  # through a singular point
+            points = [p for p in points if p != x]
+    assert len(alone) > 25
+    for x, found in zip(points, evaluate(S, points, derivative=True, digits=20, **start), strict=True):
+        assert all(ball.overlaps(other) and ball.digits > 19 for ball, other in zip(found, alone[x], strict=True)), x
+
+
+def test_a_thousand_complex_points_take_a_few_dozen_expansions(monkeypatch: pytest.MonkeyPatch) -> None:
+    count, expand = [0], transport.expand
+
+    def counted(*arguments: Any) -> Any:
+        count[0] += 1
+        return expand(*arguments)
+
+    monkeypatch.setattr(transport, "expand", counted)
+    points = off_axis(random.Random(7), 1000)
+    values = evaluate("x^3 + x + 1", points, x0=0, y0=1, dy0=0)
+    assert len(values) == 1252
+    assert count[0] < 150

@@ -40,9 +40,7 @@ def both_ways(system: System, path: list[Point], prec: int) -> tuple[Matrix, Mat
             patch.setattr(transport, "is_split", lambda system, prec, split=split: split)
             try:
                 matrices.append(
-                    product(
-                        [m for a, b in pairwise(path) for m in transport.piece_matrices(system, a, b, prec, Budget())]
-                    )
+                    product([m for a, b in pairwise(path) for m in transport.piece_matrices(system, a, b, prec)])
                 )
             except InputError:
                 assume(False)
@@ -100,7 +98,7 @@ def coefficients(equation: Recurrence, start: int, count: int) -> list[Point]:
 
 @given(equations(), st.integers(1, 5), st.booleans())
 def test_a_run_gives_the_same_sums_as_step_by_step(equation: Recurrence, leaves: int, mirror: bool) -> None:
-    run = make_block(equation.leaf(mirror), 2, leaves, Budget())
+    run = make_block(equation.leaf(mirror), 2, leaves)
     r, count = equation.order, 2 + leaves * LEAF
     for start in (0, 1):
         b = coefficients(equation, start, count)
@@ -179,9 +177,9 @@ def disc(request: pytest.FixtureRequest) -> Iterator[tuple[Frame, Point]]:
 def test_mirrored_legs_are_two_legs(disc: tuple[Frame, Point]) -> None:
     frame, target = disc
     other = frame.centre + frame.centre - target
-    there, back = split_legs(LEGENDRE, frame, target, 2500, Budget(), mirror=True)
+    there, back = split_legs(LEGENDRE, frame, target, 2500, mirror=True)
     for point, matrix in zip((target, other), (there, back), strict=True):
-        (alone,) = split_legs(LEGENDRE, frame, point, 2500, Budget())
+        (alone,) = split_legs(LEGENDRE, frame, point, 2500)
         assert overlap(alone, matrix)
         assert lost_bits(matrix, 2500) <= 8
 
@@ -190,21 +188,21 @@ def test_mirrored_legs_are_two_legs(disc: tuple[Frame, Point]) -> None:
 def test_a_chain_of_doubling_steps_is_one_step(disc: tuple[Frame, Point], tiny: Fraction) -> None:
     frame, target = disc
     target = target + Point(tiny, tiny if frame.centre.im else Fraction(0))
-    (alone,) = split_legs(LEGENDRE, frame, target, 2500, Budget())
-    chain = bit_burst(LEGENDRE, frame, target, 2500, Budget())
+    (alone,) = split_legs(LEGENDRE, frame, target, 2500)
+    chain = bit_burst(LEGENDRE, frame, target, 2500)
     matrix = product(chain)
     assert len(chain) > 1
     assert overlap(alone, matrix)
     assert lost_bits(matrix, 2500) <= 8
-    assert bit_burst(LEGENDRE, frame, frame.centre, 2500, Budget()) == []
+    assert bit_burst(LEGENDRE, frame, frame.centre, 2500) == []
 
 
 def test_the_slopes_of_the_short_last_steps_of_a_chain_lose_nothing() -> None:
     frame, target, prec = make_frame(AIRY, Point(Fraction(0)), 0), Point(Fraction(7**8000, 7**8001 + 1)), 30_000
     assert frame is not None
     with flint.ctx.workprec(prec + 40):
-        chain = bit_burst(AIRY, frame, target, prec, Budget())
-        alone = transition(expand(frame, prec, Budget()), target)
+        chain = bit_burst(AIRY, frame, target, prec)
+        alone = transition(expand(frame, prec), target)
         assert overlap(product(chain), alone)
     assert all(lost_bits(matrix, prec) <= 0 for matrix in chain)
 
@@ -218,9 +216,9 @@ def test_points_outside_of_the_bounds_of_a_disc_are_refused(disc: tuple[Frame, P
     outside = frame.centre + Point(0, 1 + Fraction(1, 1 << 15)).scaled(frame.scale)
     for beyond in (outside, outside + Point(Fraction(1, 3**60))):
         with pytest.raises(ArithmeticError, match="outside of its disc"):
-            bit_burst(LEGENDRE, frame, beyond, 2500, Budget())
+            bit_burst(LEGENDRE, frame, beyond, 2500)
         with pytest.raises(ArithmeticError, match="outside of its disc"):
-            transition(expand(frame, 100, Budget()), beyond)
+            transition(expand(frame, 100), beyond)
 
 
 def test_a_disc_smaller_than_any_double_keeps_its_error_bound() -> None:

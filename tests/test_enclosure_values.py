@@ -339,7 +339,7 @@ def test_large_denominators_dont_cost_precision() -> None:
     # 40 double poles on the circle |x| = 3: absolute values of the coefficients of 1/den would lose 2^40 in every disc
     system = System.make((1,), (-(3**40), *[0] * 39, 1))
     with flint.ctx.workprec(140):
-        m = product(piece_matrices(system, Point(Fraction(0)), Point(Fraction(5, 2)), 100, Budget()))
+        m = product(piece_matrices(system, Point(Fraction(0)), Point(Fraction(5, 2)), 100))
         assert min(m[k].rel_accuracy_bits() for k in (0, 1, 3)) > 90
 
 
@@ -458,7 +458,8 @@ def test_poles_of_the_first_coefficient_are_singular_even_where_the_normal_form_
 
 def discs(pole: Fraction, a: Point, b: Point) -> int:
     system = System.make((3,), (-pole.numerator, pole.denominator))
-    return sum(1 for _ in cover(system, a, b, 74, Budget(Limits(seconds=5))))
+    with Budget(Limits(seconds=5)).watched():
+        return sum(1 for _ in cover(system, a, b, 74))
 
 
 def discs_stay_few(rng: random.Random, count: int) -> None:
@@ -698,6 +699,7 @@ def test_a_complex_path_comes_to_its_end(k: int) -> None:
     a, b = Point(Fraction(59, 64), Fraction(47, 64)), Point(Fraction(-63, 64), Fraction(13, 32))
     ends = [Point(p.re + Fraction(k, 97), p.im).scaled(Fraction(2) ** (k - 3)) for p in (a, b)]
     system = System.make((0, 1), (1,))
-    assert sum(1 for _ in cover(system, ends[0], ends[1], 223, Budget(Limits(seconds=5)))) < 400
-    if k == 0:
-        assert len(list(cover(system, a, b, 223, Budget(Limits(seconds=5))))) < 10
+    with Budget(Limits(seconds=5)).watched():
+        assert sum(1 for _ in cover(system, ends[0], ends[1], 223)) < 400
+        if k == 0:
+            assert len(list(cover(system, a, b, 223))) < 10

@@ -20,7 +20,7 @@ ones; in cases 2 and 3 the roots of the polynomial of omega at the point, by rea
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, cmp_to_key
+from functools import cached_property, cmp_to_key, lru_cache
 
 from flint import acb, acb_poly, arb
 
@@ -69,7 +69,7 @@ def value(function: RatFunc, c: acb | None, z: acb) -> acb:
     return embed(function.num, c)(z) / embed(function.den, c)(z)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ClosedForm:
     """The certificate of case 1 that the legs are computed from, and what follows from it exactly, computed once."""
 
@@ -197,6 +197,7 @@ def certified(problem: NumericProblem) -> Decision:
     return problem.decision
 
 
+@lru_cache(maxsize=32)
 def closed_form_of(problem: NumericProblem) -> ClosedForm | None:
     """The closed form of a solution of case 1, None in the other cases; raises InputError without a certificate."""
     decision = certified(problem)

@@ -25,7 +25,6 @@ from kovacic.enclosure.constants import Number, to_ball
 from kovacic.enclosure.exponential import integral
 from kovacic.enclosure.points import floor, working_precision
 from kovacic.errors import InputError
-from kovacic.limits import Budget
 
 # Bits beyond twice the precision to which the constants are known: the solutions grow in a disc, and poles may be near
 _EXTRA = 256
@@ -58,10 +57,10 @@ class Embedded:
             radius = max((floor(abs(c - n).upper()) + 1 for c, n in pairs), default=0)
             return tuple(whole[0]), tuple(whole[1]), radius
 
-    def growth_of(self, function: RatFunc, budget: Budget) -> EmbeddedGauge:
+    def growth_of(self, function: RatFunc) -> EmbeddedGauge:
         """The gauge at the working precision in force."""
         num, den = (acb_poly(_real(self._embed(part))) for part in (function.num, function.den))
-        return EmbeddedGauge(num, den, budget)
+        return EmbeddedGauge(num, den)
 
     def bound(self, ball: acb) -> arb:
         """Of |b/a| + |c/a| on the ball, for a z'' + b z' + c z = 0, z = g y."""
@@ -95,7 +94,6 @@ class EmbeddedGauge:
 
     num: acb_poly
     den: acb_poly
-    budget: Budget
 
     def value(self, x: acb) -> acb:
         """gamma(x); raises InputError at a pole, or too near to one to tell."""
@@ -104,7 +102,7 @@ class EmbeddedGauge:
 
     def growth(self, a: acb, b: acb) -> acb:
         """exp(int_a^b gamma) along the straight segment; raises InputError where it meets a pole."""
-        return _regular(integral(lambda z, _: self.num(z) / self.den(z), a, b, self.budget)).exp()
+        return _regular(integral(lambda z, _: self.num(z) / self.den(z), a, b)).exp()
 
 
 def _regular(value: acb) -> acb:

@@ -25,7 +25,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.errors import LimitExceeded
-from kovacic.limits import Budget, check_duration
+from kovacic.limits import check_duration, check_time
 
 _NODES = 3e-11  # seconds that the nodes of a quadrature take, over bits^2.7 (measured): they are computed in one piece
 
@@ -142,10 +142,10 @@ def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[ac
     return tuple(quotient[k - 1 - j] for j in range(k))
 
 
-def integral(function: Callable[[acb, bool], acb], a: acb, b: acb, budget: Budget) -> acb:
+def integral(function: Callable[[acb, bool], acb], a: acb, b: acb) -> acb:
     """int_a^b, by flint's rigorous adaptive quadrature; a non-finite ball where it gave up.
 
-    Raises LimitExceeded when the budget is used up.  An exception can't cross flint's C code (python-flint 0.9.0 turns it
+    Raises LimitExceeded when the time is over.  An exception can't cross flint's C code (python-flint 0.9.0 turns it
     into a SystemError), so the integrand answers 0 once it was stopped or interrupted, which ends the quadrature at once, and
     the exception comes after.
     """
@@ -155,7 +155,7 @@ def integral(function: Callable[[acb, bool], acb], a: acb, b: acb, budget: Budge
         nonlocal stopped
         if stopped is None:
             try:
-                budget.check()
+                check_time()
                 return function(z, analytic)
             except (LimitExceeded, KeyboardInterrupt) as reason:
                 stopped = reason

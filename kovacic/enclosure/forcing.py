@@ -28,7 +28,6 @@ from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import NumericProblem, System, check_segment
 from kovacic.enclosure.taylor import error_radii
 from kovacic.enclosure.transport import Leg
-from kovacic.limits import Budget
 
 _PIECES = 16  # pieces of a way on which |F| is bounded
 
@@ -55,7 +54,7 @@ class Forcing:
         for function in (self.rational, self.over):
             check_segment(System.of(function), a, b)
 
-    def step(self, leg: Leg, growth: Callable[[acb, bool], acb], budget: Budget) -> State:
+    def step(self, leg: Leg, growth: Callable[[acb, bool], acb]) -> State:
         """What the right-hand side adds to the state where the disc is entered; `growth` is 1/g on a ball."""
         frame, expansion = leg.disc.frame, leg.expansion
         assert expansion is not None
@@ -78,7 +77,7 @@ class Forcing:
             def integrand(x: acb, analytic: bool, poly: acb_poly = poly) -> acb:
                 return poly((x - centre) / h) * source(x, analytic)
 
-            area = integral(integrand, start, stop, budget) * unit
+            area = integral(integrand, start, stop) * unit
             error = (size * error_radii(arb((defect + 1, -expansion.w)), frame)[0]).upper()
             found.append(acb(area.real + arb(0, error), 0 if real else area.imag + arb(0, error)))
         here = (-found[1] * h, found[0])

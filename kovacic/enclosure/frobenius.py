@@ -49,7 +49,7 @@ from kovacic.enclosure.matrices import Matrix, State
 from kovacic.enclosure.points import Point, power_of_two, working_precision
 from kovacic.enclosure.singular import Operator, Singular
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Budget
+from kovacic.limits import check_time
 
 _STRIDE = 16  # terms between two looks at the tail
 _GROWTH = 0.2  # growth of the majorant in bits as a share of the working precision, at most
@@ -142,7 +142,6 @@ class Basis:
         towards: Point,
         bound: Majorant,
         prec: int,
-        budget: Budget,
         needed: Sequence[bool] = (True, True),
     ) -> None:
         self.point, self.towards, self.bits = point, towards, int(prec * (1 + _GROWTH)) + 100
@@ -157,7 +156,7 @@ class Basis:
             balls, delta = op.in_balls(), abs(acb(upper) - lower).upper()
             cases = ((lower, delta, resonance, start), (upper, arb(0), None, (1, 0)))
             self.solutions = tuple(
-                _expand(balls, case, length, bound, prec, budget) if wanted else None
+                _expand(balls, case, length, bound, prec) if wanted else None
                 for case, wanted in zip(cases, needed, strict=True)
             )
 
@@ -175,12 +174,12 @@ class Basis:
             return first[0], second[0], first[1] * factor, second[1] * factor
 
 
-def limit(point: Singular, start: State, budget: Budget) -> State:
+def limit(point: Singular, start: State) -> State:
     """y and y' at the point itself, for coordinates in the basis; raises InputError where one is infinite."""
     beside = point.near + Point(1)
     last, bound = junction(point, beside, 64)
     needed = [not coordinate.is_zero() for coordinate in start]
-    basis = Basis(point, last, beside, bound, max(64, ctx.prec), budget, needed)
+    basis = Basis(point, last, beside, bound, max(64, ctx.prec), needed)
     total = acb(0), acb(0)
     for coordinate, solution in zip(start, basis.solutions, strict=True):
         if solution is None:
@@ -261,7 +260,6 @@ def _expand(
     length: arb,
     bound: Majorant,
     prec: int,
-    budget: Budget,
 ) -> Expansion:
     """The solution that starts with t^exponent (u + v log t), (u, v) = start, for |t| <= length; `case` has the exponent, the
     difference to the other one, the resonance of `_next`, and the start."""
@@ -277,7 +275,7 @@ def _expand(
     while True:
         for _ in range(_STRIDE if len(terms) > 1 else first):
             if len(terms) % _STRIDE == 0:
-                budget.check()
+                check_time()
             terms.append(_next(op, lam + len(terms), terms, resonance))
         n = len(terms)
         with working_precision(64):

@@ -112,7 +112,7 @@ def connection_matrix(
     prec = start_bits(digits)
     while True:
         with working_precision(prec + 40), budget.watched():
-            entries = _connection(problem.at(prec), ends[0], middle, ends[1], prec, budget)
+            entries = _connection(problem.at(prec), ends[0], middle, ends[1], prec)
             goal = max((entry.abs_upper() for entry in entries), key=float) * arb(10) ** -digits
             sharp = all(entry.real.rad() + entry.imag.rad() <= goal for entry in entries)
             balls = [ball for ball in map(ball_from_flint, entries) if ball is not None]
@@ -140,10 +140,10 @@ def _between(a: Singular, b: Singular) -> Point:
 
 
 def _connection(
-    problem: NumericProblem, a: Point | Singular, middle: list[Point], b: Point | Singular, prec: int, budget: Budget
+    problem: NumericProblem, a: Point | Singular, middle: list[Point], b: Point | Singular, prec: int
 ) -> Matrix:
     """The matrix at about so many bits."""
-    traveller, both = Traveller.at(problem, a, None, prec, budget), (acb(1), acb(1))
+    traveller, both = Traveller.at(problem, a, None, prec), (acb(1), acb(1))
     for vertex in middle:
         traveller.go([vertex], both)
     basis, end = None, b
@@ -151,7 +151,7 @@ def _connection(
         here = traveller.here
         assert isinstance(here, Point)
         last, bound = junction(end, here, prec)
-        basis, end = Basis(end, last, here, bound, prec, budget).at(last), last
+        basis, end = Basis(end, last, here, bound, prec).at(last), last
     traveller.go([end], both)
     found = fundamental(traveller.state((acb(1), acb(0))), traveller.state((acb(0), acb(1))))
     return found if basis is None else multiply(inverse(basis), found)

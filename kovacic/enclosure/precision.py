@@ -7,6 +7,7 @@ First digits + guard bits, then as many bits more as were missing.  The global p
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import repeat
 from typing import Literal
@@ -16,11 +17,11 @@ from flint import acb, arb
 from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.frame import log2
-from kovacic.enclosure.journey import Journey
+from kovacic.enclosure.journey import Closed, Journey
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import working_precision
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Budget, Limits
+from kovacic.limits import Limits
 
 Method = Literal["taylor", "closed form"]
 METHODS: tuple[Method, ...] = ("taylor", "closed form")
@@ -84,21 +85,24 @@ def check_digits(digits: object, limits: Limits) -> None:
         raise InputError(f"digits = {digits} is beyond the limit of {limits.digits}", hint="raise limits.digits")
 
 
-def raise_precision(journey: Journey, method: Method, digits: int, budget: Budget) -> tuple[Evaluation, ...]:
+def raise_precision(
+    journey: Journey, targets: Sequence[Number], closed: Closed | None, digits: int, limits: Limits
+) -> tuple[Evaluation, ...]:
     """Make the journey at rising precision until every relative radius is small enough."""
-    prec = start_bits(digits)
+    prec, exact = start_bits(digits), journey.is_exact(targets)
     highest = 6 * prec + 4000  # a value below 2^-highest isn't told from zero, unless others are as large
-    most = int(max(highest, budget.limits.digits * math.log2(10)))
+    most = int(max(highest, limits.digits * math.log2(10)))
     runs = 0
     previous: tuple[Evaluation, ...] | None = None
     while True:
         runs += 1
         try:
             with working_precision(prec + 40):
-                states, run = journey.states(prec, budget), Run(digits, method, prec, runs)
+                states = journey.states(targets, closed, prec)
+                run = Run(digits, METHODS[closed is not None], prec, runs)
                 lacking = [_missing_bits(y, digits, prec) for y, _ in states]
                 finite = all(y.is_finite() and dy.is_finite() for y, dy in states)
-                found = tuple(map(Evaluation, journey.targets, states, lacking, repeat(run))) if finite else None
+                found = tuple(map(Evaluation, targets, states, lacking, repeat(run))) if finite else None
                 missing = max(lacking, default=0)
         except LimitExceeded as limit:
             if previous is None:
@@ -107,10 +111,10 @@ def raise_precision(journey: Journey, method: Method, digits: int, budget: Budge
         if missing == 0 and found is not None:
             return found
         # where a higher precision hasn't halved the balls, their size comes from the initial values
-        stalled = bool(not journey.is_exact and previous and found) and all(
+        stalled = bool(not exact and previous and found) and all(
             f.reached or 2 * arb(f.y.rad) > arb(p.y.rad) for p, f in zip(previous or (), found or (), strict=True)
         )
-        if journey.is_exact and found is not None:  # a recessive solution is as small as the others are large
+        if exact and found is not None:  # a recessive solution is as small as the others are large
             highest = max(highest, 2 * max(map(_growth, found)) + 2 * start_bits(digits))
         if prec >= highest or stalled or highest > most:
             if found is None:

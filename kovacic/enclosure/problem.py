@@ -87,7 +87,7 @@ class System:
         return all(part == 0 for part in along(self.den, point, Point(0)))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class NumericProblem:
     """y'' = S y as `system`; S and the decision on it where the problem was read from a solution.
 
@@ -109,9 +109,14 @@ class NumericProblem:
         return self.embedded is None or self.embedded.exact
 
     @cached_property
-    def gauge_system(self) -> System:
-        """The gauge as num/den: its poles are singular points."""
-        return System((), (1,)) if self.gauge is None else System.of(self.gauge)
+    def gauge_poles(self) -> System:
+        """The poles of the gauge where S is regular: singular points of the user's equation."""
+        if self.gauge is None:
+            return System((), (1,))
+        den, own = (fmpz_poly(list(part)) for part in (System.of(self.gauge).den, self.system.den))
+        while (common := den.gcd(own)).degree() > 0:
+            den //= common
+        return System((), tuple(int(c) for c in den.coeffs()))
 
     @cached_property
     def equation(self) -> tuple[fmpq_poly, fmpq_poly, fmpq_poly]:
@@ -137,11 +142,7 @@ class NumericProblem:
 
     def singular_points(self, prec: int) -> list[Point]:
         """Those of the system and the poles of the gauge, as `System.singular_points` gives them."""
-        if self.gauge is None:
-            return self.system.singular_points(prec)
-        one, other = fmpz_poly(list(self.system.den)), fmpz_poly(list(self.gauge_system.den))
-        both = one * (other // one.gcd(other))
-        return System((), tuple(int(c) for c in both.coeffs())).singular_points(prec)
+        return [*self.system.singular_points(prec), *self.gauge_poles.singular_points(prec)]
 
 
 def as_problem(
@@ -154,17 +155,25 @@ def as_problem(
         return equation
     if isinstance(equation, System):
         return NumericProblem(equation)
-    if isinstance(equation, str) and params is None:
-        return _of_text(equation, forced, constants)
-    return _read(equation, params, forced, constants)
+    if params is None and isinstance(equation, str):
+        found = _of_text(equation)
+    else:
+        kept = None if params is not None else getattr(equation, "numeric", None)
+        found = kept or read_problem(equation, params)
+    if found.right is not None and not forced:
+        raise InputError("an equation without a right-hand side is needed here")
+    if found.embedded is not None and not constants:
+        raise InputError("numerical evaluation needs S with rational coefficients here, and values such as '1/3'")
+    return found
 
 
 @lru_cache(maxsize=64)
-def _of_text(equation: str, forced: bool, constants: bool) -> NumericProblem:
-    return _read(equation, None, forced, constants)
+def _of_text(equation: str) -> NumericProblem:
+    return read_problem(equation)
 
 
-def _read(equation: object, params: Mapping[str, object] | None, forced: bool, constants: bool) -> NumericProblem:
+def read_problem(equation: object, params: Mapping[str, object] | None = None) -> NumericProblem:
+    """As `as_problem`, whatever its coefficients and its right-hand side are."""
     decision = getattr(equation, "decision", None)  # a `Solution`, which has an S and perhaps an equation
     found = equation
     if not isinstance(decision, Decision):
@@ -177,18 +186,14 @@ def _read(equation: object, params: Mapping[str, object] | None, forced: bool, c
     if given is not None and given.change is not None:
         raise InputError(f"numerical evaluation needs coefficients that are rational in {given.change.variable}")
     right = None if given is None or given.is_homogeneous else given
-    if right is not None and (names or not forced):
-        raise InputError(
-            f"an equation without {'parameters beside ' if forced else ''}a right-hand side is needed here"
-        )
+    if right is not None and names:
+        raise InputError("an equation without parameters beside a right-hand side is needed here")
     numbers = _values(names, params or {}) if params is not None or names else {}
     values = {name: value.re for name, value in numbers.items() if isinstance(value, Point)}
     extended = [f for f in (S, gauge) if f is not None and isinstance(f.field, AlgebraicField)]
-    if constants and right is None and (extended or len(values) < len(numbers)):
+    if right is None and (extended or len(values) < len(numbers)):
         embedded = Embedded(S, gauge, numbers)
         return NumericProblem(System((), (1,)), embedded=embedded).at(_SHARP)
-    if len(values) < len(numbers):
-        raise InputError("the values of parameters must be rational here, or text such as '1/3'")
     if numbers:
         decision, S = None, _specialised(S, values)  # the decision is that for generic values
         gauge = gauge and _specialised(gauge, values)
@@ -264,6 +269,20 @@ def distance_lower(system: System, centre: Point) -> arb | None:
     """A proven lower bound, positive and exact, of the distance to the nearest singular point; None if there is none."""
     with working_precision(64):
         return min((d.abs_lower() for d, _ in offsets(system, centre)), default=None)
+
+
+def is_apart(system: System, a: Point, b: Point, c: Point) -> bool:
+    """Is it certain that no singular point lies in the triangle?  Each is on the other side of one of its edges, then."""
+    with working_precision(128):
+        edges = []
+        for p, q, r in ((a, b, c), (b, c, a), (c, a, b)):
+            step, third = q - p, r - p
+            edges.append((to_acb(p), to_acb(Point(step.x, -step.y)), step.x * third.y - step.y * third.x))
+        for root, _ in system.roots("den", 128):
+            sides = (((turn * (root - start)).imag, own) for start, turn, own in edges)
+            if not any((side > 0 and own <= 0) or (side < 0 and own >= 0) for side, own in sides):
+                return False
+    return not system.radius
 
 
 def check_segment(system: System, a: Point, b: Point) -> None:

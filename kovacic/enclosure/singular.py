@@ -78,6 +78,10 @@ class Singular:
         roots = [root for root, _ in self.minimal.numer().complex_roots()]
         return min(roots, key=lambda root: float(abs(root - to_acb(self.near)).mid()))
 
+    def is_at(self, x: Point) -> bool:
+        """Is x known to be this point?"""
+        return self.exact and not self.inverted and x == self.near
+
     @property
     def is_rational(self) -> bool:
         """True if it is a rational number (or infinity): the operator's coefficients are rational, then."""

@@ -50,7 +50,7 @@ from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.problem import System
 from kovacic.enclosure.taylor import error_radii, expand, transition
 from kovacic.errors import LimitExceeded
-from kovacic.limits import Budget
+from kovacic.limits import check_time
 
 Gauss = tuple[Any, Any]  # a matrix, or number, over Z[i]: real and imaginary part (None: zero)
 LEAF = 8  # steps whose product is formed once, with polynomials in m as entries
@@ -169,19 +169,17 @@ class Recurrence:
         return Run((C, C_im), (R, R_im), D)
 
 
-def make_block(leaf: Run, m: int, leaves: int, budget: Budget) -> Run:
+def make_block(leaf: Run, m: int, leaves: int) -> Run:
     """The run of `leaves` leaves that starts at m, as a balanced tree."""
-    budget.check()
+    check_time()
     if leaves == 1:
         return leaf.at(m)
     half = leaves // 2
-    first = make_block(leaf, m, half, budget)
-    return make_block(leaf, m + half * LEAF, leaves - half, budget).after(first)
+    first = make_block(leaf, m, half)
+    return make_block(leaf, m + half * LEAF, leaves - half).after(first)
 
 
-def _sum_series(
-    system: System, frame: Frame, z: Point, mirror: bool, prec: int, budget: Budget
-) -> tuple[Any, list[tuple[arb, arb]]]:
+def _sum_series(system: System, frame: Frame, z: Point, mirror: bool, prec: int) -> tuple[Any, list[tuple[arb, arb]]]:
     """Sums in balls, rows Y, Y' (and at -v), columns b = (1, 0, ...) and (0, 1, ...), and for either column the bounds of |e|
     and |e_v|: blocks until these are about 2^-prec."""
     steps = Recurrence(*shift(system, frame.centre, z.scaled(frame.scale)))
@@ -205,7 +203,7 @@ def _sum_series(
                 raise LimitExceeded(f"a Taylor expansion needs more than {m} terms", limit="unknown_degree")
             needed = max(64, full + 33 + int(max(map(log2, heights))))
             leaves = _leaves(steps, m, needed, before)
-            block = make_block(leaf, m, leaves, budget)
+            block = make_block(leaf, m, leaves)
             m, before = m + leaves * LEAF, (m, needed)
             with working_precision(needed):
                 inverse = number(1) / number(block.D)
@@ -241,15 +239,13 @@ def is_split(system: System, prec: int) -> bool:
     return not system.radius and prec > max(_LOWEST, (_ENTIRE if len(system.den) == 1 else _SINGULAR) * order**3)
 
 
-def split_legs(
-    system: System, frame: Frame, target: Point, prec: int, budget: Budget, *, mirror: bool = False
-) -> list[Matrix]:
+def split_legs(system: System, frame: Frame, target: Point, prec: int, *, mirror: bool = False) -> list[Matrix]:
     """Enclosure of the transition matrix from the centre to a `target` in the disc, and with `mirror` of that to 2 c - target.
 
     The numbers of centre and target should be short.
     """
     offset = target - frame.centre
-    sums, errors = _sum_series(system, frame, frame.seen(target), mirror, prec, budget)
+    sums, errors = _sum_series(system, frame, frame.seen(target), mirror, prec)
     real = offset.is_real() and frame.centre.is_real()
     with working_precision(prec + int(frame.bound.log2_growth) + 84):
         h = to_acb(offset)
@@ -263,7 +259,7 @@ def split_legs(
         return matrices
 
 
-def bit_burst(system: System, frame: Frame, target: Point, prec: int, budget: Budget) -> list[Matrix]:
+def bit_burst(system: System, frame: Frame, target: Point, prec: int) -> list[Matrix]:
     """The matrices, in order, of a chain of steps from the centre to any `target` of the disc.
 
     The chain is homotopic to the straight line: the points s_k lie within 2^-16 scales of the disc, and there is no singular
@@ -275,12 +271,12 @@ def bit_burst(system: System, frame: Frame, target: Point, prec: int, budget: Bu
         z = frame.seen(target)
         bits = prec + length  # the slopes are divided by the length of the step
         if _height(z) <= 2 * length:
-            return [*matrices, *split_legs(system, frame, target, bits, budget)]
+            return [*matrices, *split_legs(system, frame, target, bits)]
         if prec < _FEW * length:
-            return [*matrices, transition(expand(frame, bits, budget), target)]
+            return [*matrices, transition(expand(frame, bits), target)]
         stop = frame.centre + z.rounded(-step).scaled(frame.scale)
         if stop != frame.centre:
-            matrices += split_legs(system, frame, stop, bits, budget)
+            matrices += split_legs(system, frame, stop, bits)
         inner = make_frame(system, stop, frame.e - step)
         assert inner is not None  # the points of the chain lie within 2^-16 scales of a disc without singular points
         frame = inner
@@ -288,14 +284,12 @@ def bit_burst(system: System, frame: Frame, target: Point, prec: int, budget: Bu
     return matrices
 
 
-def legs(
-    system: System, frame: Frame, enter: Point, leave: Point, prec: int, budget: Budget
-) -> tuple[list[Matrix], list[Matrix]]:
+def legs(system: System, frame: Frame, enter: Point, leave: Point, prec: int) -> tuple[list[Matrix], list[Matrix]]:
     """The factors, in order, of the matrices from the centre to both junctions of a disc."""
     if enter == frame.centre + frame.centre - leave and _height(frame.seen(leave)) <= 2 * _BURST:
-        stop, start = split_legs(system, frame, leave, prec, budget, mirror=True)
+        stop, start = split_legs(system, frame, leave, prec, mirror=True)
         return [start], [stop]
-    start_factors, stop_factors = (bit_burst(system, frame, point, prec, budget) for point in (enter, leave))
+    start_factors, stop_factors = (bit_burst(system, frame, point, prec) for point in (enter, leave))
     return start_factors, stop_factors
 
 

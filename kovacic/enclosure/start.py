@@ -23,14 +23,12 @@ from flint import acb, acb_poly, arb
 
 from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
-from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.matrices import State, product
 from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem, System
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.transport import piece_matrices
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Budget
 
 
 @dataclass(frozen=True)
@@ -41,13 +39,13 @@ class Start:
     data: tuple[Number, Number]
     decaying: bool = False
 
-    def state(self, problem: NumericProblem, prec: int, budget: Budget) -> State:
+    def state(self, problem: NumericProblem, prec: int) -> State:
         """The numbers at the working precision in force, y' of the decaying solution among them."""
         y, dy = map(to_ball, self.data)
         if self.decaying:
             assert not isinstance(self.place, Singular)
             x, gauge = middle(self.place), problem.gauge
-            slope = logarithmic_derivative(problem.system, x, prec, budget)
+            slope = logarithmic_derivative(problem.system, x, prec)
             dy = y * (slope if gauge is None else slope + value(gauge, None, to_acb(x)))
         return spread(problem, self.place, (y, dy))
 
@@ -118,7 +116,7 @@ def place_of(problem: NumericProblem, x0: object, name: str) -> Singular:
         return Singular.at(problem, number.value())
 
 
-def logarithmic_derivative(system: System, x0: Point, prec: int, budget: Budget) -> acb:
+def logarithmic_derivative(system: System, x0: Point, prec: int) -> acb:
     """A ball that contains y'/y at x0 of the recessive solution, to about `prec` bits, by equation (1).
 
     Raises InputError where no solution of y'' = S y decays in this way: S must be positive for large x, and grow or fall
@@ -131,11 +129,13 @@ def logarithmic_derivative(system: System, x0: Point, prec: int, budget: Budget)
         )
     roots = [root.real for which in ("num", "den") for root, _ in system.roots(which, 64)]
     first = max(math.ceil(max((float(root.upper()) for root in roots), default=0.0)) + 1, math.ceil(x0.re))
-    step, bits = 1, (prec + 20) * math.log(2) / 2
-    while least_growth(system, Point(first), Point(first + step)) < bits:
-        step *= 2
+    step, growth, bits = 1, arb(0), (prec + 20) * math.log(2) / 2
+    num, den = (acb_poly(list(part)) for part in (system.num, system.den))
+    while growth < bits:  # about int S^(1/2) from `first` to `first + step`
+        x, step = acb(first + step), 2 * step
+        growth += (num(x) / den(x)).real.sqrt() * step / 2
         if step > 1 << 200:
             raise LimitExceeded("no starting point was found for the decaying solution", limit="unknown_degree")
-    m, n, _dm, dn = product(piece_matrices(system, Point(first + step), x0, prec + 20, budget))
+    m, n, _dm, dn = product(piece_matrices(system, Point(first + step), x0, prec + 20))
     n, dn = -n, -dn
     return dn / n + acb(arb(0.5, 0.5)) / (n * (n + acb(arb(0.5, 0.5)) * (m - n)))

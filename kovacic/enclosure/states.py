@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from functools import lru_cache
 from typing import Literal
 
 from flint import arb
@@ -51,26 +51,45 @@ def evaluate_states(
     check_digits(digits, limits)
     if method is not None and method not in METHODS:
         raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
-    if isinstance(path, str) and path not in ("chain", "above", "below"):
-        raise InputError(f"unknown path {path!r}", hint='a sequence of vertices, "chain", "above", "below", or None')
-    budget = Budget(limits)
     problem = as_problem(equation, params, forced=True, constants=True)
+    given = problem, x0, y0, dy0, frobenius, which, path
+    try:
+        hash(given)
+    except TypeError:  # lists, FLINT's balls
+        journey = journey_of.__wrapped__(*given)
+    else:
+        journey = journey_of(*given)
     targets = tuple(as_number(p, "x") for p in points)
-    polygon = () if path is None or isinstance(path, str) else path
-    vertices = tuple(as_number(p, "a vertex of the path") for p in polygon)
-    start = read_start(problem, x0, y0, dy0, frobenius, which)
-    _check_regular(problem, [n for n in (start.place, *targets, *vertices) if not isinstance(n, Singular)])
-    side = path if path in ("above", "below") else None
-    journey = Journey(problem, start, vertices, targets, path == "chain", side)
-    with budget.watched():
-        closed = _closed_form(journey, method, digits)
+    _check_regular(problem, targets)
+    with Budget(limits).watched():
+        closed = _closed_form(journey, targets, method, digits)
         if closed is not None:
             try:
-                return raise_precision(replace(journey, closed=closed), "closed form", digits, budget)
+                return raise_precision(journey, targets, closed, digits, limits)
             except NotServed:
                 if method is not None:
                     raise InputError("the closed form doesn't prove its values on this path", hint=_TAYLOR) from None
-        return raise_precision(journey, "taylor", digits, budget)
+        return raise_precision(journey, targets, None, digits, limits)
+
+
+@lru_cache(maxsize=32, typed=True)
+def journey_of(
+    problem: NumericProblem,
+    x0: object,
+    y0: object,
+    dy0: object,
+    frobenius: Sequence[object] | None,
+    which: str | None,
+    path: Path,
+) -> Journey:
+    """What doesn't depend on the targets; kept, so that a call for one more point begins where the last one did."""
+    if isinstance(path, str) and path not in ("chain", "above", "below"):
+        raise InputError(f"unknown path {path!r}", hint='a sequence of vertices, "chain", "above", "below", or None')
+    polygon = () if path is None or isinstance(path, str) else path
+    vertices = tuple(as_number(p, "a vertex of the path") for p in polygon)
+    start = read_start(problem, x0, y0, dy0, frobenius, which)
+    _check_regular(problem, [n for n in (start.place, *vertices) if not isinstance(n, Singular)])
+    return Journey(problem, start, vertices, path == "chain", path if path in ("above", "below") else None)
 
 
 def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
@@ -88,7 +107,9 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
                 raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
 
 
-def _closed_form(journey: Journey, method: Method | None, digits: int) -> ClosedForm | Classical | None:
+def _closed_form(
+    journey: Journey, targets: Sequence[Number], method: Method | None, digits: int
+) -> ClosedForm | Classical | None:
     """The closed form, where it is asked for or the cheaper way by a rule that was measured
     (`benchmarks/enclosure_work_precision.py`).
 
@@ -99,7 +120,7 @@ def _closed_form(journey: Journey, method: Method | None, digits: int) -> Closed
     """
     if method == "taylor":
         return None
-    problem, targets = journey.problem, journey.targets
+    problem = journey.problem
     if problem.right is not None:
         if method is not None:
             raise InputError(
@@ -107,7 +128,8 @@ def _closed_form(journey: Journey, method: Method | None, digits: int) -> Closed
             )
         return None
     few = len(targets) <= _FEW
-    if problem.decision is not None and problem.decision.case == 1 and (few or method):
+    regular = not isinstance(journey.start.place, Singular)
+    if problem.decision is not None and problem.decision.case == 1 and (few or method) and regular:
         closed = closed_form_of(problem)
         if closed is not None and (closed.is_elementary if method else closed.is_cheap):
             return closed

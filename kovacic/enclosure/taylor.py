@@ -38,7 +38,7 @@ from kovacic.enclosure.frame import Frame, Parts, log2, norm
 from kovacic.enclosure.matrices import Matrix, State
 from kovacic.enclosure.points import Point, floor, to_acb, working_precision
 from kovacic.errors import LimitExceeded
-from kovacic.limits import Budget
+from kovacic.limits import check_time
 
 _CHECKED = 64  # the clock is read every so many terms
 
@@ -56,7 +56,7 @@ class Expansion:
     defect: tuple[int, int]
 
 
-def expand(frame: Frame, prec: int, budget: Budget) -> Expansion:
+def expand(frame: Frame, prec: int) -> Expansion:
     """Both columns so that the error in the disc should be about 2^-prec (what it is, `transition` says)."""
     p, q, bound = frame.p, frame.q, frame.bound
     q_0 = q[0][0]
@@ -67,7 +67,7 @@ def expand(frame: Frame, prec: int, budget: Budget) -> Expansion:
     p, q = _cut(p, excess), _cut(q, excess)
     columns, defects = [], []
     for start in (0, 1):
-        re, im = _recurrence(p, q, w, start, 1 << quiet, budget)
+        re, im = _recurrence(p, q, w, start, 1 << quiet)
         columns.append((fmpz_poly(re), None if im is None else fmpz_poly(im)))
         defect = _proven_defect(p, q, excess, re, im, 1 << quiet)
         if frame.blur is not None:  # q Y'' - (p + q (S - S~)) Y: the ray bound holds for the defect over q
@@ -92,9 +92,7 @@ def _numbers(values: list[int], w: int) -> list[Any]:
     return [fmpz(v) for v in values]
 
 
-def _recurrence(
-    p: Parts, q: Parts, w: int, start: int, small: int, budget: Budget
-) -> tuple[list[Any], list[Any] | None]:
+def _recurrence(p: Parts, q: Parts, w: int, start: int, small: int) -> tuple[list[Any], list[Any] | None]:
     """The coefficients, real and imaginary parts (None: real), up to a run of terms below `small`."""
     real, dp, dq = p[1] is None and q[1] is None, len(p[0]), len(q[0]) - 1
     pr, pi = (_numbers((part or [0] * dp)[::-1], w) for part in p)
@@ -107,7 +105,7 @@ def _recurrence(
     n, quiet, cap = 0, 0, 40 * w + 4000
     while quiet <= pad:
         if n % _CHECKED == 0:
-            budget.check()
+            check_time()
         i = pad + n
         x, y, k = ar[i - dp + 1 : i + 1], br[i + 2 - dq : i + 2], (n + 1) * (n + 2)
         total, divisor = sum(map(mul, pr, x)), q0 * k

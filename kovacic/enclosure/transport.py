@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from flint import fmpq
@@ -27,11 +27,11 @@ from flint import fmpq
 from kovacic.enclosure.frame import Frame, fitting, least_growth, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import Point, power_of_two
-from kovacic.enclosure.problem import System, check_segment, distance_lower
+from kovacic.enclosure.problem import System, check_segment, distance_lower, is_apart
 from kovacic.enclosure.splitting import is_split, legs
 from kovacic.enclosure.taylor import Expansion, expand, states_at, transition
 from kovacic.errors import LimitExceeded
-from kovacic.limits import Budget
+from kovacic.limits import check_time, watched_seconds
 
 # Scale of a disc as a share of the distance to the nearest singular point, at most (scales are powers of two)
 _RATIO = 0.625
@@ -47,18 +47,29 @@ _TRIED = 16  # steps after which the time of the others is known well enough
 class Disc:
     """One expansion: its frame, the junctions where it is entered and left, and the parameter t in [0, 1] of the latter.
 
-    A junction is a short dyadic point beside the point a + t (b - a) of the piece; the disc contains both.
+    A junction is a short dyadic point beside the point a + t (b - a) of the piece; the disc contains both.  `begin` is that
+    point for the first junction; None on the way back to the piece.
     """
 
     frame: Frame
     enter: Point
     leave: Point
     stop: Any
+    begin: Point | None
+
+    def serves(self, system: System, a: Point, x: Point) -> bool:
+        """Does the disc carry a solution from a to x as the straight line does?
+
+        It does if x lies in it, and no singular point in the triangle of a, x and `begin`: both ways are homotopic, then.
+        """
+        if self.begin is None or (x - self.frame.centre).norm_squared() > self.frame.scale**2:
+            return False
+        return self.begin == a or is_apart(system, a, self.begin, x)
 
 
-def piece_matrices(system: System, a: Point, b: Point, prec: int, budget: Budget) -> list[Matrix]:
+def piece_matrices(system: System, a: Point, b: Point, prec: int) -> list[Matrix]:
     """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about 2^-prec)."""
-    return [leg.matrix for leg in walk(system, a, [b], prec, budget)]
+    return [leg.matrix for leg in walk(system, a, [b], prec)]
 
 
 @dataclass(frozen=True)
@@ -74,34 +85,32 @@ class Leg:
     expansion: Expansion | None
     to_centre: Matrix | None
 
-    def states(self, state: State) -> list[State]:
+    def states(self, state: State, stops: list[Point]) -> list[State]:
         """The states at the stops, from the one where the disc is entered: one polynomial for all of them."""
         if self.expansion is None:
-            return [apply(self.matrix, state)] * len(self.stops)
+            return [apply(self.matrix, state)] * len(stops)
         here = state if self.to_centre is None else apply(self.to_centre, state)
-        return states_at(self.expansion, here, self.stops)
+        return states_at(self.expansion, here, stops)
 
 
-def walk(
-    system: System, a: Point, stops: Sequence[Point], prec: int, budget: Budget, *, expanded: bool = False
-) -> Iterator[Leg]:
+def walk(system: System, a: Point, stops: Sequence[Point], prec: int, *, expanded: bool = False) -> Iterator[Leg]:
     """The discs of the straight way from a to the last of `stops`; several must lie on the real axis, as a does, in order.
 
     With `expanded` every leg has its expansion.
     """
-    begun, number, split = budget.seconds_left, 0, is_split(system, prec // max(1, len(stops))) and not expanded
+    begun, number, split = watched_seconds(math.inf), 0, is_split(system, prec // max(1, len(stops))) and not expanded
     growth = max(_FEWER_BITS, prec * _GROWTH) if len(stops) >= _MANY else None
     for part in [[stop] for stop in stops] if split else [list(stops)]:
         b, queue = part[-1], deque(part)
-        for disc in cover(system, a, b, prec, budget, growth):
+        for disc in cover(system, a, b, prec, growth):
             frame, served, ahead = disc.frame, [], b.x > disc.leave.x
             while queue and (disc.leave == b or (len(queue) > 1 and (queue[0].x <= disc.leave.x) is ahead)):
                 served.append(queue.popleft())
             expansion: Expansion | None = None
             if split:
-                start, stop = legs(system, frame, disc.enter, disc.leave, prec, budget)
+                start, stop = legs(system, frame, disc.enter, disc.leave, prec)
             else:
-                expansion = expand(frame, prec, budget)
+                expansion = expand(frame, prec)
                 start, stop = (
                     [] if point == frame.centre else [transition(expansion, point)]
                     for point in (disc.enter, disc.leave)
@@ -112,13 +121,13 @@ def walk(
             yield Leg(disc, matrix, served, expansion if needed else None, back)
             number += 1
             if number == _TRIED:
-                _refuse(system, a, b, prec, begun - budget.seconds_left, budget)
+                _refuse(system, a, b, prec, begun - watched_seconds(math.inf))
             if number > _MAX_DISCS:
                 raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
         a = b
 
 
-def _refuse(system: System, a: Point, b: Point, prec: int, used: float, budget: Budget) -> None:
+def _refuse(system: System, a: Point, b: Point, prec: int, used: float) -> None:
     """Raise as soon as it is clear that the limits don't allow all steps from a to b; the first few took `used` seconds.
 
     A disc of growth g bits, on either side of its centre, has int |S|^(1/2) below 2 (g + 10) log 2: that gives the least
@@ -129,7 +138,7 @@ def _refuse(system: System, a: Point, b: Point, prec: int, used: float, budget: 
     reason = f"the solutions grow or oscillate by exp({growth:.2g}) on the way from {a} to {b}, which takes {least:.2g} steps"
     if least > _MAX_DISCS:
         raise LimitExceeded(f"{reason} or more, above the limit of {_MAX_DISCS}", limit="unknown_degree")
-    if each * (least - _TRIED) > budget.seconds_left:
+    if each * (least - _TRIED) > watched_seconds(math.inf):
         raise LimitExceeded(f"{reason} of {each:.2g} s each: more than the time limit allows", limit="seconds")
 
 
@@ -138,7 +147,7 @@ def _allowed_growth(prec: int) -> float:
     return max(100.0, prec * _GROWTH)
 
 
-def cover(system: System, a: Point, b: Point, prec: int, budget: Budget, growth: float | None = None) -> Iterator[Disc]:
+def cover(system: System, a: Point, b: Point, prec: int, growth: float | None = None) -> Iterator[Disc]:
     """The discs that cover the straight piece from a to b, in order: O(log(far/near)) of them for each singular point at a
     distance between near and far."""
     if a == b:
@@ -147,10 +156,10 @@ def cover(system: System, a: Point, b: Point, prec: int, budget: Budget, growth:
     piece = Piece(system, a, b, _allowed_growth(prec) if growth is None else growth)
     t, enter, guess = fmpq(0), a, None
     while t < 1:
-        budget.check()
+        check_time()
         disc = piece.next_disc(t, enter, guess)
         if disc is None:  # the junction beside the path is too far from it for a disc that fits: back to the path
-            yield from cover(system, enter, piece.at(t), prec, budget)
+            yield from (replace(disc, begin=None) for disc in cover(system, enter, piece.at(t), prec))
             enter = piece.at(t)
         else:
             yield disc
@@ -217,7 +226,7 @@ class Piece:
         if stop <= t or stop > 1 or any((p - centre).norm_squared() > unit * unit for p in corners):
             return None
         frame = fitting(self.system, centre, e, _RATIO, self.growth)
-        return None if frame is None else Disc(frame, enter, leave, stop)
+        return None if frame is None else Disc(frame, enter, leave, stop, corners[0])
 
 
 def _reaches_end(square: Any, e: int) -> bool:
