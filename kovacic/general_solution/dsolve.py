@@ -23,7 +23,7 @@ from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.general_solution.antiderivatives import NUMBERS
 from kovacic.general_solution.initial_values import as_mapping, constants, read_values
 from kovacic.general_solution.particular import particular_solution, place_of
-from kovacic.general_solution.real_basis import check_integrals, check_one_side, poles_of, real_basis, real_particular
+from kovacic.general_solution.real_basis import check_integrals, check_one_side, real_basis, real_particular
 from kovacic.general_solution.values import size
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
@@ -145,12 +145,11 @@ def _solved(
         check_one_side((y1, y2), x, [*dict.fromkeys([*(g.point for g in given), *places])])
         y1, y2 = real_basis(solution, y1, y2, x, given[0].point)
     points = [*dict.fromkeys(g.point for g in given)]
-    poles = poles_of(equation, x) if len(points) > 1 and change is None else []
     basis = Basis(y1.xreplace(NUMBERS), y2.xreplace(NUMBERS), x, equation)
     particular = particular_solution(basis, given[0].point if given else None, budget)
     if given and change is None:
         check_one_side((particular,), x, points)
-        check_integrals(particular, poles, points)
+        check_integrals(particular, equation, x, points)
         particular = real_particular(particular, equation, x, points[0])
     parts = (basis.y1, basis.y2, particular, *(part for g in given for part in (g.point, g.value)))
     taken = symbols.keys() | {symbol.name for e in parts for symbol in getattr(e, "free_symbols", ())}
@@ -159,9 +158,8 @@ def _solved(
     c1, c2 = (found.get(name, name) for name in names)
     factors = [sympy.Mul.make_args(y) for y in (basis.y1, basis.y2)]  # common ones come before the sum
     common = [factor for factor in factors[0] if factor in factors[1]] if c1 != 0 != c2 else []
-    first, second = (sympy.Mul(*(factor for factor in own if factor not in common)) for own in factors)
-    homogeneous = sympy.Add(*(c * y for c, y in ((c1, first), (c2, second)) if c != 0))
-    general = (sympy.Mul(*common, homogeneous) if homogeneous != 0 else homogeneous) + particular
+    summands = ((c, [f for f in own if f not in common]) for c, own in zip((c1, c2), factors, strict=True) if c != 0)
+    general = sympy.Mul(*common, sympy.Add(*(sympy.Mul(c, *own) for c, own in summands))) + particular
     if given:
         general = min(general, sympy.expand_mul(general, deep=False), key=size)
     own = {sympy.Symbol(name): symbol for name, symbol in symbols.items()} | {x: function.args[0]}

@@ -58,12 +58,12 @@ def read_values(ics: Mapping[Any, Any], function: Any, equation: Equation) -> tu
         point, order = _text_key(key, equation) if isinstance(key, str) else _sympy_key(key, function)
         found.append(Given(point, order, _exact(value)))
     atoms = Atoms(sympy.Symbol(equation.variable))
-    for point in {given.point for given in found}:
+    dens = [den for part in (equation.b, equation.c) if (den := (part / equation.a).den).degree > 0]
+    for point in {given.point for given in found} if dens else ():
         if equation.change is not None:
             point = in_terms_of(equation.change, atoms.x, equation.variable).subs(equation.change.variable, point)
-        for coefficient in (equation.b, equation.c):
-            quotient = coefficient / equation.a
-            value = atoms.poly(quotient.den).subs(atoms.x, point)
+        for den in dens:
+            value = atoms.poly(den).subs(atoms.x, point)
             if value.is_finite is not False and _is_zero(value):
                 raise InputError(f"{point} is a singular point of the equation")
     return tuple(found)
@@ -154,6 +154,8 @@ def tidy(value: Any) -> Any:
     irrational = any(not p.exp.is_Rational and not p.base.is_Symbol for p in value.atoms(sympy.Pow))
     functions = {f.func for f in value.atoms(sympy.Function)}
     if value.is_Rational or irrational or size(value) > _LONGEST or value.has(sympy.RootSum, sympy.Integral):
+        return value
+    if not value.free_symbols and functions <= {exp, log} and not value.has(sympy.Add):  # a product of powers
         return value
     if not functions:
         return sympy.radsimp(sympy.cancel(value) if value.free_symbols or value.has(sympy.E) else sympy.expand(value))

@@ -54,18 +54,14 @@ def check_one_side(solutions: Sequence[Expr], x: Expr, points: Sequence[Expr]) -
         raise InputError(f"a singular point of the equation lies between {said}: on each side the solutions are others")
 
 
-def poles_of(equation: Equation, x: Expr) -> list[Expr]:
-    """The real singular points, those of the right-hand side too, of an equation over Q."""
+def check_integrals(y: Expr, equation: Equation, x: Expr, points: Sequence[Expr]) -> None:
+    """Raises `InputError` where an integral that is left would lead over a real singular point of an equation over Q."""
+    if len(points) < 2 or not y.has(sympy.Integral) or not all(p.is_real for p in points):
+        return
+    first, last = sympy.Min(*points), sympy.Max(*points)
     quotients = (part / equation.a for part in (equation.f, equation.b, equation.c))
-    polynomials = [q.den for q in quotients if q.den.degree > 0 and q.field == QQ]
-    return [root for p in polynomials for root in sympy.real_roots(Atoms(x).poly(p))]
-
-
-def check_integrals(y: Expr, poles: Sequence[Expr], points: Sequence[Expr]) -> None:
-    """Raises `InputError` where an integral that is left would lead over a singular point of the equation."""
-    if y.has(sympy.Integral) and all(p.is_real for p in points):
-        first, last = sympy.Min(*points), sympy.Max(*points)
-        for pole in poles:
+    for den in (q.den for q in quotients if q.den.degree > 0 and q.field == QQ):
+        for pole in sympy.real_roots(Atoms(x).poly(den)):
             if first < pole < last:
                 said = f"a singular point, {pole}, lies between {', '.join(map(str, points))}"
                 raise InputError(f"{said}: on each side the solutions are others")
