@@ -616,8 +616,8 @@ def test_particular_solutions_are_real_to_the_left(right: str) -> None:
 def test_values_with_integrals_that_are_left(ics: dict) -> None:
     """SymPy isn't asked for the integrals from one point to another."""
     start = time.monotonic()
-    found = dsolve("x^2*y'' + x*y' + (4*x^2 - 25/4)*y = cos(3*x)", ics=ics, limits=kovacic.Limits(seconds=2)).rhs
-    assert time.monotonic() - start < 2 + 8
+    found = dsolve("x^2*y'' + x*y' + (4*x^2 - 25/4)*y = cos(3*x)", ics=ics, limits=kovacic.Limits(seconds=6)).rhs
+    assert time.monotonic() - start < 6 + 8
     assert found.free_symbols == {x}
 
 
