@@ -15,8 +15,9 @@ import sympy as sp
 
 import kovacic
 from kovacic.ball import Ball, closed_form
-from kovacic.ball.equations import derivation, holds, in_roots, of_ball
-from kovacic.ball.theorems import closed_form_in_roots, conditions, system_in_roots, theorem
+from kovacic.ball.ball import InRoots
+from kovacic.ball.equations import R1, R, derivation, holds, of_ball
+from kovacic.ball.theorems import theorem
 
 
 def main() -> int:
@@ -26,7 +27,7 @@ def main() -> int:
     derived = holds()
     print(f"derived from the definitions: {derived}\n")
 
-    statement = conditions()
+    statement = kovacic.conditions(InRoots(R / R1).S, var="x")
     print("Theorems 1 and 2, one call of kovacic.conditions on equation (13):")
     print(str(statement).partition("\n")[2], end="\n\n")
     reproduced = statement.complete is True and statement.generic.case == 2
@@ -34,8 +35,8 @@ def main() -> int:
     print("The closed forms in the roots x1, x2 of D:")
     good = True
     for ratio in (sp.Rational(1, 2), sp.Integer(1), sp.Rational(3, 2), sp.Symbol("k")):
-        form = closed_form_in_roots(ratio)
-        solves = form.solves(system_in_roots(ratio), in_roots(ratio)[2])
+        form = closed_form(InRoots(ratio))
+        solves = form.solves(InRoots(ratio))
         good = good and solves
         print(f"  R/R1 = {ratio}: omega_3 = {form.omega_3}; by substitution: {solves}")
 
@@ -44,7 +45,7 @@ def main() -> int:
         place = ball.on_plane() if radius is None else ball.on_sphere(radius)
         answer, (said, case) = kovacic.solve(place.S), theorem(place)
         form = closed_form(place)
-        agrees = answer.case == case and form.solves(place.linear_system, place.S, place.roots)
+        agrees = answer.case == case and form.solves(place)
         good = good and agrees
         print(f"  {label:<30} R/R1 = {place.ratio!s:<9} {answer.group.name:<22} {said}: {agrees}")
 

@@ -8,7 +8,8 @@ import pytest
 import sympy as sp
 
 from kovacic.ball import Ball, X
-from kovacic.ball.theorems import read_ratio, system_in_roots
+from kovacic.ball.ball import InRoots
+from kovacic.ball.theorems import read_ratio
 from kovacic.errors import InputError
 
 
@@ -64,7 +65,7 @@ def test_command_prints_n_in_closed_form(run, ratio):
     assert n.free_symbols == set(sp.symbols("x x1 x2 c1 c2 A1 A3"))
     values = {"x1": -3, "x2": -2, "A1": 2, "A3": 3}
     at = {X: sp.Rational(1, 7), "c1": 2, "c2": -5}
-    a1, a2, b1, b2 = system_in_roots(sp.Rational(ratio))
+    a1, a2, b1, b2 = InRoots(sp.Rational(ratio)).linear_system
     for residual in (
         sp.diff(n, X) + a1 * n + a2 * omega_3,
         sp.diff(omega_3, X) + b1 * n + b2 * omega_3,
@@ -105,7 +106,7 @@ def test_command_with_an_irrational_ratio_and_latex(run):
     status, output = run("--ratio", "sqrt(2)", "--json", "--latex")
     data = json.loads(output.out)
     assert (status, data["case"], data["group"], data["verified"]) == (0, 2, "N(T)", True)
-    assert set(data["latex"]) == {"12", "13"}
+    assert set(data["latex"]) == {"a1", "a2", "b1", "b2", "11", "12", "13"}
 
 
 def test_command_by_parameters(run):

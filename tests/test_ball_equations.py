@@ -8,10 +8,8 @@ import pytest
 import sympy as sp
 
 from kovacic.ball import Ball, U, X, equations
-from kovacic.ball.ball import exact
+from kovacic.ball.ball import A1, A3, InRoots, exact, x1, x2
 from kovacic.ball.equations import (
-    A1,
-    A3,
     PRINTED,
     R1,
     D,
@@ -19,12 +17,9 @@ from kovacic.ball.equations import (
     a,
     derivation,
     holds,
-    in_roots,
     m,
     of_ball,
     vanishes,
-    x1,
-    x2,
 )
 from kovacic.errors import InputError, LimitExceeded
 
@@ -92,7 +87,8 @@ def test_the_equations_of_a_ball_are_the_printed_ones():
 
 def test_equations_12_and_13_in_the_roots():
     sphere = with_roots().on_sphere(R1)
-    d1, d2, S = in_roots(R / R1)
+    place = InRoots(R / R1)
+    (d1, d2), S = place.second_order, place.S
     for found, expected in ((sphere.second_order[0], d1), (sphere.second_order[1], d2), (sphere.S, S)):
         assert sp.cancel(found - expected) == 0
 

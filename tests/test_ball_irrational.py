@@ -49,7 +49,7 @@ def test_the_engine_agrees_with_the_theorem_and_the_closed_form_holds(values):
     answer = kovacic.solve(sphere.S)
     assert answer.verified
     assert (answer.case, answer.group.name) == (theorem(sphere)[1], group)
-    assert closed_form(sphere).solves(sphere.linear_system, sphere.S, sphere.roots)
+    assert closed_form(sphere).solves(sphere)
 
 
 @pytest.mark.parametrize("name", DEGENERATE)
@@ -74,7 +74,7 @@ def test_a_number_that_is_not_algebraic_has_equations_but_no_decision():
     sphere, _ = rolling(("pi", 1, "1/5", "1/4", "1/3", 3, None))
     assert sphere.S.has(sp.pi)
     assert theorem(sphere)[1] == 2
-    assert closed_form(sphere).solves(sphere.linear_system, sphere.S)
+    assert closed_form(sphere).solves(sphere)
     with pytest.raises(InputError, match="algebraic"):
         kovacic.solve(sphere.S)
 

@@ -13,16 +13,14 @@ import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.ball import Ball, X, closed_form, theorems
-from kovacic.ball.equations import A1, A3, R1, R, a, in_roots, m, vanishes, x1, x2
+from kovacic.ball import ball as rolling
+from kovacic.ball.ball import A1, A3, InRoots, x1, x2
+from kovacic.ball.equations import R1, R, a, m, vanishes
 from kovacic.ball.theorems import (
     C1,
     C2,
     ClosedForm,
-    closed_form_in_roots,
-    conditions,
-    system_in_roots,
     theorem,
-    theorem_for,
 )
 from kovacic.errors import InputError
 from kovacic.reading.read import read_input
@@ -63,7 +61,7 @@ def places(name):
 
 def thirteen(rho, **roots):
     """S of (13), by default with x1 = 1, x2 = -1: the general case up to an affine change of x."""
-    return in_roots(sp.sympify(rho))[2].subs(roots or {"x1": 1, "x2": -1})
+    return InRoots(sp.sympify(rho)).S.subs(roots or {"x1": 1, "x2": -1})
 
 
 def group_of(sphere):
@@ -116,13 +114,13 @@ def rate(product):
     return sum(exponent * sp.diff(base, X) / base for base, exponent in product.as_powers_dict().items())
 
 
-def satisfies(form: ClosedForm, system, S, chart: Chart) -> bool:
+def satisfies(form: ClosedForm, place, chart: Chart) -> bool:
     """The linear system, (13) and the Riccati equation, exactly and for all values of the symbols, for c1 and for c2."""
-    a1, a2, b1, b2 = system
+    (a1, a2, b1, b2), S = place.linear_system, place.S
     identities = [sp.diff(omega, X) + omega**2 - S for omega in form.omega]
     for constants in ({C1: 1, C2: 0}, {C1: 0, C2: 1}):
         y, w, n = (sp.powsimp(part.subs(constants)) for part in (form.y, form.omega_3, form.n))
-        q = sum(term / w for term in sp.Add.make_args(sp.expand_mul(n)))  # n/omega_3
+        q = sum(sp.powsimp(term / w) for term in sp.Add.make_args(sp.expand_mul(n)))  # n/omega_3
         L, omega = rate(w), rate(y)
         identities += [sp.diff(q, X) + q * L + a1 * q + a2, L + b1 * q + b2, sp.diff(omega, X) + omega**2 - S]
     return all(map(chart.vanishes, identities))
@@ -130,7 +128,7 @@ def satisfies(form: ClosedForm, system, S, chart: Chart) -> bool:
 
 def test_both_theorems_by_the_engine_for_all_radii_and_roots():
     """The reproduction: one call on (13) as printed."""
-    statement = conditions()
+    statement = kovacic.conditions(InRoots(R / R1).S, var="x")
     assert statement.complete is True
     assert statement.generic.case == 2
     assert {str(region) for region in statement.regions if region.defined} == {
@@ -158,13 +156,13 @@ def test_both_theorems_for_every_physical_parameter():
 
 
 def test_theorem_2_formula_for_all_ratios_and_roots():
-    assert satisfies(closed_form_in_roots(k), system_in_roots(k), in_roots(k)[2], IN_ROOTS)
+    assert satisfies(closed_form(InRoots(k)), InRoots(k), IN_ROOTS)
 
 
 @pytest.mark.parametrize("part", ["omega", "y", "omega_3", "n"])
 def test_a_wrong_sign_in_a_closed_form_is_seen(part):
     for rho in (k, sp.Rational(3, 2)):
-        good = closed_form_in_roots(rho)
+        good = closed_form(InRoots(rho))
         turned = {
             "omega": tuple(-omega for omega in good.omega),
             "y": good.y / (X - x1),
@@ -173,9 +171,9 @@ def test_a_wrong_sign_in_a_closed_form_is_seen(part):
         }
         parts = {name: getattr(good, name) for name in ("omega", "y", "omega_3", "n")}
         bad = ClosedForm(**{**parts, part: turned[part]})
-        assert not bad.solves(system_in_roots(rho), in_roots(rho)[2])
-        assert not satisfies(bad, system_in_roots(rho), in_roots(rho)[2], IN_ROOTS)
-        assert good.solves(system_in_roots(rho), in_roots(rho)[2])
+        assert not bad.solves(InRoots(rho))
+        assert not satisfies(bad, InRoots(rho), IN_ROOTS)
+        assert good.solves(InRoots(rho))
 
 
 def test_the_formula_in_E_for_all_parameters():
@@ -187,7 +185,7 @@ def test_the_formula_in_E_for_all_parameters():
     constant = sp.expand(half**2 - s**2 * D)  # E times its conjugate
     chart = Chart({D: (t - constant / t) / (2 * s), s**2: s}, ((t + constant / t) / 2 - half.subs(X, 0)) / s**2)
     assert form.E == half + sp.sqrt(s**2) * sp.sqrt(D) or sp.expand(form.E - half - sp.sqrt(s**2) * sp.sqrt(D)) == 0
-    assert satisfies(form, sphere.linear_system, sphere.S, chart)
+    assert satisfies(form, sphere, chart)
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -195,8 +193,8 @@ def test_the_formula_in_E_for_all_parameters():
 def test_theorem_1_solutions_exactly(N, sign):
     """Both solutions, both omegas and both n, for all x1, x2; for 2R/R1 = N and -N."""
     rho = sp.Rational(sign * N, 2)
-    form = closed_form_in_roots(rho)
-    assert satisfies(form, system_in_roots(rho), in_roots(rho)[2], Chart({}, X))
+    form = closed_form(InRoots(rho))
+    assert satisfies(form, InRoots(rho), Chart({}, X))
     assert sp.cancel(form.omega[0] - form.omega[1]) != 0
 
 
@@ -216,8 +214,8 @@ def test_theorem_1_solutions_for_N_up_to_50(N_at_most_50, sign):
     """The same, over Q: x1 = 1, x2 = -1, to which an affine change of x carries any two roots."""
     for N in range(1, 51):
         rho = sp.Rational(sign * N, 2)
-        form, S = closed_form_in_roots(rho), read_input(thirteen(rho)).S
-        a1, a2, b1, b2 = (read_input(part, var="x").S for part in system_in_roots(rho))
+        form, S = closed_form(InRoots(rho)), read_input(thirteen(rho)).S
+        a1, a2, b1, b2 = (read_input(part, var="x").S for part in InRoots(rho).linear_system)
         rates = set()
         for omega, constant in zip(form.omega, (C1, C2), strict=True):
             y, w, n = (bases(part.coeff(constant)) for part in (form.y, form.omega_3, form.n))
@@ -237,7 +235,8 @@ def test_theorem_1_solutions_for_N_up_to_50(N_at_most_50, sign):
 def N_at_most_50(monkeypatch):
     """Solutions are written out, with numbers for the roots, and expanded by the engine, which is faster than SymPy."""
     for name, value in {"x1": sp.Integer(1), "x2": sp.Integer(-1), "A1": sp.Integer(3), "A3": sp.Integer(5)}.items():
-        monkeypatch.setattr(theorems, name, value)
+        for module in (rolling, theorems):
+            monkeypatch.setattr(module, name, value)
     monkeypatch.setattr(theorems, "_EXPANDED", 50)
     monkeypatch.setattr(sp, "expand", lambda expression: read_input(expression, var="x").S.num.to_sympy(X))
 
@@ -248,16 +247,15 @@ def test_theorem_1_printed_solutions():
         3: C1 * (4 * X - x1 - 3 * x2) / sp.sqrt(X - x2) + C2 * (4 * X - 3 * x1 - x2) / sp.sqrt(X - x1),
     }
     for N, omega_3 in printed.items():
-        assert closed_form_in_roots(sp.Rational(N, 2)).omega_3 == omega_3
-    assert closed_form_in_roots(sp.Integer(1)).omega_3.coeff(C2).is_number  # R = R1: omega_3 = const
+        assert closed_form(InRoots(sp.Rational(N, 2))).omega_3 == omega_3
+    assert closed_form(InRoots(sp.Integer(1))).omega_3.coeff(C2).is_number  # R = R1: omega_3 = const
 
 
 def test_rational_omega_beyond_what_is_written_out():
-    form = closed_form_in_roots(sp.Integer(9))
+    form = closed_form(InRoots(sp.Integer(9)))
     assert satisfies(
         ClosedForm(form.omega, form.y, form.omega_3, form.n),
-        system_in_roots(sp.Integer(9)),
-        thirteen(9, x1=x1),
+        InRoots(sp.Integer(9)),
         IN_ROOTS,
     )
     for omega in form.omega:  # the same at the other values of the roots
@@ -272,7 +270,7 @@ def test_closed_form_and_group_of_every_ball(name):
         answer = kovacic.solve(sphere.S)
         assert (answer.case, answer.group.name) == (theorem(sphere)[1], group_of(sphere)), (name, sphere.R1)
         form = closed_form(sphere)
-        assert form.solves(sphere.linear_system, sphere.S, sphere.roots), (name, sphere.R1)
+        assert form.solves(sphere), (name, sphere.R1)
         at = {C1: 2, C2: 3}
         for x in (sp.Rational(-1, 2), sp.Rational(1, 2)):  # real and regular on [-1, 1]
             assert sp.im(form.omega_3.subs({**at, X: x}).evalf(20)) == 0
@@ -282,7 +280,7 @@ def test_closed_form_and_group_of_every_ball(name):
 @pytest.mark.parametrize("name", sorted(BALLS))
 def test_a_wrong_ratio_in_a_closed_form_is_seen(name):
     right, wrong = ball(name).on_sphere(3), ball(name).on_sphere(4)
-    assert not closed_form(wrong).solves(right.linear_system, right.S, right.roots)
+    assert not closed_form(wrong).solves(right)
 
 
 @pytest.mark.parametrize("name", sorted(BALLS))
@@ -302,10 +300,10 @@ def test_omega_is_rational_for_every_ratio_if_A1_is_A3_or_x1_is_x2():
 
 
 def test_what_the_theorems_say():
-    assert theorem_for(sp.Integer(3))[1] == 1
-    assert theorem_for(sp.Rational(2, 3))[1] == 2
-    assert theorem_for(2 * k)[1] is None
-    assert "omega_3 = const" in theorem_for(sp.Integer(2))[0]
+    assert theorem(InRoots(sp.Integer(3)))[1] == 1
+    assert theorem(InRoots(sp.Rational(1, 3)))[1] == 2
+    assert theorem(InRoots(k))[1] is None
+    assert "omega_3 = const" in theorem(InRoots(sp.Integer(1)))[0]
     assert "constant" in theorem(ball("complex").on_plane())[0]
 
 
@@ -378,7 +376,7 @@ def test_ratios_that_are_nearly_irrational_or_nearly_of_theorem_1(ratio):
 def test_normalised_equation_is_the_general_one():
     """x = (x1 + x2)/2 + s (x1 - x2)/2 carries (13) into the one with the roots 1 and -1."""
     scale = (x1 - x2) / 2
-    moved = in_roots(k)[2].subs(X, (x1 + x2) / 2 + X * scale) * scale**2
+    moved = InRoots(k).S.subs(X, (x1 + x2) / 2 + X * scale) * scale**2
     assert sp.cancel(moved - thirteen(k)) == 0
 
 

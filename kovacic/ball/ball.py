@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import sympy as sp
 
@@ -26,6 +26,7 @@ from kovacic.reading.read import read_input
 
 Scalar: TypeAlias = "int | Fraction | str | sp.Expr"
 U, X = sp.symbols("u x")
+x1, x2, A1, A3 = sp.symbols("x1 x2 A1 A3")
 #: Of numbers and potentials as text: SymPy's functions are recursive, and its integers aren't bounded.
 LIMITS = Limits(text_length=500, digits=100, exponent=100, bits=500)
 read_expression = partial(symbolic.read_expression, limits=LIMITS)
@@ -142,53 +143,32 @@ class Ball:
             raise InputError("the fixed sphere needs a radius R1 other than 0", hint=hint)
         if sign(radius) == -1 and sign(self.R + radius) in (0, 1):
             raise InputError(f"the ball doesn't fit inside the sphere: R < |R1| fails, as {self.R} >= {-radius}")
-        return BallOnSphere(self, radius)
+        return self._rolling(radius)
 
     def on_plane(self) -> BallOnSphere:
         """The ball on a plane, R1 -> infinity."""
-        return BallOnSphere(self, sp.oo)
+        return self._rolling(sp.oo)
 
-
-def system(D: sp.Expr, half: sp.Expr, leading: Any, weight: sp.Expr, rho: sp.Expr) -> tuple[sp.Expr, ...]:
-    """The coefficients a1, a2, b1, b2 of `BallOnSphere.linear_system`; half is D'/2, weight m R^2 A1."""
-    across = sp.expand(leading * D - half**2) / weight
-    return -rho * half / D, (1 + rho) * across / D, rho * weight / D, (1 + rho) * half / D
+    def _rolling(self, R1: sp.Expr) -> BallOnSphere:
+        m, R, a, A1, A3 = self.parameters
+        ratio = sp.Integer(0) if R1.is_infinite else settled(sp.cancel(R / R1))
+        D = sp.expand(A1 * A3 + A1 * m * R**2 * (1 - X**2) + A3 * m * (R * X + a) ** 2)
+        return BallOnSphere(ratio, D, sp.factor(m * R**2 * (A3 - A1)), m * R**2 * A1, self, R1)
 
 
 @dataclass(frozen=True, slots=True)
-class BallOnSphere:
-    """The ball on the sphere of radius R1: what its equations depend on, and the coefficients of these."""
+class Rolling:
+    """What the linear equations depend on: rho, D(x), its leading coefficient l (0 exactly if A1 = A3), and m R^2 A1."""
 
-    ball: Ball
-    R1: sp.Expr
-
-    @property
-    def ratio(self) -> sp.Expr:
-        """rho = R/R1, 0 on the plane."""
-        return sp.Integer(0) if self.R1.is_infinite else settled(sp.cancel(self.ball.R / self.R1))
-
-    @property
-    def D(self) -> sp.Expr:
-        """D(x), expanded in x."""
-        m, R, a, A1, A3 = self.ball.parameters
-        return sp.expand(A1 * A3 + A1 * m * R**2 * (1 - X**2) + A3 * m * (R * X + a) ** 2)
-
-    @property
-    def leading(self) -> sp.Expr:
-        """l = m R^2 (A3 - A1), the coefficient of x^2 in D; 0 exactly if A1 = A3."""
-        m, R, _, A1, A3 = self.ball.parameters
-        return sp.factor(m * R**2 * (A3 - A1))
+    ratio: sp.Expr
+    D: sp.Expr
+    leading: sp.Expr
+    weight: sp.Expr
 
     @property
     def half(self) -> sp.Expr:
         """D'(x)/2."""
         return sp.expand(sp.diff(self.D, X) / 2)
-
-    @property
-    def weight(self) -> sp.Expr:
-        """m R^2 A1."""
-        m, R, _, A1, _ = self.ball.parameters
-        return m * R**2 * A1
 
     @property
     def discriminant(self) -> sp.Expr:
@@ -201,23 +181,12 @@ class BallOnSphere:
         return tuple(sp.roots(sp.Poly(self.D, X)))
 
     @property
-    def kind(self) -> str:
-        """Which ball this is, in words; undecided symbolic parameters count as generic."""
-        if self.leading == 0:
-            return "A1 = A3 and a = 0 (homogeneous): D is constant" if self.ball.a == 0 else "A1 = A3: D is linear in x"
-        side = sign(self.discriminant)
-        if side == 0:
-            return "D has a double root, x1 = x2"
-        if side is None:
-            return "generic: D has two simple roots"
-        place = "real, outside of [-1, 1]" if side > 0 else "a complex conjugate pair"
-        return f"D has two simple roots, {place}" + (", with a = 0" if self.ball.a == 0 else "")
-
-    @property
-    def linear_system(self) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+    def linear_system(self) -> tuple[sp.Expr, ...]:
         """a1, a2, b1, b2 divided by sin u, in x: dn/du = a1 n + a2 omega_3, d omega_3/du = b1 n + b2 omega_3."""
-        a1, a2, b1, b2 = map(sp.factor, system(self.D, self.half, self.leading, self.weight, self.ratio))
-        return a1, a2, b1, b2
+        D, half, rho, weight = self.D, self.half, self.ratio, self.weight
+        across = sp.expand(self.leading * D - half**2) / weight
+        parts = -rho * half, (1 + rho) * across, rho * weight, (1 + rho) * half
+        return tuple(sp.factor(part / D) for part in parts)
 
     @property
     def second_order(self) -> tuple[sp.Expr, sp.Expr]:
@@ -233,3 +202,43 @@ class BallOnSphere:
         """The right-hand side of (13), y'' = S(x) y."""
         D, half = self.D, self.half
         return sp.factor((2 * self.leading * (1 + 2 * self.ratio**2) * D - 3 * half**2) / (4 * D**2))
+
+
+class InRoots(Rolling):
+    """All balls with R/R1 = rho and the different roots x1, x2 of D: up to a constant D is (x - x1)(x - x2).
+
+    Of the body, only A3/A1 occurs besides.  d1, d2 and S are written as the paper prints them.
+    """
+
+    def __init__(self, rho: sp.Expr) -> None:
+        super().__init__(rho, (X - x1) * (X - x2), sp.Integer(1), -A1 / (A1 - A3))
+
+    @property
+    def second_order(self) -> tuple[sp.Expr, sp.Expr]:
+        return sp.Rational(3, 2) * (2 * X - x1 - x2) / self.D, (1 - self.ratio**2) / self.D
+
+    @property
+    def S(self) -> sp.Expr:
+        pole = sp.Rational(1, 8) * (1 + 8 * self.ratio**2) / (x1 - x2)
+        return pole / (X - x1) - pole / (X - x2) - sp.Rational(3, 16) * ((X - x1) ** -2 + (X - x2) ** -2)
+
+
+@dataclass(frozen=True, slots=True)
+class BallOnSphere(Rolling):
+    """A ball on the sphere of radius R1."""
+
+    ball: Ball
+    R1: sp.Expr
+
+    @property
+    def kind(self) -> str:
+        """Which ball this is, in words; undecided symbolic parameters count as generic."""
+        if self.leading == 0:
+            return "A1 = A3 and a = 0 (homogeneous): D is constant" if self.ball.a == 0 else "A1 = A3: D is linear in x"
+        side = sign(self.discriminant)
+        if side == 0:
+            return "D has a double root, x1 = x2"
+        if side is None:
+            return "generic: D has two simple roots"
+        place = "real, outside of [-1, 1]" if side > 0 else "a complex conjugate pair"
+        return f"D has two simple roots, {place}" + (", with a = 0" if self.ball.a == 0 else "")

@@ -20,12 +20,12 @@ from typing import Any
 import sympy as sp
 from sympy import cos, sin
 
-from kovacic.ball.ball import BallOnSphere, U, X
+from kovacic.ball.ball import A1, A3, InRoots, Rolling, U, X, x1, x2
 from kovacic.limits import Limits
 from kovacic.reading.read import read_input
 
 u, x = U, X
-m, R, a, A1, A3, R1, x1, x2, D = sp.symbols("m R a A1 A3 R1 x1 x2 D")
+m, R, a, R1, D = sp.symbols("m R a R1 D")
 v, theta, u1, v1, n, w3 = sp.symbols("v theta u1 v1 n omega_3")
 du, dv, dtheta, du1, dv1, ddu, ddv, dn = sp.symbols("u' v' theta' u1' v1' u'' v'' n'")
 #: The partial derivatives of the kinetic energy Theta, and dV/du.
@@ -76,14 +76,6 @@ PRINTED: dict[str, sp.Expr] = {
 }
 
 
-def in_roots(rho: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """d1, d2 of (12) and S of (13) in the roots x1, x2 of D, for R/R1 = rho, as the paper prints them."""
-    d1 = sp.Rational(3, 2) * (2 * x - x1 - x2) / ((x - x1) * (x - x2))
-    d2 = (1 - rho**2) / ((x - x1) * (x - x2))
-    pole = sp.Rational(1, 8) * (1 + 8 * rho**2) / (x1 - x2)
-    return d1, d2, pole / (x - x1) - pole / (x - x2) - sp.Rational(3, 16) * ((x - x1) ** -2 + (x - x2) ** -2)
-
-
 def equation(d1: sp.Expr, d2: sp.Expr, variable: sp.Symbol = x) -> tuple[str, str]:
     """omega_3'' + d1 omega_3' + d2 omega_3 = 0 as text and in LaTeX."""
     text, tex = f"omega_3''({variable})", r"\omega_{3}''"
@@ -102,13 +94,13 @@ def normal_form(S: sp.Expr) -> tuple[str, str]:
     return f"y''({x}) = ({S})*y({x})", f"y'' = {factor} y"
 
 
-def of_ball(sphere: BallOnSphere) -> dict[str, tuple[str, str]]:
+def of_ball(place: Rolling) -> dict[str, tuple[str, str]]:
     """a1, a2, b1, b2, and the equations 11, 12 and 13 with the values of one ball, as text and in LaTeX."""
-    d1, d2 = sphere.second_order
-    parts = zip(("a1", "a2", "b1", "b2"), (part.subs(x, cos(u)) * sin(u) for part in sphere.linear_system), strict=True)
+    d1, d2 = place.second_order
+    parts = zip(("a1", "a2", "b1", "b2"), (part.subs(x, cos(u)) * sin(u) for part in place.linear_system), strict=True)
     found = {name: (f"{name} = {part}", f"{sp.latex(sp.Symbol(name))} = {sp.latex(part)}") for name, part in parts}
     in_u = -sin(u) * d1.subs(x, cos(u)) - cos(u) / sin(u), sin(u) ** 2 * d2.subs(x, cos(u))
-    return {**found, "11": equation(*in_u, u), "12": equation(d1, d2), "13": normal_form(sphere.S)}
+    return {**found, "11": equation(*in_u, u), "12": equation(d1, d2), "13": normal_form(place.S)}
 
 
 #: The steps of the derivation: what is said, a relation in plain text and in LaTeX, and the names that it introduces.
@@ -133,7 +125,7 @@ _STEPS = (
 
 
 def derivation(*, latex: bool = False) -> str:
-    """The equations up to (11) for all values of the parameters, line by line; (12) and (13) are those of `in_roots`."""
+    """The equations up to (11) for all values of the parameters, line by line; (12) and (13) are those of `InRoots`."""
     surface = "x = R sin(u) cos(v), y = R sin(u) sin(v), z = R cos(u) + a about the centre of mass"
     lines = [] if latex else [f"The ball's surface: {surface}; (u1, v1) on the sphere; theta between the meridians."]
     moments = {"dTheta_u'/dt": T_du, "dTheta_v'/dt": T_dv, "dTheta_n/dt": T_n}
@@ -202,10 +194,11 @@ def residuals() -> Iterator[tuple[str, list[Any]]]:
     # The roots in place of m and a: their sum gives a, and their product is linear in 1/m.
     offset = -R * (A3 - A1) * (x1 + x2) / (2 * A3)
     mass = A1 * A3 / (R**2 * (A3 - A1) * x1 * x2 - A1 * R**2 - A3 * offset**2)
-    one, two, S = in_roots(R / R1)
+    place = InRoots(R / R1)
+    one, two = place.second_order
     in_u = one * sin(u) ** 2 + cos(u) + p["d1"] * sin(u), two * sin(u) ** 2 - p["d2"]
     yield "(12)", [part.xreplace({x: cos(u), m: mass, a: offset}) for part in in_u]
-    yield "(13)", [S - (sp.diff(one, x) / 2 + one**2 / 4 - two)]
+    yield "(13)", [place.S - (sp.diff(one, x) / 2 + one**2 / 4 - two)]
 
 
 def vanishes(expression: Any) -> bool:

@@ -13,7 +13,7 @@ from kovacic.cli.options import PICTURE
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from kovacic.ball import BallOnSphere, ClosedForm
+    from kovacic.ball.ball import BallOnSphere, Rolling
 
 #: Points in time at which a motion is looked at: so many, and so many more for each oscillation, up to a limit.
 _SAMPLES, _PER_OSCILLATION, _MOST = 1200, 60, 60_000
@@ -62,7 +62,9 @@ def command(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
     kovacic ball --mass 1 --radius 1 --sphere 3 --explain
     kovacic ball --mass 1 --radius 1 --sphere 3 --simulate --plot path.png
     """
-    data = _by_ratio(latex, **given) if given["ratio"] is not None else _by_parameters(latex, **given)
+    data = _by_ratio(**given) if given["ratio"] is not None else _by_parameters(**given)
+    if not latex:
+        del data["latex"]
     if explain:
         from kovacic.ball.equations import derivation, holds
 
@@ -70,57 +72,25 @@ def command(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
     click.echo(json.dumps(data, ensure_ascii=False) if as_json else _text(data))
 
 
-def _answer(S: Any, solved: Any, form: ClosedForm, system: Any, roots: Any = ()) -> dict[str, Any]:
-    """What the engine says about y'' = `solved` y, and the closed form, which is checked in y'' = S y."""
-    import kovacic
-
-    solution = kovacic.solve(solved, var="x")
-    return {
-        "S": str(S),
-        "status": solution.status.value,
-        "case": solution.case,
-        "omega": [str(omega) for omega in form.omega],
-        **({} if form.E is None else {"E": str(form.E)}),
-        "y": str(form.y),
-        "omega_3": str(form.omega_3),
-        "n": str(form.n),
-        "group": None if solution.group is None else solution.group.name,
-        "verified": solution.verified and form.solves(system, S, roots),
-    }
-
-
-def _by_ratio(latex: bool, ratio: str, **given: Any) -> dict[str, Any]:
-    from kovacic.ball import theorems
-    from kovacic.ball.equations import equation, in_roots, normal_form
+def _by_ratio(ratio: str, **given: Any) -> dict[str, Any]:
+    from kovacic.ball.ball import InRoots
+    from kovacic.ball.theorems import read_ratio
 
     if any(given[name] is not None for name in ("mass", "radius", "sphere", "a1", "a3", "plot")) or given["simulate"]:
         raise click.UsageError("--ratio stands alone: a mass, moments or a motion need --mass, --radius, --sphere")
-    rho = theorems.read_ratio(ratio)
-    *coefficients, S = in_roots(rho)
-    twelve = equation(*coefficients)
-    data: dict[str, Any] = {
-        "ratio": str(rho),
-        "N": str(2 * rho),
-        "theorem": theorems.theorem_for(2 * rho)[0],
-        "equation": twelve[0],
-    }
-    if rho.free_symbols:
+    place = InRoots(read_ratio(ratio))
+    data = _answer(place)
+    if place.ratio.free_symbols:
         from kovacic.parametric.api import conditions
 
-        data["conditions"] = [line.strip() for line in str(conditions(S, var="x")).splitlines()[1:]]
-    # The case and the group don't change when x1 and x2 are carried to 1 and -1.
-    solved = S.subs({"x1": 1, "x2": -1})
-    data |= _answer(S, solved, theorems.closed_form_in_roots(rho), theorems.system_in_roots(rho))
+        data["conditions"] = [line.strip() for line in str(conditions(place.S, var="x")).splitlines()[1:]]
     D = "A1 A3 + A1 m R^2 (1 - x^2) + A3 m (R x + a)^2"
-    data["note"] = f"x = cos u; x1, x2 are the roots of D(x) = {D}, two different ones"
-    return {**data, "latex": {"12": twelve[1], "13": normal_form(S)[1]}} if latex else data
+    return {**data, "note": f"x = cos u; x1, x2 are the roots of D(x) = {D}, two different ones"}
 
 
-def _by_parameters(latex: bool, **given: Any) -> dict[str, Any]:
-    from kovacic.ball import Ball, closed_form
+def _by_parameters(**given: Any) -> dict[str, Any]:
+    from kovacic.ball import Ball
     from kovacic.ball.ball import exact
-    from kovacic.ball.equations import of_ball
-    from kovacic.ball.theorems import theorem
 
     mass, radius, place, plot = (given[name] for name in ("mass", "radius", "sphere", "plot"))
     if None in (mass, radius, place):
@@ -133,24 +103,46 @@ def _by_parameters(latex: bool, **given: Any) -> dict[str, Any]:
     A1, A3 = (standard if given[name] is None else given[name] for name in ("a1", "a3"))
     ball = Ball(m=mass, R=radius, a=given["offset"], A1=A1, A3=A3)
     sphere = ball.on_plane() if place == "plane" else ball.on_sphere(place)
-    equations = of_ball(sphere)
     data = {
-        "ratio": str(sphere.ratio),
-        "N": str(2 * sphere.ratio),
         "ball": sphere.kind,
         "D": str(sphere.D),
         "roots": ", ".join(map(str, sphere.roots)),
-        "theorem": theorem(sphere)[0],
-        "equation": equations["12"][0],
-        **_answer(sphere.S, sphere.S, closed_form(sphere), sphere.linear_system, sphere.roots),
+        **_answer(sphere),
         "note": "x = cos u; units are those of the input",
     }
-    if latex:
-        data["latex"] = {name: equation[1] for name, equation in equations.items()}
     if given["simulate"] or plot is not None:
         options = {name: given[name] for name in ("gravity", "potential", "start", "end", "plot")}
         data["motion"] = _simulate(sphere, **options)
     return data
+
+
+def _answer(place: Rolling) -> dict[str, Any]:
+    """What the theorems and the engine say, and the closed form, which is checked."""
+    import kovacic
+    from kovacic.ball import closed_form
+    from kovacic.ball.equations import of_ball
+    from kovacic.ball.theorems import theorem
+
+    # In the roots, the case and the group don't change when x1 and x2 are carried to 1 and -1.
+    solution, form = kovacic.solve(place.S.subs({"x1": 1, "x2": -1}), var="x"), closed_form(place)
+    equations = of_ball(place)
+    return {
+        "ratio": str(place.ratio),
+        "N": str(2 * place.ratio),
+        "theorem": theorem(place)[0],
+        "equation": equations["12"][0],
+        "S": str(place.S),
+        "status": solution.status.value,
+        "case": solution.case,
+        "omega": [str(omega) for omega in form.omega],
+        **({} if form.E is None else {"E": str(form.E)}),
+        "y": str(form.y),
+        "omega_3": str(form.omega_3),
+        "n": str(form.n),
+        "group": None if solution.group is None else solution.group.name,
+        "verified": solution.verified and form.solves(place),
+        "latex": {name: latex for name, (_, latex) in equations.items()},
+    }
 
 
 #: What a line of text begins with.
