@@ -16,7 +16,7 @@ import sympy as sp
 import kovacic
 from kovacic.ball import Ball, closed_form
 from kovacic.ball.ball import InRoots
-from kovacic.ball.equations import R1, R, derivation, holds, of_ball
+from kovacic.ball.equations import R1, R, derivation, equations_of, holds
 from kovacic.ball.theorems import theorem
 
 
@@ -51,7 +51,7 @@ def main() -> int:
 
     example = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
     print("\nOne ball: m = R = 1, a = 1/5, A1 = 1/4, A3 = 1/3 on R1 = 3")
-    print(f"  {of_ball(example)['12'][0]}\n  omega_3 = {closed_form(example).omega_3}")
+    print(f"  {equations_of(example)['12'].text}\n  omega_3 = {closed_form(example).omega_3}")
     everything = good and reproduced and all(derived.values())
     print(f"\n{'Everything holds' if everything else 'SOMETHING FAILS'}; {time.perf_counter() - started:.2f} s")
     return 0 if everything else 1

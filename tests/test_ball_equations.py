@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
 from fractions import Fraction
 
 import pytest
@@ -16,12 +18,13 @@ from kovacic.ball.equations import (
     R,
     a,
     derivation,
+    equations_of,
     holds,
     m,
-    of_ball,
     vanishes,
 )
 from kovacic.errors import InputError, LimitExceeded
+from kovacic.views.breaking import breakable
 
 GENERAL = Ball(m=m, R=R, a=a, A1=A1, A3=A3)
 SYSTEM = ("a1", "a2", "b1", "b2")
@@ -126,15 +129,33 @@ def test_rolling_inside_is_a_negative_radius():
 
 
 def test_equations_print():
-    found = of_ball(Ball(m=1, R=1, a=0, A1="1/4", A3="1/3").on_sphere(2))
-    assert found["12"][0] == "omega_3''(x) + (3*x/(x**2 + 4))*omega_3'(x) + (3/(4*(x**2 + 4)))*omega_3(x) = 0"
-    assert found["13"][1].startswith("y'' = ")
-    assert found["11"][1].endswith("= 0")
-    text, latex = derivation(), derivation(latex=True)
+    found = equations_of(Ball(m=1, R=1, a=0, A1="1/4", A3="1/3").on_sphere(2))
+    assert found["12"].text == "omega_3''(x) + (3*x/(x**2 + 4))*omega_3'(x) + (3/(4*(x**2 + 4)))*omega_3(x) = 0"
+    assert found["13"].latex.startswith("y'' = ")
+    assert found["11"].latex.endswith("= 0")
+    text, latex = derivation(), derivation(format="latex")
     for name in PRINTED:
         assert f"  {name} = " in text
     assert r"\dot{u}_{1} = c_{11}\dot{u} + c_{12}\dot{v}" in latex
     assert latex.count("{") == latex.count("}")
+    for label in ("(7) The equations of motion", "(11) Without n", "(12) In the roots", "(13) The normal form"):
+        assert label in text
+        assert label in derivation(format="markdown")
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex isn't installed")
+def test_latex_compiles_without_overfull_boxes(tmp_path):
+    """The derivation as `--explain --latex` prints it, and the equations of balls as `--latex` does."""
+    odd = Ball(m="2.718281828", R="1.41421356", a="0.3333", A1="0.31", A3="0.42").on_sphere("3.1415926")
+    ball = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3")
+    places = [GENERAL.on_sphere(R1), odd, ball.on_sphere("sqrt(2)"), ball.on_plane()]
+    formulas = [math.latex for place in (*places, InRoots(sp.Symbol("r"))) for math in equations_of(place).values()]
+    body = "".join(rf"\hangindent2em$\displaystyle {breakable(latex)}$\par" for latex in formulas)
+    head = "\\documentclass{article}\\usepackage{amsmath,amssymb,graphicx}\\begin{document}\n"
+    (tmp_path / "a.tex").write_text(f"{head}{derivation(format='latex')}{body}\\end{{document}}\n", encoding="utf-8")
+    command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "a.tex"]
+    done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
+    assert b"Overfull" not in done.stdout
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,8 @@ from sympy import cos, sin
 from kovacic.ball.ball import A1, A3, InRoots, Rolling, U, X, x1, x2
 from kovacic.limits import Limits
 from kovacic.reading.read import read_input
+from kovacic.views.document import FORMATS, Block, Formula, Heading, say
+from kovacic.views.formula import Math
 
 u, x = U, X
 m, R, a, R1, D = sp.symbols("m R a R1 D")
@@ -32,15 +34,11 @@ du, dv, dtheta, du1, dv1, ddu, ddv, dn = sp.symbols("u' v' theta' u1' v1' u'' v'
 T_u, T_du, T_dv, T_n, V_u = sp.symbols("Theta_u Theta_u' Theta_v' Theta_n V_u")
 
 #: How names are written in LaTeX.
-_TEX = {
-    **{symbol: rf"\dot{{{tex}}}" for symbol, tex in ((du, "u"), (dv, "v"), (dtheta, r"\theta"))},
-    **{symbol: rf"\dot{{{tex}}}_{{1}}" for symbol, tex in ((du1, "u"), (dv1, "v"))},
-    **{
-        symbol: rf"\frac{{\partial\Theta}}{{\partial{tex}}}"
-        for symbol, tex in ((T_u, " u"), (T_du, r"\dot{u}"), (T_dv, r"\dot{v}"), (T_n, " n"))
-    },
-    V_u: r"\frac{dV}{du}",
-}
+_TEX = {du: r"\dot{u}", dv: r"\dot{v}", dtheta: r"\dot{\theta}", du1: r"\dot{u}_{1}", dv1: r"\dot{v}_{1}"}
+_TEX[V_u] = r"\frac{dV}{du}"
+for _name, _tex in (("u", "u"), ("u'", r"\dot{u}"), ("v'", r"\dot{v}"), ("n", "n")):
+    _part = rf"\frac{{\partial\Theta}}{{\partial {_tex}}}"
+    _TEX |= {sp.Symbol(f"Theta_{_name}"): _part, sp.Symbol(f"dTheta_{_name}/dt"): rf"\frac{{d}}{{dt}}{_part}"}
 
 _k, _eps, _tilt = 1 + R / R1, R + a * cos(u), (A3 - A1) * R * cos(u) + A3 * a
 _s, _c, _rho, _pull = sin(u), cos(u), R / R1, R / (R + R1)
@@ -76,31 +74,33 @@ PRINTED: dict[str, sp.Expr] = {
 }
 
 
-def equation(d1: sp.Expr, d2: sp.Expr, variable: sp.Symbol = x) -> tuple[str, str]:
-    """omega_3'' + d1 omega_3' + d2 omega_3 = 0 as text and in LaTeX."""
+def equation(d1: sp.Expr, d2: sp.Expr, variable: sp.Symbol = x) -> Math:
+    """omega_3'' + d1 omega_3' + d2 omega_3 = 0."""
     text, tex = f"omega_3''({variable})", r"\omega_{3}''"
     for coefficient, prime in ((d1, "'"), (d2, "")):
         if coefficient != 0:
             text += f" + ({coefficient})*omega_3{prime}({variable})"
             tex += rf" + \left({sp.latex(coefficient)}\right) \omega_{{3}}{prime}"
-    return f"{text} = 0", f"{tex} = 0"
+    return Math(f"{text} = 0", f"{tex} = 0")
 
 
-def normal_form(S: sp.Expr) -> tuple[str, str]:
-    """y'' = S y as text and in LaTeX."""
-    if S == 0:
-        return f"y''({x}) = 0", "y'' = 0"
+def named(name: str, value: sp.Expr) -> Math:
+    """name = value."""
+    return Math(f"{name} = {value}", " = ".join(sp.latex(z, symbol_names=_TEX) for z in (sp.Symbol(name), value)))
+
+
+def equations_of(place: Rolling) -> dict[str, Math]:
+    """a1, a2, b1, b2, and the equations 11, 12 and 13 with the values of one ball, or in the roots."""
+    (d1, d2), S = place.second_order, place.S
+    in_u = [part.subs(x, cos(u)) for part in (*place.linear_system, d1, d2)]
+    found = {name: named(name, part * sin(u)) for name, part in zip(("a1", "a2", "b1", "b2"), in_u, strict=False)}
     factor = rf"\left({sp.latex(S)}\right)" if S.is_Add else sp.latex(S)
-    return f"y''({x}) = ({S})*y({x})", f"y'' = {factor} y"
-
-
-def of_ball(place: Rolling) -> dict[str, tuple[str, str]]:
-    """a1, a2, b1, b2, and the equations 11, 12 and 13 with the values of one ball, as text and in LaTeX."""
-    d1, d2 = place.second_order
-    parts = zip(("a1", "a2", "b1", "b2"), (part.subs(x, cos(u)) * sin(u) for part in place.linear_system), strict=True)
-    found = {name: (f"{name} = {part}", f"{sp.latex(sp.Symbol(name))} = {sp.latex(part)}") for name, part in parts}
-    in_u = -sin(u) * d1.subs(x, cos(u)) - cos(u) / sin(u), sin(u) ** 2 * d2.subs(x, cos(u))
-    return {**found, "11": equation(*in_u, u), "12": equation(d1, d2), "13": normal_form(place.S)}
+    return {
+        **found,
+        "11": equation(-sin(u) * in_u[4] - cos(u) / sin(u), sin(u) ** 2 * in_u[5], u),
+        "12": equation(d1, d2),
+        "13": Math(f"y''(x) = ({S})*y(x)", f"y'' = {factor} y") if S else Math("y''(x) = 0", "y'' = 0"),
+    }
 
 
 #: The steps of the derivation: what is said, a relation in plain text and in LaTeX, and the names that it introduces.
@@ -108,34 +108,35 @@ _STEPS = (
     ("Rolling without slipping", "u1' = c11 u' + c12 v', v1' = c21 u' + c22 v'",
      r"\dot{u}_{1} = c_{11}\dot{u} + c_{12}\dot{v}, \quad \dot{v}_{1} = c_{21}\dot{u} + c_{22}\dot{v}",
      ("c11", "c12", "c21", "c22")),
-    ("Angular velocity along the meridian, the circle and the normal of the ball", "(tau v', sigma u', n)",
+    ("Angular velocity along the meridian, the circle and the normal of the ball", "omega = (tau v', sigma u', n)",
      r"\boldsymbol{\omega} = (\tau\dot{v}, \sigma\dot{u}, n)", ("tau", "sigma", "n")),
     ("Kinetic energy", "2 Theta = K11 u'^2 + K22 v'^2 + 2 K23 v' n + K33 n^2",
      r"2\Theta = K_{11}\dot{u}^{2} + K_{22}\dot{v}^{2} + 2K_{23}\dot{v}n + K_{33}n^{2}", ("K11", "K22", "K23", "K33")),
-    ("(7) The equations of motion", "Theta_z is dTheta/dz, V_u is dV/du; Theta + V is constant",
-     r"\Theta + V(u) = \mathrm{const} \tag{7}",
-     ("dTheta_u'/dt", "dTheta_v'/dt", "dTheta_n/dt")),
-    ("The last two, divided by u', with omega_3 = cos(u) n - tau sin(u) v'",
-     "dn/du = a1 n + a2 omega_3, d omega_3/du = b1 n + b2 omega_3",
-     r"\frac{dn}{du} = a_{1}n + a_{2}\omega_{3}, \quad \frac{d\omega_{3}}{du} = b_{1}n + b_{2}\omega_{3}",
-     ("a1", "a2", "b1", "b2", "D")),
+    ("(7) The equations of motion", "Theta + V(u) = const; Theta_z is dTheta/dz, V_u is dV/du",
+     r"\Theta + V(u) = \mathrm{const}", ("dTheta_u'/dt", "dTheta_v'/dt", "dTheta_n/dt")),
+    ("The last two, divided by u'",
+     "omega_3 = cos(u) n - tau sin(u) v', dn/du = a1 n + a2 omega_3, d omega_3/du = b1 n + b2 omega_3",
+     r"\omega_{3} = n\cos u - \tau\dot{v}\sin u, \quad \frac{dn}{du} = a_{1}n + a_{2}\omega_{3}, "
+     r"\quad \frac{d\omega_{3}}{du} = b_{1}n + b_{2}\omega_{3}", ("a1", "a2", "b1", "b2", "D")),
     ("(11) Without n", "d^2 omega_3/du^2 + d1 d omega_3/du + d2 omega_3 = 0",
-     r"\frac{d^{2}\omega_{3}}{du^{2}} + d_{1}\frac{d\omega_{3}}{du} + d_{2}\omega_{3} = 0 \tag{11}", ("d1", "d2")),
+     r"\frac{d^{2}\omega_{3}}{du^{2}} + d_{1}\frac{d\omega_{3}}{du} + d_{2}\omega_{3} = 0", ("d1", "d2")),
 )  # fmt: skip
 
 
-def derivation(*, latex: bool = False) -> str:
-    """The equations up to (11) for all values of the parameters, line by line; (12) and (13) are those of `InRoots`."""
-    surface = "x = R sin(u) cos(v), y = R sin(u) sin(v), z = R cos(u) + a about the centre of mass"
-    lines = [] if latex else [f"The ball's surface: {surface}; (u1, v1) on the sphere; theta between the meridians."]
-    moments = {"dTheta_u'/dt": T_du, "dTheta_v'/dt": T_dv, "dTheta_n/dt": T_n}
-    for title, relation, tex, names in _STEPS:
-        lines.append(tex if latex else f"{title}: {relation}")
-        for name in names:
-            left = rf"\frac{{d}}{{dt}}{_TEX[moments[name]]}" if name in moments else sp.latex(sp.Symbol(name))
-            right = sp.latex(PRINTED[name], symbol_names=_TEX) if latex else str(PRINTED[name])
-            lines.append(f"{left} = {right}" if latex else f"  {name} = {right}")
-    return "\n".join(lines)
+def derivation(*, format: str = "text") -> str:
+    """The equations for all values of the parameters, as "text", "markdown", "latex" or "html", as `explain` has them."""
+    in_roots, y = equations_of(InRoots(R / R1)), Math("y = D(x)^(3/4) omega_3", r"y = D(x)^{3/4}\omega_{3}")
+    surface = "x = R sin u cos v, y = R sin u sin v, z = R cos u + a about the centre of mass"
+    blocks: list[Block] = [say(f"The ball's surface: {surface}; (u1, v1) on the sphere; theta between the meridians.")]
+    for title, rows in (
+        *((title, [Math(*said), *(named(name, PRINTED[name]) for name in names)]) for title, *said, names in _STEPS),
+        ("(12) In the roots x1, x2 of D(x), with x = cos u", [in_roots["12"]]),
+        ("(13) The normal form", [y, in_roots["13"]]),
+    ):
+        array = r" \\ \displaystyle ".join(row.latex for row in rows)
+        text = "\n".join(row.text for row in rows)
+        blocks += [Heading(title), Formula(Math(text, rf"\begin{{array}}{{l}} \displaystyle {array} \end{{array}}"))]
+    return FORMATS[format].render(blocks)
 
 
 def rate(expression: Any, clock: Mapping[sp.Symbol, Any]) -> Any:

@@ -32,7 +32,7 @@ _SENSITIVE = 1e-3
 @click.option("--A3", "a3", metavar="A3", help="The moment of inertia about the axis (default: 2/5 m R^2).")
 @click.option("--sphere", metavar="R1", help='The sphere\'s radius (negative: rolling inside), or "plane".')
 @click.option("--json", "as_json", is_flag=True, help="One JSON object.")
-@click.option("--latex", is_flag=True, help="The equations in LaTeX.")
+@click.option("--latex", is_flag=True, help="The equations in LaTeX, for $...$.")
 @click.option("--explain", is_flag=True, help="The derivation of the equations from the definitions, checked.")
 @click.option("--simulate", is_flag=True, help="The motion: turning points, period, path, reaction.")
 @click.option("--gravity", metavar="g", help="Strength of the force that presses the ball to the surface (default: 1).")
@@ -68,7 +68,7 @@ def command(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
     if explain:
         from kovacic.ball.equations import derivation, holds
 
-        data = {"derivation": derivation(latex=latex), "derived": all(holds().values()), **data}
+        data = {"derivation": derivation(format="latex" if latex else "text"), "derived": all(holds().values()), **data}
     click.echo(json.dumps(data, ensure_ascii=False) if as_json else _text(data))
 
 
@@ -120,17 +120,18 @@ def _answer(place: Rolling) -> dict[str, Any]:
     """What the theorems and the engine say, and the closed form, which is checked."""
     import kovacic
     from kovacic.ball import closed_form
-    from kovacic.ball.equations import of_ball
+    from kovacic.ball.equations import equations_of
     from kovacic.ball.theorems import theorem
+    from kovacic.views.breaking import breakable
 
     # In the roots, the case and the group don't change when x1 and x2 are carried to 1 and -1.
     solution, form = kovacic.solve(place.S.subs({"x1": 1, "x2": -1}), var="x"), closed_form(place)
-    equations = of_ball(place)
+    equations = equations_of(place)
     return {
         "ratio": str(place.ratio),
         "N": str(2 * place.ratio),
         "theorem": theorem(place)[0],
-        "equation": equations["12"][0],
+        "equation": equations["12"].text,
         "S": str(place.S),
         "status": solution.status.value,
         "case": solution.case,
@@ -141,7 +142,7 @@ def _answer(place: Rolling) -> dict[str, Any]:
         "n": str(form.n),
         "group": None if solution.group is None else solution.group.name,
         "verified": solution.verified and form.solves(place),
-        "latex": {name: latex for name, (_, latex) in equations.items()},
+        "latex": {name: breakable(math.latex) for name, math in equations.items()},
     }
 
 
