@@ -17,6 +17,7 @@ from flint import acb, acb_poly, fmpq_poly
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
+import kovacic
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
 from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.exponential import _principal_part
@@ -414,6 +415,17 @@ def test_many_points_come_back_in_the_order_asked_for() -> None:
     assert together[3] == Ball.exact(1)
     chain = evaluate(AIRY, points, x0=0, y0=1, dy0=0, path="chain")
     assert all(a.overlaps(b) for a, b in zip(chain, alone, strict=True))
+
+
+@pytest.mark.parametrize("S", ["3/16/x^2", "1/(x^2 + 2*x)", "x + 1/x"])
+@pytest.mark.parametrize("solve", [str, kovacic.solve])
+def test_a_chain_visits_its_points_one_after_the_other(S: str, solve: Any) -> None:
+    points = [1j, "-3/4", "-5/4", -1 - 1j, "-1/2", -1j, 1, 1j]  # back and forth, and once around 0
+    chain = evaluate(solve(S), points, x0=1, y0=1, dy0="1/3", path="chain", derivative=True)
+    for k, found in enumerate(chain):
+        alone = evaluate(S, points[k], x0=1, y0=1, dy0="1/3", path=points[:k], derivative=True, method="taylor")
+        assert all(ball.overlaps(other) for ball, other in zip(found, alone, strict=True)), k
+    assert not chain[0][0].overlaps(chain[-1][0])
 
 
 # --- equations with a first derivative ---------------------------------------------------------------------------------

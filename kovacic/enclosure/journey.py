@@ -66,7 +66,8 @@ class Journey:
         traveller, start = self._begun[key]
         stops = [middle(target) for target in targets]
         if self.chain:
-            states = traveller.copy().around(stops, start, self.side)
+            one = traveller.copy()
+            states = [state for stop in stops for state in one.around([stop], start, self.side)]
         elif closed is not None and self.side is None:
             states = [traveller.by_closed_form(closed, stop, start) for stop in stops]
         else:
