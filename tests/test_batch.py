@@ -21,11 +21,10 @@ from hypothesis import strategies as st
 from processes import started
 
 import kovacic
-from kovacic.batch.child import _START
 from kovacic.batch.files import Answers, count_items, guess_format, item_from, opened, read_items, take_up
-from kovacic.batch.pool import GRACE_SECONDS, Pool
+from kovacic.batch.pool import _START, GRACE_SECONDS, Pool
 from kovacic.batch.records import LABELS, Item, Job, Record, Summary
-from kovacic.batch.worker import decode_item, decode_record, encode_item, encode_record, solve_item
+from kovacic.batch.worker import solve_item
 from kovacic.errors import InputError, KovacicError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
@@ -133,21 +132,24 @@ def test_everything_that_solve_takes_is_an_item() -> None:
     assert item_from(4, object()).error is not None
 
 
-@given(st.text(), st.none() | st.text(), st.dictionaries(st.text(), st.text()))
-def test_items_survive_the_pipe(text: str, var: str | None, extra: dict[str, str]) -> None:
-    item = Item(3, text, var, extra)
-    line = encode_item(item)
-    assert line.count("\n") == 1
-    assert line.isascii()
-    assert decode_item(line) == item
+@given(st.text(), st.none() | st.text(), st.dictionaries(st.text().map("k".__add__), st.text()))
+def test_items_survive_the_pipe(pool: Pool, text: str, var: str | None, extra: dict[str, str]) -> None:
+    (record,) = pool.run([Item(3, text, var, extra)])
+    assert record.number == 3
+    assert record.data["input"].strip() == text.strip()
+    assert {key: record.data[key] for key in extra} == extra
 
 
 def test_records_survive_the_pipe() -> None:
-    record = solve_item(Item(7, "x^2+3", extra={"id": "tab\tnewline\n"}), Job(group=True), DEFAULT_LIMITS)
-    assert decode_record(encode_record(record) + "\n") == Record(7, record.label, round(record.seconds, 6), record.json)
+    item = Item(7, "x^2+3", extra={"id": "tab\tnewline\n"})
+    conditions = {"timeout": 20, "group": True, "limits": Limits(degree=7)}
+    with Pool(1, Job(memory=200 if LINUX else None, **conditions)) as pool:
+        record, refused = pool.run([item, Item(8, "x^8")])
+    here = solve_item(item, Job(group=True), DEFAULT_LIMITS)
+    assert (record.number, record.label) == (7, here.label)
+    assert {**record.data, "seconds": 0} == {**here.data, "seconds": 0}
     assert record.data["group"]["name"] == "Borel"
-    job = Job(timeout=2, memory=3 if LINUX else None, group=True, limits=Limits(degree=7))
-    assert Job.loads(job.dumps()) == job
+    assert "above the limit of 7" in refused.data["proof"]["undecided"]
 
 
 # Running
@@ -288,7 +290,7 @@ def test_an_unexpected_exception_is_reported_once_and_costs_nobody_else_an_answe
         "import kovacic; real = kovacic.solve; kovacic.solve = lambda S, **o: real(S, **o) if S != 'x^7' else 1/0; "
     )
     start = "from kovacic.batch.worker import main; main()"
-    monkeypatch.setattr("kovacic.batch.child._START", _START.replace(start, broken + start))
+    monkeypatch.setattr("kovacic.batch.pool._START", _START.replace(start, broken + start))
     with Pool(2, Job()) as pool:
         found = list(pool.run(items([*QUICK, "x^7", *QUICK])))
         assert pool.replaced == 1
@@ -311,7 +313,7 @@ def test_a_worker_that_dies_is_reported_where_a_system_lacks_signals(monkeypatch
         f"import kovacic; real = kovacic.solve; kovacic.solve = lambda S, **o: real(S, **o) if S != 'x^7' else {end}; "
     )
     start = "from kovacic.batch.worker import main; main()"
-    monkeypatch.setattr("kovacic.batch.child._START", _START.replace(start, lacking + broken + start))
+    monkeypatch.setattr("kovacic.batch.pool._START", _START.replace(start, lacking + broken + start))
     records = list(kovacic.solve_many(["x", "x^7", "x^2 + 3", SLOW, "x"], timeout=1.0))
     assert [record.label for record in records] == ["none", "failed", "case 1", "undecided", "none"]
     assert "the worker process ended with" in records[1].error
@@ -325,7 +327,7 @@ def test_memory_limits_are_refused_where_the_system_has_none(monkeypatch: pytest
 
 
 def test_a_worker_that_cannot_start_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kovacic.batch.child._START", "import sys; sys.exit('no such module')")
+    monkeypatch.setattr("kovacic.batch.pool._START", "import sys; sys.exit('no such module')")
     with Pool(1, Job()) as pool, pytest.raises(KovacicError, match="no such module"):
         list(pool.run(items(["x"])))
 

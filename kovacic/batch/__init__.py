@@ -3,9 +3,8 @@
 Texts, or files of them, go in; a `Record` with a line of JSON for every one of them comes out.  `records` first: what travels.
 
     files    files into items; the answers   pool     items into records, with limits that hold
-    scan     grids of parameters as items    child    the parent's end of a worker process
-    map      a picture of a scan             worker   the process
-    backends chunks through Dask or Ray
+    scan     grids of parameters as items    worker   the process that the pool starts
+    map      a picture of a scan             backends chunks through Dask or Ray
 
 >>> import kovacic
 >>> [record.case for record in kovacic.solve_many(["x^2 + 3", "x", "-3/(16*x^2) + 1/x"], jobs=1)]
@@ -19,7 +18,6 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from kovacic.batch.records import Item, Job, Record
-from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
 
@@ -51,39 +49,26 @@ def solve_many(
     """
     from kovacic.batch.files import item_from
 
-    job = Job(timeout=timeout, memory=memory, group=group, limits=limits)
+    job = Job(
+        timeout=timeout, memory=memory, group=group, limits=limits, jobs=jobs, ordered=ordered, backend=backend,
+        scheduler=scheduler,
+    )  # fmt: skip
     items = (item_from(number, value, var=var, limits=limits) for number, value in enumerate(equations, start=1))
-    return run_items(items, job, jobs=jobs, ordered=ordered, backend=backend, scheduler=scheduler)
+    return run_items(items, job)
 
 
-def run_items(
-    items: Iterable[Item],
-    job: Job,
-    *,
-    jobs: int | None = None,
-    ordered: bool = True,
-    stream: bool = False,
-    backend: str | None = None,
-    scheduler: str | None = None,
-) -> Iterator[Record]:
+def run_items(items: Iterable[Item], job: Job) -> Iterator[Record]:
     """The records of items with different numbers, in this machine's processes or on a backend."""
-    if jobs is not None and jobs < 1:
-        raise InputError(f"{jobs} jobs: at least one is needed")
-    if backend is not None:
+    if job.backend is not None:
         from kovacic.batch.backends import run_on_backend
 
-        return run_on_backend(items, job, backend=backend, jobs=jobs, scheduler=scheduler, ordered=ordered)
-    if scheduler is not None:
-        raise InputError("a scheduler needs a backend", hint="backend='dask' (--backend dask)")
+        yield from run_on_backend(items, job)
+        return
+    from kovacic.batch.pool import Pool
+
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-    def records() -> Iterator[Record]:
-        from kovacic.batch.pool import Pool
-
-        with Pool(jobs or cores, job) as pool:
-            yield from pool.run(items, ordered=ordered, stream=stream)
-
-    return records()
+    with Pool(job.jobs or cores, job) as pool:
+        yield from pool.run(items, ordered=job.ordered, stream=job.stream)
 
 
 __all__ = ["Item", "Job", "Record", "run_items", "solve_many"]

@@ -52,41 +52,34 @@ def run_chunk(job: Job, items: list[Item]) -> list[Record]:
         raise
 
 
-def run_on_backend(
-    items: Iterable[Item],
-    job: Job,
-    *,
-    backend: str,
-    jobs: int | None = None,
-    scheduler: str | None = None,
-    ordered: bool = True,
-) -> Iterator[Record]:
-    """One record for each item, from "dask" or "ray".
+def run_on_backend(items: Iterable[Item], job: Job) -> Iterator[Record]:
+    """One record for each item, from the job's backend, "dask" or "ray".
 
-    `jobs` is the number of chunks that are worked on at a time: by default, all that the engine has room for.  `scheduler`
-    is the address of a running Dask scheduler ("tcp://host:8786") or Ray cluster; without it, Ray starts on this machine, and
-    Dask uses the client that the program has made.  Raises `InputError` where the engine isn't installed or can't be
-    reached, and `KovacicError` where it gives up.
+    `job.jobs` is the number of chunks that are worked on at a time: by default, all that the engine has room for.  Its
+    `scheduler` is the address of a running Dask scheduler ("tcp://host:8786") or Ray cluster; without it, Ray starts on this
+    machine, and Dask uses the client that the program has made.  Raises `InputError` where the engine isn't installed or
+    can't be reached, and `KovacicError` where it gives up.
     """
-    if backend not in _ENGINES:
-        raise InputError(f"{backend!r} isn't a backend", hint=f"one of {', '.join(_ENGINES)}")
+    engine = _ENGINES.get(job.backend or "")
+    if engine is None:
+        raise InputError(f"{job.backend!r} isn't a backend", hint=f"one of {', '.join(_ENGINES)}")
     iterator, pending = iter(items), deque[Future[list[Record]]]()
-    with _ENGINES[backend](scheduler) as (send, room):
-        most = jobs or 2 * room
+    with engine(job.scheduler) as (send, room):
+        most = job.jobs or 2 * room
         try:
             while True:
                 while len(pending) < most and (chunk := list(islice(iterator, CHUNK))):
                     pending.append(send(job, chunk))
                 if not pending:
                     return
-                done = pending[0] if ordered else wait(pending, return_when=FIRST_COMPLETED).done.pop()
+                done = pending[0] if job.ordered else wait(pending, return_when=FIRST_COMPLETED).done.pop()
                 pending.remove(done)
                 try:
                     records = done.result()
                 except KovacicError:
                     raise
                 except Exception as error:
-                    raise KovacicError(f"{backend} gave a chunk of equations up: {error}") from error
+                    raise KovacicError(f"{job.backend} gave a chunk of equations up: {error}") from error
                 yield from records
         finally:
             for future in pending:

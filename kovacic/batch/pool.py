@@ -6,24 +6,35 @@ events (a record, the end of a process, an item from a stream) and for the next 
 A process that is over its time is killed, and its item gets a record.  So does the item of a process that has ended with an
 exception; one whose process was killed by somebody else gets another one, up to three times.  What waited behind the item
 goes back to the front.
+
+A separate interpreter is started instead of a fork or of `multiprocessing`: it works in programs with threads, in notebooks
+and in scripts without a main guard, and it can be killed at any moment without harm to the parent.
 """
 
 from __future__ import annotations
 
+import json
 import math
+import pickle
 import re
 import signal
+import subprocess
+import sys
+import tempfile
 import threading
 import time
 from collections import Counter, deque
-from collections.abc import Iterable, Iterator
-from contextlib import AbstractContextManager
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import AbstractContextManager, suppress
 from queue import Empty, Queue, SimpleQueue
+from typing import IO, Any, cast
 
-from kovacic.batch.child import Child, Event
 from kovacic.batch.records import Item, Job, Record, lost, refused, stopped
-from kovacic.batch.worker import decode_record
 from kovacic.errors import InputError, KovacicError
+
+# The interpreter looks for modules where this one does, and not in the current directory.
+_START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.batch.worker import main; main()"
+_SHOWN_ERROR_BYTES = 20_000
 
 # A process has so many seconds beyond the timeout to end by itself, with an answer that says what it has excluded.
 GRACE_SECONDS = 0.25
@@ -46,6 +57,65 @@ _CHARACTERS_AT_ONCE = 30_000
 
 # The last words of Python, GMP, flint and the C++ library.
 _OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_alloc", re.IGNORECASE)
+
+
+# A record of a child, or None at its end; in place of the pair None, where an item of a stream has arrived.
+Event = tuple["Child", Record | None] | None
+
+
+class Child:
+    """A worker process, and the items that it hasn't answered; it works on the first one."""
+
+    def __init__(self, job: Job, events: SimpleQueue[Event]) -> None:
+        self.items: deque[Item] = deque()
+        self.ready = False
+        self.busy_since = time.monotonic()
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed by kill()
+        self._process = subprocess.Popen(
+            [sys.executable, "-P", "-c", _START, json.dumps(sys.path)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=self._errors,
+        )
+        self.pid = self._process.pid
+        self._to, self._from = cast("IO[bytes]", self._process.stdin), cast("IO[bytes]", self._process.stdout)
+        self._reader = threading.Thread(target=self._read, args=(events,), daemon=True)
+        self._reader.start()
+        self._send(job)
+
+    def give(self, items: Sequence[Item]) -> None:
+        """What the process has to do next."""
+        self.items.extend(items)
+        self.busy_since = time.monotonic()
+        self._send(*items)
+
+    def kill(self) -> None:
+        """End the process at once and wait for it; its reader thread ends as well."""
+        self._process.kill()
+        self._process.wait()
+        self._reader.join()
+        self._from.close()
+        with suppress(OSError):  # something was still waiting to be written
+            self._to.close()
+        self._errors.close()
+
+    def last_words(self) -> tuple[int, str]:
+        """The exit status (negative: a signal) and the end of the standard error of a process that has ended."""
+        status = self._process.wait()
+        size = self._errors.seek(0, 2)
+        self._errors.seek(max(0, size - _SHOWN_ERROR_BYTES))
+        return status, self._errors.read().decode("utf-8", errors="replace").strip()
+
+    def _send(self, *data: Any) -> None:
+        with suppress(OSError):  # a broken pipe: the end of the process arrives as an event
+            self._to.write(b"".join(map(pickle.dumps, data)))
+            self._to.flush()
+
+    def _read(self, events: SimpleQueue[Event]) -> None:
+        with suppress(EOFError, pickle.UnpicklingError):  # the end of the process, perhaps while it wrote
+            while True:
+                events.put((self, pickle.load(self._from)))
+        events.put((self, None))
 
 
 class Pool(AbstractContextManager["Pool"]):
@@ -159,15 +229,17 @@ class Pool(AbstractContextManager["Pool"]):
         for event in events:
             if event is None or event[0] not in self._children:
                 continue
-            child, line = event
-            if line is None:
+            child, record = event
+            if record is None:
                 yield from self._died(child)
-            elif not child.ready:
+            elif not child.ready:  # with a record of nothing, by which it says so
                 child.ready = True
                 self._failed_starts = 0
             else:
-                self._pace += (child.finished_one() - self._pace) / 8
-                yield decode_record(line.decode())
+                before, child.busy_since = child.busy_since, time.monotonic()
+                child.items.popleft()
+                self._pace += (child.busy_since - before - self._pace) / 8
+                yield record
         if not events:
             now = time.monotonic()
             for child in [child for child in self._children if self._deadline(child) <= now]:

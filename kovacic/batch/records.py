@@ -1,6 +1,6 @@
 """What goes into a batch and what comes out of it: items, records, the conditions of a job, and a summary in numbers.
 
-Items, records and jobs are plain data that travel between processes and machines as one line of text each.
+Items, records and jobs are plain data that travel between processes and machines.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import os
 from array import array
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from kovacic.errors import InputError, KovacicError, LimitExceeded, VerificationFailed
@@ -91,11 +91,12 @@ class Record:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Job:
-    """What holds for every equation of a batch.
+    """What holds for every equation of a batch, and where it runs.
 
     `timeout`, in seconds, and `memory`, in MiB above what an idle worker has, are hard: the process is killed.  `limits`
     are those of `kovacic.solve`; their clock is set to `timeout`, so that most equations end by themselves.  With `group`,
     the record has the differential Galois group: its name, its order (null if infinite) and whether it is finite.
+    `jobs`, `ordered`, `backend` and `scheduler` are those of `solve_many`; `stream` says that the items may be long in coming.
     Raises `InputError` for impossible conditions.
     """
 
@@ -103,6 +104,11 @@ class Job:
     memory: int | None = None
     group: bool = False
     limits: Limits = DEFAULT_LIMITS
+    jobs: int | None = None
+    ordered: bool = True
+    stream: bool = False
+    backend: str | None = None
+    scheduler: str | None = None
 
     def __post_init__(self) -> None:
         if self.timeout is not None and not 0 < self.timeout < 1e8:
@@ -111,20 +117,16 @@ class Job:
             raise InputError(f"a memory limit of {self.memory} MiB isn't possible", hint="give MiB, at least 1")
         if self.memory is not None and not os.path.exists("/proc/self/statm"):
             raise InputError("memory limits need a Linux system", hint="leave the memory limit out")
+        if self.jobs is not None and self.jobs < 1:
+            raise InputError(f"{self.jobs} jobs: at least one is needed")
+        if self.scheduler is not None and self.backend is None:
+            raise InputError("a scheduler needs a backend", hint="backend='dask' (--backend dask)")
 
     @property
     def engine_limits(self) -> Limits:
         """The limits inside the worker."""
         times = [t for t in (self.timeout, self.limits.seconds) if t is not None]
         return replace(self.limits, seconds=min(times, default=None))
-
-    def dumps(self) -> str:
-        return json.dumps(asdict(self))
-
-    @classmethod
-    def loads(cls, text: str) -> Job:
-        data = json.loads(text)
-        return cls(**{**data, "limits": Limits(**data["limits"])})
 
 
 def solved(item: Item, solution: Solution, job: Job) -> Record:

@@ -1,8 +1,8 @@
-"""The child process of a batch: reads a job and then items, a line each, and writes a record for each of them.
+"""The child process of a batch: reads a job and then items, and writes a record for each of them, all of them pickled.
 
-It ends when its input ends.  Nothing but records is written to standard output: what anything else prints goes to standard
-error, which the parent keeps for the case that the process dies.  Unexpected exceptions aren't caught here: the process
-ends with its traceback, and the parent replaces it.
+The first record says that it is ready.  It ends when its input ends.  What anything else prints goes to standard error, which
+the parent keeps for the case that the process dies.  Unexpected exceptions aren't caught here: the process ends with its
+traceback, and the parent replaces it.
 
 The memory limit is the address space that the process may have beyond what it has when an equation begins, so that one
 equation never pays for another.
@@ -11,13 +11,14 @@ equation never pays for another.
 from __future__ import annotations
 
 import gc
-import json
 import os
+import pickle
 import signal
 import sys
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import kovacic
@@ -25,32 +26,30 @@ from kovacic.batch.records import Item, Job, Record, refused, solved
 from kovacic.errors import KovacicError
 from kovacic.limits import Limits
 
-READY = "ready"
 _ORPHAN_CHECK_SECONDS = 1.0
 
 
 def main() -> None:
     """Serve until the end of the input."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's affair
-    answers = os.fdopen(os.dup(1), "w", encoding="utf-8", errors="backslashreplace", newline="\n")
+    answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     _leave_with_parent()
-    job = Job.loads(sys.stdin.readline())
-    limits = job.engine_limits
-    solve_item(Item(0, "x**2 + 3"), job, limits)  # the modules are loaded before the clock of the first equation starts
+    job: Job = pickle.load(sys.stdin.buffer)
+    limits, item = job.engine_limits, Item(0, "x**2 + 3")
+    record = solve_item(item, job, limits)  # the modules are loaded before the clock of the first equation starts
     renew_memory = None if job.memory is None else _memory_limit(job.memory)
     gc.freeze()  # what is loaded stays: the collector needn't look at it again
-    print(READY, file=answers, flush=True)
-    for line in sys.stdin:
-        item = decode_item(line)
-        if renew_memory is not None:
-            renew_memory()
-        if job.timeout is not None:
-            _set_alarm(job.timeout + 5.0)
-        record = solve_item(item, job, limits)
-        if job.timeout is not None:
+    with suppress(EOFError):
+        while True:
+            answers.write(pickle.dumps(record))
+            answers.flush()
+            item = pickle.load(sys.stdin.buffer)
+            if renew_memory is not None:
+                renew_memory()
+            _set_alarm(0.0 if job.timeout is None else job.timeout + 5.0)
+            record = solve_item(item, job, limits)
             _set_alarm(0.0)
-        print(encode_record(record), file=answers, flush=True)
 
 
 def solve_item(item: Item, job: Job, limits: Limits) -> Record:
@@ -62,25 +61,6 @@ def solve_item(item: Item, job: Job, limits: Limits) -> Record:
         return solved(item, kovacic.solve(item.text, var=item.var, limits=limits), job)
     except KovacicError as error:
         return refused(item, error, time.perf_counter() - start)
-
-
-def encode_item(item: Item) -> str:
-    """An item without error as a line of ASCII text."""
-    return json.dumps([item.number, item.text, item.var, dict(item.extra)]) + "\n"
-
-
-def decode_item(line: str) -> Item:
-    return Item(*json.loads(line))
-
-
-def encode_record(record: Record) -> str:
-    """A record as a line: the JSON stays as it is, so that the parent needn't read it."""
-    return f"{record.number}\t{record.label}\t{record.seconds:.6f}\t{record.json}"
-
-
-def decode_record(line: str) -> Record:
-    number, label, seconds, text = line.rstrip("\n").split("\t", 3)
-    return Record(int(number), label, float(seconds), text)
 
 
 def _leave_with_parent() -> None:

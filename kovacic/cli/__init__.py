@@ -1,5 +1,5 @@
 """The command `kovacic`: arguments go in, answers on standard output and an exit status come out.
 
-One module a subcommand, imported when it is called; `main` is the entry point (read it first), `options` what several
-commands have in common, `many` what the commands for thousands of equations have in common.
+`main` is the entry point (read it first), with the table of the subcommands; their modules are imported when they are called.
+`answer` and `values` treat an equation, `many` thousands, `ball` the rolling ball; `options` is what several of them share.
 """

@@ -49,7 +49,7 @@ _SENSITIVE = 1e-3
 )
 @click.option("--time", "end", metavar="T", default="20", show_default=True, help="The motion from 0 to this time.")
 @click.option("--plot", metavar="FILE", type=PICTURE, help="A picture (png, pdf, svg).")
-def command(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
+def ball(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
     """A ball with an axially symmetric mass distribution that rolls on a sphere.
 
     Numbers are exact: 3/2, 0.25, sqrt(2), and only the motion is computed in floating point.  Any consistent units; moments

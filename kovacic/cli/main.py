@@ -20,34 +20,31 @@ import kovacic
 
 DECIDED, BAD_INPUT, UNDECIDED, CHECK_FAILED, NOT_WRITTEN, INTERRUPTED, PIPE_CLOSED = 0, 2, 3, 4, 5, 130, 141
 
-# Name: what it does.  The module kovacic.cli.<name> has the click command as `command`.
+#: Name: the module kovacic.cli.<module> that has the click command of this name, and what it does.
 COMMANDS = {
-    "solve": "Decide equations y'' = S(x) y: two solutions, or a proof that there is none.",
-    "dsolve": "The general solution of an equation, or that with given initial values.",
-    "evaluate": "Values of a solution with proven error bounds, to any number of digits.",
-    "explain": "The derivation, step by step, as a reader of Kovacic's paper follows it.",
-    "conditions": "For which values of the parameters do Liouvillian solutions exist?",
-    "batch": "Decide many equations from a file, in parallel, with a result for every line.",
-    "scan": "Tabulate the case over a grid of parameter values.",
-    "check": "Prove answers in JSON anew, by a program that shares no code with this one.",
-    "ball": "The ball on the sphere: its equation, its motion.",
-    "plot": "Draw solutions.",
-    "schema": "The JSON Schema of what the commands print as JSON.",
+    "solve": ("answer", "Decide equations y'' = S(x) y: two solutions, or a proof that there is none."),
+    "dsolve": ("answer", "The general solution of an equation, or that with given initial values."),
+    "evaluate": ("values", "Values of a solution with proven error bounds, to any number of digits."),
+    "explain": ("answer", "The derivation, step by step, as a reader of Kovacic's paper follows it."),
+    "conditions": ("values", "For which values of the parameters do Liouvillian solutions exist?"),
+    "batch": ("many", "Decide many equations from a file, in parallel, with a result for every line."),
+    "scan": ("many", "Tabulate the case over a grid of parameter values."),
+    "check": ("answer", "Prove answers in JSON anew, by a program that shares no code with this one."),
+    "ball": ("ball", "The ball on the sphere: its equation, its motion."),
+    "plot": ("values", "Draw solutions."),
+    "schema": ("answer", "The JSON Schema of what the commands print as JSON."),
 }
 
 
 class LazyGroup(click.Group):
-    """A group that knows its commands by name and imports one at a time: `kovacic solve` must not pay for plots."""
+    """A group that knows its commands by name and imports them when they are called: `kovacic solve` must not pay for plots."""
 
     def list_commands(self, context: click.Context) -> list[str]:
         return list(COMMANDS)
 
     def get_command(self, context: click.Context, name: str) -> click.Command | None:
-        if name not in COMMANDS:
-            return None
-        command = import_module(f"kovacic.cli.{name}").command
-        assert isinstance(command, click.Command)
-        return command
+        module = import_module(f"kovacic.cli.{COMMANDS[name][0]}") if name in COMMANDS else None
+        return getattr(module, name, None)
 
     def resolve_command(
         self, context: click.Context, arguments: list[str]
@@ -66,7 +63,7 @@ class LazyGroup(click.Group):
     def format_commands(self, context: click.Context, formatter: click.HelpFormatter) -> None:
         """The list of commands, without importing them."""
         with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
+            formatter.write_dl([(name, what) for name, (_, what) in COMMANDS.items()])
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})

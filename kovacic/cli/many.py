@@ -1,17 +1,20 @@
-"""What `kovacic batch` and `kovacic scan` have in common: their options, the run itself, the progress bar, the summary."""
+"""`kovacic batch` and `kovacic scan`: thousands of equations, from a file or over grids of parameters; progress, a summary."""
 
 from __future__ import annotations
 
+import csv
 import sys
 import time
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
+from functools import partial
+from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from kovacic.cli.options import limit_option
+from kovacic.cli import options
 
 if TYPE_CHECKING:
     from kovacic.batch.files import Done
@@ -28,7 +31,7 @@ _OPTIONS = [
         "--timeout", type=click.FloatRange(min=0, min_open=True), metavar="SECONDS", help="For each equation."
     ),
     click.option("--memory", type=click.IntRange(min=1), metavar="MIB", help="For each equation."),
-    limit_option,
+    options.LIMIT,
     click.option("--backend", type=click.Choice(["dask", "ray"]), help="Run on a cluster."),
     click.option("--scheduler", metavar="ADDRESS", help="The engine's address, for example tcp://host:8786."),
     click.option("--progress/--no-progress", default=None, help="By default if standard error is a terminal."),
@@ -36,14 +39,125 @@ _OPTIONS = [
 ]
 
 
-def batch_options(command: Command) -> Command:
+def _batch_options(command: Command) -> Command:
     """The options of a command that answers many equations; `limits` and so on arrive as keywords."""
     for option in reversed(_OPTIONS):
         command = option(command)
     return command
 
 
-def already_answered(output: Path | None, resume: bool) -> Done:
+@click.command()
+@click.argument("file", metavar="FILE")
+@click.option("-o", "--output", type=options.OutputFile(), help="Append the answers to this file.")
+@click.option("--resume", is_flag=True, help="Take an interrupted run up again: answer what the output file lacks.")
+@click.option("--format", "form", type=click.Choice(["lines", "jsonl", "csv"]), help="By default by the file's name.")
+@click.option("--ordered/--as-finished", default=True, show_default=True, help="The order of the answers.")
+@click.option("--group", is_flag=True, help="Add the differential Galois group to each answer.")
+@options.VAR
+@_batch_options
+def batch(
+    file: str,
+    output: Path | None,
+    resume: bool,
+    form: str | None,
+    var: str | None,
+    limits: Limits,
+    **run: Any,
+) -> int:
+    """Decide every equation of FILE; "-" is standard input.
+
+    FILE has an expression S a line, or JSON a line (a string, or an object with "S", perhaps "id" and "var"), or is a CSV
+    table with a column S; any of them may be compressed with gzip.  The answers are JSON, schema 1, a line for every
+    equation, with "line", its place in FILE.  A bad line gets an answer that says what is wrong with it.
+
+    \b
+    kovacic batch equations.jsonl -o answers.jsonl --timeout 10 --memory 500
+    kovacic batch equations.jsonl -o answers.jsonl --timeout 10 --resume
+    generate | kovacic batch - --as-finished | jq .case
+
+    Exit status: 0 all decided, 3 some undecided, 2 some bad input, 4 a self-check or a process failed, 5 the output can't
+    be written.
+    """
+    from kovacic.batch.files import Answers, count_items, guess_format, opened, read_items
+
+    done = _already_answered(output, resume)
+    form = form or guess_format(file)
+    with ExitStack() as stack:
+        items = read_items(stack.enter_context(opened(file)), form=form, var=var, limits=limits)
+        write = stack.enter_context(Answers(output)).write
+        count = None if file == "-" else partial(count_items, file, form=form)
+        return _answer_all(items, write, count=count, done=done, limits=limits, stream=file == "-", **run)
+
+
+@options.equation_command()
+@options.equation_argument("expression", metavar="S")
+@options.equation_argument("ranges", metavar="NAME=START:STOP:STEP...", nargs=-1, required=True)
+@click.option("-o", "--output", type=options.OutputFile(), help="Write to this file.")
+@click.option("--resume", is_flag=True, help="Take an interrupted scan up again (JSONL).")
+@click.option("--format", "form", type=click.Choice(["jsonl", "csv"]), help="By default by the name of the output.")
+@click.option("--map", "picture", type=options.PICTURE, help="Draw two parameters as a map (png, pdf, svg).")
+@click.option("--group/--no-group", default=True, show_default=True, help="The differential Galois group.")
+@click.option("--var", metavar="NAME", help="The name of the variable; by default x, or what isn't a parameter.")
+@_batch_options
+def scan(
+    expression: str,
+    ranges: tuple[str, ...],
+    output: Path | None,
+    resume: bool,
+    form: str | None,
+    picture: Path | None,
+    var: str | None,
+    **run: Any,
+) -> int:
+    """Decide y'' = S(x) y for every combination of parameter values.
+
+    A range is NAME=START:STOP:STEP with STOP included and STEP 1 by default, or NAME=VALUE,VALUE,...; numbers are exact,
+    and a VALUE can be algebraic, sqrt(2).
+
+    \b
+    kovacic scan "(4*n^2-1)/(4*x^2)-1" n=0:10:1/4 --format csv
+    kovacic scan "1/4 - k/x + (4*m^2-1)/(4*x^2)" k=-3:3:1/4 m=0:3:1/4 --map w.png
+
+    Exit status: 0 all decided, 3 some undecided, 2 some points where S isn't defined, 4 a self-check or a process failed,
+    5 the output can't be written.
+    """
+    from kovacic.batch.files import Answers
+    from kovacic.batch.map import draw_map
+    from kovacic.batch.scan import columns, parse_grid, row, scan_items
+
+    grids = [parse_grid(text) for text in ranges]
+    if picture is not None and len(grids) != 2:
+        raise click.UsageError("a map needs two parameters")
+    form = form or ("csv" if output is not None and output.suffix == ".csv" else "jsonl")
+    if resume and form == "csv":
+        raise click.UsageError("--resume needs --output FILE.jsonl, the file of the interrupted scan")
+    done = _already_answered(output, resume)
+    labels = dict(done.labels)
+    items = scan_items(expression, grids, var=var)
+    with ExitStack() as stack:
+        if form == "jsonl":
+            write = stack.enter_context(Answers(output)).write
+        else:
+            stream = stack.enter_context(output.open("w", encoding="utf-8", newline="")) if output else sys.stdout
+            table = csv.writer(stream, lineterminator="\n")
+            table.writerow(columns(grids))
+
+            def write(record: Record) -> None:
+                table.writerow(row(record))
+                stream.flush()
+
+        def noted(record: Record) -> None:
+            write(record)
+            if picture is not None:
+                labels[record.number] = record.label
+
+        status = _answer_all(items, noted, count=lambda: prod(map(len, grids)), done=done, **run)
+    if picture is not None:
+        draw_map(expression, (grids[0], grids[1]), labels, picture)
+    return status
+
+
+def _already_answered(output: Path | None, resume: bool) -> Done:
     """What the output file of an interrupted run has.  A file that isn't empty is never written to by accident."""
     from kovacic.batch.files import Done, take_up
 
@@ -56,19 +170,15 @@ def already_answered(output: Path | None, resume: bool) -> Done:
     return Done()
 
 
-def answer_all(
+def _answer_all(
     items: Iterable[Item],
     write: Callable[[Record], None],
     *,
     count: Callable[[], int] | None,
     done: Done,
-    timeout: float | None,
-    memory: int | None,
-    group: bool,
-    limits: Limits,
     progress: bool | None,
     quiet: bool,
-    **engine: Any,
+    **run: Any,
 ) -> int:
     """Write a record for every item that isn't done, with a line of progress where it is wanted, and at the end, be it an
     interruption, the summary; the exit status.  `count` tells how many items there are, where that is possible.
@@ -76,7 +186,7 @@ def answer_all(
     from kovacic.batch import Job, run_items
     from kovacic.batch.records import Summary
 
-    job = Job(timeout=timeout, memory=memory, group=group, limits=limits)
+    job = Job(**run)
     summary, start = Summary(), time.monotonic()
     with ExitStack() as stack:
         if not quiet:
@@ -87,7 +197,7 @@ def answer_all(
         if progress:
             stack.callback(sys.stderr.write, "\n")
             stack.callback(lambda: _show_progress(summary, size, time.monotonic() - start))
-        for record in run_items((item for item in items if item not in done), job, **engine):
+        for record in run_items((item for item in items if item not in done), job):
             write(record)
             summary.add(record)
             now = time.monotonic() - start

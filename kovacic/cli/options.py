@@ -90,24 +90,15 @@ def _no_option(_: click.Context, __: click.Parameter, given: Any) -> Any:
 #: What commands share; equations that begin with - aren't options.
 equation_command = partial(click.command, context_settings={"ignore_unknown_options": True})
 equation_argument = partial(click.argument, callback=_no_option)
-var_option = click.option(
-    "--var", metavar="NAME", help="The name of the variable; by default the only symbol of S, or x."
-)
-assume_option = click.option(
+VAR = click.option("--var", metavar="NAME", help="The name of the variable; by default the only symbol of S, or x.")
+ASSUME = click.option(
     "--assume",
     metavar="NAME=WHAT",
     multiple=True,
     callback=lambda _, __, settings: parse_assumptions(settings),
     help="What is known about a parameter: n=integer, n>=0, n=3.",
 )
-ics_option = click.option(
-    "--ics",
-    metavar="VALUES",
-    multiple=True,
-    callback=lambda _, __, values: ", ".join(values),
-    help='Initial values at one point: "y(0)=1, y\'(0)=0".',
-)
-limit_option = click.option(
+LIMIT = click.option(
     "--limit",
     "limits",
     metavar="NAME=VALUE",

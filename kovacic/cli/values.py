@@ -1,0 +1,122 @@
+"""`kovacic evaluate`, `plot` and `conditions`: values and pictures of a solution, and the parameters for which there is one."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from pathlib import Path
+from typing import Any
+
+import click
+
+from kovacic.cli import options
+from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
+
+
+@options.equation_command()
+@options.equation_argument("equation", metavar="S")
+@click.option("--x0", required=True, metavar="NUMBER", help="Where the solution is given.")
+@click.option("--y0", metavar="NUMBER", help="y(x0).")
+@click.option("--dy0", metavar="NUMBER", help="y'(x0).")
+@click.option("--frobenius", metavar="C1,C2", help="c1 y1 + c2 y2 of the Frobenius basis at x0, instead of y0 and dy0.")
+@click.option("--regular", "which", flag_value="regular", help="The solution that is smaller than all others at x0.")
+@click.option("--at", "points", required=True, multiple=True, metavar="NUMBERS", help='Where: 1,5/2,0.1,"1+2*I".')
+@click.option("--digits", default=15, show_default=True, type=click.IntRange(min=1), help="Proven digits.")
+@click.option("--path", type=click.Choice(["above", "below"]), help="The side on which singular points are passed.")
+@options.LIMIT
+def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, **given: Any) -> None:
+    """Values of one solution of y'' = S(x) y, or of an equation with y'' in it, and of its derivative.
+
+    The exact value differs from what is printed by at most the bound after it; that is proven.  Numbers are exact: integers,
+    fractions, decimals, constants such as sqrt(2), complex ones.  The path is the straight line from x0.
+
+    \b
+    kovacic evaluate "x" --x0 0 --y0 1 --dy0 0 --at 1,2,3 --digits 30
+    kovacic evaluate "x^2*y'' + x*y' + x^2*y = 0" --x0 0 --regular --at 1/2,10
+    """
+    from kovacic.enclosure.evaluate import evaluate
+    from kovacic.enclosure.precision import AccuracyWarning
+    from kovacic.reading.parser import listed
+
+    places = [place for text in points for place in listed(text)]
+    basis = None if frobenius is None else listed(frobenius)
+    with warnings.catch_warnings(record=True, action="always", category=AccuracyWarning) as notes:
+        found = evaluate(equation, places, derivative=True, frobenius=basis, **given)
+    for place, (y, dy) in zip(places, found, strict=True):
+        print(f"y({place}) = {y}")
+        print(f"y'({place}) = {dy}")
+    for note in notes:
+        print(f"kovacic: {note.message}", file=sys.stderr)
+
+
+@options.equation_command()
+@options.equation_argument("equation", metavar="EQUATION")
+@click.option("--from", "start", required=True, metavar="A", help="Left end of the interval (a number or p/q).")
+@click.option("--to", "stop", required=True, metavar="B", help="Right end of the interval.")
+@click.option("-o", "--output", type=options.PICTURE, required=True, help="The file: png, svg or pdf.")
+@click.option("--x0", help="Where the initial values are given (default: the middle of the longest regular interval).")
+@click.option("--y0", default="1", show_default=True, help="y(x0).")
+@click.option("--dy0", default="0", show_default=True, help="y'(x0).")
+@click.option("--points", default=400, show_default=True, type=click.IntRange(2, 100_000), help="Sample points.")
+@click.option(
+    "--digits", default=8, show_default=True, type=click.IntRange(1, 1000), help="Proven digits of each value."
+)
+@options.LIMIT
+def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> None:
+    """Draw the solution of y'' = S(x) y, or of an equation with y'' in it, with y(x0) = y0, y'(x0) = dy0.
+
+    Every sample is the midpoint of an enclosure whose error is proven.  Singular points on the axis are marked; beyond
+    one, the continuation through the upper half-plane is drawn, with its real and imaginary part.
+
+    \b
+    kovacic plot "x" --from -12 --to 2 -o airy.png
+    kovacic plot "-1/x - 3/(16*x^2)" --from -3 --to 30 -o bessel.png
+    """
+    from kovacic.errors import needs
+    from kovacic.views.plot import plot
+
+    title, S = equation, equation.strip()
+    if "=" not in equation:
+        title = f"y'' = {equation} y" if S.isalnum() else f"y'' = ({S}) y"
+    with needs("plot", "a picture"):
+        plot(equation, start, stop, title=title, output=output, **given)
+    click.echo(f"wrote {output}")
+
+
+@options.equation_command()
+@options.equation_argument("equation", metavar="S")
+@click.option("--json", "as_json", is_flag=True, help="One line of JSON.")
+@click.option("--latex", "as_latex", is_flag=True, help="A LaTeX formula.")
+@click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
+@options.ASSUME
+@click.option("--max-degree", default=2, show_default=True, help="The determinants Delta_d are shown up to this d.")
+@click.option("--all", "everything", is_flag=True, help="All regions, however many.")
+@click.option("--explain", "explained", is_flag=True, help="What each region follows from, and its solutions.")
+@click.option("--check", "samples", metavar="N", type=int, help="Solve at N exact points, and compare.")
+@options.LIMIT
+def conditions(
+    equation: str, as_json: bool, as_latex: bool, everything: bool, explained: bool, samples: int | None, **given: Any
+) -> int:
+    """For which values of its parameters does y'' = S(x) y have Liouvillian solutions?
+
+    \b
+    kovacic conditions "(4*n^2 - 1)/(4*x^2) - 1"
+    kovacic conditions --check 200 "x^4 + mu*x"
+    """
+    from kovacic.parametric.api import conditions
+
+    answer = conditions(equation, **given)
+    report = None if samples is None else answer.check(samples)
+    shown = answer.explain() if explained else answer.text(all=everything)
+    print(answer.to_json() if as_json else answer.latex() if as_latex else options.fitted(shown))
+    if report is not None:
+        agreement = "all agree" if report.inside + report.outside else "no point with these properties was found"
+        if not report:
+            agreement = f"{len(report.disagreements)} disagree"
+        print(
+            f"  checked at {report.inside} points inside and {report.outside} outside: {agreement}",
+            file=sys.stderr if as_json or as_latex else sys.stdout,
+        )
+        if not report:
+            return CHECK_FAILED
+    return DECIDED if answer.within_limits else UNDECIDED
