@@ -18,11 +18,9 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
@@ -44,7 +42,7 @@ from kovacic.galois.group import Kind
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.expression import parse_with
-from kovacic.reading.given import Change, Equation, parameters_of
+from kovacic.reading.given import Equation, parameters_of
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
 from kovacic.verify import verify
@@ -145,53 +143,49 @@ def group_dict(solution: Solution) -> dict[str, Any] | None:
 
 
 def from_dict(data: Mapping[str, Any]) -> Solution:
-    """The answer that `to_dict` made into an object."""
-    variable, proof, constants = _typed(data, "variable", str), data["proof"], data["constants"]
-    rational = reader = _base_reader(data.get("field"), variable)
+    """The answer that `to_dict` made into an object: S and the equation are read from the input, as `solve` reads them."""
+    variable, text, proof = _typed(data, "variable", str), _typed(data, "input", str), data["proof"]
+    given = ((data.get("equation") or {}).get("change") or {}).get("variable", variable)
+    parsed = read_input(text, var=given, limits=_LIMITS, exponentials=given != variable)
+    S, equation = parsed.S, parsed.equation
+    rational = reader = _Reader.over(S.field, variable)
+    if parsed.variable != variable or data.get("field") != _field(S.field) or rational.ratfunc(data["S"]) != S:
+        raise ValueError("S isn't that of the input")
+    if data.get("equation") is not None or data.get("gauge") is not None:
+        _check_equation(data, equation, variable)
+    constants, semi_invariant, riccati = data["constants"], proof["semi_invariant"], data["riccati"]
     if constants is not None:
         symbol = constants["symbol"]
-        modulus = replace(rational, names={symbol: VARIABLE}).poly(constants["minimal_polynomial"])
+        modulus = replace(rational, names={**rational.names, symbol: VARIABLE}).poly(constants["minimal_polynomial"])
         field = AlgebraicField(rational.field, modulus)
-        reader = replace(rational, names={variable: VARIABLE, symbol: field.generator}, field=field)
-    semi_invariant, riccati = proof["semi_invariant"], data["riccati"]
+        reader = replace(rational, names={**rational.names, symbol: field.generator}, field=field)
     if (riccati is None) != (semi_invariant is None) or (riccati is None and constants is not None):
         raise ValueError("omega needs its polynomial and the semi-invariant")
     form = None if semi_invariant is None else reader.semi_invariant(semi_invariant)
-    polynomial = None
-    if form is not None and riccati is not None:
-        polynomial = _riccati(form.P, reader.poly(semi_invariant["D"]), riccati, reader)
     decision = Decision(
         structure=None if proof["structure"] is None else Structure(proof["structure"]),
         exclusions=tuple(_read_exclusion(entry, Formulas(variable, QQ)) for entry in proof["excluded"]),
         invariant=None if proof["invariant"] is None else rational.semi_invariant(proof["invariant"]),
         semi_invariant=form,
-        riccati=polynomial,
+        riccati=None if form is None else _riccati(form.P, reader.poly(semi_invariant["D"]), riccati, reader),
         undecided=_typed(proof, "undecided", str, type(None)),
     )
     if Status(data["status"]) is not decision.status or data["case"] != decision.case:
         raise ValueError("status or case contradict the proof")
-    S, equation = rational.ratfunc(data["S"]), _read_equation(data.get("equation"), variable)
-    if equation is not None and equation.S != S:
-        raise ValueError("S isn't the normal form of the equation")
-    if data.get("gauge") is not None:
-        at_hand = None if equation is None else _base_reader(data["equation"]["field"], variable)
-        if at_hand is None or equation is None or at_hand.ratfunc(data["gauge"]) != equation.gauge:
-            raise ValueError("the gauge isn't that of the equation")
-    text = _typed(data, "input", str)
-    given = variable if equation is None or equation.change is None else equation.change.variable
-    if read_input(text, var=given, limits=_LIMITS, exponentials=given != variable).S != S:
-        raise ValueError("S isn't that of the input")
     notices = tuple(_typed({"notice": notice}, "notice", str) for notice in data["notices"])
-    return Solution(
-        text=text,
-        variable=variable,
-        S=S,
-        decision=decision,
-        notices=notices,
-        verified=bool(verify(S, decision)),
-        seconds=_typed(data, "seconds", int, float, type(None)),
-        equation=equation,
-    )
+    seconds = _typed(data, "seconds", int, float, type(None))
+    return Solution(text, variable, S, decision, notices, bool(verify(S, decision)), seconds, equation)
+
+
+def _check_equation(data: Mapping[str, Any], equation: Equation | None, variable: str) -> None:
+    """Raises `ValueError` where the equation and the gauge aren't those that were read."""
+    if equation is None:
+        raise ValueError("an equation or its gauge, where S alone was given")
+    reader, found = _Reader.over(equation.a.field, variable), data["equation"]
+    if any(reader.ratfunc(found[name]) != getattr(equation, name) for name in ("a", "b", "c", "f")):
+        raise ValueError("the equation isn't that of the input")
+    if reader.ratfunc(data["gauge"]) != equation.gauge:
+        raise ValueError("the gauge isn't that of the equation")
 
 
 def _equation(equation: Equation) -> dict[str, Any]:
@@ -204,24 +198,6 @@ def _equation(equation: Equation) -> dict[str, Any]:
         "field": _field(equation.a.field),
         "change": equation.change and {"variable": equation.change.variable, "expression": equation.change.expression},
     }
-
-
-def _read_equation(data: Mapping[str, Any] | None, variable: str) -> Equation | None:
-    if data is None:
-        return None
-    reader = _base_reader(data["field"], variable)
-    a, b, c, f = (reader.ratfunc(data[name]) for name in ("a", "b", "c", "f"))
-    h, change = None, data.get("change")
-    if data["h"] is not None:
-        from sympy import E, Symbol
-
-        from kovacic.reading.symbolic import read_expression
-
-        parameters = data["field"]["parameters"] if data["field"] else []
-        symbols = {name: Symbol(name) for name in (*parameters, variable)}
-        h = read_expression(data["h"], names={"E": E, **symbols}, limits=_LIMITS)
-    made = change and Change(change["variable"], change["expression"])
-    return Equation(a, b, c, f, h, variable, data["unknown"], made)
 
 
 def _generic(solution: Solution) -> dict[str, list[str]] | None:
@@ -247,41 +223,31 @@ def _field(field: Field) -> dict[str, Any] | None:
     return data
 
 
-def _base_reader(data: Mapping[str, Any] | None, variable: str) -> _Reader:
-    """The reader over the coefficient field of S."""
-    if data is None:
-        return _Reader(QQ, {variable: VARIABLE}, {})
-    field: Field = QQ
-    constants: dict[str, Value] = {}
-    radical = ""
-    if data["parameters"]:
-        field = ground = FunctionField(tuple(data["parameters"]))
-        constants.update((name, ground.generator(name)) for name in ground.names)
-    if data["symbol"] is not None:
-        modulus = _Reader(QQ, {"t": VARIABLE}, {}).poly(data["minimal_polynomial"])
-        near = data.get("near")
-        position = None if near is None else (Fraction(near[0]), Fraction(near[1]))
-        field = extension = AlgebraicField(field, modulus.over(field), data["symbol"], position)
-        name = data["symbol"]
-        if not name.isidentifier():
-            name, radical = _RADICAL, name
-        constants[name] = extension.generator
-    return _Reader(field, {variable: VARIABLE}, constants, radical)
-
-
 @dataclass(frozen=True)
 class _Reader:
     """Expressions as polynomials and rational functions over a field; `radical` is a constant that is no name: sqrt(2)."""
 
     field: Field
     names: Mapping[str, Value]
-    constants: Mapping[str, Value]
     radical: str = ""
+
+    @classmethod
+    def over(cls, field: Field, variable: str) -> _Reader:
+        """With the names of the variable, of the parameters, and of the algebraic constant of a field."""
+        names: dict[str, Value] = {
+            name: field.ground.generator(name)  # type: ignore[attr-defined]
+            for name in parameters_of(field)
+        }
+        radical = ""
+        if isinstance(field, AlgebraicField):
+            radical = "" if field.name.isidentifier() else field.name
+            names[_RADICAL if radical else field.name] = field.generator
+        return cls(field, {**names, variable: VARIABLE}, radical)
 
     def ratfunc(self, text: str) -> RatFunc:
         if self.radical:
             text = text.replace(self.radical, f"({_RADICAL})")
-        value = _ARITHMETIC.rational(parse_with(text, {**self.constants, **self.names}, _ARITHMETIC))
+        value = _ARITHMETIC.rational(parse_with(text, self.names, _ARITHMETIC))
         return RatFunc(value.num.over(self.field), value.den.over(self.field), reduced=True)
 
     def poly(self, text: str) -> Poly:
@@ -336,18 +302,15 @@ def _read_exclusion(data: Mapping[str, Any], names: Formulas) -> Exclusion:
 
 
 def _read_evidence(data: Mapping[str, Any], names: Formulas) -> Evidence:
-    kind = data["kind"]
-    if kind == "necessary_condition":
-        return NecessaryCondition(
-            Rule[data["rule"].upper()], tuple(names.internal_place(name) for name in data["places"])
-        )
-    if kind == "no_invariant":
-        degree, point, room = (_typed(data, key, int) for key in ("invariant_degree", "point", "degree"))
-        return NoInvariant(degree, _typed(data, "prime", int, type(None)), point, room)
-    if kind == "no_rational_omega":
-        prime, place = _typed(data, "prime", int, type(None)), _typed(data, "place", str)
-        return NoRationalOmega(_typed(data, "degree", int), prime, names.internal_place(place))
-    raise ValueError(f"unknown evidence {kind!r}")
+    if data["kind"] == "necessary_condition":
+        places = tuple(names.internal_place(name) for name in data["places"])
+        return NecessaryCondition(Rule[data["rule"].upper()], places)
+    prime, degree = _typed(data, "prime", int, type(None)), _typed(data, "degree", int)
+    if data["kind"] == "no_invariant":
+        return NoInvariant(_typed(data, "invariant_degree", int), prime, _typed(data, "point", int), degree)
+    if data["kind"] == "no_rational_omega":
+        return NoRationalOmega(degree, prime, names.internal_place(_typed(data, "place", str)))
+    raise ValueError(f"unknown evidence {data['kind']!r}")
 
 
 def _typed(data: Mapping[str, Any], key: str, *types: type) -> Any:
