@@ -489,8 +489,7 @@ def test_a_piece_is_halved_where_its_polynomial_does_not_suffice(monkeypatch: py
     known = x * np.arctan(10 * x) / 10 - np.log(1 + 100 * x * x) / 200
     options = {"equation": "y'' = 1/(100*x^2 + 1)", "start": -1, "stop": 1, "x0": 0, "y0": 0, "dy0": 0}
     assert np.max(np.abs(tabulate(**options)(x) - known)) < 1e-15
-    counting = kovacic_tables._counting
-    monkeypatch.setattr(kovacic_tables, "_counting", lambda found, kept: counting(found[:-3], kept) or found)
+    monkeypatch.setattr(kovacic_tables, "_CAREFUL", kovacic_tables._CAREFUL._replace(bits=4))
     assert np.max(np.abs(tabulate(**options)(x) - known)) > 1e-9
 
 

@@ -60,6 +60,9 @@ class Pair:
         hi = float(value.mid())
         return cls(hi, float((value - arb(hi)).mid()))
 
+    def __getitem__(self, index: Any) -> Pair:
+        return Pair(self.hi[index], self.lo[index])
+
     def __add__(self, other: Any) -> Any:
         if isinstance(other, np.ndarray):
             return other + self.hi
@@ -181,6 +184,16 @@ def horner(coefficients: Iterable[Any], x: Any) -> Any:
     for c in rest:
         first = first * x + c
     return first
+
+
+def folded(a: Pair) -> Pair:
+    """The sum over the first axis."""
+    while len(a.hi) > 1:
+        half = len(a.hi) // 2
+        rest = a[2 * half :]
+        a = a[:half] + a[half : 2 * half]
+        a = Pair(np.concatenate([a.hi, rest.hi]), np.concatenate([a.lo, rest.lo])) if len(rest.hi) else a
+    return a[0]
 
 
 def _table(values: list[arb]) -> Pair:

@@ -1,52 +1,65 @@
 """Any solution on a regular real interval as a vectorised NumPy function: a table of polynomials in double-doubles.
 
 For equations of every kind and every start that `kovacic.evaluate` takes.  The interval is covered by pieces [c - H, c + H],
-H = 2^e at most a quarter of the distance from c to the nearest singular point and so small that the solutions grow by at
-most 2^4.  On each piece the polynomial
+H = 2^e at most a quarter of the distance from c to the nearest singular point, which are halved until the solutions grow
+little on them and their Taylor series
 
-    y(c + H u) = sum a_n u^n,    |u| <= 1,
+    y(c + H u) = y(c) y1(u) + H y'(c) y2(u) + y3(u),    |u| <= 1,
 
-has the values and slopes of y at Chebyshev's points, from enclosures; a piece is halved until its last coefficients don't
-count.  For a function that is analytic in |u| < 4 the error falls by (4 + sqrt(15))^2 with every point [L. N. Trefethen,
-Approximation Theory and Approximation Practice, SIAM 2013, chapters 8 and 11].  In the careful variant coefficients and
-Horner's scheme are double-doubles, so that the error is some 2^-95 of the largest value on the piece: the value itself keeps
-its digits near zeros, and where it is far smaller than its neighbours.  In plain doubles the error is some 2^-52 of the
-largest value there.
+end within a fixed number of terms; y1 and y2 solve the homogeneous equation, y3 begins with 0, 0 (a right-hand side is
+interpolated at Chebyshev's points).  The states (y, y')(c) are enclosures; the series come from the recurrence of the equation,
+in double-doubles for all pieces at once.  Chebyshev's polynomials bring the highest terms down [L. N. Trefethen, Approximation
+Theory and Approximation Practice, SIAM 2013, chapter 3].  In the careful variant Horner's scheme is done in double-doubles,
+too, so that the error is some 2^-95 of the largest value on the piece: the value itself keeps its digits near zeros, and where
+it is far smaller than its neighbours.  In plain doubles the error is some 2^-52 of the largest value there.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
-from flint import acb, acb_mat, arb, arb_mat
+from flint import arb, arb_mat, arb_poly
+from numpy.polynomial import chebyshev
 
-from kovacic.doubles.double_double import Pair, double, horner, scaled, two_sum
-from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks, region_of
-from kovacic.enclosure.ball import ball_to_flint
-from kovacic.enclosure.frame import fitting
-from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.problem import NumericProblem, System, as_problem, distance_lower
-from kovacic.enclosure.states import evaluate_states
+from kovacic.doubles.chart import Chart
+from kovacic.doubles.double_double import Pair, double, folded, horner, scaled, two_sum
+from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks
+from kovacic.enclosure.frame import log2
+from kovacic.enclosure.matrices import State
+from kovacic.enclosure.points import Point, working_precision
+from kovacic.enclosure.problem import as_problem
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
 _PREC = 300
-_SHARE, _GROWTH = 0.25, 4.0
-_MAX_PIECES, _SMALLEST = 5000, -2200
+_GROWTH = 12.0
+"""The sums of the coefficients of y1 and y2 are at most so large."""
+_MAX_PIECES, _SMALLEST = 5000, -1000
+_ROOM = 900
+"""Binary exponents up to here stay in the coefficients."""
 
 
-_VARIANTS = {True: (21, 60, 112), False: (12, 32, 62)}
-"""Points on a piece, digits of the values, and the bits below the largest coefficient that count: of the careful variant, and
-the plain one.  Interpolation costs two bits and a half a point."""
+class _Variant(NamedTuple):
+    """Terms of the series, those that are kept, digits of the states, the bits below the largest coefficient that count."""
+
+    terms: int
+    kept: int
+    digits: int
+    bits: int
+
+
+_CAREFUL, _PLAIN = _Variant(48, 34, 60, 96), _Variant(32, 22, 32, 60)
+Cell = tuple[Fraction, int]  # c, and e where H = 2^e
 
 
 @dataclass(frozen=True, eq=False)
 class TabulatedFunction:
-    """Polynomials in (x - centre) 2^-exponent, valid up to the next of `edges`; call it with an array of points.
+    """Polynomials in (x - centre) 2^-exponent, times 2^power, valid up to the next of `edges`; call it with an array of points.
 
     `coefficients` has the shape (parts, 2, terms, pieces): real and imaginary part (one part for a real function), high and
     low half.  `base` is x0, where that is a regular point.
@@ -57,6 +70,7 @@ class TabulatedFunction:
     edges: Any
     centres: Any
     exponents: Any
+    powers: Any
     coefficients: Any
     careful: bool = True
     measured: Measured | None = None
@@ -66,17 +80,28 @@ class TabulatedFunction:
         return in_blocks(self._values, self.region.points(x), 4 * BLOCK)
 
     def _values(self, flat: Any) -> Any:
-        """Piece by piece, so that the coefficients are numbers."""
+        parts, powers = self.parts(flat)
+        found = [double(part) if powers is None else np.ldexp(double(part), powers) for part in parts]
+        return found[0] if len(found) == 1 else found[0] + 1j * found[1]
+
+    def parts(self, flat: Any) -> tuple[list[Any], Any]:
+        """Real and imaginary part as double-doubles or arrays, and the powers of two, None where all are 0.
+
+        Piece by piece, so that the coefficients are numbers.
+        """
         index = np.searchsorted(self.edges, flat, side="right")
         order = np.argsort(index, kind="stable")
-        flat, ends = flat[order], np.searchsorted(index[order], np.arange(self.centres.size + 1))
-        found = np.zeros((len(self.coefficients), flat.size))
+        sorted_, ends = flat[order], np.searchsorted(index[order], np.arange(self.centres.size + 1))
+        found = np.zeros((len(self.coefficients), 1 + self.careful, flat.size))
         for k in np.flatnonzero(np.diff(ends)):
             run = slice(ends[k], ends[k + 1])
-            u = scaled(two_sum(flat[run], -self.centres[k]), -self.exponents[k])
+            u = scaled(two_sum(sorted_[run], -self.centres[k]), -self.exponents[k])
             for row, halves in zip(found, self.coefficients[:, :, ::-1, k], strict=True):
-                row[order[run]] = double(horner(map(Pair, *halves), u)) if self.careful else horner(halves[0], u.hi)
-        return found[0] if len(found) == 1 else found[0] + 1j * found[1]
+                value = horner(map(Pair, *halves), u) if self.careful else Pair(horner(halves[0], u.hi))
+                for half, numbers in zip(row, (value.hi, value.lo), strict=False):
+                    half[order[run]] = numbers
+        numbers = [Pair(*row) if self.careful else row[0] for row in found]
+        return numbers, self.powers[index] if self.powers.any() else None
 
 
 def tabulate(
@@ -98,111 +123,118 @@ def tabulate(
     """
     budget = Budget(limits or DEFAULT_LIMITS)
     problem = as_problem(equation, given.pop("params", None), forced=True, constants=True)
-    region, _ = region_of(problem, (start, stop))
+    chart = Chart(problem, given)
+    region = chart.region((start, stop))
     if not region.is_real:
         raise InputError("a table needs an interval of the real axis")
     if any(region.singular):
         raise InputError(
             "an end of the interval is a singular point", hint="a table ends beside it; choose an end at some distance"
         )
-    return _assembled(region, given.get("x0"), _pieces(problem, region, careful, given, budget), careful)
-
-
-@dataclass(frozen=True, slots=True)
-class _Piece:
-    """[centre - 2^e, centre + 2^e], and the coefficients there."""
-
-    centre: Fraction
-    e: int
-    coefficients: list[acb] | None = None
-
-    @property
-    def scale(self) -> Fraction:
-        return Fraction(2) ** self.e
-
-
-def _pieces(
-    problem: NumericProblem, region: Region, careful: bool, given: dict[str, Any], budget: Budget
-) -> list[_Piece]:
-    """Pieces that cover the region from left to right; where the points don't suffice, a piece is halved."""
-    n, digits, kept = _VARIANTS[careful]
-    nodes = [Fraction(math.cos(math.pi * (2 * k + 1) / (2 * n))) for k in range(n)]
+    variant = _CAREFUL if careful else _PLAIN
     with working_precision(_PREC):
-        at = [to_acb(Point(u)).real for u in nodes]
-        values = [[u**j for j in range(2 * n)] for u in at]
-        slopes = [[j * u ** max(j - 1, 0) for j in range(2 * n)] for u in at]
-        inverse = acb_mat(arb_mat(values + slopes).inv())
-    open_, done = _first_pieces(problem, region, budget), list[_Piece]()
+        cells, series = _pieces(chart, region, variant, budget)
+    states = chart.states([Point(centre) for centre, _ in cells], variant.digits, budget.share(1).limits)
+    with working_precision(_PREC):
+        coefficients, powers = _combined(cells, series, states, variant)
+    edges, exponents = np.array([float(c + Fraction(2) ** e) for c, e in cells[:-1]]), np.array([e for _, e in cells])
+    arrays = edges, np.array([float(c) for c, _ in cells]), exponents, powers, coefficients
+    for array in arrays:
+        array.flags.writeable = False
+    x0 = given.get("x0")
+    return TabulatedFunction(region, x0 if isinstance(x0, Point) else None, *arrays, careful=careful)
+
+
+def _pieces(chart: Chart, region: Region, variant: _Variant, budget: Budget) -> tuple[list[Cell], Pair]:
+    """The pieces from left to right, and y1, y2 and y3 on them: an array of terms, series and pieces."""
+    low, high = Fraction(region.low.real), Fraction(region.high.real)
+    e = math.frexp(float(high - low))[1]
+    # Off the round numbers, at which solutions may be zero: that couldn't be told from other small values.
+    grain = max(Fraction(2) ** (e - 24), Fraction(math.ulp(max(-low, high))))
+    left = (low // grain - Fraction(2) ** e * Fraction(53, 128) // grain) * grain
+    open_, done = [(left + Fraction(2) ** e, e)], dict[Cell, Any]()
     while open_:
+        e = open_[0][1]
         if len(open_) + len(done) > _MAX_PIECES:
             raise LimitExceeded(f"the table needs more than {_MAX_PIECES} pieces", limit="unknown_degree")
-        points = [Point(piece.centre + piece.scale * u) for piece in open_ for u in nodes]
-        states = evaluate_states(problem, points, digits=digits, limits=budget.share(1).limits, **given)
-        halves = []
-        with working_precision(_PREC):
-            for k, piece in enumerate(open_):
-                budget.check()
-                own, unit = states[k * n : k * n + n], acb(arb((1, piece.e)))
-                data = [[ball_to_flint(s.y)] for s in own] + [[ball_to_flint(s.dy) * unit] for s in own]
-                found = _counting((inverse * acb_mat(data)).entries(), kept)
-                if found is not None:
-                    done.append(replace(piece, coefficients=found))
-                else:
-                    halves += [_Piece(piece.centre + sign * piece.scale / 2, piece.e - 1) for sign in (-1, 1)]
-        open_ = halves
-    return sorted(done, key=lambda piece: piece.centre)
-
-
-def _first_pieces(problem: NumericProblem, region: Region, budget: Budget) -> list[_Piece]:
-    gauge = None if problem.gauge is None else System.of(problem.gauge)
-    low, high = Fraction(region.low.real), Fraction(region.high.real)
-    position, e, found = low, math.frexp(float(high - low))[1], list[_Piece]()
-    while position <= high and len(found) <= _MAX_PIECES:
+        if e < _SMALLEST:
+            raise LimitExceeded("no piece of positive size was found for the table", limit="unknown_degree")
         budget.check()
-        while True:
-            if e < _SMALLEST:
-                raise LimitExceeded("no piece of positive size was found for the table", limit="unknown_degree")
-            piece = _Piece((position // Fraction(2) ** e + 1) * Fraction(2) ** e, e)
-            centre = Point(piece.centre)
-            fits = fitting(problem.system, centre, e, _SHARE, _GROWTH) is not None
-            near = distance_lower(gauge, centre) if fits and gauge is not None else None
-            if fits and (near is None or near * _SHARE >= arb((1, e))):
-                break
-            e -= 1
-        found.append(piece)
-        position, e = piece.centre + piece.scale, e + 1
-    return found
+        good, series = _series(chart, open_, variant)
+        done |= {cell: (series.hi[..., k], series.lo[..., k]) for k, cell in enumerate(open_) if good[k]}
+        half = Fraction(2) ** (e - 1)
+        halves = (c + sign * half for k, (c, _) in enumerate(open_) if not good[k] for sign in (-1, 1))
+        open_ = [(c, e - 1) for c in halves if c + half >= low and c - half <= high]
+    cells = sorted(done)
+    hi, lo = (np.stack([done[cell][i] for cell in cells], axis=-1) for i in (0, 1))
+    return cells, Pair(hi, lo)
 
 
-def _counting(found: list[acb], kept: int) -> list[acb] | None:
-    """The coefficients up to the last that counts; None where the degree is too low.
+def _series(chart: Chart, cells: list[Cell], variant: _Variant) -> tuple[Any, Pair]:
+    """Which of these pieces will do, and y1, y2 and y3 on all of them."""
+    terms, found = variant.terms, [chart.local(Point(centre), e, variant.terms) for centre, e in cells]
+    length = max(2, *(len(part) + i for local in found if local for i, part in enumerate(local)), 0)
+    numbers, source = np.zeros((2, 3, length, len(cells))), np.zeros((2, terms, 3, len(cells)))
+    for k, (local, (centre, e)) in enumerate(zip(found, cells, strict=True)):
+        for i, part in enumerate(local or ()):
+            numbers[:, i, i : i + len(part), k] = _halves(part)
+        if local and chart.forcing is not None:
+            nodes, inverse = _interpolation(terms)
+            values = [[chart.source(Point(centre), e, u) * arb_poly(local[0])(u)] for u in nodes]
+            source[:, :, 2, k] = _halves((inverse * arb_mat(values)).entries())
+    a, b, c = (Pair(*numbers[:, i]) for i in range(3))
+    z = Pair(*np.zeros((2, terms, 3, len(cells))))
+    z.hi[0, 0] = z.hi[1, 1] = 1.0
+    with np.errstate(all="ignore"):
+        for n in range(2, terms):
+            j = np.arange(1, min(length, n + 1))
+            m = (n - j)[:, None] + 0.0
+            weights = a[j] * Pair(m * (m - 1)) + b[j] * Pair(m) + c[j]
+            term = (Pair(*source[:, n - 2]) - folded(weights[:, None] * z[n - j])) / Pair(n * (n - 1.0))
+            z.hi[n], z.lo[n] = term.hi, term.lo
+        sizes = np.abs(z.hi)
+        good = (sizes[-4:].max(0) <= sizes.max(0) * 2.0**-variant.bits).all(0)
+        good &= (sizes[:, :2].sum(0) <= _GROWTH).all(0)
+    return good & np.array([local is not None for local in found]), z
 
-    The last coefficients for Chebyshev's polynomials are about those of the powers, over 2^degree.
-    """
-    sizes = [abs(v).mid() for v in found]
-    floor = max(sizes) * arb((1, -kept))
-    if max((v.real.rad() + v.imag.rad() for v in found), key=float) > floor:
-        raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
-    if any(size > floor * arb((1, len(found) - 2)) for size in sizes[-3:]):
-        return None
-    while len(found) > 1 and sizes[len(found) - 1] < floor:
-        found.pop()
-    return found
+
+def _halves(numbers: list[arb]) -> Any:
+    pairs = [Pair.of(v) for v in numbers]
+    return np.array([[p.hi for p in pairs], [p.lo for p in pairs]])
 
 
-def _assembled(region: Region, x0: object, pieces: list[_Piece], careful: bool) -> TabulatedFunction:
-    rows = [piece.coefficients or [] for piece in pieces]
-    is_real = all(v.imag.is_zero() for row in rows for v in row)
-    table = np.zeros((1 if is_real else 2, 2, max(map(len, rows)), len(rows)))
-    for k, row in enumerate(rows):
-        for n, number in enumerate(row):
-            for part, value in zip(table, (number.real, number.imag), strict=False):
-                pair = Pair.of(value)
-                part[:, n, k] = pair.hi, pair.lo
-    edges = np.array([float(piece.centre + piece.scale) for piece in pieces[:-1]])
-    centres, exponents = (np.array([f(piece) for piece in pieces]) for f in (lambda p: float(p.centre), lambda p: p.e))
-    for array in (table, edges, centres, exponents):
-        array.flags.writeable = False
-    return TabulatedFunction(
-        region, x0 if isinstance(x0, Point) else None, edges, centres, exponents, table, careful=careful
-    )
+@lru_cache
+def _interpolation(count: int) -> tuple[list[arb], arb_mat]:
+    """Chebyshev's points, and the matrix that makes coefficients of the values there."""
+    nodes = [(arb.pi() * (2 * k + 1) / (2 * count)).cos() for k in range(count)]
+    return nodes, arb_mat([[u**j for j in range(count)] for u in nodes]).inv()
+
+
+@lru_cache
+def _lowering(terms: int, kept: int) -> Any:
+    """The matrix that replaces u^kept, ..., u^(terms - 1) by their Chebyshev series up to the degree kept - 1."""
+    rows = [chebyshev.cheb2poly(chebyshev.poly2cheb([0] * n + [1])[:kept]) for n in range(kept, terms)]
+    return np.array([np.pad(row, (0, kept - len(row))) for row in rows]).T
+
+
+def _combined(cells: list[Cell], series: Pair, states: list[State], variant: _Variant) -> tuple[Any, Any]:
+    """The coefficients of the solution, and the powers of two that they are to be multiplied by."""
+    data, powers = [], []
+    for (y, dy), (_, e) in zip(states, cells, strict=True):
+        both = y, dy * arb((1, e))
+        size = max(abs(v).mid() for v in both)
+        if max(r for v in both for r in (v.real.rad(), v.imag.rad())) > size * arb((1, -variant.bits)):
+            raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
+        power = int(log2(size)) if size > 0 else 0
+        powers.append(power if abs(power) > _ROOM else 0)
+        data.append([v * arb((1, -powers[-1])) for v in both])
+    is_real = all(v.imag.is_zero() for both in data for v in both)
+    parts = []
+    for part in ("real",) if is_real else ("real", "imag"):
+        y, dy = (Pair(*_halves([getattr(both[i], part) for both in data])) for i in (0, 1))
+        found = series[:, 0] * y + series[:, 1] * dy
+        if part == "real":
+            found += scaled(series[:, 2], -np.array(powers))
+        found = found[: variant.kept] + Pair(np.tensordot(_lowering(*variant[:2]), found.hi[variant.kept :], 1))
+        parts.append([found.hi, found.lo])
+    return np.array(parts), np.array(powers)

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from flint import acb, acb_poly, arb, ctx
+from flint import acb, acb_poly, arb, arb_poly, ctx
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.function_field import FunctionPoly
@@ -61,6 +61,14 @@ class Embedded:
         """The gauge at the working precision in force."""
         num, den = (acb_poly(_real(self._embed(part))) for part in (function.num, function.den))
         return EmbeddedGauge(num, den)
+
+    def equation(self) -> tuple[arb_poly, arb_poly, arb_poly]:
+        """a, b and c of the user's equation, at the working precision in force."""
+        functions = (self.S, self.gauge or self.S * 0)
+        p, q, n, d = (
+            arb_poly(_real(self._embed(part))) for function in functions for part in (function.num, function.den)
+        )
+        return d * d * q, -2 * n * d * q, (n * n - n.derivative() * d + n * d.derivative()) * q - p * d * d
 
     def bound(self, ball: acb) -> arb:
         """Of |b/a| + |c/a| on the ball, for a z'' + b z' + c z = 0, z = g y."""
