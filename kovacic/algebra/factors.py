@@ -16,12 +16,12 @@ from kovacic.limits import check_time
 #: From so many factors of a denominator on, leading terms are tried that are short enough for so many primes.
 _MANY_FACTORS, _PRIMES = 50, 6
 #: To fewer factors trees are of no use.
-FEW_FACTORS = 12
+_FEW_FACTORS = 12
 
 
 def product(factors: Sequence[Poly]) -> Poly:
     """The product of at least one polynomial."""
-    return products(factors)[-1][0] if len(factors) >= FEW_FACTORS else reduce(mul, factors)
+    return products(factors)[-1][0] if len(factors) >= _FEW_FACTORS else reduce(mul, factors)
 
 
 def products(factors: Sequence[Any]) -> list[list[Any]]:
@@ -53,21 +53,15 @@ def expansions(num: Poly, den: Poly, factors: Sequence[tuple[Poly, int]]) -> lis
     >>> [(str(N), str(q)) for N, q in expansions(x + 2, x * (x - 1) ** 2, [(x, 1), (x - 1, 2)])]
     [('2', '1'), ('3', '1')]
     """
-    if len(factors) < FEW_FACTORS:
-        return [expansion(num, den, p, k) for p, k in factors]
     moduli = [p if k < 4 else p ** (k // 2) for p, k in factors]
+    if len(factors) < _FEW_FACTORS:
+        return [(num % modulus, den // p**k % modulus) for (p, k), modulus in zip(factors, moduli, strict=True)]
     one, tree = num.field.poly([1]), products([p**k for p, k in factors])
     simple = _leading_terms(num, factors, moduli, tree) if len(factors) >= _MANY_FACTORS else None
     if simple is not None:
         return [(N, one) for N in simple]
     cofactors, of_moduli = _combined([one] * len(factors), tree), products(moduli)
     return list(zip(_remainders(num, of_moduli), _remainders(cofactors, of_moduli), strict=True))
-
-
-def expansion(num: Poly, den: Poly, p: Poly, k: int) -> tuple[Poly, Poly]:
-    """The expansion of `expansions` at one factor."""
-    modulus = p if k < 4 else p ** (k // 2)
-    return num % modulus, den // p**k % modulus
 
 
 def _leading_terms(

@@ -24,7 +24,7 @@ from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.factors import FEW_FACTORS, expansion, expansions, product
+from kovacic.algebra.factors import expansions, product
 from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -44,11 +44,8 @@ class Kind(Enum):
 class Place:
     """All roots of one irreducible factor, or infinity (the root 0 in the coordinate z = 1/x).
 
-    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den.  At a regular place
-    `delta_squared` is the square of the exponent difference Delta where it is the same constant of K at all roots (else
-    None, and Delta is irrational), and `delta` is Delta >= 0 where it is rational.  `logarithm` says that one provably
-    occurs; False only that no proof was found.  `known` has what `near` is, where the expansions at all places were found
-    together.
+    `num/den` is S in the coordinate of `factor`, and `order` the multiplicity of `factor` in den.  `near` has N and q with
+    S = N/(factor^order q) to as many terms as the exponents depend on, order/2 or 1.
     """
 
     factor: Poly
@@ -56,15 +53,51 @@ class Place:
     order: int
     num: Poly
     den: Poly
-    delta_squared: Poly | None
-    delta: Fraction | None
-    logarithm: bool
-    known: tuple[Poly, Poly] | None
+    near: tuple[Poly, Poly]
+    budget: Budget
 
     @cached_property
-    def near(self) -> tuple[Poly, Poly]:
-        """N and q with S = N/(factor^order q) to as many terms as the exponents depend on, order/2 or 1."""
-        return self.known or expansion(self.num, self.den, self.factor, self.order)
+    def delta_squared(self) -> Poly | None:
+        """At a regular place the square of the exponent difference Delta where it is the same constant of K at all roots.
+
+        For a double pole Delta^2 = 1 + 4b, b = N/(p'^2 q) in K[x]/p.  None elsewhere; then Delta is irrational.
+        """
+        p, (top, bottom) = self.factor, self.near
+        if self.order != 2:
+            return p.field.poly([1]) if self.order == 1 else None
+        if p.degree > 1:
+            bottom = p.derivative() ** 2 * bottom % p
+        b = top[bottom.degree] / bottom.lc
+        return 4 * b + 1 if p.degree == 1 or top == bottom * b else None
+
+    @cached_property
+    def delta(self) -> Fraction | None:
+        """Delta >= 0 at a regular place where it is rational, else None."""
+        return None if self.delta_squared is None else rational_square_root(self.delta_squared)
+
+    @cached_property
+    def logarithm(self) -> bool:
+        """Does a logarithm provably occur?  False says only that no proof was found.
+
+        For Delta > 0 the series with the smaller exponent meets an obstruction at its term number Delta.  If it doesn't vanish
+        modulo a prime, it doesn't vanish; if it does vanish, nothing is claimed (and then there is a logarithm only by a
+        chance of about 1 in 2^60).  Nothing is claimed either where the series would be longer than the limits allow.
+        """
+        delta = self.delta
+        if self.order != 2 or delta is None or delta.denominator > 1:
+            return self.order == 1
+        if not 0 < delta <= self.budget.limits.unknown_degree:
+            return delta == 0
+        for h in self.factor.field.homomorphisms():
+            self.budget.check()
+            try:
+                root = next(simple_roots(h.keeping_degree(self.factor)), None)
+                if root is not None:
+                    num, den = translate(h(self.num), root), translate(h.keeping_degree(self.den), root)
+                    return logarithm_obstruction(local_equation(num, den, 2), int(delta)) != 0
+            except BadPrimeError:
+                pass
+        raise AssertionError("the sequence of primes is infinite")
 
     @property
     def degree(self) -> int:
@@ -136,52 +169,14 @@ class Problem:
 def analyse(S: RatFunc, budget: Budget) -> Problem:
     """The singular places of y'' = S y and their local data."""
     factors = S.field.factor(S.den) if S.den.degree > 0 else []
-    near = expansions(S.num, S.den, factors) if len(factors) >= FEW_FACTORS else [None] * len(factors)
-    places = [
-        _place(S.num, S.den, factor, order, known, budget, at_infinity=False)
-        for (factor, order), known in zip(factors, near, strict=True)
-    ]
     num, den, order = at_infinity(S)
-    places.append(_place(num, den, S.field.poly([0, 1]), order, None, budget, at_infinity=True))
+    infinity = (S.field.poly([0, 1]), order)
+    places = [
+        Place(p, at_end, k, above, below, near, budget)
+        for above, below, found, at_end in ((S.num, S.den, factors, False), (num, den, [infinity], True))
+        for (p, k), near in zip(found, expansions(above, below, found), strict=True)
+    ]
     return Problem(S, tuple(places), budget)
-
-
-def _place(
-    num: Poly, den: Poly, p: Poly, order: int, near: tuple[Poly, Poly] | None, budget: Budget, *, at_infinity: bool
-) -> Place:
-    """The place, for a double pole with Delta^2 = 1 + 4b, b = N/(p'^2 q) in K[x]/p."""
-    if order != 2:
-        square, delta = (num.field.poly([1]), Fraction(1)) if order == 1 else (None, None)
-        return Place(p, at_infinity, order, num, den, square, delta, order == 1, near)
-    top, bottom = near = near or expansion(num, den, p, order)
-    if p.degree > 1:
-        bottom = p.derivative() ** 2 * bottom % p
-    b = top[bottom.degree] / bottom.lc
-    square = 4 * b + 1 if p.degree == 1 or top == bottom * b else None
-    delta = None if square is None else rational_square_root(square)
-    logarithm = delta is not None and delta.denominator == 1 and _has_logarithm(num, den, p, int(delta), budget)
-    return Place(p, at_infinity, order, num, den, square, delta, logarithm, near)
-
-
-def _has_logarithm(num: Poly, den: Poly, p: Poly, delta: int, budget: Budget) -> bool:
-    """Does a logarithm provably occur at a double pole with this integer Delta?
-
-    For Delta > 0 the series with the smaller exponent meets an obstruction at its term number Delta.  If it doesn't vanish
-    modulo a prime, it doesn't vanish; if it does vanish, nothing is claimed (and then there is a logarithm only by a chance
-    of about 1 in 2^60).  Nothing is claimed either where the series would be longer than the limits allow.
-    """
-    if not 0 < delta <= budget.limits.unknown_degree:
-        return delta == 0
-    for h in num.field.homomorphisms():
-        budget.check()
-        try:
-            root = next(simple_roots(h.keeping_degree(p)), None)
-            if root is not None:
-                equation = local_equation(translate(h(num), root), translate(h.keeping_degree(den), root), 2)
-                return logarithm_obstruction(equation, delta) != 0
-        except BadPrimeError:
-            pass
-    raise AssertionError("the sequence of primes is infinite")
 
 
 def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:

@@ -14,7 +14,7 @@ from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.factors import FEW_FACTORS, expansion, expansions
+from kovacic.algebra.factors import expansions
 from kovacic.algebra.modular import BadPrimeError, Homomorphism, series_solution, simple_roots, translate
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -28,7 +28,7 @@ from kovacic.verify.residue import exponent_difference_squared
 class Point:
     """All roots of an irreducible factor p of den, of multiplicity `order`, with S = num/den; or infinity, with S(1/z)/z^4.
 
-    `known` has N and q modulo p^nu with S = N/(p^order q), nu = order/2 or 1, where they were found at all points together.
+    `expansion` has N and q modulo p^nu with S = N/(p^order q), nu = order/2 or 1.
     """
 
     factor: Poly
@@ -36,14 +36,13 @@ class Point:
     num: Poly
     den: Poly
     budget: Budget
-    known: tuple[Poly, Poly] | None = None
+    expansion: tuple[Poly, Poly]
     at_infinity: bool = False
 
     @cached_property
     def near(self) -> tuple[Poly, Poly]:
         """N and q; for a double pole N and p'^2 q modulo p."""
-        p = self.factor
-        N, q = self.known or expansion(self.num, self.den, p, self.order)
+        p, (N, q) = self.factor, self.expansion
         return (N, p.derivative() ** 2 * q % p) if self.order == 2 and p.degree > 1 else (N, q)
 
     @cached_property
@@ -112,12 +111,13 @@ class Point:
 def points(S: RatFunc, budget: Budget) -> list[Point]:
     """Every singular place, and infinity even if it is ordinary."""
     factors = S.field.factor(S.den) if S.den.degree else []
-    near = expansions(S.num, S.den, factors) if len(factors) >= FEW_FACTORS else [None] * len(factors)
-    found = [Point(p, k, S.num, S.den, budget, known) for (p, k), known in zip(factors, near, strict=True)]
+    near = expansions(S.num, S.den, factors)
+    found = [Point(p, k, S.num, S.den, budget, terms) for (p, k), terms in zip(factors, near, strict=True)]
     # S(1/z)/z^4 = z^-order num/den, where num and den have the coefficients of S.num and S.den in reversed order.
     order = S.num.degree - S.den.degree + 4 if S.num else 0
     num, den = S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0))
-    return [*found, Point(S.field.poly([0, 1]), max(order, 0), num, den, budget, at_infinity=True)]
+    z, k = S.field.poly([0, 1]), max(order, 0)
+    return [*found, Point(z, k, num, den, budget, expansions(num, den, [(z, k)])[0], at_infinity=True)]
 
 
 def least_valuation(point: Point, m: int) -> int | None:
