@@ -7,6 +7,7 @@ An element is zero only as a function: what holds over Q(t) holds for generic va
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -21,7 +22,6 @@ from kovacic.algebra.modular import Collector, Homomorphism
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.algebra.rationals import RationalPoly, square_part
 from kovacic.algebra.sparse import by_power, constant_term, factorisation, laurent_constant, square_root
-from kovacic.algebra.text import joined_monomials
 from kovacic.limits import check_time
 
 #: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.
@@ -303,10 +303,8 @@ class FunctionPoly(Poly):
         return max((int(c).bit_length() for c in values), default=0)
 
     def coefficient_strings(self) -> list[str]:
-        return [
-            joined_monomials({tuple(map(int, e[1:])): int(c) for e, c in one.num.to_dict().items()}, self.field.names)
-            for one in self
-        ]
+        texts = (str(c).replace("^", "**") for c in self._columns())
+        return [re.sub(r"t(\d+)", lambda match: self.field.names[int(match[1])], text) for text in texts]
 
     def value_at(self, values: Sequence[Poly | Scalar], field: Field) -> Poly:
         """The polynomial over `field` in which the parameters have these values, constants of that field.

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations_with_replacement, islice
+from itertools import combinations_with_replacement
+from math import prod
 from typing import Any
 
 from flint import nmod_poly
@@ -95,8 +96,7 @@ class Samples(Collector):
             if parts is None:
                 return None
             functions.append(parts)
-        following = iter(functions)
-        return [list(islice(following, length)) for length in self.shape]
+        return self._divided(functions)
 
 
 class _Unknown:
@@ -189,8 +189,4 @@ def _solve(
 
 
 def _power_product(point: _Exponents, exponents: _Exponents, p: int) -> int:
-    result = 1
-    for base, exponent in zip(point, exponents, strict=True):
-        if exponent:
-            result = result * pow(base, exponent, p) % p
-    return result
+    return prod(pow(base, exponent, p) for base, exponent in zip(point, exponents, strict=True) if exponent) % p

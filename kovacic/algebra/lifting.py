@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
+from itertools import count
 from math import isqrt
 from typing import Any
 
@@ -34,10 +35,7 @@ def prime(index: int) -> int:
 
 def primes() -> Iterator[int]:
     """The primes below 2**60, downwards."""
-    index = 0
-    while True:
-        yield prime(index)
-        index += 1
+    return map(prime, count())
 
 
 def chinese_remainders(old: Sequence[int], modulus: int, new: Sequence[int], p: int) -> list[int]:
@@ -124,9 +122,7 @@ class Residues(Collector):
 
     def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:
         p = homomorphism.p
-        flat: list[Any] = []
-        for image in images:
-            flat.extend(image.coeffs())
+        flat = [c for image in images for c in image.coeffs()]
         if self.primes_used:
             step = (nmod_poly(flat, p) - nmod_poly(self._residue, p)) * pow(self._modulus, -1, p)
             self._residue += _to_integers(step.coeffs()) * self._modulus
@@ -140,11 +136,7 @@ class Residues(Collector):
         if vector is None:
             return None
         numerators, denominator = vector
-        polynomials, start = [], 0
-        for length in self.shape:
-            polynomials.append(fmpq_poly(fmpz_poly(numerators[start : start + length]), denominator))
-            start += length
-        return polynomials
+        return [fmpq_poly(fmpz_poly(part), denominator) for part in self._divided(numerators)]
 
 
 def reconstruct_vector(residues: Sequence[int], modulus: int) -> tuple[list[int], int] | None:

@@ -6,8 +6,8 @@ A series to order L is a polynomial of degree below L; the prime must exceed the
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
-from itertools import accumulate
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import accumulate, islice
 from operator import mul
 from typing import Any
 
@@ -54,6 +54,11 @@ class Collector(ABC):
     @abstractmethod
     def add(self, homomorphism: Homomorphism, images: Sequence[Any]) -> list[Any] | None:
         """Add the images under a homomorphism; a proposal when one is due and there is one, else None."""
+
+    def _divided(self, values: Iterable[Any]) -> list[list[Any]]:
+        """A list for each polynomial of the shape."""
+        following = iter(values)
+        return [list(islice(following, length)) for length in self.shape]
 
     def _is_due(self) -> bool:
         """One more prime was used: with which the next guess is made, after a third more of them than for the last one."""

@@ -20,8 +20,6 @@ from kovacic.limits import check_duration, check_time, watched_seconds
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
 _EUCLID_DEGREE = 16
-#: Numbers up to this size are printed faster as Python's integers.
-_LONG_BITS = 1000
 #: Above this degree polynomials are factored in a process that can be stopped.
 _LONG_DEGREE = 400
 #: Integers up to this size are factored, to write sqrt(8) as 2*sqrt(2); of larger ones factors of so many bits are found.
@@ -211,10 +209,7 @@ class RationalPoly(Poly):
         return self.integer_str(variable) if self.rep.denom() == 1 else super().to_str(variable)
 
     def coefficient_strings(self) -> list[str]:
-        numerator = self.rep.numer()
-        if numerator.height_bits() > _LONG_BITS:  # Python prints integers of at most 4300 digits
-            return list(map(str, numerator.coeffs()))
-        return [str(int(c)) for c in numerator.coeffs()]
+        return list(map(str, self.rep.numer().coeffs()))  # Python prints integers of at most 4300 digits
 
     def to_sympy(self, variable: Any) -> Any:
         from sympy import Add, Rational

@@ -172,9 +172,9 @@ class Ideals(Collector):
             if coordinates is None:
                 return None
             elements.append(coordinates)
-        following = iter(elements)
-        blocks = [list(islice(following, length)) for length in self.shape]
-        return [fmpq_poly([row[j] for row in block]) for block in blocks for j in range(self._dimension)]
+        return [
+            fmpq_poly([row[j] for row in block]) for block in self._divided(elements) for j in range(self._dimension)
+        ]
 
     def _element(self, value: int, powers: list[int]) -> list[Any] | None:
         """The coordinates of the element with this image, or None as long as the modulus is too small for it."""

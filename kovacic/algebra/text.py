@@ -2,23 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 
 
 def joined_terms(coefficients: Sequence[str], variable: str) -> str:
     """The polynomial with these coefficients, low to high."""
     powers = ["", variable, *(f"{variable}**{k}" for k in range(2, len(coefficients)))]
-    return _sum(_term(c, power) for c, power in reversed(list(zip(coefficients, powers, strict=False))) if c != "0")
-
-
-def joined_monomials(terms: Mapping[tuple[int, ...], int], names: Sequence[str]) -> str:
-    """The polynomial in several variables with these integer coefficients, by exponents, in their order."""
-    return _sum(
-        _term(
-            str(c), "*".join(name if e == 1 else f"{name}**{e}" for name, e in zip(names, exponents, strict=True) if e)
-        )
-        for exponents, c in terms.items()
-    )
+    terms = [_term(c, power) for c, power in zip(coefficients, powers, strict=False) if c != "0"]
+    return " + ".join(reversed(terms)).replace("+ -", "- ") or "0"
 
 
 def _term(coefficient: str, monomial: str) -> str:
@@ -27,10 +18,6 @@ def _term(coefficient: str, monomial: str) -> str:
     if coefficient in ("1", "-1"):
         return coefficient[:-1] + monomial
     return f"({coefficient})*{monomial}" if " " in coefficient else f"{coefficient}*{monomial}"
-
-
-def _sum(terms: Iterable[str]) -> str:
-    return " + ".join(terms).replace("+ -", "- ") or "0"
 
 
 def quotient_text(above: str, below: str) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from kovacic.decision import GroupClaim, SemiInvariant
 
@@ -57,27 +57,24 @@ _UPPER = "the upper triangular matrices with c and 1/c on the diagonal, "
 
 
 class _Facts(NamedTuple):
-    """What is said of a kind, with n and the order where they belong; `components` is the name of the component group."""
+    """What is said of a kind, with n and the order where they belong."""
 
     name: str
     latex: str
     description: str
     dimension: int | None = 0
     order: int | None = None
-    components: str | None = "trivial"
 
 
 _FACTS = {
     Kind.CYCLIC: _Facts("mu_{n}", r"\mu_{{{n}}}", "the cyclic group of order {n}"),
     Kind.MULTIPLICATIVE: _Facts("G_m", r"\mathbb{{G}}_m", "the diagonal matrices of determinant 1", 1),
-    Kind.ADDITIVE: _Facts("G_a extended by mu_{n}", r"\mathbb{{G}}_a \rtimes \mu_{{{n}}}", _UPPER + "c^{n} = 1", 1, None,
-                          "mu_{n}"),
+    Kind.ADDITIVE: _Facts("G_a extended by mu_{n}", r"\mathbb{{G}}_a \rtimes \mu_{{{n}}}", _UPPER + "c^{n} = 1", 1),
     Kind.BOREL: _Facts("Borel", r"\mathbb{{G}}_a \rtimes \mathbb{{G}}_m", "all upper triangular matrices of determinant 1", 2),
     Kind.DICYCLIC: _Facts("dicyclic of order {order}", r"\mathrm{{Dic}}_{{{n}}}", "the dicyclic group of order {order}"),
-    Kind.INFINITE_DIHEDRAL: _Facts("N(T)", "N(T)", "the normaliser of the diagonal matrices, the infinite dihedral group", 1,
-                                   None, "mu_2"),
+    Kind.INFINITE_DIHEDRAL: _Facts("N(T)", "N(T)", "the normaliser of the diagonal matrices, the infinite dihedral group", 1),
     Kind.IMPRIMITIVE: _Facts("dicyclic or N(T), order not determined", r"\subseteq N(T)", "a subgroup of N(T), dicyclic if it"
-                             " is finite; its order wasn't determined", None, None, None),
+                             " is finite; its order wasn't determined", None),
     Kind.TETRAHEDRAL: _Facts("SL(2,3)", r"\mathrm{{SL}}(2,3)", "the binary tetrahedral group", 0, 24),
     Kind.OCTAHEDRAL: _Facts("binary octahedral", "2O", "the binary octahedral group", 0, 48),
     Kind.ICOSAHEDRAL: _Facts("SL(2,5)", r"\mathrm{{SL}}(2,5)", "the binary icosahedral group", 0, 120),
@@ -155,46 +152,5 @@ class Group:
         """The dimension as an algebraic group; 0 for a finite one, None if it wasn't determined."""
         return self._facts.dimension
 
-    @property
-    def component_group(self) -> str | None:
-        """The finite group of components: the group itself if it is finite; None if that wasn't determined."""
-        return self.name if self.finite else self._facts.components and self._facts.components.format(n=self.n)
-
-    def generators(self) -> tuple[Any, ...] | None:
-        """SymPy matrices that generate the group, acting on (y1, y2) suitably chosen and scaled.
-
-        For a finite group they generate it; for G_m there is one, with a free parameter t.  None for the other groups.
-        The diagonal ones are diagonal in the basis of the solutions with y'/y rational (cyclic, G_m) or of degree 2
-        (dicyclic); the bases of the primitive groups are those of Klein's forms [Ikosaeder (1884), part I, chapter II].
-        """
-        import sympy
-
-        I, half = sympy.I, sympy.Rational(1, 2)  # noqa: E741 - SymPy's name
-        swap = sympy.Matrix([[0, 1], [-1, 0]])
-        if self.kind is Kind.CYCLIC:
-            return () if self.n == 1 else (_rotation(self.n),)
-        if self.kind is Kind.MULTIPLICATIVE:
-            t = sympy.Symbol("t", nonzero=True)
-            return (sympy.diag(t, 1 / t),)
-        if self.kind is Kind.DICYCLIC and self.n is not None:
-            return (_rotation(2 * self.n), swap)
-        third = half * sympy.Matrix([[-1 - I, -1 - I], [1 - I, -1 + I]])
-        if self.kind is Kind.TETRAHEDRAL:
-            return (sympy.diag(I, -I), swap, third)
-        if self.kind is Kind.OCTAHEDRAL:
-            return (_rotation(8), swap, third)
-        if self.kind is Kind.ICOSAHEDRAL:
-            z = sympy.exp(2 * sympy.pi * I / 5)
-            T = sympy.Matrix([[z**4 - z, z**2 - z**3], [z**2 - z**3, z - z**4]]) / sympy.sqrt(5)
-            return (-sympy.diag(z**3, z**2), T)
-        return None
-
     def __str__(self) -> str:
         return self.name
-
-
-def _rotation(n: int | None) -> Any:
-    import sympy
-
-    z = sympy.exp(2 * sympy.pi * sympy.I / n)
-    return sympy.diag(z, 1 / z)
