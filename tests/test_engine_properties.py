@@ -63,7 +63,7 @@ def _images(polynomial: Poly, p: int, root: int) -> Any:
         return sum(
             (_images(part, p, root) * pow(root, k, p) for k, part in enumerate(polynomial.parts)), nmod_poly([], p)
         )
-    denominator = polynomial.common_denominator()
+    denominator = polynomial.content()[1]
     return nmod_poly((polynomial * denominator).rep.numer(), p) * pow(denominator, -1, p)  # type: ignore[attr-defined]
 
 
