@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from flint import acb, acb_poly, acb_series, arb, ctx
+from flint import acb, acb_poly, arb, ctx
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.factors import squarefree_factors
@@ -136,10 +136,12 @@ def rational_log_derivative(theta: RatFunc, prec: int) -> LogDerivative:
 def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[acb, ...]:
     """The coefficients of t^-1, ..., t^-k of num/den at x = zeta + t, a zero of den of multiplicity exactly k."""
     line = acb_poly([zeta, 1])
-    bottom = den(line).coeffs()[k:]  # the first k coefficients are exactly zero
-    quotient = (acb_series(num(line).coeffs(), k) / acb_series(bottom, k)).coeffs()
-    quotient += [acb(0)] * (k - len(quotient))
-    return tuple(quotient[k - 1 - j] for j in range(k))
+    top, bottom = num(line), den(line).coeffs()[k:]  # the first k coefficients are exactly zero
+    found: list[acb] = []
+    for n in range(k):  # not by FLINT's series, which end after `flint.ctx.cap` terms
+        rest = sum((c * found[n - j] for j, c in enumerate(bottom[1 : n + 1], start=1)), acb(0))
+        found.append((top[n] - rest) / bottom[0])
+    return tuple(reversed(found))
 
 
 def integral(function: Callable[[acb, bool], acb], a: acb, b: acb) -> acb:
