@@ -27,7 +27,7 @@ from kovacic.enclosure.exponential import LogDerivative, rational_log_derivative
 from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.frobenius import Basis, junction, limit
 from kovacic.enclosure.matrices import Matrix, Product, State, apply, real_part
-from kovacic.enclosure.points import Point, power_of_two, to_acb
+from kovacic.enclosure.points import Point, power_of_two, to_acb, to_double
 from kovacic.enclosure.problem import NumericProblem, check_segment
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
@@ -67,15 +67,14 @@ class Journey:
         stops = [middle(target) for target in targets]
         if self.chain:
             one = traveller.copy()
-            states = [state for stop in stops for state in one.around([stop], start, self.side)]
-        elif closed is not None and self.side is None:
-            states = [traveller.by_closed_form(closed, stop, start) for stop in stops]
+            states = [one.visit(stop, start) for stop in stops]
+        elif self.side is None:
+            states = traveller.fan(stops, start)
         else:
             found: dict[int, State] = {}
-            for branch in _branches(traveller.here, stops):
-                found |= zip(branch, traveller.copy().around([stops[i] for i in branch], start, self.side), strict=True)
-            beside = [i for i in range(len(stops)) if i not in found]
-            found |= zip(beside, traveller.fan([stops[i] for i in beside], start, self.side), strict=True)
+            for ray in _rays(traveller.here, stops):
+                states = traveller.copy().around([stops[i] for i in ray], start, self.side)
+                found |= zip(ray, states, strict=True)
             states = [found[i] for i in range(len(stops))]
         return [spread(traveller.problem, target, state) for target, state in zip(targets, states, strict=True)]
 
@@ -89,17 +88,17 @@ class Journey:
         start = self.start.state(problem, prec)
         traveller = Traveller.at(problem, place if isinstance(place, Singular) else middle(place), closed, prec)
         for vertex in self.vertices:
-            traveller.go([middle(vertex)], start)
+            traveller.go(middle(vertex), start)
         return traveller, start
 
 
-def _branches(here: Point | Singular, stops: list[Point]) -> list[list[int]]:
-    """The stops on the real axis in the order of visit: two chains (right and left) share their way."""
+def _rays(here: Point | Singular, stops: Sequence[Point]) -> list[list[int]]:
+    """The stops on the same side on the real axis in the order of visit, others alone: straight ways that are shared."""
     origin, inverted = (here.near, here.inverted) if isinstance(here, Singular) else (here, False)
-    keys = {i: stop.x for i, stop in enumerate(stops) if origin.is_real() and stop.is_real()}
-    right = sorted((i for i in keys if keys[i] >= origin.x), key=keys.__getitem__, reverse=inverted)
-    left = sorted((i for i in keys if keys[i] < origin.x), key=keys.__getitem__, reverse=not inverted)
-    return [chain for chain in (right, left) if chain]
+    keys = {i: stop.x - origin.x for i, stop in enumerate(stops) if origin.is_real() and stop.is_real()}
+    right = sorted((i for i, key in keys.items() if key >= 0), key=keys.__getitem__, reverse=inverted)
+    left = sorted((i for i, key in keys.items() if key < 0), key=keys.__getitem__, reverse=not inverted)
+    return [ray for ray in (right, left, *([i] for i in range(len(stops)) if i not in keys)) if ray]
 
 
 @dataclass
@@ -145,61 +144,62 @@ class Traveller:
             self.product.push((acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1)))
         self.here = x
 
-    def go(self, stops: Sequence[Point], start: State) -> list[State]:
-        """Straight on to the last of `stops`; the user's (z, z') at each of them."""
+    def go(self, stop: Point, start: State) -> None:
+        """Straight on to a point."""
+        if isinstance(self.here, Singular):
+            self._leave(self.here, stop, start)
+        assert isinstance(self.here, Point)
+        if stop == self.here:
+            return
         if self.closed is not None:
-            result = [self.by_closed_form(self.closed, stop, start) for stop in stops]
-            if isinstance(self.here, Singular) and self.here.is_at(stops[-1]):
-                return result
-            self.product.push(self._closed_matrix(self.closed, stops[-1], start))
-            if isinstance(self.here, Singular):
-                self._begin(stops[-1])
+            self.product.push(self._closed_matrix(self.closed, stop, start))
         else:
-            result = self._leave(self.here, list(stops), start) if isinstance(self.here, Singular) else []
-            if isinstance(self.here, Singular):
-                return result
-            self._check_gauge(self.here, stops[-1])
-            while len(result) < len(stops) and stops[len(result)] == self.here:
-                result.append(self.state(start))
-            here, rest = self.here, list(stops[len(result) :])
+            self._check_gauge(self.here, stop)
             if self.forcing is not None:
-                self._forced(self.forcing, here, rest, start, result)
-            elif rest:
-                for leg in walk(self.problem.system, here, rest, self.prec):
-                    if leg.stops:
-                        states = leg.states(self.product.apply(start), leg.stops)
-                        result += [self._given(state, stop) for state, stop in zip(states, leg.stops, strict=True)]
-                    self.product.push(leg.matrix)
-        self.growth *= self._growth(stops[-1])
-        self.here = stops[-1]
-        return result
+                self.forcing.check(self.here, stop)
+            for leg in walk(self.problem.system, self.here, stop, self.prec, self.forcing is not None):
+                if self.forcing is not None:
+                    change = self.forcing.step(leg, self._inverse_growth)
+                    y, dy = self.particular
+                    self.particular = apply(leg.matrix, (y + change[0], dy + change[1]))
+                self.product.push(leg.matrix)
+        self.growth *= self._growth(stop)
+        self.here = stop
 
-    def fan(self, stops: list[Point], start: State, side: str | None) -> list[State]:
-        """The states at the ends of straight lines from here, in the order of `stops`.
+    def fan(self, stops: Sequence[Point], start: State) -> list[State]:
+        """The user's (z, z') at the ends of straight lines from here.
 
-        A disc on the line to the farthest one serves others, too.
+        A disc on the line to the farthest of them serves others, too.
         """
+        if self.closed is not None:
+            return [self.by_closed_form(self.closed, stop, start) for stop in stops]
         here, system, found = self.here, self.problem.system, dict[int, State]()
-        alone = side or self.closed or self.forcing or isinstance(here, Singular) or len(stops) == 1
-        if alone or is_split(system, self.prec // max(1, len(stops))):
-            return [self.copy().around([stop], start, side)[0] for stop in stops]
-        assert isinstance(here, Point)
-        waiting = sorted(range(len(stops)), key=lambda i: (stops[i] - here).norm_squared())
+        alone = self.forcing is not None or is_split(system, self.prec // max(1, len(stops)))
+        if alone or isinstance(here, Singular):
+            for ray in _rays(here, stops):
+                one = self.copy()
+                while ray and (alone or isinstance(one.here, Singular)):
+                    first = ray.pop(0)
+                    found[first] = one.visit(stops[first], start)
+                found |= zip(ray, one.fan([stops[i] for i in ray], start), strict=True)
+            return [found[i] for i in range(len(stops))]
+        origin, places = to_double(here), [to_double(stop) for stop in stops]
+        waiting = sorted(range(len(stops)), key=lambda i: abs(places[i] - origin))
         while waiting:
-            last, traveller = stops[waiting[-1]], self.product.copy()
-            if last == here:
-                found |= dict.fromkeys(waiting, self.state(start))
-                break
-            for leg in walk(system, here, [last], self.prec, expanded=True):
-                done = leg.disc.leave == last
-                served = [i for i in waiting if (done and stops[i] == last) or leg.disc.serves(system, here, stops[i])]
-                ends = [stops[i] for i in served]
-                for end in ends:
-                    self._check_gauge(here, end)
-                states = leg.states(traveller.apply(start), ends) if ends else []
-                found |= zip(served, map(self._given, states, ends), strict=True)
-                waiting = [i for i in waiting if i not in found]
-                traveller.push(leg.matrix)
+            last, way = stops[waiting[-1]], self.product.copy()
+            found |= {i: self.state(start) for i in waiting if stops[i] == here}
+            for leg in walk(system, here, last, self.prec, len(waiting)):
+                served = list(leg.disc.served(system, here, [(i, places[i], stops[i]) for i in waiting]))
+                if served:
+                    ends = [stops[i] for i in served]
+                    for end in ends:
+                        self._check_gauge(here, end)
+                    states = leg.states(way.apply(start), ends)
+                    found |= zip(served, map(self._given, states, ends), strict=True)
+                    waiting = [i for i in waiting if i not in found]
+                if leg.disc.leave != last:
+                    way.push(leg.matrix)
+            waiting = [i for i in waiting if i not in found]
         return [found[i] for i in range(len(stops))]
 
     def by_closed_form(self, closed: Closed, stop: Point, start: State) -> State:
@@ -225,47 +225,48 @@ class Traveller:
         if self.problem.gauge is not None and len(self.problem.gauge_poles.den) > 1:
             check_segment(self.problem.gauge_poles, here, stop)
 
-    def _forced(self, forcing: Forcing, here: Point, stops: list[Point], start: State, result: list[State]) -> None:
-        """As the end of `go`, with a right-hand side."""
-        forcing.check(here, stops[-1] if stops else here)
+    def _inverse_growth(self, x: acb, analytic: bool) -> acb:
+        """1/g on a ball."""
+        if not isinstance(self.gauge, LogDerivative) or not isinstance(self.here, Point):
+            return acb(1)
+        return (-self.gauge.exponent(to_acb(self.here), x, analytic=analytic)).exp() / self.growth
 
-        def inverse(x: acb, analytic: bool) -> acb:
-            if not isinstance(self.gauge, LogDerivative) or not isinstance(self.here, Point):
-                return acb(1)
-            return (-self.gauge.exponent(to_acb(self.here), x, analytic=analytic)).exp() / self.growth
-
-        for stop in stops:
-            for leg in walk(self.problem.system, here, [stop], self.prec, expanded=True):
-                change = forcing.step(leg, inverse)
-                self.particular = apply(leg.matrix, (self.particular[0] + change[0], self.particular[1] + change[1]))
-                self.product.push(leg.matrix)
-            here = stop
-            result.append(self._given(self.product.apply(start), stop))
+    def visit(self, stop: Point, start: State) -> State:
+        """Straight on to a point, and the user's (z, z') there; the start itself, if that's a singular point, isn't left."""
+        if isinstance(self.here, Singular) and self.here.is_at(stop):
+            return limit(self.here, start)
+        self.go(stop, start)
+        return self.state(start)
 
     def state(self, start: State) -> State:
         """The user's (z, z') here."""
         assert isinstance(self.here, Point)
         return self._given(self.product.apply(start), self.here)
 
-    def around(self, stops: list[Point], start: State, side: str | None) -> list[State]:
-        """As `go`, around singular points of the real axis on this side.
+    def around(self, stops: list[Point], start: State, side: str) -> list[State]:
+        """As `fan`, around singular points of the real axis on this side; the stops lie in one direction, in order.
 
         A detour is as wide as its distance to the start and to other singular points allows: near an irregular one the
         solutions are as large as exp(1/distance).  Stops that are nearer to it are reached along the axis from its ends.
         """
         result: list[State] = []
-        for sign, cut, place, unit in self._cuts(stops[-1]) if side else ():
-            first, last = Point(cut - sign * unit), Point(cut + sign * unit)
-            far, near, behind = (
-                [stop for stop in stops if sign * (stop.x - mark) <= 0] for mark in (first.x, place, last.x)
+        for sign, cut, place, unit in self._cuts(stops[-1]):
+            first, top, last = (
+                Point(cut - sign * unit),
+                Point(cut, unit if side == "above" else -unit),
+                cut + sign * unit,
             )
-            near, behind, stops = near[len(far) :], behind[len(near) :], stops[len(behind) :]
-            result += self.go([*far, first], start)[: len(far)]
-            result += self.copy().go(near, start) if near else []
-            self.go([Point(cut, unit if side == "above" else -unit)], start)
-            self.go([last], start)
-            result += self.copy().go(behind[::-1], start)[::-1] if behind else []
-        return [*result, *(self.go(stops, start) if stops else [])]
+            far, near, behind = (
+                [stop for stop in stops[len(result) :] if sign * (stop.x - mark) <= 0]
+                for mark in (first.x, place, last)
+            )
+            result += self.fan(far, start)
+            self.go(first, start)
+            result += self.fan(near[len(far) :], start)
+            self.go(top, start)
+            self.go(Point(last), start)
+            result += self.fan(behind[len(near) :], start)
+        return [*result, *self.fan(stops[len(result) :], start)]
 
     def _cuts(self, last: Point) -> Iterator[tuple[int, Any, Any, Any]]:
         """The detours on the way to `last`: direction, a short number beside the singular point, the point, and radius."""
@@ -285,24 +286,16 @@ class Traveller:
             unit = power_of_two((square.p.bit_length() - square.q.bit_length() - 1) // 2)
             yield sign, (cut / unit * 16).floor() * unit / 16, cut, unit
 
-    def _leave(self, point: Singular, stops: list[Point], start: State) -> list[State]:
-        """Out of the disc around a singular point; the states at the stops inside, and before at the point itself."""
-        count = sum(map(point.is_at, stops))
-        states = [limit(point, start)] * count if count else []
-        if len(stops) == count:
-            return states
-        needed = not start[0].is_zero(), not start[1].is_zero()
-        last, bound = junction(point, stops[-1], self.prec)
-        basis = Basis(point, last, stops[-1], bound, self.prec, needed)
-        ahead, matrix, place = stops[-1] - last, None, None
-        for stop in stops[count:]:
-            step = stop - last
-            if step.x * ahead.x + step.y * ahead.y <= 0:
-                matrix, place = basis.at(stop), stop
-                states.append(apply(matrix, start))
-        self.product.push(basis.at(last) if matrix is None or place != last else matrix)
-        self._begin(last)
-        return states
+    def _leave(self, point: Singular, stop: Point, start: State) -> None:
+        """Out of the disc around a singular point, or to the stop itself."""
+        if self.closed is not None:
+            self.product.push(self._closed_matrix(self.closed, stop, start))
+        else:
+            last, bound = junction(point, stop, self.prec)
+            needed = not start[0].is_zero(), not start[1].is_zero()
+            self.product.push(Basis(point, last, stop, bound, self.prec, needed).at(last))
+            stop = last
+        self._begin(stop)
 
     def _growth(self, x: Point) -> acb:
         """g(x)/g(here)."""

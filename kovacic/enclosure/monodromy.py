@@ -145,14 +145,14 @@ def _connection(
     """The matrix at about so many bits."""
     traveller, both = Traveller.at(problem, a, None, prec), (acb(1), acb(1))
     for vertex in middle:
-        traveller.go([vertex], both)
+        traveller.go(vertex, both)
     basis, end = None, b
     if isinstance(end, Singular):
         here = traveller.here
         assert isinstance(here, Point)
         last, bound = junction(end, here, prec)
         basis, end = Basis(end, last, here, bound, prec).at(last), last
-    traveller.go([end], both)
+    traveller.go(end, both)
     found = fundamental(traveller.state((acb(1), acb(0))), traveller.state((acb(0), acb(1))))
     return found if basis is None else multiply(inverse(basis), found)
 

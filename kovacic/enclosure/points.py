@@ -6,6 +6,7 @@ Floats are taken at their exact binary value and decimal text at its exact decim
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -100,7 +101,7 @@ class Point:
         return self.x * self.x + self.y * self.y
 
     def __complex__(self) -> complex:
-        return complex(float(self.re), float(self.im))
+        return complex(float(self.x), float(self.y))
 
     def is_real(self) -> bool:
         """True if the imaginary part is zero."""
@@ -203,6 +204,14 @@ def _mpf(parts: tuple[int, int, int, int], name: str) -> Fraction:
 def to_acb(point: Point) -> acb:
     """A ball around the point at the working precision in force (exact where the precision allows)."""
     return acb(point.x) if point.y == 0 else acb(arb(point.x), arb(point.y))
+
+
+def to_double(point: Point) -> complex:
+    """The nearest complex double, infinite where it is out of range."""
+    try:
+        return complex(point)
+    except OverflowError:
+        return complex(math.inf)
 
 
 def midpoint(ball: acb) -> Point:

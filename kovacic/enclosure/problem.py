@@ -14,6 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
+from itertools import combinations
 
 from flint import acb, arb, fmpq_poly, fmpz_poly
 
@@ -186,11 +187,14 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     if given is not None and given.change is not None:
         raise InputError(f"numerical evaluation needs coefficients that are rational in {given.change.variable}")
     right = None if given is None or given.is_homogeneous else given
-    if right is not None and names:
-        raise InputError("an equation without parameters beside a right-hand side is needed here")
+    extended = [f for f in (S, gauge, right and right.f) if f is not None and isinstance(f.field, AlgebraicField)]
+    if right is not None and (names or extended):
+        raise InputError(
+            "a right-hand side is evaluated beside rational coefficients only: without parameters, I, sqrt(2), ...",
+            hint="dsolve has formulas; values need y'' = S y, or numbers in place of the parameters",
+        )
     numbers = _values(names, params or {}) if params is not None or names else {}
     values = {name: value.re for name, value in numbers.items() if isinstance(value, Point)}
-    extended = [f for f in (S, gauge) if f is not None and isinstance(f.field, AlgebraicField)]
     if right is None and (extended or len(values) < len(numbers)):
         embedded = Embedded(S, gauge, numbers)
         return NumericProblem(System((), (1,)), embedded=embedded).at(_SHARP)
@@ -271,18 +275,16 @@ def distance_lower(system: System, centre: Point) -> arb | None:
         return min((d.abs_lower() for d, _ in offsets(system, centre)), default=None)
 
 
-def is_apart(system: System, a: Point, b: Point, c: Point) -> bool:
-    """Is it certain that no singular point lies in the triangle?  Each is on the other side of one of its edges, then."""
+def is_apart(system: System, *points: Point) -> bool:
+    """Is it certain that no singular point lies in the convex hull of these?  In some direction each is beyond all of them."""
     with working_precision(128):
-        edges = []
-        for p, q, r in ((a, b, c), (b, c, a), (c, a, b)):
-            step, third = q - p, r - p
-            edges.append((to_acb(p), to_acb(Point(step.x, -step.y)), step.x * third.y - step.y * third.x))
-        for root, _ in system.roots("den", 128):
-            sides = (((turn * (root - start)).imag, own) for start, turn, own in edges)
-            if not any((side > 0 and own <= 0) or (side < 0 and own >= 0) for side, own in sides):
-                return False
-    return not system.radius
+        left = [root for root, _ in system.roots("den", 128)]
+        for a, b in combinations(points, 2):
+            for x, y in ((b.x - a.x, b.y - a.y), (a.y - b.y, b.x - a.x)):
+                reach = [x * p.x + y * p.y for p in points]
+                low, high, along, across = map(arb, (min(reach), max(reach), x, y))
+                left = [z for z in left if not (low > (s := along * z.real + across * z.imag) or s > high)]
+    return not left and not system.radius
 
 
 def check_segment(system: System, a: Point, b: Point) -> None:

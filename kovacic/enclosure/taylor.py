@@ -35,7 +35,7 @@ from typing import Any
 from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
 
 from kovacic.enclosure.frame import Frame, Parts, log2, norm
-from kovacic.enclosure.matrices import Matrix, State
+from kovacic.enclosure.matrices import Matrix, State, fundamental
 from kovacic.enclosure.points import Point, floor, to_acb, working_precision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
@@ -147,70 +147,30 @@ def _proven_defect(p: Parts, q: Parts, excess: int, re: list[Any], im: list[Any]
 
 def transition(expansion: Expansion, target: Point) -> Matrix:
     """Enclosure of the transition matrix from the centre to a point of the disc."""
-    frame = expansion.frame
-    with working_precision(expansion.w + 10):
-        exact = frame.seen(target)
-        entries, unit = [], acb(arb((1, -expansion.w)))
-        for column, defect in zip(expansion.columns, expansion.defect, strict=True):
-            value, slope = _values(column, exact)
-            radii = error_radii(arb((defect + 1, -expansion.w)), frame)
-            for number, radius in zip((value, slope), radii, strict=True):
-                ball = arb(0, radius)
-                both = acb(ball) if column[1] is None and exact.is_real() else acb(ball, ball)
-                entries.append(number * unit + both)
-        h = acb(arb((1, frame.e)))
-        y1, d1, y2, d2 = entries
-        return y1, y2 * h, d1 / h, d2
+    first, second = (states_at(expansion, start, [target])[0] for start in ((acb(1), acb(0)), (acb(0), acb(1))))
+    return fundamental(first, second)
 
 
 def states_at(expansion: Expansion, state: State, targets: list[Point]) -> list[State]:
     """The states at points of the disc from the state at the centre."""
     frame = expansion.frame
-    distant = max((log2(abs(to_acb(target)).upper()) for target in (frame.centre, targets[-1])), default=0.0) - frame.e
-    with working_precision(expansion.w + 10 + (int(distant) if distant > 0 else 0)):
-        unit, h, centre = arb((1, -expansion.w)), arb((1, frame.e)), to_acb(frame.centre)
-        factors, total = (state[0] * unit, state[1] * h * unit), acb_poly([])
-        radii = [arb(0), arb(0)]
+    with working_precision(expansion.w + 10):
+        unit, h, us = arb((1, -expansion.w)), arb((1, frame.e)), [frame.seen(target) for target in targets]
+        real = all(v.imag.is_zero() for v in state) and all(u.is_real() for u in us)
+        real, factors = real and all(im is None for _, im in expansion.columns), (state[0], state[1] * h)
+        kind, total, radii = arb_poly if real else acb_poly, (arb_poly if real else acb_poly)([]), [arb(0), arb(0)]
         for (re, im), factor, defect in zip(expansion.columns, factors, expansion.defect, strict=True):
-            total += factor * (acb_poly(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im))
-            errors = error_radii(arb((defect + 1, -expansion.w)), frame)
-            radii = [r + abs(factor / unit).upper() * error for r, error in zip(radii, errors, strict=True)]
-        us = [(to_acb(target) - centre) / h for target in targets]
-        if any(abs(u) > 1 for u in us):
-            raise ArithmeticError("a target lies outside of its disc")
-        real = all(v.imag.is_zero() for v in (*state, *us)) and all(im is None for _, im in expansion.columns)
-        balls = [acb(arb(0, r.upper())) if real else acb(*[arb(0, r.upper())] * 2) for r in radii]
-        values, slopes = (_at_all(poly, us, real) for poly in (total, total.derivative()))
-        return [(y + balls[0], (dy + balls[1]) / h) for y, dy in zip(values, slopes, strict=True)]
-
-
-def _at_all(poly: acb_poly, points: list[acb], real: bool) -> list[acb]:
-    """The values of a polynomial, real where it and the points are."""
-    if not real:
-        found: list[acb] = poly.evaluate(points, algorithm="iter")
-        return found
-    line = arb_poly([v.real for v in poly.coeffs()])
-    return [acb(v) for v in line.evaluate([u.real for u in points], algorithm="iter")]
+            if not factor.is_zero():
+                poly = kind(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im)
+                total += poly * ((factor.real if real else factor) * unit)
+                errors = error_radii(arb((defect + 1, -expansion.w)), frame)
+                radii = [r + abs(factor).upper() * error for r, error in zip(radii, errors, strict=True)]
+        balls = [arb(0, r.upper()) if real else acb(*[arb(0, r.upper())] * 2) for r in radii]
+        points, slope = [u.x if real else to_acb(u) for u in us], total.derivative()
+        return [(acb(total(u) + balls[0]), acb((slope(u) + balls[1]) / h)) for u in points]
 
 
 def error_radii(defect: arb, frame: Frame) -> tuple[arb, arb]:
     """Bounds of |e| and |de/du| in the disc for a defect q Y'' - p Y whose coefficients have the sum `defect`."""
     share = defect / frame.q[0][0]
     return (share * frame.bound.gain).upper(), (share * frame.bound.slope_gain).upper()
-
-
-def _values(column: tuple[fmpz_poly, fmpz_poly | None], u: Point) -> tuple[acb, acb]:
-    """Y(u) and Y'(u) in balls: exact sums for u = +-1, rectangular splitting otherwise."""
-    re, im = column
-    polys = (re, re.derivative()) if im is None else (re, re.derivative(), im, im.derivative())
-    if u.is_real() and abs(u.x) == 1:
-        parts = [p.coeffs() for p in polys]
-        sums = [acb(arb(sum(c[0::2], fmpz(0)) + int(u.x) * sum(c[1::2], fmpz(0)))) for c in parts]
-    elif u.is_real():
-        sums = [acb(arb_poly(p)(to_acb(u).real)) for p in polys]
-    else:
-        sums = [acb_poly(p)(to_acb(u)) for p in polys]
-    if im is None:
-        return sums[0], sums[1]
-    i = acb(0, 1)
-    return sums[0] + i * sums[2], sums[1] + i * sums[3]

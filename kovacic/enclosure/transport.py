@@ -17,16 +17,16 @@ less where the solutions grow by more than a fixed share of the working precisio
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from flint import fmpq
 
 from kovacic.enclosure.frame import Frame, fitting, least_growth, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
-from kovacic.enclosure.points import Point, power_of_two
+from kovacic.enclosure.points import Point, power_of_two, to_double
 from kovacic.enclosure.problem import System, check_segment, distance_lower, is_apart
 from kovacic.enclosure.splitting import is_split, legs
 from kovacic.enclosure.taylor import Expansion, expand, states_at, transition
@@ -57,74 +57,71 @@ class Disc:
     stop: Any
     begin: Point | None
 
-    def serves(self, system: System, a: Point, x: Point) -> bool:
-        """Does the disc carry a solution from a to x as the straight line does?
-
-        It does if x lies in it, and no singular point in the triangle of a, x and `begin`: both ways are homotopic, then.
+    def served(self, system: System, a: Point, targets: Sequence[tuple[int, complex, Point]]) -> Iterator[int]:
+        """The numbers of those targets, given with their doubles, to which the disc carries a solution from a as the straight
+        line does: in it, and without a singular point in the triangle of a, `begin` and the target, so that both ways are
+        homotopic; or the end of the way.
         """
-        if self.begin is None or (x - self.frame.centre).norm_squared() > self.frame.scale**2:
-            return False
-        return self.begin == a or is_apart(system, a, self.begin, x)
+        if self.begin is None:
+            return
+        centre, scale, unit = self.frame.centre, self.frame.scale, math.ldexp(1.0, min(self.frame.e, 1023))
+        corners = (centre + Point(x * scale, y * scale) for x in (1, -1) for y in (1, -1))
+        free, near = self.begin == a or is_apart(system, a, *corners), to_double(centre)
+        for number, place, x in targets:
+            inside = abs(place - near) <= 1.001 * unit and (x - centre).norm_squared() <= scale * scale
+            if inside and (free or (self.stop == 1 and x == self.leave) or is_apart(system, a, self.begin, x)):
+                yield number
 
 
 def piece_matrices(system: System, a: Point, b: Point, prec: int) -> list[Matrix]:
     """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about 2^-prec)."""
-    return [leg.matrix for leg in walk(system, a, [b], prec)]
+    return [leg.matrix for leg in walk(system, a, b, prec)]
 
 
 @dataclass(frozen=True)
 class Leg:
-    """One disc of a way: its matrix, and the points, of those where the solution is asked for, that it serves.
-
-    `expansion` is None where the only such point is the end of the disc.
-    """
+    """One disc of a way: its expansion, or the matrix that came from splitting."""
 
     disc: Disc
-    matrix: Matrix
-    stops: list[Point]
     expansion: Expansion | None
-    to_centre: Matrix | None
+    split: Matrix | None = None
 
-    def states(self, state: State, stops: list[Point]) -> list[State]:
-        """The states at the stops, from the one where the disc is entered: one polynomial for all of them."""
+    @cached_property
+    def to_centre(self) -> Matrix | None:
+        """The matrix from where the disc is entered to its centre; None if that's the same."""
+        assert self.expansion is not None
+        enter = self.disc.enter
+        return None if enter == self.disc.frame.centre else adjugate(transition(self.expansion, enter))
+
+    @cached_property
+    def matrix(self) -> Matrix:
+        """The matrix of the disc."""
         if self.expansion is None:
-            return [apply(self.matrix, state)] * len(stops)
-        here = state if self.to_centre is None else apply(self.to_centre, state)
-        return states_at(self.expansion, here, stops)
+            assert self.split is not None
+            return self.split
+        matrix = transition(self.expansion, self.disc.leave)
+        return matrix if self.to_centre is None else multiply(matrix, self.to_centre)
+
+    def states(self, state: State, targets: list[Point]) -> list[State]:
+        """The states in the disc, from the one where it is entered: one polynomial for all of them."""
+        assert self.expansion is not None
+        return states_at(self.expansion, state if self.to_centre is None else apply(self.to_centre, state), targets)
 
 
-def walk(system: System, a: Point, stops: Sequence[Point], prec: int, *, expanded: bool = False) -> Iterator[Leg]:
-    """The discs of the straight way from a to the last of `stops`; several must lie on the real axis, as a does, in order.
-
-    With `expanded` every leg has its expansion.
-    """
-    begun, number, split = watched_seconds(math.inf), 0, is_split(system, prec // max(1, len(stops))) and not expanded
-    growth = max(_FEWER_BITS, prec * _GROWTH) if len(stops) >= _MANY else None
-    for part in [[stop] for stop in stops] if split else [list(stops)]:
-        b, queue = part[-1], deque(part)
-        for disc in cover(system, a, b, prec, growth):
-            frame, served, ahead = disc.frame, [], b.x > disc.leave.x
-            while queue and (disc.leave == b or (len(queue) > 1 and (queue[0].x <= disc.leave.x) is ahead)):
-                served.append(queue.popleft())
-            expansion: Expansion | None = None
-            if split:
-                start, stop = legs(system, frame, disc.enter, disc.leave, prec)
-            else:
-                expansion = expand(frame, prec)
-                start, stop = (
-                    [] if point == frame.centre else [transition(expansion, point)]
-                    for point in (disc.enter, disc.leave)
-                )
-            back = adjugate(product(start)) if start else None
-            matrix = product(stop) if back is None else multiply(product(stop), back)
-            needed = expanded or any(stop != disc.leave for stop in served)
-            yield Leg(disc, matrix, served, expansion if needed else None, back)
-            number += 1
-            if number == _TRIED:
-                _refuse(system, a, b, prec, begun - watched_seconds(math.inf))
-            if number > _MAX_DISCS:
-                raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
-        a = b
+def walk(system: System, a: Point, b: Point, prec: int, targets: int = 0) -> Iterator[Leg]:
+    """The discs of the straight way from a to b; with so many `targets` beside it none of them is split."""
+    begun, split = watched_seconds(math.inf), is_split(system, prec) and not targets
+    growth = max(_FEWER_BITS, prec * _GROWTH) if targets >= _MANY else None
+    for number, disc in enumerate(cover(system, a, b, prec, growth), 1):
+        if split:
+            start, stop = map(product, legs(system, disc.frame, disc.enter, disc.leave, prec))
+            yield Leg(disc, None, multiply(stop, adjugate(start)))
+        else:
+            yield Leg(disc, expand(disc.frame, prec))
+        if number == _TRIED:
+            _refuse(system, a, b, prec, begun - watched_seconds(math.inf))
+        if number > _MAX_DISCS:
+            raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
 
 
 def _refuse(system: System, a: Point, b: Point, prec: int, used: float) -> None:
