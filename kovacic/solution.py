@@ -279,12 +279,12 @@ class Solution:
         return citation(self, style=style)
 
     def _repr_latex_(self) -> str:
-        from kovacic.views.notebook import latex_view
+        from kovacic.views.text import latex_view
 
         return latex_view(self)
 
     def _repr_html_(self) -> str:
-        from kovacic.views.notebook import html_view
+        from kovacic.views.text import html_view
 
         return html_view(self)
 

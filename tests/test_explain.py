@@ -51,6 +51,11 @@ LONG = [
 ]
 
 
+def succeeds(found: Search) -> bool:
+    """Has a family led to a solution?"""
+    return any(family.P is not None for family in found.families or ())
+
+
 def test_bessel_is_explained() -> None:
     text = kovacic.solve(EQUATIONS[0]).explain()
     for part in (
@@ -129,7 +134,7 @@ def test_the_paper_s_steps_find_what_the_engine_finds(example: strategies.Exampl
     for m in (1, 2, 4, 6, 12):
         found = None if m > 2 and any(place.order > 2 for place in places) else search(answer.S, places, "x", m)
         degree = None if answer.riccati is None else answer.riccati.degree
-        if found is not None and found.found:
+        if found is not None and succeeds(found):
             assert degree == m
         elif (
             found is not None and found.complete and all(f.theta is not None for f in found.families if is_natural(f.d))
@@ -518,7 +523,7 @@ def test_the_steps_agree_with_the_engine_over_larger_fields(text: str, tried: bo
         found = searched(answer, m)
         natural = [family for family in found.families or () if is_natural(family.d)]
         assert found.complete
-        assert found.found == (tried and degree == m)
+        assert succeeds(found) == (tried and degree == m)
         assert all((family.theta is not None) == tried for family in natural if family.P is not None or m == 1)
         for family in natural:
             if m == 1 and family.P is not None:

@@ -65,7 +65,7 @@ def test_a_status_is_equal_to_its_string() -> None:
 def test_a_missing_extra_names_the_command_that_installs_it(missing: str, code: str, extra: str) -> None:
     program = (
         f"import sys; sys.modules[{missing!r}] = None\n"
-        "import kovacic\nfrom kovacic.batch.map import draw_map\nfrom kovacic.batch.scan import parse_grid\n"
+        "import kovacic\nfrom kovacic.batch.scan import draw_map, parse_grid\n"
         "answer = kovacic.solve('x^2 + 3')\n"
         f"try:\n    {code}\nexcept kovacic.MissingExtra as error:\n    print(error)\n"
     )

@@ -3,8 +3,8 @@
 Texts, or files of them, go in; a `Record` with a line of JSON for every one of them comes out.  `records` first: what travels.
 
     files    files into items; the answers   pool     items into records, with limits that hold
-    scan     grids of parameters as items    worker   the process that the pool starts
-    map      a picture of a scan             backends chunks through Dask or Ray
+    scan     grids of parameters, a map      worker   the process that the pool starts
+    backends chunks through Dask or Ray
 
 >>> import kovacic
 >>> [record.case for record in kovacic.solve_many(["x^2 + 3", "x", "-3/(16*x^2) + 1/x"], jobs=1)]

@@ -122,8 +122,7 @@ def scan(
     5 the output can't be written.
     """
     from kovacic.batch.files import Answers
-    from kovacic.batch.map import draw_map
-    from kovacic.batch.scan import columns, parse_grid, row, scan_items
+    from kovacic.batch.scan import columns, draw_map, parse_grid, row, scan_items
 
     grids = [parse_grid(text) for text in ranges]
     if picture is not None and len(grids) != 2:

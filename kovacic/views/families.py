@@ -106,11 +106,6 @@ class Search:
         """Were all families of the paper enumerated, every pole on its own?"""
         return self.families is not None and all(point.count == 1 for point in self.points)
 
-    @property
-    def found(self) -> bool:
-        """Has a family led to a solution?"""
-        return any(family.P is not None for family in self.families or ())
-
 
 def search(S: RatFunc, places: Sequence[Place], variable: str, m: int) -> Search | None:
     """Steps 1 to 3 for omega of degree m; of many families they try those up to the first that succeeds.

@@ -1,4 +1,4 @@
-"""Answers as plain text: one line, or a readable paragraph."""
+"""Answers for a terminal, as one line or a readable paragraph, and for Jupyter, as a formula and a table."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 from kovacic.reading.given import parameters_of
 from kovacic.reading.lexer import is_equation
-from kovacic.views.document import FORMATS
-from kovacic.views.formula import LARGEST_DEGREE, caret, shortened
+from kovacic.views.formula import LARGEST_DEGREE, Math, caret, shortened
 from kovacic.views.sentences import (
     SHORTER,
     equation_of,
@@ -21,11 +20,17 @@ from kovacic.views.sentences import (
     omega_of,
     reason,
     shorter_pair,
+    solutions_of,
     unknown_of,
 )
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
+    from kovacic.views.document import Sentence
+
+#: Longer formulas aren't typeset in a table.
+_LONGEST = 3000
+_NEITHER = {Status.NONE_EXISTS: "no Liouvillian solution", Status.UNDECIDED: "undecided"}
 
 #: Gives a piece of text a role ("good", "bad", "unsure", "title", "faint"): colours on a terminal, nothing elsewhere.
 Style = Callable[[str, str], str]
@@ -141,8 +146,8 @@ def _exclusions(solution: Solution) -> list[str]:
     formulas = formulas_of(solution)
     grouped: dict[tuple[int, str], list[str]] = {}
     for exclusion in solution.proof:
-        sentences = [reason(evidence, formulas) for evidence in exclusion.evidence]
-        reasons = "; ".join(FORMATS["text"].sentence(sentence) for sentence in sentences)
+        parts = (reason(evidence, formulas) for evidence in exclusion.evidence)
+        reasons = "; ".join("".join(p.text if isinstance(p, Math) else p for p in sentence) for sentence in parts)
         grouped.setdefault((exclusion.structure.case, reasons), []).append(exclusion.structure.value)
     lines = []
     for (case, reasons), structures in grouped.items():
@@ -162,3 +167,54 @@ def _how_verified(solution: Solution) -> str:
 
 def _of_degree(degree: int) -> str:
     return "rational" if degree == 1 else f"algebraic of degree {degree}"
+
+
+def latex_view(solution: Solution) -> str:
+    """The equation and, where there are some, two solutions, between dollar signs."""
+    found, _ = _in_time(solution)
+    shorter = shorter_pair(solution, max((len(value.text) for _, value in found), default=0))
+    lines = [equation_of(solution).latex, *(f"{name.latex} = {value.latex}" for name, value in found)]
+    if shorter:
+        lines += [rf"\text{{{SHORTER}}}", *(f"{name.latex} = {value.latex}" for name, value in shorter)]
+    if solution.status in _NEITHER:
+        lines.insert(1, rf"\text{{{_NEITHER[solution.status]}}}")
+    body = r" \\ ".join(lines)
+    return rf"$\displaystyle \begin{{array}}{{l}} {body} \end{{array}}$"
+
+
+def html_view(solution: Solution) -> str:
+    """A table of status, case, group, solutions and check."""
+    from kovacic.views.document import FORMATS, Table
+
+    rows: list[tuple[Sentence, Sentence]] = [(["equation"], [equation_of(solution)])]
+    if solution.equation is not None and not solution.equation.is_normal_form:
+        rows.append((["normal form"], [normal_form(solution)]))
+    words = {
+        Status.LIOUVILLIAN: "Liouvillian solutions exist",
+        Status.NONE_EXISTS: "no Liouvillian solution exists",
+        Status.UNDECIDED: f"undecided: {solution.reason}",
+    }
+    rows.append((["status"], [words[solution.status]]))
+    if solution.case is not None:
+        rows.append((["case"], [str(solution.case)]))
+    if (group := solution.group) is not None:
+        rows.append((["Galois group"], [Math(group.name, group.latex), f", {group.description}"]))
+    found, notes = _in_time(solution)
+    for name, value in found:
+        rows.append(([name], [value if len(value.latex) <= _LONGEST else Math(value.text[:_LONGEST], "")]))
+    rows += [(["note"], [note]) for note in notes]
+    if found and solution.closed_form is not None:
+        rows.append((["solutions checked"], [solution.closed_form.checked]))
+    rows.append((["verified"], ["yes, by independent code" if solution.verified else "no"]))
+    rows += [(["note"], [notice]) for notice in solution.notices]
+    return FORMATS["html"].render([Table((), rows)]).rstrip()
+
+
+def _in_time(solution: Solution) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
+    """Two solutions and notes; where a limit was reached, that."""
+    if solution.status is Status.UNDECIDED:
+        return [], ()
+    try:
+        return solutions_of(solution)
+    except LimitExceeded as limit:
+        return [], (f"the solutions weren't written out: {limit}",)
