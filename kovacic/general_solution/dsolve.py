@@ -30,9 +30,9 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.reading.exponential import in_exponentials, solution_in_terms_of
-from kovacic.reading.from_sympy import function_of
 from kovacic.reading.given import Equation, Parsed, parameters_of
 from kovacic.reading.source import read_source, source_of
+from kovacic.reading.symbolic import function_of
 from kovacic.solution import Solution
 from kovacic.special.answer import special_functions
 from kovacic.views.sentences import SCREEN

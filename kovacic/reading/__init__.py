@@ -5,7 +5,7 @@ constants that occurred, and with what the user should know about how it was rea
 position in the text, what would be too large `LimitExceeded` before it is computed; nothing is ever executed.
 
 `read` is the door: read it first, and then `source`, which every text and SymPy expression goes through.  A text is read by
-`lexer` and `parser`, a SymPy expression is walked by `from_sympy`: both call a reader, which says what numbers, names and calls
+`lexer` and `parser`, a SymPy expression is walked by `symbolic`: both call a reader, which says what numbers, names and calls
 mean: `expression` (S), `equation`, or `symbolic` (SymPy's expressions).  Readers calculate with `arithmetic`, or with `linear`
 where an unknown function or what isn't rational may occur; `exponential` makes exp(k x) a variable; `constants` has the field,
 `given` the results and the names with a meaning.

@@ -52,7 +52,7 @@ class EquationReader(RationalReader):
         """A rational function of x and pi, or of x and e, with that number as a parameter."""
         import sympy
 
-        from kovacic.reading.from_sympy import walked
+        from kovacic.reading.symbolic import walked
 
         powers = {e for e in expression.atoms(sympy.exp) if e.args[0].is_Integer}
         names = {sympy.pi: sympy.Symbol(PI), sympy.E: sympy.Symbol(EULER)}
@@ -84,7 +84,7 @@ class EquationReader(RationalReader):
             raise NotLinear(said, hint=hint, **place)  # type: ignore[arg-type]
         h = None
         if not is_rational(rest):
-            from kovacic.reading.from_sympy import walked
+            from kovacic.reading.symbolic import walked
 
             terms = [(term, walked(term, self)) for term in rest.as_ordered_terms()]
             h = -sum(term for term, value in terms if not is_rational(value)) or None
@@ -94,7 +94,7 @@ class EquationReader(RationalReader):
         return Equation(a, b, c, -r, h, self.variable, y)
 
     def other_leaf(self, node: Any) -> Any:
-        from kovacic.reading.from_sympy import functions_in, walked
+        from kovacic.reading.symbolic import functions_in, walked
 
         if node.is_Derivative:
             if any(s.name != self.variable or not getattr(n, "is_Integer", False) for s, n in node.variable_count):

@@ -41,7 +41,8 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
 
     Raises `NotRational` where x occurs beside exp(k x), or rates whose quotient isn't rational.
     """
-    x, reader = sympy.Symbol(source.variable), _Reader(source.variable, source.unknown, limits, Symbols())  # type: ignore[arg-type]
+    x, reader = sympy.Symbol(source.variable), EquationReader(source.variable, source.unknown, limits, Symbols())  # type: ignore[arg-type]
+    reader.arithmetic.coefficient = lambda expression: expression  # any one
     value = source.walk(reader)
     parts = getattr(value, "parts", {}) if source.unknown else {2: Term(1, 0), 0: reader.arithmetic.negate(value)}
     found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
@@ -229,9 +230,8 @@ def _singular_points(p: RatFunc, q: RatFunc, _: RatFunc) -> int:
 
 def _over_base(*parts: RatFunc) -> Monic:
     """The functions over the field below, if all of them are defined there."""
-    below = [lowered(part) for part in parts]
-    known = {part.field for part in below if part}
-    p, q, f = (over(part, *known) for part in below) if len(known) == 1 else parts
+    known = {lowered(part).field for part in parts if part}
+    p, q, f = (over(lowered(part), *known) for part in parts) if len(known) == 1 else parts
     return p, q, f
 
 
@@ -239,10 +239,3 @@ def _deflated(function: RatFunc, g: int) -> RatFunc:
     """f with function = f(T^g)."""
     num, den = ([poly[i] for i in range(0, poly.degree + 1, g)] for poly in (function.num, function.den))
     return RatFunc(function.field.poly(num), function.field.poly(den), reduced=True)
-
-
-class _Reader(EquationReader):
-    """Reads equations whose coefficients may be any SymPy expressions."""
-
-    def coefficient(self, expression: Any) -> Any:
-        return expression

@@ -58,14 +58,15 @@ def source_of(
     tokens = tokens_of(given, limits, what="the text", hint="give S(x), for example x^2 + 3")
     walk = partial(evaluate, tokens)
     if equation or is_equation(given):
-        return Source(walk, *_names_in_equation(tokens, variable, unknown), given)
+        y = unknown or _unknown_of(tokens)
+        return Source(walk, variable or _variable_of(tokens, y), y, given)
     return Source(walk, _variable_of_S(tokens, variable))
 
 
 def _sympy_source(given: Any, variable: str | None, unknown: Any, equation: bool) -> Source:
     import sympy
 
-    from kovacic.reading.from_sympy import function_of, is_sympy_equation, names_of, walked
+    from kovacic.reading.symbolic import function_of, is_sympy_equation, names_of, walked
 
     if not equation and not is_sympy_equation(given):
         expression = given.as_expr() if isinstance(given, sympy.Poly) else given
@@ -142,12 +143,6 @@ def _variable_of_S(tokens: Tokens, variable: str | None) -> str:
     return variable
 
 
-def _names_in_equation(tokens: Tokens, variable: str | None, unknown: str | None = None) -> tuple[str, str]:
-    """The names of the variable and of the unknown function, as far as they aren't given."""
-    y = unknown or _unknown_of(tokens)
-    return variable or _variable_of(tokens, y), y
-
-
 def _unknown_of(tokens: Tokens) -> str:
     """The name that has primes, or that is differentiated; else y."""
     for kind, piece in zip(tokens.kinds, tokens.pieces, strict=True):
@@ -172,11 +167,11 @@ def _unknown_of(tokens: Tokens) -> str:
 def _variable_of(tokens: Tokens, unknown: str) -> str:
     """The argument of the unknown function, or what is differentiated by; else the only name, or x."""
     kinds = tokens.kinds
+    applied, differentiated = ["HEAD", "LPAR", "NAME", "RPAR"], ["NAME", "COMMA", "NAME"]
     for k in range(len(kinds) - 3):
-        is_unknown = tokens.pieces[k].rstrip(PRIMES) == unknown
-        if is_unknown and kinds[k : k + 4] == ["HEAD", "LPAR", "NAME", "RPAR"]:
-            return tokens.pieces[k + 2]
-        if is_unknown and kinds[k : k + 3] == ["NAME", "COMMA", "NAME"]:
+        if tokens.pieces[k].rstrip(PRIMES) == unknown and (
+            kinds[k : k + 4] == applied or kinds[k : k + 3] == differentiated
+        ):
             return tokens.pieces[k + 2]
     excluded = {*NUMBER_NAMES, ENERGY, unknown, "e"}
     names = [name for name in tokens.names() if name not in excluded]

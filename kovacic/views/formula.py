@@ -71,9 +71,7 @@ class Formulas:
 
     def python(self, function: RatFunc | Poly) -> str:
         """A function or a polynomial in Python's syntax."""
-        if isinstance(function, Poly):
-            return self._renamed(function).to_str(self.variable)
-        return self._both_renamed(function).to_str(self.variable)
+        return self._renamed(function).to_str(self.variable)  # type: ignore[no-any-return]
 
     def place_name(self, place: str) -> str:
         """A factor of the denominator, which evidence has in the engine's variable, in the user's."""
@@ -83,24 +81,22 @@ class Formulas:
         """The inverse of `place_name`."""
         return re.sub(rf"\b{re.escape(self.variable)}\b", _VARIABLE, place)
 
-    def _both_renamed(self, function: RatFunc) -> RatFunc:
-        return RatFunc(self._renamed(function.num), self._renamed(function.den), reduced=True)
-
-    def _renamed(self, polynomial: Poly) -> Poly:
+    def _renamed(self, function: Any) -> Any:
         """The same, its constants printed with `symbol`."""
-        if not isinstance(polynomial, ExtensionPoly):
-            return polynomial
-        field = polynomial.field
-        if field.name != _SYMBOL or self.symbol == _SYMBOL:  # any other name belongs to the field of S
-            return polynomial
-        return ExtensionPoly(AlgebraicField(field.base, field.modulus, self.symbol), polynomial.parts)
+        if isinstance(function, RatFunc):
+            return RatFunc(self._renamed(function.num), self._renamed(function.den), reduced=True)
+        field = function.field
+        # Any other name than the engine's belongs to the field of S.
+        if not isinstance(function, ExtensionPoly) or field.name != _SYMBOL or self.symbol == _SYMBOL:
+            return function
+        return ExtensionPoly(AlgebraicField(field.base, field.modulus, self.symbol), function.parts)
 
     def math(self, function: RatFunc | Poly) -> Math:
         """A function or a polynomial; of one that fills more than some screens, the degrees in place of the formula."""
         function = RatFunc(function) if isinstance(function, Poly) else function
         if _is_long(function):
             return Math(_degrees(function), rf"\text{{{_degrees(function)}}}")
-        renamed = self._both_renamed(function)
+        renamed = self._renamed(function)
         return Math(caret(renamed.to_str(self.variable)), latex_ratfunc(renamed, self.variable))
 
     def factor(self, function: RatFunc | Poly) -> Math:

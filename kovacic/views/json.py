@@ -58,8 +58,6 @@ _ARITHMETIC = Arithmetic(_LIMITS)
 # Stands for a generator such as sqrt(2) where text is read.
 _RADICAL = "radical_"
 
-_DEGREES = (1, 2, 4, 6, 12)
-
 
 def dumps(solution: Solution, *, full: bool = False) -> str:
     """The answer as one line of JSON; `full` adds the group and two solutions in closed form, which have to be computed."""
@@ -263,7 +261,7 @@ class _Reader:
 def _riccati(P: Poly, D: Poly, data: Mapping[str, Any], reader: _Reader) -> RiccatiPolynomial:
     """The numerators A_k with (-1)^k A_k/(P D^k) the coefficient of W^(m-k)."""
     *coefficients, leading = (reader.ratfunc(text) for text in data["coefficients"])
-    if leading != 1 or len(coefficients) != data["degree"] or data["degree"] not in _DEGREES:
+    if leading != 1 or len(coefficients) != data["degree"] or data["degree"] not in (1, 2, 4, 6, 12):
         raise ValueError("the polynomial of omega isn't monic of its degree")
     numerators = [P]
     for k, coefficient in enumerate(reversed(coefficients), start=1):

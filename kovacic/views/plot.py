@@ -11,7 +11,6 @@ and neither the backend nor the state of pyplot is touched.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -24,7 +23,6 @@ from kovacic.enclosure.precision import Evaluation
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError
-from kovacic.limits import Limits
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,21 +40,10 @@ class Samples:
 
 
 def sample(
-    equation: object,
-    start: object,
-    stop: object,
-    *,
-    x0: object | None = None,
-    y0: object = 1,
-    dy0: object = 0,
-    which: str | None = None,
-    frobenius: Sequence[object] | None = None,
-    points: int = 400,
-    digits: int = 8,
-    limits: Limits | None = None,
+    equation: object, start: object, stop: object, *, x0: object | None = None, points: int = 400, **options: Any
 ) -> Samples:
     """Enclosures at about `points` points of [start, stop]; x0 is the middle of the longest regular interval by default,
-    and real.  `which` and `frobenius` as for `evaluate`.
+    and real.  `y0` = 1, `dy0` = 0, `which`, `frobenius`, `digits` = 8 and `limits` as for `evaluate`.
 
     Raises InputError if start isn't below stop, and what `evaluate` raises.
     """
@@ -77,33 +64,16 @@ def sample(
         longest = max(longest, (first, last), key=lambda interval: interval[1] - interval[0])
         count = max(2, round(points * (last - first) / (b.re - a.re)))
         grids.append([first + (last - first) * Fraction(k, count - 1) for k in range(count)] if left < right else [])
-    given = which is None and frobenius is None
-    states = iter(
-        evaluate_states(
-            problem,
-            list(itertools.chain(*grids)),
-            x0=sum(longest) / 2 if x0 is None else x0,
-            y0=y0 if given else None,
-            dy0=dy0 if given else None,
-            which=which,
-            frobenius=frobenius,
-            digits=digits,
-            path="above",
-            limits=limits,
-        )
-    )
+    initial = {"y0": 1, "dy0": 0} if options.get("which") is options.get("frobenius") is None else {}
+    options = {"digits": 8, **initial, **(options if initial else options | {"y0": None, "dy0": None})}
+    middle = sum(longest) / 2 if x0 is None else x0
+    states = iter(evaluate_states(problem, list(itertools.chain(*grids)), x0=middle, path="above", **options))
     runs = (tuple(itertools.islice(states, len(grid))) for grid in grids if grid)
     return Samples(tuple(runs), tuple(map(complex, singular)))
 
 
 def plot(
-    equation: object,
-    start: object,
-    stop: object,
-    *,
-    title: str | None = None,
-    output: str | Path | None = None,
-    **options: Any,
+    equation: object, start: object, stop: object, *, title: str = "", output: str | Path | None = None, **options: Any
 ) -> Figure:
     """A figure with the real part over [start, stop], and the imaginary part unless it can't be told from zero; saved to
     `output` if given.
@@ -120,13 +90,11 @@ def plot(
     axes = figure.add_subplot()
     _curves(axes, samples)
     low, high = float(as_point(start, "from").re), float(as_point(stop, "to").re)
-    label: str | None = "singular point"
-    for z in samples.singular:
-        if z.imag == 0 and low <= z.real <= high:
-            axes.axvline(z.real, color="C3", linestyle="--", linewidth=1, label=label)
-            label = None
+    marked = [z.real for z in samples.singular if z.imag == 0 and low <= z.real <= high]
+    for k, z in enumerate(marked):
+        axes.axvline(z, color="C3", linestyle="--", linewidth=1, label=None if k else "singular point")
     _limit_height(axes, samples)
-    axes.set(xlim=(low, high), xlabel="x", ylabel="y", title=title or "")
+    axes.set(xlim=(low, high), xlabel="x", ylabel="y", title=title)
     axes.axhline(0, color="0.8", linewidth=0.8, zorder=0)
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="best", frameon=False)
@@ -137,8 +105,7 @@ def plot(
 
 
 def _png(figure: Figure) -> bytes:
-    file = BytesIO()
-    figure.savefig(file, format="png")
+    figure.savefig(file := BytesIO(), format="png")
     return file.getvalue()
 
 
