@@ -118,7 +118,7 @@ FAULTS = [
         "the branch",
         classical,
         "_followed",
-        lambda p, a, b: (acb(classical._at(p, b)) / classical._at(p, a)).log(),
+        lambda p, a, b: (acb(classical.value_at(p, b)) / classical.value_at(p, a)).log(),
         "Airy",
     ),
     ("the slit", classical, "_avoids", lambda form, a, b, needed: None, "Gauss"),

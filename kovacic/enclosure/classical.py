@@ -26,7 +26,7 @@ from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.enclosure.classical_functions import Form, choice_at, form_of, is_integer, rational
+from kovacic.enclosure.classical_functions import Form, choice_at, form_of, is_integer, rational, value_at
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.exponential import rational_log_derivative
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
@@ -208,9 +208,9 @@ class Solutions:
         logs = [_followed(poly, self.point, x) for poly, *_ in self.factors]
         if x != self.point:
             _avoids(form, self.point, x, needed[::-1])
-        n, d = _at(form.n, x), _at(form.d, x)
-        slope = acb((_at(form.n.derivative(), x) - n / d * _at(form.d.derivative(), x)) / d)
-        rates = [acb(_at(derivative, x) / _at(poly, x)) for poly, derivative, _ in self.factors]
+        n, d = value_at(form.n, x), value_at(form.d, x)
+        slope = acb((value_at(form.n.derivative(), x) - n / d * value_at(form.d.derivative(), x)) / d)
+        rates = [acb(value_at(derivative, x) / value_at(poly, x)) for poly, derivative, _ in self.factors]
         found = []
         for i, (E, dE) in enumerate(form.values(acb(n / d), needed)):
             exponents = [powers[i] for _, _, powers in self.factors]
@@ -246,35 +246,27 @@ def _finite(matrix: Matrix) -> Matrix:
     return matrix
 
 
-def _at(poly: fmpq_poly, x: Point) -> Any:
-    """The value: a rational number at a rational point, else a ball."""
-    return poly(x.x) if x.is_real() else acb_poly(poly)(to_acb(x))
-
-
 def _followed(poly: fmpq_poly, a: Point, b: Point) -> acb:
     """The logarithm of p(b)/p(a) that is continued from 0 along the segment; raises NotServed if p may have a zero there.
 
-    On each of the pieces the real part of p over its value at the start of the piece is positive: the principal logarithms of
-    the quotients are continuous and add up to the logarithm.  So its imaginary part is known to a few digits, and which
-    multiple of pi i is to be added to the principal logarithm of p(b)/p(a) or of its negative.
+    The quotients (x - zeta)/(a - zeta) run along straight lines from 1, so their principal logarithms are the continuous ones
+    and add up to the logarithm.  So its imaginary part is known to a few digits, and which multiple of pi i is to be added to
+    the principal logarithm of p(b)/p(a) or of its negative.
     """
-    if poly.degree() < 1:
-        return acb(0)
-    start = _at(poly, a)
+    start = value_at(poly, a)
     if start == 0:
         raise NotServed
-    ratio = acb(_at(poly, b) / start)
-    if poly.degree() == 1:  # the quotient runs along a straight line from 1
+    ratio = acb(value_at(poly, b) / start)
+    if poly.degree() == 1:
         if not _off(ratio):
             raise NotServed
         return ratio.log()
-    balls = acb_poly(poly)
     with working_precision(_BITS):
-
-        def quotient(x: acb, left: acb) -> acb | None:
-            return acb(1) if (balls(x) / balls(left)).real > 0 else None
-
-        angle = sum(((balls(end) / balls(left)).log().imag for left, end in _pieces(a, b, quotient)), arb(0))
+        x, y, zeros = to_acb(a), to_acb(b), System((), tuple(map(int, poly.numer().coeffs()))).roots("den", _BITS)
+        quotients = [((y - zeta) / (x - zeta), k) for zeta, k in zeros]
+        if not all(_off(quotient) for quotient, _ in quotients):
+            raise NotServed
+        angle = sum((quotient.log().imag * k for quotient, k in quotients), arb(0))
     back = ratio.real.mid() < 0
     log = (-ratio if back else ratio).log()
     turns = ((angle - log.imag) / arb.pi()).unique_fmpz()
@@ -283,24 +275,20 @@ def _followed(poly: fmpq_poly, a: Point, b: Point) -> acb:
     return log + acb(0, arb.pi() * turns) if turns else log
 
 
-def _pieces(a: Point, b: Point, allowed: Callable[[acb, acb], Any]) -> list[tuple[acb, acb]]:
-    """The ends of pieces of the segment for whose balls the condition holds, given the ball and the start of the piece.
-
-    Raises NotServed where a bounded number of pieces isn't enough.
-    """
-    start, step = to_acb(a), to_acb(b - a)
-    waiting, done = [(0, 0)], []  # k and depth: the piece from k/2^depth to (k + 1)/2^depth
-    while waiting:
+def _check_pieces(a: Point, b: Point, allowed: Callable[[acb], bool]) -> None:
+    """Raise NotServed unless the condition holds on the balls of a bounded number of pieces of the segment."""
+    start, step, waiting = (
+        to_acb(a),
+        to_acb(b - a),
+        [(0, 0)],
+    )  # k and depth: the piece from k/2^depth to (k + 1)/2^depth
+    for _ in range(_PIECES):
         k, depth = waiting.pop()
-        left, right = (start + step * acb(arb((k + j, -depth))) for j in (0, 1))
-        ball = start + step * acb(arb((2 * k + 1, -depth - 1), (1, -depth - 1)))
-        if allowed(ball, left):
-            done.append((left, right))
-        elif len(waiting) + len(done) > _PIECES or depth > _PIECES:
-            raise NotServed
-        else:
+        if not allowed(start + step * acb(arb((2 * k + 1, -depth - 1), (1, -depth - 1)))):
             waiting += [(2 * k + 1, depth + 1), (2 * k, depth + 1)]
-    return done
+        if not waiting:
+            return
+    raise NotServed
 
 
 def _off(z: acb) -> bool:
@@ -324,8 +312,8 @@ def _avoids(form: Form, a: Point, b: Point, needed: Sequence[bool]) -> None:
             continue
         over, under = acb_poly(top), acb_poly(form.d)
         with working_precision(_BITS):
-            _pieces(a, b, partial(_misses, over, under, acb(c)))
+            _check_pieces(a, b, partial(_misses, over, under, acb(c)))
 
 
-def _misses(over: acb_poly, under: acb_poly, c: acb, x: acb, _left: acb) -> bool:
+def _misses(over: acb_poly, under: acb_poly, c: acb, x: acb) -> bool:
     return _off(c * over(x) / under(x))

@@ -20,13 +20,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import acb, arb, fmpq, fmpq_poly
+from flint import acb, acb_poly, arb, fmpq, fmpq_poly
 from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import Point
+from kovacic.enclosure.points import Point, to_acb
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 
 Solution = Callable[["acb"], "State"]  # E and E' at z
@@ -83,13 +83,18 @@ def is_integer(number: Any) -> bool:
 def choice_at(pullback: Pullback, a: Point) -> int:
     """Which of the coordinates z, 1 - z, 1/z, ... of Gauss' equation is the smallest at a: there z is between 0 and 1/2 where f
     is real.  For Confluent equations whether Re f(a) < 0: -f is taken, by the symmetry z -> -z, r -> -r."""
+    n, d = (value_at(part, a) for part in _parts(pullback.f))
+    if isinstance(pullback.equation, Confluent):
+        return int(bool(acb(n / d).real < 0)) if d != 0 else 0
     if isinstance(pullback.equation, Airy):
         return 0
-    n, d = _parts(pullback.f)
-    if isinstance(pullback.equation, Confluent):
-        return int((n(a.x) * d(a.x) if a.is_real() else _value(n, d, a).x) < 0)
-    maps = [(k, top, bottom) for k, (top, bottom, *_) in enumerate(_maps(n, d, 0, 0, 0)) if _at(bottom, a) != Point(0)]
-    return min(maps, key=lambda m: _value(m[1], m[2], a).norm_squared())[0]
+    sizes = [(abs(acb(top / bottom)), k) for k, (top, bottom, *_) in enumerate(_maps(n, d, 0, 0, 0)) if bottom != 0]
+    return min(sizes, key=lambda item: float(item[0]))[1]
+
+
+def value_at(poly: fmpq_poly, x: Point) -> Any:
+    """A rational number at a rational point, else a ball."""
+    return poly(x.x) if x.is_real() else acb_poly(poly)(to_acb(x))
 
 
 def form_of(pullback: Pullback, choice: int) -> Form:
@@ -132,22 +137,6 @@ def _confluent(equation: Confluent, n: fmpq_poly, d: fmpq_poly, sign: int) -> Fo
     upper = (_HALF + mu, 0)
     lower = (_HALF - mu, 0) if slit is None else (_HALF, 0) if r == 0 or q == 0 else upper
     return Form(n, d, (upper, lower), _each(*solutions), (slit, None))
-
-
-def _value(n: fmpq_poly, d: fmpq_poly, a: Point) -> Point:
-    """f(a), exactly; 0 at a pole."""
-    top, bottom = (_at(p, a) for p in (n, d))
-    size = bottom.norm_squared()
-    return Point(0) if size == 0 else (top * Point(bottom.x, -bottom.y)).scaled(1 / size)
-
-
-def _at(poly: fmpq_poly, a: Point) -> Point:
-    if a.is_real():
-        return Point(poly(a.x))
-    total = Point(0)
-    for c in reversed(poly.coeffs()):
-        total = total * a + Point(c)
-    return total
 
 
 def _bessel(q: Any, r: Any, order: Any) -> tuple[tuple[Solution, Solution], Any]:
@@ -202,7 +191,7 @@ def _whittaker(q: Any, r: Any, mu: Any) -> tuple[tuple[Solution, Solution], Any]
     return (first(mu), second), rho
 
 
-def _maps(n: fmpq_poly, d: fmpq_poly, A: Any, B: Any, C: Any) -> list[tuple[fmpq_poly, fmpq_poly, Any, Any, Any]]:
+def _maps(n: Any, d: Any, A: Any, B: Any, C: Any) -> list[tuple[Any, Any, Any, Any, Any]]:
     """z = n/d, 1 - z, 1/z, z/(z - 1), 1/(1 - z) and (z - 1)/z, with what belongs to their points 0, 1 and infinity."""
     return [
         (n, d, A, B, C),
