@@ -242,6 +242,28 @@ def test_traces_come_out_of_the_exponents(S: str) -> None:
         assert (local.trace is None) == (local.multiplicity > 2)
 
 
+@pytest.mark.parametrize(
+    ("S", "params"),
+    [
+        ("sqrt(2)/(x^2*(x-1))", None),
+        ("-3/(16*(x-sqrt(2))^2) - 3/(16*(x-1)^2) + sqrt(2)/((x-sqrt(2))*(x-1))", None),
+        ("n/x^2 + 1/(x-m)^2", {"n": "sqrt(3)", "m": "pi"}),
+    ],
+)
+def test_monodromy_where_constants_are_irrational(S: str, params: Any) -> None:
+    found = monodromy(S, params=params)
+    assert len(found) == 2
+    assert all(local.consistent and local.trace is not None and local.trace.radius < 1e-15 for local in found)
+
+
+def test_the_group_of_an_equation_with_an_algebraic_constant_agrees() -> None:
+    (local,) = monodromy("-3/(16*(x-sqrt(2))^2)")  # the double pole is one of multiplicity 2, not two beside each other
+    assert local.multiplicity == 2
+    assert [k for k in range(1, 9) if local.is_identity_to_the_power(k)] == [4, 8]
+    assert kovacic.solve("-3/(16*(x-sqrt(2))^2)").compare_with_monodromy().verdict is True
+    assert agrees_with_group(kovacic.solve("-3/(16*(x-sqrt(2))^2)"), claimed(Kind.CYCLIC, 2)).verdict is False
+
+
 def test_a_logarithm_has_infinite_order_and_a_polynomial_has_no_monodromy() -> None:
     (local,) = monodromy("-1/(4*x^2)")
     assert not any(local.is_identity_to_the_power(k) for k in range(1, 30))
@@ -302,7 +324,7 @@ FINITE += [claimed(kind) for kind in (Kind.TETRAHEDRAL, Kind.OCTAHEDRAL, Kind.IC
 @pytest.mark.parametrize("name", sorted(GROUPS))
 def test_a_wrong_finite_group_is_disproved(name: str) -> None:
     S = published_S(GROUPS[name])
-    matrices, fuchsian = monodromy(S), is_fuchsian(as_problem(S).system)
+    matrices, fuchsian = monodromy(S), is_fuchsian(as_problem(S))
     for group in FINITE:
         if str(group) != name:
             assert compare(matrices, group, fuchsian).verdict is False, str(group)

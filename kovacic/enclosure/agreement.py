@@ -31,7 +31,7 @@ from flint import acb, acb_mat, arb, fmpq
 
 from kovacic.enclosure.monodromy import LocalMonodromy, monodromy
 from kovacic.enclosure.points import working_precision
-from kovacic.enclosure.problem import System, as_problem
+from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.errors import InputError
 from kovacic.galois import Group, Kind
 from kovacic.limits import Limits
@@ -79,17 +79,16 @@ def agrees_with_group(
     group = solution.group if group is None else group
     if group is None:
         raise InputError("the equation is undecided, so there is no group to compare with")
-    system = as_problem(solution).system
-    fuchsian = is_fuchsian(system)
+    fuchsian = is_fuchsian(as_problem(solution, constants=True))
     if not fuchsian and group.finite:
         return Agreement(False, "an irregular singular point makes the group infinite")
     return compare(monodromy(solution, digits=digits, limits=limits), group, fuchsian)
 
 
-def is_fuchsian(system: System) -> bool:
+def is_fuchsian(problem: NumericProblem) -> bool:
     """Are all singular points, with infinity, regular?"""
-    regular = all(multiplicity <= 2 for _, multiplicity in system.roots("den", 64))
-    return regular and (not system.num or len(system.num) - len(system.den) <= -2)
+    num, den = problem.system.num, problem.system.den
+    return all(multiplicity <= 2 for _, multiplicity in problem.poles(64)) and (not num or len(num) - len(den) <= -2)
 
 
 def compare(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> Agreement:

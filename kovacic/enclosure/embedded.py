@@ -17,14 +17,15 @@ from typing import Any
 from flint import acb, acb_poly, arb, arb_poly, ctx
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
+from kovacic.algebra.factors import squarefree_factors
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.enclosure.constants import Number, to_ball
-from kovacic.enclosure.exponential import integral
+from kovacic.enclosure.exponential import integral, sharp_roots
 from kovacic.enclosure.points import floor, working_precision
-from kovacic.errors import InputError
+from kovacic.errors import InputError, LimitExceeded
 
 # Bits beyond twice the precision to which the constants are known: the solutions grow in a disc, and poles may be near
 _EXTRA = 256
@@ -56,6 +57,20 @@ class Embedded:
             pairs = (pair for part, ints in zip(scaled, whole, strict=True) for pair in zip(part, ints, strict=True))
             radius = max((floor(abs(c - n).upper()) + 1 for c, n in pairs), default=0)
             return tuple(whole[0]), tuple(whole[1]), radius
+
+    def polynomials(self) -> tuple[acb_poly, acb_poly]:
+        """Numerator and denominator of S, at the working precision in force."""
+        return self._embed(self.S.num), self._embed(self.S.den)
+
+    def poles(self) -> list[tuple[acb, int]]:
+        """Those of S with their exact multiplicities; raises LimitExceeded where they can't be told apart."""
+        found = []
+        for factor, k in squarefree_factors(self.S.den):
+            roots = sharp_roots(self._embed(factor)) if factor.degree else []
+            if len(roots) < factor.degree:
+                raise LimitExceeded("the singular points can't be told apart at this precision", limit="digits")
+            found += [(root, k) for root in roots]
+        return found
 
     def growth_of(self, function: RatFunc) -> EmbeddedGauge:
         """The gauge at the working precision in force."""

@@ -14,19 +14,19 @@ Reference: M. van der Put and M. F. Singer, "Galois Theory of Linear Differentia
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from flint import acb, acb_mat, acb_poly, arb, fmpq
+from flint import acb, acb_mat, arb, fmpq
 
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint, finite_ball
 from kovacic.enclosure.frobenius import Basis, junction
 from kovacic.enclosure.journey import Traveller
 from kovacic.enclosure.matrices import Matrix, fundamental, inverse, multiply
-from kovacic.enclosure.points import Point, as_point, power_of_two, to_acb, working_precision
+from kovacic.enclosure.points import Point, as_point, midpoint, power_of_two, to_acb, working_precision
 from kovacic.enclosure.precision import check_digits, start_bits
-from kovacic.enclosure.problem import NumericProblem, System, as_problem
+from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import place_of
 from kovacic.errors import InputError, LimitExceeded
@@ -171,19 +171,21 @@ def monodromy(
     (['0.666667', '0.333333'], '-1.000000', True)
     """
     limits = limits or DEFAULT_LIMITS
-    system = as_problem(equation, params).system
+    given = as_problem(equation, params, constants=True)
+    constants = given.embedded and replace(given.embedded, gauge=None)
+    problem = NumericProblem(given.system, embedded=constants)
     budget = Budget(limits)
     result = []
-    for loop, z in _loops(_places(system)):
+    for loop, z in _loops(_places(problem)):
         budget.check()
-        matrix = connection_matrix(system, loop, digits=digits, limits=budget.share(1).limits)
-        result.append(_local(system, z, loop, matrix, digits))
+        matrix = connection_matrix(problem, loop, digits=digits, limits=budget.share(1).limits)
+        result.append(_local(problem, z, loop, matrix, digits))
     return tuple(result)
 
 
-def _places(system: System) -> list[tuple[Point, Any]]:
+def _places(problem: NumericProblem) -> list[tuple[Point, Any]]:
     """Rational approximations of the singular points, each with half the distance to its neighbour (1 if alone)."""
-    points, places = system.singular_points(64), []
+    points, places = [midpoint(root) for root, _ in problem.poles(64)], []
     for i, p in enumerate(points):
         gap = min([fmpq(2), *(_root_below((p - q).norm_squared()) for j, q in enumerate(points) if j != i)])
         places.append((p.rounded(gap.p.bit_length() - gap.q.bit_length() - 8), gap / 2))
@@ -239,17 +241,19 @@ def _distance_below(point: Point, a: Point, b: Point) -> Any:
     return _root_below((offset - step.scaled(min(max(t, fmpq(0)), fmpq(1)))).norm_squared())
 
 
-def _local(system: System, z: Point, loop: tuple[Point, ...], matrix: BallMatrix, digits: int) -> LocalMonodromy:
+def _local(
+    problem: NumericProblem, z: Point, loop: tuple[Point, ...], matrix: BallMatrix, digits: int
+) -> LocalMonodromy:
     prec = int(digits * 3.33) + 60
     with working_precision(prec):
         near = to_acb(z)
-        root, multiplicity = min(system.roots("den", prec), key=lambda item: float((item[0] - near).abs_upper()))
+        root, multiplicity = min(problem.poles(prec), key=lambda item: float((item[0] - near).abs_upper()))
         exponents = trace = None
         if multiplicity <= 2:
             b = acb(0)
             if multiplicity == 2:  # b = num/(den''/2) at the double zero
-                den = acb_poly(list(system.den)).derivative().derivative()
-                b = 2 * acb_poly(list(system.num))(root) / den(root)
+                num, den = problem.polynomials()
+                b = 2 * num(root) / den.derivative().derivative()(root)
             s = (arb(1) / 4 + b).sqrt()
             exponents = (finite_ball(arb(1) / 2 + s), finite_ball(arb(1) / 2 - s))
             trace = finite_ball(-2 * (2 * s).cos_pi())

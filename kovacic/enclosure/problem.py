@@ -16,7 +16,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import combinations
 
-from flint import acb, arb, fmpq_poly, fmpz_poly
+from flint import acb, acb_poly, arb, fmpq_poly, fmpz_poly
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
@@ -140,6 +140,19 @@ class NumericProblem:
         num, den, radius = self.embedded.coefficients(prec)
         sign = -1 if den[-1] < 0 else 1
         return replace(self, system=System(tuple(sign * c for c in num), tuple(sign * c for c in den), radius))
+
+    def poles(self, prec: int) -> Zeros:
+        """Enclosures of the poles of S at about `prec` bits, with their multiplicities."""
+        if self.embedded is None:
+            return self.system.roots("den", prec)
+        with working_precision(2 * prec):
+            return tuple(self.embedded.poles())
+
+    def polynomials(self) -> tuple[acb_poly, acb_poly]:
+        """Numerator and denominator of S, at the working precision in force."""
+        if self.embedded is not None:
+            return self.embedded.polynomials()
+        return acb_poly(list(self.system.num)), acb_poly(list(self.system.den))
 
     def singular_points(self, prec: int) -> list[Point]:
         """Those of the system and the poles of the gauge, as `System.singular_points` gives them."""
