@@ -1,8 +1,12 @@
-"""`kovacic ball` without the motion, and what the ball's constructors refuse."""
+"""`kovacic ball`, the motion included, and what the ball's constructors refuse."""
 
 from __future__ import annotations
 
 import json
+import signal
+import subprocess
+import sys
+import time
 
 import pytest
 import sympy as sp
@@ -172,3 +176,101 @@ def test_bodies_refuse_what_is_not_exact_real_and_finite(value):
             Ball(**{**possible, name: value})
     with pytest.raises(InputError):
         Ball(**possible).on_sphere(value)
+
+
+_BODY = ("--mass", "1", "--radius", "1", "--offset", "1/5", "--A1", "1/4", "--A3", "1/3")
+
+
+def simulated(run, *arguments):
+    status, output = run(*arguments, "--simulate", "--json")
+    assert status == 0, output.err
+    return json.loads(output.out)["motion"]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        (*_BODY, "--sphere", "3", "--start", "1.41", "0.07", "0.85", "-0.14"),
+        (*_BODY, "--sphere", "-11/10"),
+        (*_BODY, "--sphere", "3", "--start", "3.1415", "0", "0", "0"),
+        (*_BALL, "--start", "0.71", "-0.05", "0.17", "1.64"),
+        (*_BODY, "--sphere", "3", "--start", "1", "0", "0", "0"),
+        (*_BODY, "--sphere", "3", "--start", "1", "0", "0", "1e-6"),
+        (*_BODY, "--sphere", "3", "--time", "3000"),
+        (*_BODY, "--sphere", "plane", "--start", "0", "1", "1", "1"),
+        (*_BODY, "--sphere", "-4", "--potential", "3/2*cos(u)", "--time", "sqrt(5)"),
+    ],
+)
+def test_command_follows_every_start(run, arguments):
+    motion = simulated(run, *arguments)
+    assert max(motion["difference"].values()) < 1e-11
+    assert motion["energy_drift"] < 1e-11
+
+
+def test_command_says_what_happens(run, tmp_path):
+    picture = tmp_path / "path.png"
+    status, output = run(*_BODY, "--sphere", "3", "--time", "4", "--plot", str(picture))
+    assert status == 0
+    for label in ("potential:", "turning points:", "period:", "normal reaction:", "energy drift:", "picture:"):
+        assert f"\n{label}" in output.out
+    assert "pull" not in output.out
+    assert picture.stat().st_size > 20_000
+    _, output = run(*_BODY, "--sphere", "3", "--time", "4", "--start", "1", "5", "0", "0", "--simulate")
+    assert "from t = 0 on it has to pull" in output.out
+    _, output = run(*_BODY, "--sphere", "3", "--start", "0", "0", "0", "5", "--simulate")
+    assert "steady motion:      u = 0 stays constant" in output.out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--potential", "cos(w)"), "can't contain w"),
+        (("--time", "nan"), "can't contain nan"),
+        (("--time", "-1"), "must be positive"),
+        (("--start", "inf", "1", "1", "1"), "can't contain inf"),
+        (("--start", "4", "1", "1", "1"), "between 0 and pi"),
+        (("--start", "1", "1e60", "1", "1"), "can start with"),
+        (("--potential", "cos(u)", "--gravity", "1"), "either --gravity"),
+        (("--plot", "a.gif"), "isn't one of"),
+        (("--plot", "/nowhere/a.png"), "there is no directory"),
+    ],
+)
+def test_simulation_refuses(run, arguments, message):
+    status, output = run(*_BALL, "--simulate", *arguments)
+    assert status == 2
+    assert message in output.err
+
+
+def test_simulation_refuses_what_would_take_too_long(run):
+    status, output = run(*_BALL, "--simulate", "--time", "1e9")
+    assert status == 3
+    assert "100000 oscillations" in output.err
+
+
+def test_ctrl_c_during_a_simulation_is_status_130_and_leaves_no_picture(tmp_path):
+    """A run of minutes, interrupted when it has begun to integrate; an older picture stays what it was."""
+    picture, started = tmp_path / "path.png", tmp_path / "started"
+    picture.write_bytes(b"an older one")
+    script = f"""
+import sys
+from pathlib import Path
+from kovacic.cli import main
+from kovacic.ball import motion
+solve_motion = motion.solve_motion
+def marked(*arguments, **options):
+    Path({str(started)!r}).touch()
+    return [solve_motion(*arguments, **options) for _ in range(10000)]
+motion.solve_motion = marked
+main.main(sys.argv[1:])
+"""
+    arguments = ["ball", *_BODY, "--sphere", "3", "--simulate", "--time", "500", "--plot", str(picture)]
+    process = subprocess.Popen(
+        [sys.executable, "-c", script, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    while process.poll() is None and not started.exists():
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=60)
+    assert (process.returncode, output, errors) == (130, "", "kovacic: interrupted\n")
+    assert picture.read_bytes() == b"an older one"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["path.png", "started"]

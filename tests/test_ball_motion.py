@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import signal
-import subprocess
-import sys
-import time
 from dataclasses import astuple, replace
 from fractions import Fraction
 
@@ -19,8 +14,8 @@ from ball_quadratures import quadratures
 from numpy.polynomial import chebyshev
 
 from kovacic.ball import Ball, U
-from kovacic.ball.dynamics import Dynamics, Force, potential_of
-from kovacic.ball.motion import State, as_float, solve_motion
+from kovacic.ball.dynamics import Dynamics, Force, as_float, potential_of
+from kovacic.ball.motion import State, solve_motion
 from kovacic.ball.plot import draw
 from kovacic.errors import InputError, LimitExceeded
 
@@ -343,7 +338,7 @@ def test_what_is_refused():
     for wrong in (-0.1, 3.2):
         with pytest.raises(InputError, match="between 0 and pi"):
             solve_motion(SPHERE, replace(START, u=wrong))
-    with pytest.raises(InputError, match="depends on u alone"):
+    with pytest.raises(InputError, match="the potential can't contain q"):
         solve_motion(SPHERE, START, potential=sp.Symbol("q") * sp.cos(U))
     symbolic = Ball(m=sp.Symbol("m"), R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
     with pytest.raises(InputError, match="numbers are needed"):
@@ -399,7 +394,7 @@ def test_work_is_bounded(monkeypatch):
 )
 def test_potentials_that_are_refused(potential, message):
     with pytest.raises(InputError, match=message):
-        Force.of(potential)
+        Force.of(potential_of(potential))
 
 
 @pytest.mark.parametrize("potential", ["9^9^9", "1e999", "(9^99)^99", "+".join(["cos(u)"] * 200)])
@@ -413,7 +408,7 @@ def test_potentials_that_are_too_large(potential):
     [sp.Function("f")(U), sp.Function("exit")(U), sp.Abs(sp.cos(U)), sp.Integral(sp.cos(U), U), sp.zoo, sp.oo, sp.nan],
 )
 def test_potentials_that_are_not_elementary(potential):
-    with pytest.raises(InputError, match="elementary"):
+    with pytest.raises(InputError, match="the potential can't contain"):
         potential_of(potential)
 
 
@@ -498,114 +493,3 @@ def test_a_picture_is_written_whole_or_not_at_all(tmp_path, monkeypatch):
     draw(motion, times, picture)
     assert picture.read_text(encoding="utf-8").startswith("<?xml")
     assert [path.name for path in tmp_path.iterdir()] == ["path.svg"]
-
-
-_UNIT = ("--mass", "1", "--radius", "1")
-_BALL = (*_UNIT, "--sphere", "3")
-_BODY = (*_UNIT, "--offset", "1/5", "--A1", "1/4", "--A3", "1/3")
-
-
-@pytest.fixture
-def run(capsys):
-    from kovacic.cli.main import run as command_line
-
-    def call(*arguments):
-        status = command_line(["ball", *arguments])
-        return status, capsys.readouterr()
-
-    return call
-
-
-def simulated(run, *arguments):
-    status, output = run(*arguments, "--simulate", "--json")
-    assert status == 0, output.err
-    return json.loads(output.out)["motion"]
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        (*_BODY, "--sphere", "3", "--start", "1.41", "0.07", "0.85", "-0.14"),
-        (*_BODY, "--sphere", "-11/10"),
-        (*_BODY, "--sphere", "3", "--start", "3.1415", "0", "0", "0"),
-        (*_BALL, "--start", "0.71", "-0.05", "0.17", "1.64"),
-        (*_BODY, "--sphere", "3", "--start", "1", "0", "0", "0"),
-        (*_BODY, "--sphere", "3", "--start", "1", "0", "0", "1e-6"),
-        (*_BODY, "--sphere", "3", "--time", "3000"),
-        (*_BODY, "--sphere", "plane", "--start", "0", "1", "1", "1"),
-        (*_BODY, "--sphere", "-4", "--potential", "3/2*cos(u)", "--time", "sqrt(5)"),
-    ],
-)
-def test_command_follows_every_start(run, arguments):
-    motion = simulated(run, *arguments)
-    assert max(motion["difference"].values()) < 1e-11
-    assert motion["energy_drift"] < 1e-11
-
-
-def test_command_says_what_happens(run, tmp_path):
-    picture = tmp_path / "path.png"
-    status, output = run(*_BODY, "--sphere", "3", "--time", "4", "--plot", str(picture))
-    assert status == 0
-    for label in ("potential:", "turning points:", "period:", "normal reaction:", "energy drift:", "picture:"):
-        assert f"\n{label}" in output.out
-    assert "pull" not in output.out
-    assert picture.stat().st_size > 20_000
-    _, output = run(*_BODY, "--sphere", "3", "--time", "4", "--start", "1", "5", "0", "0", "--simulate")
-    assert "from t = 0 on it has to pull" in output.out
-    _, output = run(*_BODY, "--sphere", "3", "--start", "0", "0", "0", "5", "--simulate")
-    assert "steady motion:      u = 0 stays constant" in output.out
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (("--potential", "cos(w)"), "can't contain w"),
-        (("--time", "nan"), "can't contain nan"),
-        (("--time", "-1"), "must be positive"),
-        (("--start", "inf", "1", "1", "1"), "can't contain inf"),
-        (("--start", "4", "1", "1", "1"), "between 0 and pi"),
-        (("--start", "1", "1e60", "1", "1"), "can start with"),
-        (("--potential", "cos(u)", "--gravity", "1"), "either --gravity"),
-        (("--plot", "a.gif"), "isn't one of"),
-        (("--plot", "/nowhere/a.png"), "there is no directory"),
-    ],
-)
-def test_command_refuses(run, arguments, message):
-    status, output = run(*_BALL, "--simulate", *arguments)
-    assert status == 2
-    assert message in output.err
-
-
-def test_command_refuses_what_would_take_too_long(run):
-    status, output = run(*_BALL, "--simulate", "--time", "1e9")
-    assert status == 3
-    assert "100000 oscillations" in output.err
-
-
-def test_ctrl_c_during_a_simulation_is_status_130_and_leaves_no_picture(tmp_path):
-    """A run of minutes, interrupted when it has begun to integrate; an older picture stays what it was."""
-    picture, started = tmp_path / "path.png", tmp_path / "started"
-    picture.write_bytes(b"an older one")
-    script = f"""
-import sys
-from pathlib import Path
-from kovacic.cli import main
-from kovacic.ball import motion
-solve_motion = motion.solve_motion
-def marked(*arguments, **options):
-    Path({str(started)!r}).touch()
-    return [solve_motion(*arguments, **options) for _ in range(10000)]
-motion.solve_motion = marked
-main.main(sys.argv[1:])
-"""
-    arguments = ["ball", *_BODY, "--sphere", "3", "--simulate", "--time", "500", "--plot", str(picture)]
-    process = subprocess.Popen(
-        [sys.executable, "-c", script, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-    while process.poll() is None and not started.exists():
-        time.sleep(0.01)
-    process.send_signal(signal.SIGINT)
-    output, errors = process.communicate(timeout=60)
-    assert (process.returncode, output, errors) == (130, "", "kovacic: interrupted\n")
-    assert picture.read_bytes() == b"an older one"
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["path.png", "started"]

@@ -26,11 +26,8 @@ from kovacic.errors import InputError
 Array = NDArray[np.float64]
 Vector: TypeAlias = "Sequence[Any] | NDArray[Any]"
 Potential: TypeAlias = "sp.Expr | str | float"
-#: The range of numbers in a motion: products of several of them are still floats.
-LEAST, LARGEST = 1e-50, 1e50
-#: What a potential consists of; the functions are told by their modules.
-_ARITHMETIC = (sp.Symbol, sp.Number, sp.NumberSymbol, sp.CRootOf, sp.Add, sp.Mul, sp.Pow, sp.exp, sp.log)
-_FUNCTIONS = ("sympy.functions.elementary.trigonometric", "sympy.functions.elementary.hyperbolic")
+#: The range of numbers in a motion: products of several of them, and of their inverses, are still floats.
+LARGEST = 1e50
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,11 +40,26 @@ class Force:
     g: float | None = None
 
     @classmethod
-    def of(cls, potential: Potential, g: float | None = None) -> Force:
-        """The force with the potential V(u).  Raises `InputError` as `potential_of` does, and where V isn't smooth."""
-        V = potential_of(potential)
+    def of(cls, V: sp.Expr, g: float | None = None) -> Force:
+        """The force with the potential V(u).
+
+        Raises `InputError` where V isn't finite on 0 <= u <= pi, or isn't even about both poles, as functions of cos u are:
+        there the force would jump.
+        """
         value, slope = (sp.lambdify(U, f, modules="numpy", cse=True) for f in (V, sp.diff(V, U)))
-        _check(value)
+        u = np.linspace(0.0, np.pi, 33)
+        with np.errstate(all="ignore"):
+            here, mirrored, beyond = (
+                np.broadcast_to(np.asarray(value(at), dtype=float), 33) for at in (u, -u, 2 * np.pi - u)
+            )
+        bad = ~np.isfinite(here)
+        if bad.any():
+            raise InputError(f"the potential isn't finite at u = {u[bad.argmax()]:.3g}; it must be on 0 <= u <= pi")
+        if max(np.abs(mirrored - here).max(), np.abs(beyond - here).max()) > 1e-9 * np.abs(here).max():
+            raise InputError(
+                "the potential isn't smooth at the poles: V(-u) = V(u) = V(2 pi - u) fails",
+                hint="a function of cos(u) is: cos(u), sin(u)^2, exp(-cos(u))",
+            )
         return cls(V, value, slope, g)
 
     @classmethod
@@ -61,52 +73,35 @@ class Force:
         strength = exact(g, "g")
         k = sp.Integer(0) if sphere.R1.is_infinite else 1 / (sphere.R1 + R)
         V = m * strength * a * (a * k + 2 * sp.cos(U)) / (1 + sp.sqrt(1 + a**2 * k**2 + 2 * a * k * sp.cos(U)))
-        if not V.free_symbols <= {U}:
-            raise InputError(f"numbers are needed for a motion, and {V} contains symbols")
-        return cls.of(V, float(strength))
+        return cls.of(V, as_float(strength, "g"))
+
+
+def as_float(value: Any, name: str, *, least: float = 0.0) -> float:
+    """A float as it is; text and SymPy's numbers are read exactly.  Raises `InputError` for what a motion can't begin with."""
+    number = sp.Float(value) if isinstance(value, float | np.floating) else exact(value, name)
+    if not number.is_number:
+        raise InputError(f"numbers are needed for a motion, and {name} = {value} isn't one")
+    if number != 0 and not least <= abs(float(number)) <= LARGEST:
+        hint = f"choose units that bring it between {1 / LARGEST:g} and {LARGEST:g}"
+        raise InputError(f"{name} = {value} isn't a number that a motion can start with", hint=hint)
+    return float(number)
 
 
 def potential_of(value: Potential) -> sp.Expr:
-    """V as a SymPy expression in u; it's only ever evaluated, so floats are taken as they are; decimals in text are exact.
+    """V as a SymPy expression in u; floats are taken as they are, decimals in text are exact.
 
-    Raises `InputError` for anything but an elementary function of u.
+    Raises `InputError` for anything but a real elementary function of u, and `LimitExceeded` for one that is too long.
 
     >>> potential_of("3/2*cos(u)")
     3*cos(u)/2
     """
-    try:
-        is_text = isinstance(value, str)
-        V = (
-            read_expression(str(value), what="the potential", names={"u": U})
-            if is_text
-            else sp.sympify(value, strict=True)
-        )
-    except sp.SympifyError:
-        V = None
-    if not isinstance(V, sp.Expr):
+    if not isinstance(value, str | sp.Expr | float | int):
         raise InputError(f"the potential is text, a number or a SymPy expression, it can't be {value!r}")
-    if V.free_symbols - {U} or V.has(sp.I):
-        raise InputError(f"the potential is a real function that depends on u alone, it can't be {value}")
-    for part in sp.preorder_traversal(V):
-        known = isinstance(part, _ARITHMETIC) or type(part).__module__ in _FUNCTIONS
-        if not known or part in (sp.oo, -sp.oo, sp.zoo, sp.nan):
-            raise InputError(f"the potential is an elementary function of u, it can't contain {part}")
+    text = value if isinstance(value, str) else str(sp.nsimplify(value, rational=True, rational_conversion="exact"))
+    V = read_expression(text, what="the potential", names={"u": U, "E": sp.E})
+    if V.has(sp.I):
+        raise InputError(f"the potential is a real function of u, it can't be {value}")
     return V
-
-
-def _check(V: Callable[[Any], Any]) -> None:
-    """V is finite and real on 0 <= u <= pi, and even about both poles, as functions of cos u are: no jump of the force."""
-    u = np.linspace(0.0, np.pi, 33)
-    with np.errstate(all="ignore"):
-        here, mirrored, beyond = (np.broadcast_to(np.asarray(V(at), dtype=float), 33) for at in (u, -u, 2 * np.pi - u))
-    bad = ~np.isfinite(here)
-    if bad.any():
-        raise InputError(f"the potential isn't finite at u = {u[bad.argmax()]:.3g}; it must be on 0 <= u <= pi")
-    if max(np.abs(mirrored - here).max(), np.abs(beyond - here).max()) > 1e-9 * np.abs(here).max():
-        raise InputError(
-            "the potential isn't smooth at the poles: V(-u) = V(u) = V(2 pi - u) fails",
-            hint="a function of cos(u) is: cos(u), sin(u)^2, exp(-cos(u))",
-        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,16 +118,8 @@ class Dynamics:
     @classmethod
     def of(cls, sphere: BallOnSphere) -> Dynamics:
         """Raises `InputError` where a parameter is a symbol, or out of range."""
-        values: list[float] = []
-        for value in (*sphere.ball.parameters, 1 / sphere.R1):
-            if not value.is_number:
-                raise InputError(f"numbers are needed for a motion, and {value} isn't one")
-            values.append(float(value))
-            if value and not LEAST <= abs(values[-1]) <= LARGEST:
-                raise InputError(
-                    f"{values[-1]:.3g} isn't between {LEAST:g} and {LARGEST:g}", hint="choose units that bring it there"
-                )
-        return cls(*values)
+        values = zip(("m", "R", "a", "A1", "A3", "1/R1"), (*sphere.ball.parameters, 1 / sphere.R1), strict=True)
+        return cls(*(as_float(value, name, least=1 / LARGEST) for name, value in values))
 
     @property
     def rho(self) -> float:

@@ -17,12 +17,22 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
-import sympy as sp
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from kovacic.ball.ball import BallOnSphere, Scalar, exact
-from kovacic.ball.dynamics import LARGEST, Array, Dynamics, Force, Potential, colatitude, cross, dot, unsteadiness
+from kovacic.ball.ball import BallOnSphere, Scalar
+from kovacic.ball.dynamics import (
+    Array,
+    Dynamics,
+    Force,
+    Potential,
+    as_float,
+    colatitude,
+    cross,
+    dot,
+    potential_of,
+    unsteadiness,
+)
 from kovacic.errors import InputError, LimitExceeded
 
 #: Evaluations of the equations for one oscillation (some 20 seconds), and the oscillations that a motion is followed for.
@@ -181,7 +191,11 @@ def solve_motion(
         raise InputError(f"u is an angle between 0 and pi, not {state.u}")
     if gravity is not None and potential is not None:
         raise InputError("either gravity or a potential")
-    force = Force.of(potential) if potential is not None else Force.gravity(sphere, 1 if gravity is None else gravity)
+    force = (
+        Force.gravity(sphere, 1 if gravity is None else gravity)
+        if potential is None
+        else Force.of(potential_of(potential))
+    )
     frame = Rotation.from_euler("ZY", [state.v, state.u]).as_matrix()  # (e_u, e_v, e_r) as columns
     along = [(1 + ball.rho) * np.sin(state.u) * state.dv, -(1 + ball.rho) * state.du, state.n]
     y = np.concatenate([frame @ along, frame[:, 2], np.eye(3).ravel(), np.zeros(3)])
@@ -252,14 +266,6 @@ def _integrate(ball: Dynamics, force: Force, y: Array, rate: float, *, turns: in
             f"the motion can't be followed beyond t = {result.t[-1]:.6g}: {result.message}", limit="steps"
         )
     return result
-
-
-def as_float(value: Any, name: str) -> float:
-    """A float as it is; text and SymPy's numbers are read exactly."""
-    number = sp.Float(value) if isinstance(value, float | np.floating) else exact(value, name)
-    if not number.is_number or not abs(float(number)) <= LARGEST:
-        raise InputError(f"{name} = {value} isn't a number that a motion can start with")
-    return float(number)
 
 
 def _apply(matrices: Array, vectors: Array) -> Array:

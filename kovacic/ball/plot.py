@@ -5,7 +5,6 @@ Drawn with Matplotlib's Agg canvas; nothing is ever shown on a screen.
 
 from __future__ import annotations
 
-import io
 import os
 from pathlib import Path
 from typing import Any
@@ -26,54 +25,38 @@ def draw(motion: Motion, times: Array, path: Path | str, *, title: str = "") -> 
     """
     from matplotlib.figure import Figure
 
-    reaction = motion.reaction(times)
-    figure = Figure(figsize=(12.5, 7.4 if reaction is None else 9.0), dpi=110)
-    figure.set_layout_engine("constrained", wspace=0.08)
-    rows = 3 if reaction is None else 4
-    grid = figure.add_gridspec(rows, 2, width_ratios=(1.15, 1))
-    _draw_path(figure.add_subplot(grid[:, 0]), motion.contact(times), motion.ball.kappa)
-    panels = [figure.add_subplot(grid[k, 1]) for k in range(rows)]
-    spin, force = "spin about the axis of symmetry, ", "normal reaction; below zero the ball would leave the surface"
-    curves: list[tuple[Any, str, str, str]] = [
-        (motion.u(times), _BLUE, "u (rad)", "colatitude of the contact point on the ball, and its turning points"),
-        (motion.omega_3(times), _ORANGE, r"$\omega_3$ (rad per unit time)", rf"{spin}$\omega_3$"),
-        (reaction, _GREEN, "force", force),
+    reaction, errors = motion.reaction(times), motion.defects(times)
+    errors = {"energy": motion.energy(times) - motion.energy(0.0), r"$\omega_3$": errors["omega_3"], "n": errors["n"]}
+    errors = {name: np.maximum(np.abs(error), 1e-17) for name, error in errors.items()}
+    panels: list[tuple[dict[str, Any], str, str, tuple[float, ...]]] = [
+        ({"": motion.u(times)}, "u (rad)", "colatitude of the contact point on the ball", motion.turning_points),
+        ({"": motion.omega_3(times)}, r"$\omega_3$ (rad per unit time)", "spin about the axis of symmetry", ()),
+        ({"": reaction}, "force", "normal reaction; below zero the ball would leave the surface", (0,)),
+        (errors, "difference", "closed form against integration; energy against its start", ()),
     ]
-    for axes, (values, colour, label, heading) in zip(panels[:-1], curves, strict=False):
-        axes.plot(times, values, color=colour)
-        axes.set(ylabel=label, title=heading)
-    for axes, level in [*((panels[0], u) for u in motion.turning_points), *((axes, 0) for axes in panels[2:-1])]:
-        axes.axhline(level, color=_GREY, lw=0.8, ls="--")
-    errors = {"energy": motion.energy(times) - motion.energy(0.0), **motion.defects(times)}
-    for (name, error), colour in zip(errors.items(), (_GREEN, _ORANGE, _BLUE), strict=True):
-        label = r"$\omega_3$" if name == "omega_3" else name
-        panels[-1].semilogy(times, np.maximum(np.abs(error), 1e-17), color=colour, lw=1, label=label)
-    worst = max(float(np.abs(error).max()) for error in errors.values())
-    heading = "closed form against integration; energy against its start"
-    panels[-1].set(xlabel="time t", ylabel="difference", title=heading, ylim=(1e-17, max(1e-9, 30 * worst)))
-    panels[-1].legend(loc="upper right", ncols=3, fontsize=9)
-    for axes in panels:
+    if reaction is None:
+        del panels[2]
+    figure = Figure(figsize=(12.5, 2.6 + 1.6 * len(panels)), dpi=110)
+    figure.set_layout_engine("constrained", wspace=0.08)
+    grid = figure.add_gridspec(len(panels), 2, width_ratios=(1.15, 1))
+    _draw_path(figure.add_subplot(grid[:, 0]), motion.contact(times), motion.ball.kappa)
+    for k, (curves, label, heading, levels) in enumerate(panels):
+        axes = figure.add_subplot(grid[k, 1])
+        for name, values in curves.items():
+            axes.plot(times, values, lw=1.2, label=name)
+        for level in levels:
+            axes.axhline(level, color=_GREY, lw=0.8, ls="--")
+        axes.set_title(heading, fontsize=10)
+        axes.set_ylabel(label)
         axes.grid(True, color="#dddddd", lw=0.6)
         axes.margins(x=0.01)
-        axes.title.set_fontsize(10)
-    if title:
-        figure.suptitle(title)
-    picture = io.BytesIO()
-    figure.savefig(picture, format=Path(path).suffix.lower().removeprefix(".") or None)
-    _write_whole(Path(path), picture.getvalue())
-
-
-def _write_whole(path: Path, content: bytes) -> None:
-    """Write beside the file first, and put that in its place; a device or a pipe is written to."""
-    if path.exists() and not path.is_file():
-        path.write_bytes(content)
-        return
-    target = path.resolve()  # through a symbolic link, which stays one
-    beside = target.with_name(f"{target.name}.{os.getpid()}.tmp")
+    axes.set(xlabel="time t", yscale="log", ylim=(1e-17, max(1e-9, *(30 * error.max() for error in errors.values()))))
+    axes.legend(loc="upper right", ncols=3, fontsize=9)
+    figure.suptitle(title)
+    target = Path(path).resolve()  # through a symbolic link, which stays one
+    beside = target.with_name(f"{target.stem}.{os.getpid()}{target.suffix}")
     try:
-        beside.write_bytes(content)
-        if target.exists():
-            beside.chmod(target.stat().st_mode)
+        figure.savefig(beside)
         beside.replace(target)
     finally:
         beside.unlink(missing_ok=True)
@@ -81,7 +64,7 @@ def _write_whole(path: Path, content: bytes) -> None:
 
 def _draw_path(axes: Any, points: Array, kappa: float) -> None:
     """On the plane; or the sphere seen from the middle of the path, from far away, with circles every 30 degrees."""
-    view = np.eye(3)[:2]
+    view = np.eye(3)
     if kappa:
         radius, (X, Y, Z) = abs(1 / kappa), points.mean(axis=0)
         azimuth = np.arctan2(Y, X) if np.hypot(X, Y) > 1e-9 * radius else -np.pi / 3
@@ -89,27 +72,26 @@ def _draw_path(axes: Any, points: Array, kappa: float) -> None:
         down, right, towards = Rotation.from_euler("ZY", [azimuth, np.pi / 2 - elevation]).as_matrix().T
         view = np.array([right, -down, towards])  # the last one towards the eye
         angle = np.linspace(0, 2 * np.pi, 361)
-        c, s, zero = radius * np.cos(angle), radius * np.sin(angle), 0.0 * angle
+        c, s = radius * np.cos(angle), radius * np.sin(angle)
         axes.plot(c, s, color=_GREY, lw=0.9)
         for k in np.arange(6) * np.pi / 6:
-            parallel = (np.sin(k) * c, np.sin(k) * s, radius * np.cos(k) + zero)
-            for circle in ((s * np.cos(k), s * np.sin(k), c), parallel):
-                _curve(axes, view @ np.array(circle), _GREY, {"lw": 0.5, "alpha": 0.7}, {"lw": 0.5, "alpha": 0.2})
+            _curve(axes, view @ [s * np.cos(k), s * np.sin(k), c], _GREY, lw=0.5)
+            _curve(axes, view @ [np.sin(k) * c, np.sin(k) * s, np.full(361, radius * np.cos(k))], _GREY, lw=0.5)
         axes.set_axis_off()
     else:
         axes.set(xlabel="X", ylabel="Y")
         axes.grid(True, color="#dddddd", lw=0.6)
-    _curve(axes, view @ points.T, _BLUE, {"lw": 1.8 if kappa else 1.3}, {"lw": 1.0, "alpha": 0.35})
-    for point, colour, label in ((points[0], _GREEN, "start"), (points[-1], _ORANGE, "end")):
-        axes.scatter(*(view @ point)[:2], color=colour, s=40, label=label, zorder=3)
+    path = view @ points.T
+    _curve(axes, path, _BLUE, lw=1.5)
+    for k, colour, label in ((0, _GREEN, "start"), (-1, _ORANGE, "end")):
+        axes.scatter(*path[:2, k], color=colour, s=40, label=label, zorder=3)
     where = "sphere (faint: far side)" if kappa else "plane"
     axes.set_title(f"path of the contact point on the {where}", fontsize=10)
     axes.set_aspect("equal", adjustable="box" if kappa else "datalim")
     axes.legend(loc="upper left" if kappa else "best")
 
 
-def _curve(axes: Any, line: Array, colour: str, front: dict[str, float], back: dict[str, float]) -> None:
-    """What lies behind (a third coordinate below 0) in another style."""
-    behind = line[2] < 0 if len(line) == 3 else np.zeros(line.shape[1], dtype=bool)
-    for seen, style in ((behind, back), (~behind, front)):
-        axes.plot(*np.where(seen, line[:2], np.nan), color=colour, **style)
+def _curve(axes: Any, line: Array, colour: str, *, lw: float) -> None:
+    """What lies behind (its third coordinate is below 0) is faint."""
+    for seen, alpha in ((line[2] < 0, 0.3), (line[2] >= 0, 1)):
+        axes.plot(*np.where(seen, line[:2], np.nan), color=colour, lw=lw, alpha=alpha)
