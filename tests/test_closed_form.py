@@ -24,6 +24,7 @@ from kovacic.closed_form.form import solutions
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import KleinForm
 from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve, Triangular, build
+from kovacic.limits import Limits
 
 X = RatFunc(QQ.poly([0, 1]))
 
@@ -278,6 +279,24 @@ def _with_square(g: str, factor: str = "1", exponent: str = "1/4") -> str:
         ("(x - 1)*(x - 2)*(x**2 + 1)", "1", "1/4", "f", -0.3),
         ("(1 - x)*(x - 2)*(x**2 + 1)", "1", "1/4", "f", 1.3),
         ("(x - 1)*(x**3 + 2)", "1", "1/4", "f", 1.3),
+        # Poles with residues beside these, where g is positive and where it is negative.
+        ("x**3 + x", "sqrt(x - 3)", "1/4", "fp", 1.5),
+        ("x**3 + x", "sqrt(x - 3)", "1/4", "fp", 0.2),  # tau s < 1
+        ("x**3 + x", "sqrt(x + 3)", "1/4", "fp", 1.5),
+        ("x**3 + x", "sqrt(x - 1)", "1/4", "f", 1.5),
+        ("x**3 + x", "sqrt(x + 1)", "1/4", "f", 1.5),
+        ("x**4 + 1", "sqrt(x**2 + 3)", "1/4", "fp", 1.5),
+        ("x**3 + 1", "sqrt(x - 3)", "1/4", "fp", 0.5),
+        ("x*(x - 4)*(x**2 + 1)", "sqrt(x - 5)", "1/4", "fp", 4.5),
+        # No branch point in the field: roots of a polynomial as they are, or a quartic that becomes even.
+        ("x**3 - 3*x + 1", "1", "1/4", "f", -0.3),
+        ("x**4 - 4*x**2 + x + 1", "1", "1/4", "f", 0.1),
+        ("x*(x**3 - 3*x + 1)", "1", "1/4", "f", 0.2),
+        ("(x**2 + 1)*(x**2 - 2*x + 2)", "1", "1/4", "f", -0.3),
+        ("(x**2 + 2*x + 2)*(x**2 + 2*x + 7)", "1", "1/4", "f", 0.3),
+        ("(x**2 - 2)*(x**2 - 8*x + 18)", "1", "1/4", "f", 2.3),
+        ("(x**2 - 2)*(x**2 - 8*x + 13)", "1", "1/4", "f", 3.1),
+        ("(x**2 - 2)*(x**2 - 3*x + 1)", "1", "1/4", "f", 0.7),
     ],
 )
 def test_integrals_of_genus_1_are_named(g: str, factor: str, exponent: str, kinds: str, at: float) -> None:
@@ -315,6 +334,20 @@ def test_the_angle_of_an_elliptic_integral_is_real_where_the_root_of_g_is(g: str
     (integral,) = kovacic.solve(_with_square(g)).solutions[1].atoms(sympy.elliptic_f)
     for point in at:
         assert sympy.im(integral.args[0].subs(x, point).n(20)) == 0
+
+
+@pytest.mark.parametrize(
+    ("g", "factor"),
+    [
+        ("x**3 + k*x + 1", "1"),
+        ("x**4 + k*x**2 + x + 1", "1"),
+        ("x**4 + x + 1", "1"),
+        ("(x**2 - 2)*(x**2 - 8*x + 18)", "x"),
+    ],
+)
+def test_integrals_whose_branch_points_are_long_are_left_at_once(g: str, factor: str) -> None:
+    answer = kovacic.solve(_with_square(g, factor), limits=Limits(seconds=20))
+    assert answer.solutions[1].has(sympy.Integral)
 
 
 def test_the_lemniscates_integral() -> None:

@@ -8,27 +8,38 @@ t (1 - t) (1 - m t) and t = sin(phi)^2, dt/W = 2 dphi/sqrt(1 - m sin(phi)^2), so
 For even g and r, x^2 takes the place of x: the roots of g themselves needn't lie in the field.
 
 One finite branch point a is enough beside infinity, where the other two may be conjugate: with A^2 = g'(a), x = a + A s the
-curve is w^2 = s (s^2 + b s + 1), and with m = (2 - b)/4 and s = tan(phi/2)^2, sin(phi)^2 = 4 s/(1 + s)^2,
+curve is w^2 = s (s^2 + b s + 1), and with m = (2 - b)/4, s = tan(phi/2)^2, sin(phi)^2 = 4 s/(1 + s)^2, n = (1 + tau)^2/(4 tau),
 
-    int ds/w = F(phi|m),       int s ds/w = F - 2 E + 2 w/(1 + s).                                                       (2)
+    int ds/w = F(phi|m),       int s ds/w = F - 2 E + 2 w/(1 + s),
+    int ds/((s - tau) w) = -F/(1 + tau) + (tau - 1)/(2 tau (1 + tau)) Pi(n; phi|m) - atanh(w(tau) s/(tau w))/w(tau)
+                         = -F/(2 tau) - (tau - 1)/(2 tau (1 + tau)) Pi(m/n; phi|m) + atanh(2 w(tau) w/Q)/w(tau),     (2)
+    Q (tau s - 1) = (1 + tau) (1 - s) tau (s^2 + b s + 1) - (tau - 1) (1 + s) s (tau^2 + b tau + 1),
 
-For an irreducible cubic g its real root is adjoined, and one root of a quartic g goes to infinity.  Not covered, and left as
-integrals: quartics without a root in the field that aren't even, irreducible cubics with three real roots, and poles with
-residues beside conjugate branch points.
+of which the first is taken for tau < 0 and the second, where n > 1, else.
+
+For an irreducible cubic g over Q its largest real root is adjoined, and one root of a quartic g goes to infinity.  A quartic
+X^4 + p X^2 + q X + s without a root becomes even by the involution that exchanges the roots in two pairs, as for a positive
+root z of z^3 + 2 p z^2 + (p^2 - 4 s) z - q^2: its fixed points, X^2 - (q/z) X - (p + z)/2 = 0, go to 0 and infinity.  Left as
+integrals: quartics for which z isn't rational, or r isn't even; poles that are conjugate
+over the field, and in (2) those where more than one root has to be adjoined, for that takes more than a screen.
 
 Reference: NIST Handbook of Mathematical Functions (2010), 19.2 and 19.29; for (2) Byrd & Friedman, Handbook of Elliptic
-Integrals (1971), 239 and 260, where the angle is that of cos(phi) = (1 - s)/(1 + s).
+Integrals (1971), 239, 260 and 361.54, where the angle is that of cos(phi) = (1 - s)/(1 + s).
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
-from sympy import asin, atan, elliptic_e, elliptic_f, elliptic_pi, sqrt
+import sympy
+from sympy import asin, atan, atanh, elliptic_e, elliptic_f, elliptic_pi, sqrt
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
 
@@ -50,34 +61,81 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
     r, g = integral.integrand, integral.g
     if g.degree not in (3, 4):
         return None
-    x, t, even = g.field.poly([0, 1]), RatFunc(g.field.poly([0, 1])), False
-    if g.degree == 4 and not g[1] and not g[3] and r(-t) == r:
-        r, g, even = RatFunc(_halved(r.num), _halved(r.den)), _halved(g) * x, True
-    quadratic = [p for p, _ in g.field.factor(g) if p.degree == 2 and atoms.real_roots(p)]
+    r, g, inner = _in_square(r, g)
+    quadratic = [p for p, _ in g.field.factor(g) if p.degree == 2]
+    quadratic = [p for p in quadratic if atoms.constant(p[1] * p[1] - 4 * p[0]).is_positive]
     if len(quadratic) == 1:  # two real roots
-        r, branch = _over(AlgebraicField(g.field, quadratic[0]), r, RatFunc(g))
+        r, branch, inner = _over(AlgebraicField(g.field, quadratic[0]), r, RatFunc(g), inner)
         g = branch.num
     roots = _roots(g)
-    terms = _by_sine(r, roots, even, atoms) if len(roots) == g.degree else _by_tangent(r, g, even, atoms)
+    terms = _by_sine(r, roots, inner, atoms) if len(roots) == g.degree else _by_tangent(r, g, inner, atoms)
     if not terms:
-        return None
+        return _of_first_kind(g, atoms) if r == r.num.lc and inner is None else None
     terms = [(c, e) for c, e in terms if c]
     last = terms[-1][0].inverse()
     return [(atoms.constant(c * last), e) for c, e in terms]
 
 
-def _by_sine(r: RatFunc, roots: list[Poly], even: bool, atoms: Atoms) -> list[tuple[Poly, Expr]]:
+def _of_first_kind(g: Poly, atoms: Atoms) -> list[tuple[Expr, Expr]] | None:
+    """int dx/sqrt(g) by (1), from the branch points as real roots of a polynomial over Q; None unless all are real."""
+    points = sympy.real_roots(atoms.poly(g)) if g.field == QQ else []
+    if len(points) < g.degree:
+        return None
+    *last, start, one, other = points
+    ratio = [(z - start) / (z - last[0]) if last else z - start for z in (atoms.x, one, other)]
+    return [(sympy.Integer(1), elliptic_f(asin(sqrt(ratio[0] / ratio[1])), ratio[1] / ratio[2]))]
+
+
+def _in_square(r: RatFunc, g: Poly) -> tuple[RatFunc, Poly, RatFunc | None]:
+    """r, g, and t where these are in u = t^2 for a Moebius function t of x; None where there is no such t."""
+    x = RatFunc(g.field.poly([0, 1]))
+    for t, back in _moves(x, g) if g.degree == 4 else ():
+        lifted, square = _over(t.field, r, RatFunc(g))
+        moved, curve = _moved(lifted, square, back)
+        if not curve[1] and not curve[3] and moved(-t.field.poly([0, 1])) == moved:
+            return RatFunc(_halved(moved.num), _halved(moved.den)), _halved(curve) * t.field.poly([0, 1]), t
+    return r, g, None
+
+
+def _moves(x: RatFunc, g: Poly) -> Iterator[tuple[RatFunc, RatFunc]]:
+    """x, and t by the involution of a quartic over Q without a root, with x as a function of t."""
+    yield x, x
+    if g.field != QQ or _roots(g):
+        return
+    centre = -g[3] / 4
+    p, q, s = ((g(x.num + centre))[k] for k in (2, 1, 0))
+    if not q:
+        yield x - centre, x + centre
+    for z in filter(None, _roots(g.field.poly([-q * q, p * p - 4 * s, 2 * p, 1]))):
+        field: Field = g.field
+        half = q / (2 * z)
+        square = half * half + (p + z) / 2
+        if (field.rational_value(square) or 0) <= 0:
+            continue
+        if (root := field.sqrt(square)) is None:
+            field = AlgebraicField(field, field.poly([-square, 0, 1]))
+            root = field.generator
+        t, first, last = RatFunc(field.poly([0, 1])), centre + half + root, centre + half - root
+        yield (t - first) / (t - last), (first - t * last) / (1 - t)
+
+
+def _moved(r: RatFunc, g: RatFunc, back: RatFunc) -> tuple[RatFunc, Poly]:
+    """r and a monic g for x = back(t), a Moebius function, up to a constant."""
+    return r(back), (g(back) / back.derivative() ** 2).num.monic()
+
+
+def _by_sine(r: RatFunc, roots: list[Poly], inner: RatFunc | None, atoms: Atoms) -> list[tuple[Poly, Expr]]:
     """By (1), from all branch points."""
-    legendre = _legendre(r, _ordered(roots, even, atoms))
+    legendre = _legendre(r, _ordered(roots, inner is not None, atoms))
     t, m = RatFunc(r.field.poly([0, 1])), legendre.m
     done = integrate_on_curve(legendre.integrand, t.num * (t.num - 1) * (t.num - m.inverse()))
     if any(residue.factor.degree > 1 for residue in done.residues):
         return []
-    shown, root = _square_root(legendre.t, even, atoms)
+    shown, root = _square_root(legendre.t, inner, atoms)
     phi, modulus = asin(root), atoms.constant(m)
     terms: list[tuple[Poly, Expr]] = []
     if done.exact:
-        W = root * sqrt(atoms.ratio(1 - shown)) * sqrt(atoms.ratio(1 - shown * m))
+        W = root * sqrt(atoms.factored(1 - shown)) * sqrt(atoms.factored(1 - shown * m))
         terms.append(_multiple(done.exact(shown) / 2, W, atoms))
     terms.append((m * done.rest[0] + done.rest[1], elliptic_f(phi, modulus)))
     terms.append((-done.rest[1], elliptic_e(phi, modulus)))
@@ -87,51 +145,68 @@ def _by_sine(r: RatFunc, roots: list[Poly], even: bool, atoms: Atoms) -> list[tu
     return terms
 
 
-def _by_tangent(r: RatFunc, g: Poly, even: bool, atoms: Atoms) -> list[tuple[Poly, Expr]]:
+def _by_tangent(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> list[tuple[Poly, Expr]]:
     """By (2), from one branch point beside infinity."""
-    t, negative = RatFunc(g.field.poly([0, 1])), False
-    curve = RatFunc(g)
+    t, negative, roots = RatFunc(g.field.poly([0, 1])), False, _roots(g)
     if g.degree == 4:
-        if not (roots := _roots(g)):
+        if not roots:
             return []
-        negative = atoms.is_negative(g.derivative()(roots[0]))
-        t, back = 1 / (t - roots[0]), 1 / t + roots[0]
-        r, curve = r(back), RatFunc((curve(back) / back.derivative() ** 2).num.monic())
-    if integrate_on_curve(r, curve.num).residues:
-        return []
-    if not _roots(curve.num):
-        if not _has_one_real_root(curve.num):
+        negative, a = atoms.is_negative(g.derivative()(roots[0])), roots[0]
+        t = 1 / (t - a)
+        r, g = _moved(r, RatFunc(g), 1 / RatFunc(g.field.poly([0, 1])) + a)
+        roots = _roots(g)
+    if not roots:
+        if g.field != QQ or len(sympy.real_roots(atoms.poly(g))) > 1:
             return []
-        r, curve, t = _over(AlgebraicField(r.field, curve.num), r, curve, t)
-    square = curve.derivative()(_roots(curve.num)[0]).num
-    if (A := r.field.sqrt(square)) is None:
-        field = AlgebraicField(r.field, r.field.poly([-square, 0, 1]))
-        r, curve, t = _over(field, r, curve, t)
-        A = field.generator
-    x, a = RatFunc(r.field.poly([0, 1])), _roots(curve.num)[0]
+        field = AlgebraicField(QQ, g)
+        roots = [field.generator]
+        r, curve, t, inner = _over(field, r, RatFunc(g), t, inner)
+        g = curve.num
+    a, square = roots[0], g.derivative()(roots[0])
+    if (A := g.field.sqrt(square)) is None:
+        field = AlgebraicField(g.field, g.field.poly([-square, 0, 1]))
+        r, curve, t, inner = _over(field, r, RatFunc(g), t, inner)
+        g, A = curve.num, field.generator
+    x = RatFunc(g.field.poly([0, 1]))
     if negative != atoms.is_negative(A):
         A = -A
-    legendre = curve(x * A + a).num.monic()
-    done = integrate_on_curve(r(x * A + a), legendre)
-    m = (2 - legendre[2]) / 4
-    shown, root = _square_root((t - a) / A, even, atoms)
+    g = g(x.num * A + a).monic()
+    done = integrate_on_curve(r(x * A + a), g)
+    if any(residue.factor.degree > 1 or g.field.height > 1 for residue in done.residues):
+        return []
+    m, quadratic = (2 - g[2]) / 4, g // x.num
+    shown, root = _square_root((t - a) / A, inner, atoms)
     C = done.exact + done.rest[1] * 2 / (x + 1)
     # w as sqrt(s) (1 + s) sqrt(1 - m sin(phi)^2), for the branches of F and E where s < -1.
-    W = root * sqrt(atoms.ratio(RatFunc(legendre // x.num, (x.num + 1) ** 2)(shown)))
+    W = root * sqrt(atoms.factored(RatFunc(quadratic, (x.num + 1) ** 2)(shown)))
     phi, modulus = 2 * atan(root), atoms.constant(m)
     terms: list[tuple[Poly, Expr]] = [_multiple((C * (x + 1))(shown), W, atoms)] if C else []
-    return [
-        *terms,
-        (done.rest[0] + done.rest[1], elliptic_f(phi, modulus)),
-        (-done.rest[1] * 2, elliptic_e(phi, modulus)),
-    ]
+    first = done.rest[0] + done.rest[1]
+    for residue in done.residues:
+        tau, rho = -residue.factor[0], residue.value[0]
+        square = tau * quadratic(tau)  # w(tau)^2
+        turned, below, above = atoms.is_negative(square), atoms.is_negative(tau), 1 + tau
+        factor = atoms.sqrt(-square if turned else square)
+        n, part = above * above / (4 * tau), rho / (2 * tau)
+        if below:
+            z = atoms.factored(shown / (shown + 1) / tau) / W
+        else:
+            n, rest = m / n, above * tau * (1 - x.num) * quadratic - (tau - 1) * (x.num + 1) * x.num * quadratic(tau)
+            z = atoms.factored(((x + 1) * 2 / (rest // (x.num * tau - 1)))(shown)) * W
+        first = first - (rho / above if below and above else part)
+        if above and tau != 1:
+            of_pi = part * (tau - 1) / above * (1 if below else -1)
+            terms.append((of_pi, elliptic_pi(atoms.constant(n), phi, modulus)))
+        terms.append((-rho if below else rho, (atan if turned else atanh)(factor * z) / factor))
+    return [*terms, (first, elliptic_f(phi, modulus)), (-done.rest[1] * 2, elliptic_e(phi, modulus))]
 
 
-def _square_root(t: RatFunc, even: bool, atoms: Atoms) -> tuple[RatFunc, Expr]:
+def _square_root(t: RatFunc, inner: RatFunc | None, atoms: Atoms) -> tuple[RatFunc, Expr]:
     """t as a function of x, and its square root."""
-    x = RatFunc(t.field.poly([0, 1]))
-    shown = t(x * x) if even else t
-    return shown, atoms.x * sqrt(atoms.ratio(shown / (x * x))) if even else sqrt(atoms.ratio(shown))
+    if inner is None:
+        return t, sqrt(atoms.factored(t))
+    shown = t(inner * inner)
+    return shown, atoms.factored(inner) * sqrt(atoms.factored(shown / (inner * inner)))
 
 
 def _multiple(C: RatFunc, W: Expr, atoms: Atoms) -> tuple[Poly, Expr]:
@@ -141,16 +216,9 @@ def _multiple(C: RatFunc, W: Expr, atoms: Atoms) -> tuple[Poly, Expr]:
     return lead * (a / b), top / bottom * W
 
 
-def _over(field: AlgebraicField, *functions: RatFunc) -> tuple[RatFunc, ...]:
-    return tuple(RatFunc(f.num.over(field), f.den.over(field), reduced=True) for f in functions)
-
-
-def _has_one_real_root(g: Poly) -> bool:
-    """Has a monic cubic polynomial over Q one real root?  True for one with other coefficients."""
-    d, c, b = (g.field.rational_value(g[k]) for k in range(3))
-    if b is None or c is None or d is None:
-        return True
-    return b * b * c * c - 4 * c**3 - 4 * b**3 * d - 27 * d * d + 18 * b * c * d < 0
+def _over(field: Field, *functions: Any) -> tuple[Any, ...]:
+    """The functions over a larger field; None stays."""
+    return tuple(f and RatFunc(f.num.over(field), f.den.over(field), reduced=True) for f in functions)
 
 
 def _roots(g: Poly) -> list[Poly]:

@@ -199,8 +199,8 @@ def _rewritten(e: Any) -> Any:
     half, gamma = sympy.S.Half, sympy.gamma
     if isinstance(e, sympy.sinh | sympy.cosh | sympy.tanh):
         return e.rewrite(sympy.exp)
-    if isinstance(e, sympy.acos):
-        return sympy.pi / 2 - sympy.atan(e.args[0] / sympy.sqrt(1 - e.args[0] ** 2))
+    if isinstance(e, sympy.acos | sympy.atanh):
+        return e.rewrite(sympy.log)
     if isinstance(e, sympy.elliptic_k | sympy.elliptic_e) and len(e.args) == 1:
         return sympy.pi / 2 * sympy.hyper((half if isinstance(e, sympy.elliptic_k) else -half, half), (1,), e.args[0])
     if isinstance(e, sympy.jn | sympy.yn):
