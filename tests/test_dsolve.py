@@ -544,6 +544,24 @@ def test_one_exponential() -> None:
         assert sum(isinstance(factor, exp) for factor in product.args) < 2
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "y'' = (x+1)^2*exp(4/(3*(x+1)))/(4*x+1)^5",
+        "y'' - y = exp(x)/(x+1)^3",
+        "y'' - 2*y' + y = exp(x)/(x^2-1)^2",
+        "x^2*y'' + x*y' - y = 1/(x+1)^3",
+    ],
+)
+def test_rational_factors_are_one_fraction(text: str) -> None:
+    """Before each function of a particular solution stands one fraction."""
+    found = dsolve(text)
+    checked(text, found)
+    denominators = [p for p in found.rhs.atoms(sympy.Pow) if p.exp.is_Integer and p.exp < 0 and p.base.is_Add]
+    assert len(denominators) <= 3
+    assert len(str(found.rhs)) < 160
+
+
 def test_roots_of_parameters_and_common_factors() -> None:
     """A root of a linear expression in a parameter is taken for the parameter; what isn't rational is divided out."""
     k = sympy.Symbol("k")

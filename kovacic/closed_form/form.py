@@ -83,7 +83,7 @@ def solutions(S: RatFunc, decision: Decision, gauge: RatFunc, variable: str = "x
     x = Symbol(variable)
     atoms = Atoms(x)
     y1, y2, notes = expressions(structure, atoms)
-    y1, y2 = _one_exponential(y1), _one_exponential(y2)
+    y1, y2 = one_exponential(y1), one_exponential(y2)
     check_time()
     exact = not isinstance(structure, KleinForm)
     passed = not exact or is_exact_solution(structure, S, gauge)
@@ -105,7 +105,7 @@ def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[
     return *_hypergeometric((form.first, form.second), form.J, atoms), ()
 
 
-def _one_exponential(y: Expr) -> Expr:
+def one_exponential(y: Expr) -> Expr:
     """With one exponential in every product."""
 
     def merged(product: Expr) -> Expr:

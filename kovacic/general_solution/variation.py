@@ -20,6 +20,7 @@ from sympy.simplify.fu import TR8
 from kovacic.algebra.apart import last_of
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.check import DIGITS
+from kovacic.closed_form.form import one_exponential
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
 from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
@@ -128,10 +129,11 @@ class Basis:
         whole = expand(self.y2 * parts[1] - self.y1 * parts[0])
         candidates = []
         for form in (whole, expand(TR8(whole))) if whole.has(sin, cos) else (whole,):  # TR8: products of waves as waves
-            terms = sympy.Add.make_args(form)
-            other = (e for e in terms if not any(_is_constant(e / y, self.x) for y in (self.y1, self.y2)))
-            candidates.append(sympy.factor_terms(sympy.Add(*other)))
-        found = min(candidates, key=size)
+            for total in (form, _gathered(form, self.x)):
+                terms = sympy.Add.make_args(total)
+                other = (e for e in terms if not any(_is_constant(e / y, self.x) for y in (self.y1, self.y2)))
+                candidates.append(sympy.factor_terms(sympy.Add(*other)))
+        found = one_exponential(min(candidates, key=size))
         return found if is_solution(found, coefficients, right, self.x) else None
 
     def with_integrals(self, right: Expr, start: Expr | None, seconds: float) -> Expr:
@@ -204,6 +206,16 @@ def _is_constant(quotient: Expr, x: Expr) -> bool:
         if quotient.has(x) and not jet(quotient, x, next(_points()))[1].contains(0):
             return False
     return not powsimp(quotient).has(x)
+
+
+def _gathered(form: Expr, x: Expr) -> Expr:
+    """The sum, with the rational functions that stand before the same function as one fraction."""
+    groups: dict[Expr, list[Expr]] = {}
+    for term in sympy.Add.make_args(form):
+        rest = sympy.Mul(*(factor for factor in sympy.Mul.make_args(term) if not factor.is_rational_function(x)))
+        groups.setdefault(rest, []).append(term / rest)
+    fractions = {rest: sympy.Add(*parts) for rest, parts in groups.items()}
+    return sympy.Add(*(rest * (f if f.is_polynomial(x) else sympy.factor(f)) for rest, f in fractions.items()))
 
 
 def simplified(expression: Expr) -> Expr:
