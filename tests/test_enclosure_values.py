@@ -729,3 +729,17 @@ def test_a_gauge_with_a_pole_of_high_order(order: int) -> None:
     with mpmath.workdps(90):
         assert value.contains(3 * mpmath.exp((1 - mpmath.mpf(3) ** (1 - order)) / (order - 1)))
         assert float(value) > 3
+
+
+@pytest.mark.parametrize("digits", [5, 50, 1000])
+def test_a_ball_is_printed_with_the_digits_that_were_asked_for(digits: int) -> None:
+    """y = (Bi'(0) Ai - Ai'(0) Bi)/W, by mpmath; the representation is short."""
+    value = kovacic.evaluate("x", 2, x0=0, y0=1, dy0=0, digits=digits)
+    text, _, radius = str(value).partition(" ± ")
+    with mpmath.workdps(digits + 100):
+        u, v, w, z = (f(x) for f in (mpmath.airyai, mpmath.airybi) for x in (0, 2))
+        du, dw = mpmath.airyai(0, derivative=1), mpmath.airybi(0, derivative=1)
+        exact = (dw * v - du * z) / (u * dw - w * du)
+        assert abs(mpmath.mpf(text) - exact) < abs(exact) * mpmath.mpf(10) ** -digits
+        assert abs(mpmath.mpf(text) - exact) <= mpmath.mpf(radius) * 2
+    assert len(repr(value)) < 80

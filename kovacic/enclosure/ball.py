@@ -30,6 +30,7 @@ from kovacic.errors import InputError, LimitExceeded
 Dyadic = tuple[int, int]  # a dyadic rational (m, e), the number m 2^e; m is odd, or (0, 0) stands for zero
 _DECIMAL_BITS = 10_000  # largest |exponent| that is written out in decimals
 _FRACTION_BITS = 10_000_000  # largest |exponent| that is written out as a fraction: 2^(10^12) would fill the memory
+_SHOWN = 40  # digits in the representation, and of exact numbers
 
 
 def dyadic(mantissa: int, exponent: int) -> Dyadic:
@@ -266,16 +267,20 @@ class Ball:
         return re if self.real else f"({re} {'-' if im.startswith('-') else '+'} {im.lstrip('-')}j)"
 
     def __str__(self) -> str:
-        shown = 3 if self.digits == -math.inf else max(3, min(int(min(self.digits, 1e6)) + 2, 40))
+        """All digits that are known, and the radius; 40 digits of an exact number."""
+        return self._shown(_SHOWN if self.digits == math.inf else max(3.0, self.digits + 2))
+
+    def __repr__(self) -> str:
+        return f"<Ball {self._shown(min(max(3.0, self.digits + 2), _SHOWN))}>"
+
+    def _shown(self, digits: float) -> str:
+        shown = int(digits)
         with working_precision(int(shown * 3.33) + 40):
             text, imaginary = (arb(part).str(shown, radius=False) for part in (self.re, self.im))
             if not self.real:
                 text = f"({text} {'-' if imaginary.startswith('-') else '+'} {imaginary.lstrip('-')}j)"
             radius = (arb(self.rad) * arb(1 + 2.0**-7)).mid().str(2, radius=False)
             return text if self.rad[0] == 0 else f"{text} ± {radius}"
-
-    def __repr__(self) -> str:
-        return f"<Ball {self}>"
 
 
 def _ends(middle: Dyadic, rad: Dyadic) -> tuple[Dyadic, Dyadic]:
