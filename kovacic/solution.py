@@ -10,7 +10,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Status
-from kovacic.errors import InputError, LimitExceeded, VerificationFailed, needs
+from kovacic.errors import LimitExceeded, VerificationFailed, needs
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.reading.given import Change, Equation
 from kovacic.verify import Verification, verify
@@ -191,16 +191,9 @@ class Solution:
 
         return evaluate(self, x, x0=x0, **options)
 
-    def _refuse_change(self, what: str) -> None:
-        """Functions are those of the variable of the equation, which isn't the user's."""
-        if self.change is not None:
-            hint = f"`at` has values, SymPy's lambdify the solutions; or solve {self.equation} in {self.variable}"
-            raise InputError(f"{what} would take values of {self.variable} = {self.change.expression}", hint=hint)
-
     @limited
     def lambdify(self, **options: Any) -> ProductForm | TabulatedFunction:
         """A solution as a NumPy function, its error measured; see `kovacic.doubles.lambdify.lambdify`."""
-        self._refuse_change("lambdify")
         with needs("numeric", "lambdify"):
             from kovacic.doubles.lambdify import lambdify
 
@@ -209,7 +202,6 @@ class Solution:
     @limited
     def plot(self, start: Any, stop: Any, **options: Any) -> Figure:
         """A matplotlib figure of proven values over [start, stop]; see `kovacic.views.plot.plot`."""
-        self._refuse_change("plot")
         with needs("plot", "a picture"):
             from kovacic.views.plot import plot
 

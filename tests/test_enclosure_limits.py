@@ -151,11 +151,11 @@ def test_the_parts_of_a_call_share_one_clock(monkeypatch: pytest.MonkeyPatch) ->
         time.sleep(0.05)
         return ()
 
-    monkeypatch.setattr("kovacic.views.plot.evaluate_states", slow)
+    monkeypatch.setattr("kovacic.doubles.chart.evaluate_states", slow)
     sample("1/((x-1)*(x-2)*(x-3))", 0, 4, points=8, limits=Limits(seconds=9))
     assert seen == [9]  # one call for all four intervals
     seen.clear()
-    monkeypatch.setattr("kovacic.doubles.lambdify.evaluate_states", slow)
+    monkeypatch.setattr("kovacic.doubles.chart.evaluate_states", slow)
     with pytest.raises(ValueError, match="shorter"):
         lambdify(kovacic.solve("1/x - 3/(16*x^2)"), interval=(1, 2), limits=Limits(seconds=5))
     assert 0 < (seen[0] or 9) < 5

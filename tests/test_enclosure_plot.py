@@ -79,7 +79,7 @@ def test_ctrl_c_ends_the_command_without_a_picture(monkeypatch: pytest.MonkeyPat
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("kovacic.views.plot.evaluate_states", interrupted)
+    monkeypatch.setattr("kovacic.doubles.chart.evaluate_states", interrupted)
     assert run(["plot", "x", "--from", "0", "--to", "1", "-o", str(tmp_path / "a.png")]) == 130
     assert not (tmp_path / "a.png").exists()
 

@@ -7,12 +7,14 @@ from fractions import Fraction
 from typing import Any
 
 import mpmath
+import numpy as np
 import pytest
 import sympy
 
 import kovacic
 from kovacic.cli import main
 from kovacic.reading.read import read_input
+from kovacic.views.plot import sample
 from kovacic.views.text import render
 
 F = Fraction
@@ -276,16 +278,79 @@ def test_values_where_the_path_isnt_known_are_refused(equation: str, x0: Any, x:
         kovacic.solve(equation).at(x, x0=x0, y0=1, dy0=0)
 
 
-def test_functions_and_pictures_are_never_those_of_the_new_variable() -> None:
-    answer = kovacic.solve("2*sech(x)^2*(-1) + 1")
-    assert answer.change is not None
-    for call in (lambda: answer.plot(0, 1), answer.lambdify):
-        with pytest.raises(kovacic.InputError, match="would take values of t"):
-            call()
+def test_values_from_a_frobenius_basis_are_refused() -> None:
     with pytest.raises(kovacic.InputError, match="both y0 and dy0"):
         kovacic.evaluate("2*sech(x)^2*(-1) + 1", 2, x0=1, which="regular")
     with pytest.raises(kovacic.InputError):
         read_input("sin(x)")
+
+
+SECH = {"x0": 1, "y0": "1/cosh(1)", "dy0": "-sinh(1)/cosh(1)^2"}
+
+
+@pytest.mark.parametrize("careful", [False, True])
+def test_numpy_functions_and_pictures_are_those_of_the_users_variable(careful: bool) -> None:
+    """1/cosh(x), by initial values and as the solution that the certificate has, and exp(exp(x) - x/2)."""
+    answer, x = kovacic.solve("2*sech(x)^2*(-1) + 1"), np.linspace(-3, 4, 701)
+    assert answer.change is not None
+    table = kovacic.tabulate(answer, -3, 4, careful=careful, **SECH)
+    function = answer.lambdify(interval=(-3, 4), careful=careful, **SECH)
+    for f in (table, function):
+        assert np.max(np.abs(f(x) * np.cosh(x) - 1)) < 2e-15
+    assert function.measured is not None
+    assert function.measured.worst < (1 if careful else 20)
+    own = answer.lambdify(interval=(-3, 4), careful=careful)
+    assert np.ptp(own(x) * np.cosh(x)) < 4e-15 * own(0.0)
+    growing = kovacic.solve("exp(2*x) + 1/4")
+    found = [growing.lambdify(interval=(0, 2), which=which)(x[300:501]) for which in (0, 1)]
+    known = [np.exp(sign * np.exp(x[300:501]) - x[300:501] / 2) for sign in (-1, 1)]
+    assert min(np.ptp(np.log(y / known[0])) for y in found) < 1e-14
+    assert min(np.ptp(np.log(y / known[1])) for y in found) < 1e-14
+
+
+@pytest.mark.parametrize(
+    ("equation", "interval", "start", "second"),
+    [
+        ("y'' = (2 + cos(x))*y", (-3, 5), (0, 1, 0), lambda t, y: (2 + mpmath.cos(t)) * y),
+        ("y'' = -(2 + sin(x))*y", (-2, 3), (0, 1, "1/3"), lambda t, y: -(2 + mpmath.sin(t)) * y),
+        ("y'' = exp(x)*y + exp(2*x)", (-1, 2), (0, 1, 0), lambda t, y: mpmath.exp(t) * y + mpmath.exp(2 * t)),
+        ("y'' = (exp(k*x) + 1)*y", (-1, 2), (0, 1, 1), lambda t, y: (mpmath.exp(mpmath.sqrt(2) * t) + 1) * y),
+    ],
+)
+def test_a_table_in_the_users_variable(equation: str, interval: Any, start: Any, second: Any) -> None:
+    """Against an independent integrator, on both sides of the start."""
+    options = dict(zip(("x0", "y0", "dy0"), start, strict=True))
+    options |= {"params": {"k": "sqrt(2)"}} if "k" in equation else {}
+    table = kovacic.tabulate(equation, *interval, **options)
+    with mpmath.workdps(20):
+        for end in interval:
+            sign = 1 if end > 0 else -1
+            begin = [mpmath.mpf(1), sign * mpmath.mpf(Fraction(start[2]).numerator) / Fraction(start[2]).denominator]
+            own = mpmath.odefun(lambda t, s, sign=sign: [s[1], second(sign * t, s[0])], 0, begin)
+            for share in (0.21, 0.6, 1):
+                assert table(end * share) == pytest.approx(float(own(abs(end) * share)[0]), rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("equation", "interval", "message"),
+    [
+        ("y'' = -(2 + sin(x))*y", (-2, 4), "monotone"),
+        ("y'' = y/(exp(x) - 2)", (0, 1), "singular point 2"),
+        ("y'' = exp(I*x)*y", (0, 1), "real for real x"),
+    ],
+)
+def test_tables_and_pictures_where_there_are_no_values_are_refused(equation: str, interval: Any, message: str) -> None:
+    with pytest.raises(kovacic.InputError, match=message):
+        kovacic.tabulate(equation, *interval, x0=0, y0=1, dy0=0)
+    if message != "real for real x":
+        with pytest.raises(kovacic.InputError, match=message):
+            kovacic.solve(equation).plot(*interval, x0=0)
+
+
+def test_a_picture_in_the_users_variable() -> None:
+    (run,) = sample("2*sech(x)^2*(-1) + 1", -3, 4, points=30, **SECH).runs
+    assert [float(p.x.re) for p in run] == pytest.approx(np.linspace(-3, 4, 30))
+    assert all(float(p.y) == pytest.approx(1 / np.cosh(float(p.x.re)), rel=1e-7) for p in run)
 
 
 def test_json_keeps_the_change_of_variable() -> None:

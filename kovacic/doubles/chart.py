@@ -1,21 +1,36 @@
-"""An equation seen from the middle of a piece, x = c + H u, |u| <= 1, and the states of one of its solutions in balls."""
+"""An equation seen from the middle of a piece, x = c + H u, |u| <= 1, and the states of one of its solutions in balls.
+
+Where a Y'' + b Y' + c Y = f has the variable t = exp(k x), sin(k x), ..., the equation for y(x) = Y(t(x)) is
+
+    y'' + (b t'/a - t''/t') y' + (c t'^2/a) y = t'^2 f/a,    ' = d/du.                                                    (1)
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from flint import acb, arb, arb_poly, fmpq_poly
+from flint import acb, acb_series, arb, arb_poly, ctx, fmpq_poly
 
+from kovacic.doubles.double_double import horner
 from kovacic.doubles.region import Region, region_of
+from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
+from kovacic.enclosure.closed_form import finite_base, omega
+from kovacic.enclosure.constants import in_balls
 from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import Point, power_of_two
-from kovacic.enclosure.problem import NumericProblem
+from kovacic.enclosure.points import Point, as_point, midpoint, power_of_two, working_precision
+from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.states import evaluate_states
+from kovacic.errors import InputError, NotRational
 from kovacic.limits import Limits
+from kovacic.reading.read import read_input
+
+_SLOPE_BITS = 4000
+"""Precision of an initial slope, for Taylor steps: its error, times the growth of the dominant solution, contaminates a
+recessive one."""
 
 
 @dataclass(frozen=True)
@@ -25,13 +40,27 @@ class Chart:
     problem: NumericProblem
     given: dict[str, Any]
 
-    def region(self, interval: tuple[object, object]) -> Region:
+    def region(self, interval: tuple[object, object]) -> tuple[Region, list[Point]]:
         """See `region_of`."""
-        return region_of(self.problem, interval)[0]
+        return region_of(self.problem, interval)
 
-    def states(self, points: Sequence[Point], digits: int, limits: Limits) -> list[State]:
+    def base(self, which: int, candidates: list[Point]) -> Point:
+        """The first of the points where the logarithmic derivative number `which` is finite."""
+        return finite_base(self.problem, which, candidates)
+
+    def beginning(self, which: int, base: Point) -> Chart:
+        """The solution with this logarithmic derivative, 1 at the base."""
+        slope = ball_from_flint(omega(self.problem, which, base, _SLOPE_BITS))
+        return replace(self, given={"x0": base, "y0": 1, "dy0": slope})
+
+    def states(self, points: Sequence[Point], digits: int, limits: Limits | None, **options: Any) -> list[State]:
         """y and y', to so many digits where they can be had."""
-        return [s.state for s in evaluate_states(self.problem, points, digits=digits, limits=limits, **self.given)]
+        options |= {"digits": digits, "limits": limits, **self.given}
+        return [s.state for s in evaluate_states(self.problem, points, **options)]
+
+    def singular_points(self) -> list[Point]:
+        """The midpoints of enclosures."""
+        return self.problem.singular_points(128)
 
     @cached_property
     def forcing(self) -> Forcing | None:
@@ -44,7 +73,7 @@ class Chart:
 
     @cached_property
     def _singular(self) -> list[Point]:
-        return self.problem.singular_points(128)
+        return self.singular_points()
 
     def local(self, centre: Point, e: int, terms: int) -> list[list[arb]] | None:
         """a, H b and H^2 c over a(c), so many terms in u; None where a singular point is nearer than 4 H."""
@@ -62,3 +91,113 @@ class Chart:
         """H^2 f/a at u."""
         assert self.forcing is not None
         return self.forcing.value(acb(centre.x) + acb(u) * acb(arb((1, e)))).real * arb((1, 2 * e))
+
+
+@dataclass(frozen=True)
+class Changed(Chart):
+    """The problem is that in t; `answer` has the equation with its change of variable."""
+
+    answer: Any = None
+    params: Mapping[str, object] | None = None
+
+    @cached_property
+    def _functions(self) -> tuple[Any, Callable[[Any, acb], acb]]:
+        """t, a SymPy expression, and expressions as functions of x in balls."""
+        import sympy
+
+        from kovacic.enclosure.change import function_of_x
+
+        change = self.answer.equation.change
+        x = sympy.Symbol(change.variable)
+        return function_of_x(change, self.params), lambda f, at: in_balls(f, {x: at})
+
+    def _values(self, x: acb) -> tuple[acb, acb]:
+        t, at = self._functions
+        return at(t, x), at(t.diff(), x)
+
+    def region(self, interval: tuple[object, object]) -> tuple[Region, list[Point]]:
+        """Raises InputError, with the reason, where there are no values at its ends."""
+        found = region_of(None, interval)
+        if self.given:
+            self.states([as_point(end.real, "x") for end in (found[0].low, found[0].high)], 3, None)
+        return found
+
+    def _in_t(self, x: Point) -> Point:
+        with working_precision(_SLOPE_BITS + 200):
+            return midpoint(self._values(acb(x.x))[0])
+
+    def base(self, which: int, candidates: list[Point]) -> Point:
+        """In x."""
+        points = [self._in_t(x) for x in candidates]
+        return candidates[points.index(finite_base(self.problem, which, points))]
+
+    def beginning(self, which: int, base: Point) -> Chart:
+        """In x."""
+        slope = omega(self.problem, which, self._in_t(base), _SLOPE_BITS)
+        with working_precision(_SLOPE_BITS + 200):
+            slope *= self._values(acb(base.x))[1]
+        return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope)})
+
+    def states(self, points: Sequence[Point], digits: int, limits: Limits | None, **options: Any) -> list[State]:
+        """y and dy/dx; along the real axis."""
+        from kovacic.enclosure.change import evaluate_in_x
+
+        options |= {"digits": digits, "limits": limits, "path": None, "params": self.params, **self.given}
+        found = evaluate_in_x(self.answer, self.answer.equation.change, [*points], derivative=True, **options)
+        return [(ball_to_flint(y), ball_to_flint(dy)) for y, dy in found]
+
+    def singular_points(self) -> list[Point]:
+        """None: values beyond one are refused."""
+        return []
+
+    def local(self, centre: Point, e: int, terms: int) -> list[list[arb]] | None:
+        """Equation (1); None where a(c) or t'(c) is zero.  Raises InputError where it isn't real."""
+        (t, at), cap = self._functions, ctx.cap
+        argument = t.args[0]
+        ctx.cap = terms + 2  # FLINT's series end there
+        try:
+            line = acb_series([at(argument, acb(centre.x)), at(argument.diff(), acb(0)) * arb((1, e))])
+            s = _FUNCTIONS[type(t).__name__](line)
+            a, b, c = (horner(reversed(p.coeffs()), s) if p else acb_series([]) for p in self._equation)
+            d = s.derivative()
+            found = [(b * d / a - d.derivative() / d).coeffs()[:terms], (c * d * d / a).coeffs()[:terms]]
+        except (ZeroDivisionError, ValueError):
+            return None
+        finally:
+            ctx.cap = cap
+        if not all(v.imag.contains(0) for part in found for v in part):
+            raise InputError("a table needs an equation that is real for real x", hint="evaluate has its values")
+        return [[arb(1)], *([v.real for v in part] for part in found)]
+
+    def source(self, centre: Point, e: int, u: arb) -> arb:
+        """t'^2 f/a at u."""
+        assert self.forcing is not None
+        t, slope = self._values(acb(centre.x) + acb(u) * acb(arb((1, e))))
+        return (self.forcing.value(t) * slope**2).real * arb((1, 2 * e))
+
+
+_FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
+    "exp": lambda w: w.exp(),
+    "sin": lambda w: w.sin(),
+    "cos": lambda w: w.cos(),
+    "tan": lambda w: w.tan(),
+    "sinh": lambda w: (w.exp() - (-w).exp()) / 2,
+    "cosh": lambda w: (w.exp() + (-w).exp()) / 2,
+}
+
+
+def chart_of(
+    equation: object, given: dict[str, Any], params: Mapping[str, object] | None, *, constants: bool = True
+) -> Chart:
+    """The chart of an equation, as `evaluate` takes it; right-hand sides and constants only where a solution is `given`."""
+    answer: Any = equation
+    if getattr(equation, "change", None) is None:
+        try:
+            return Chart(as_problem(equation, params, forced=constants, constants=constants), given)
+        except NotRational as reason:
+            answer = read_input(equation, exponentials=True)
+            if answer.equation is None or answer.equation.change is None:
+                raise reason from None
+    plain = replace(answer.equation, change=None)
+    inner = replace(answer, equation=plain) if hasattr(answer, "decision") else plain
+    return Changed(as_problem(inner, params, forced=constants, constants=constants), given, answer, params)

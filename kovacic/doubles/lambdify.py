@@ -27,16 +27,15 @@ from flint import acb
 
 from kovacic.api import solve
 from kovacic.doubles.arrangement import product_form
+from kovacic.doubles.chart import Chart, chart_of
 from kovacic.doubles.product_form import ProductForm
-from kovacic.doubles.region import Measured, Region, region_of
-from kovacic.doubles.tabulate import TabulatedFunction, tabulate
-from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
-from kovacic.enclosure.closed_form import exponentials, finite_base, omega
+from kovacic.doubles.region import Measured, Region
+from kovacic.doubles.tabulate import TabulatedFunction, table_of
+from kovacic.enclosure.closed_form import exponentials
 from kovacic.enclosure.exponential import LogDerivative, embed
 from kovacic.enclosure.points import Point, as_point, to_acb, working_precision
 from kovacic.enclosure.precision import AccuracyWarning
-from kovacic.enclosure.problem import NumericProblem, as_problem
-from kovacic.enclosure.states import evaluate_states
+from kovacic.enclosure.problem import NumericProblem
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
@@ -45,9 +44,10 @@ TINY, HUGE = 2.0**-960, 2.0**1020
 
 _DIGITS = 50
 _PREC = 240
-_SLOPE_BITS = 4000
-"""Precision of an initial slope, for Taylor steps: its error, times the growth of the dominant solution, contaminates a
-recessive one."""
+_BITS = 166
+"""The bits of 50 digits."""
+_HIGHEST = 4000
+"""Bits up to which closed forms are computed."""
 
 _SAMPLES = 24
 _ZEROS = 3
@@ -98,11 +98,13 @@ def lambdify(
     >>> print(f"{airy(1.0):.12f}")
     1.172299970058
     """
-    problem = as_problem(solution, params, forced=bool(start), constants=bool(start))
     if isinstance(which, str):
         start["which"], which = which, 0
+    chart = chart_of(solution, start, params, constants=bool(start))
+    problem = chart.problem
     if not start and params and problem.S is not None:
         problem = replace(problem, decision=solve(problem.S, limits=limits or DEFAULT_LIMITS).decision)
+        chart = replace(chart, problem=problem)
     if not start and (problem.decision is None or problem.decision.semi_invariant is None):
         raise InputError(
             "lambdify needs a Liouvillian solution, found by kovacic.solve, or initial values",
@@ -110,23 +112,23 @@ def lambdify(
         )
     budget = Budget(limits or DEFAULT_LIMITS)
     with budget.watched():
-        region, candidates = region_of(problem, interval)
-        form, given = None, start
+        region, candidates = chart.region(interval)
+        form = None
         if not start:
-            base = finite_base(problem, which, candidates)
-            with working_precision(_PREC):
-                form = product_form(problem, which, region, base)
+            base = chart.base(which, candidates)
+            if type(chart) is Chart:
+                with working_precision(_PREC):
+                    form = product_form(problem, which, region, base)
             if form is None and not region.is_real:
                 raise InputError(
                     "complex arguments need a solution of case 1", hint="evaluate treats every complex point"
                 )
-            if form is None:
-                given = _with_omega(problem, which, base)
-        make = partial(tabulate, problem, *interval, limits=budget.share(1).limits, **given)
+            chart = chart.beginning(which, base)
+        make = partial(table_of, chart, interval, limits=budget.share(1).limits)
         variants = (careful,) if careful is not None else (False, True) if check else (False,)
         for variant in variants:
             function: Function = replace(form, careful=variant) if form is not None else make(careful=variant)
-            found = _measured(function, problem, which, start, budget) if check else None
+            found = _measured(function, chart, None if start else which, budget) if check else None
             if not isinstance(found, Measured) or found.keeps_the_promise:
                 break
     if found is None:
@@ -154,18 +156,25 @@ def measure(
     Points where the solution is 0 or beyond the range of doubles don't count; a wrong 0, inf or NaN does.  Raises
     LimitExceeded where the reference isn't found within the limits.
     """
-    problem = as_problem(equation, forced=True, constants=True)
+    chart = chart_of(equation, dict(start or {}), None)
+    if not start:
+        assert function.base is not None
+        chart = chart.beginning(which, function.base)
+    return _errors(function, chart, None if start else which, points, limits)
+
+
+def _errors(function: Function, chart: Chart, which: int | None, points: Any, limits: Limits | None) -> Measured:
+    """As `measure`; the solution number `which`, up to a factor, if it isn't None."""
     given = samples(function) if points is None else np.atleast_1d(points)
     exact = [as_point(complex(x), "x") for x in given]
     found = [complex(v) for v in function(given)]
-    base = function.base
-    reference = None if start or base is None else _exponentials(problem, which, base, exact)
+    reference = None
+    if which is not None and type(chart) is Chart:
+        reference = _exponentials(chart.problem, which, chart.given["x0"], exact)
     if reference is None:
-        begin = start or _with_omega(problem, which, base)
-        states = evaluate_states(problem, exact, **begin, digits=_DIGITS, method="taylor", limits=limits)
-        if not all(state.reached or state.y.contains_zero() for state in states):
+        reference = [y for y, _ in chart.states(exact, _DIGITS, limits, method="taylor")]
+        if not all(y.contains(0) or y.rel_accuracy_bits() >= _BITS for y in reference):
             raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
-        reference = [ball_to_flint(state.y) for state in states]
     with working_precision(_PREC):
         pairs = [(v, y) for v, y in zip(found, reference, strict=True) if not y.contains(0)]
         quotients = [(acb(v) / y).mid() for v, y in pairs if TINY < abs(v) < math.inf]
@@ -173,15 +182,9 @@ def measure(
             return Measured(math.inf, math.inf, 0)
         by_real = abs(quotients[0].real) >= abs(quotients[0].imag)
         quotients.sort(key=lambda q: q.real if by_real else q.imag)
-        factor = acb(1) if start else quotients[len(quotients) // 2]
+        factor = acb(1) if which is None else quotients[len(quotients) // 2]
         errors = [error for v, y in pairs if (error := _units(v, (y * factor).mid())) is not None]
     return Measured(float(np.median(errors)), max(errors), len(errors))
-
-
-def _with_omega(problem: NumericProblem, which: int, base: Point | None) -> dict[str, Any]:
-    """The initial values of the solution number `which`, 1 at the base."""
-    assert base is not None
-    return {"x0": base, "y0": 1, "dy0": ball_from_flint(omega(problem, which, base, _SLOPE_BITS))}
 
 
 def _exponentials(problem: NumericProblem, which: int, base: Point, points: Sequence[Point]) -> list[acb] | None:
@@ -196,8 +199,8 @@ def _exponentials(problem: NumericProblem, which: int, base: Point, points: Sequ
             c = branches[which].constant()
             theta, P, z = LogDerivative.make(branches[which].theta, c), embed(branches[which].P, c), to_acb(base)
             found = [theta.growth(z, x) * P(x) / P(z) for x in map(to_acb, points)]
-        if prec > _SLOPE_BITS or all(
-            y.rel_accuracy_bits() > 166 or (y.contains(0) and prec > 2 * _PREC) for y in found
+        if prec > _HIGHEST or all(
+            y.rel_accuracy_bits() >= _BITS or (y.contains(0) and prec > 2 * _PREC) for y in found
         ):
             return found
         prec *= 2
@@ -239,12 +242,10 @@ def _units(value: complex, exact: acb) -> float | None:
     return float(abs(value - exact) / float(np.spacing(float(size))))
 
 
-def _measured(
-    function: Function, problem: NumericProblem, which: int, start: Mapping[str, Any], budget: Budget
-) -> Measured | str:
+def _measured(function: Function, chart: Chart, which: int | None, budget: Budget) -> Measured | str:
     """The error on the default points, or why it couldn't be measured."""
     try:
         limits = Limits(seconds=min(20.0, budget.seconds_left))
-        return measure(function, problem, which=which, start=start, limits=limits)
+        return _errors(function, chart, which, None, limits)
     except LimitExceeded as limit:
         return str(limit)

@@ -94,10 +94,10 @@ def in_blocks(function: Callable[[Any], Any], points: Any, block: int = BLOCK) -
     return result.reshape(points.shape)
 
 
-def region_of(problem: NumericProblem, interval: tuple[object, object]) -> tuple[Region, list[Point]]:
+def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -> tuple[Region, list[Point]]:
     """The region in doubles, inside the exact one, and some points near its middle.
 
-    Raises InputError if it is empty, or contains a singular point other than its two ends.
+    Raises InputError if it is empty, or contains a singular point of the problem other than its two ends.
     """
     try:
         first, second = interval
@@ -107,8 +107,10 @@ def region_of(problem: NumericProblem, interval: tuple[object, object]) -> tuple
     low, high = Point(min(a.re, b.re), min(a.im, b.im)), Point(max(a.re, b.re), max(a.im, b.im))
     if a == b or (a.is_real() and b.is_real() and a != low):
         raise InputError("the interval is empty", hint="give two real numbers, the smaller one first")
-    with working_precision(_PREC):
-        singular = _singular_ends(problem, low, high)
+    singular = (False, False)
+    if problem is not None:
+        with working_precision(_PREC):
+            singular = _singular_ends(problem, low, high)
     (left, right), (bottom, top) = _inside(low.re, high.re), _inside(low.im, high.im)
     if left > right or bottom > top:
         raise InputError("the interval contains no double")

@@ -26,13 +26,12 @@ import numpy as np
 from flint import arb, arb_mat, arb_poly
 from numpy.polynomial import chebyshev
 
-from kovacic.doubles.chart import Chart
+from kovacic.doubles.chart import Chart, chart_of
 from kovacic.doubles.double_double import Pair, double, folded, horner, scaled, two_sum
 from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import Point, working_precision
-from kovacic.enclosure.problem import as_problem
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
@@ -110,7 +109,8 @@ def tabulate(
     """One solution on [start, stop] in double precision; the interval must be regular.
 
     The equation and which solution it is are `given` as for `kovacic.evaluate`: x0, which may lie outside of the interval and
-    be a singular point, with y0 and dy0, frobenius, or which; params; path.  `careful` stands for double-doubles: a unit in
+    be a singular point, with y0 and dy0, frobenius, or which; params; path (y0 and dy0 only where coefficients are rational in
+    exp(k x), sin(k x), ...).  `careful` stands for double-doubles: a unit in
     the last place, at 20 times the cost of plain ones.  Values may be complex.  Raises InputError (an empty interval, a
     singular point in it or between it and x0) and LimitExceeded (more than 5,000 pieces, or the time).
 
@@ -121,10 +121,13 @@ def tabulate(
     >>> print(f"{bessel(5.0):.15f}")      # J0(5)
     -0.177596771314338
     """
-    budget = Budget(limits or DEFAULT_LIMITS)
-    problem = as_problem(equation, given.pop("params", None), forced=True, constants=True)
-    chart = Chart(problem, given)
-    region = chart.region((start, stop))
+    params = given.pop("params", None)
+    return table_of(chart_of(equation, given, params), (start, stop), careful, limits or DEFAULT_LIMITS)
+
+
+def table_of(chart: Chart, interval: tuple[object, object], careful: bool, limits: Limits) -> TabulatedFunction:
+    """As `tabulate`."""
+    budget, (region, _) = Budget(limits), chart.region(interval)
     if not region.is_real:
         raise InputError("a table needs an interval of the real axis")
     if any(region.singular):
@@ -141,7 +144,7 @@ def tabulate(
     arrays = edges, np.array([float(c) for c, _ in cells]), exponents, powers, coefficients
     for array in arrays:
         array.flags.writeable = False
-    x0 = given.get("x0")
+    x0 = chart.given.get("x0")
     return TabulatedFunction(region, x0 if isinstance(x0, Point) else None, *arrays, careful=careful)
 
 
@@ -161,10 +164,11 @@ def _pieces(chart: Chart, region: Region, variant: _Variant, budget: Budget) -> 
             raise LimitExceeded("no piece of positive size was found for the table", limit="unknown_degree")
         budget.check()
         good, series = _series(chart, open_, variant)
+        good &= np.array([low <= centre <= high for centre, _ in open_])  # there are values in the interval only
         done |= {cell: (series.hi[..., k], series.lo[..., k]) for k, cell in enumerate(open_) if good[k]}
         half = Fraction(2) ** (e - 1)
         halves = (c + sign * half for k, (c, _) in enumerate(open_) if not good[k] for sign in (-1, 1))
-        open_ = [(c, e - 1) for c in halves if c + half >= low and c - half <= high]
+        open_ = [(c, e - 1) for c in halves if c + half > low and c - half < high]
     cells = sorted(done)
     hi, lo = (np.stack([done[cell][i] for cell in cells], axis=-1) for i in (0, 1))
     return cells, Pair(hi, lo)

@@ -20,12 +20,14 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.enclosure.constants import as_number, in_balls, to_ball
 from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.precision import AccuracyWarning, start_bits
+from kovacic.enclosure.precision import AccuracyWarning, Evaluation, start_bits
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError
 from kovacic.reading.given import Change
 from kovacic.reading.symbolic import read_expression
+
+_BALLS = 5000  # bits of what is computed from a slope that is a ball
 
 #: t(u) is monotone, without poles, for u between neighbouring numbers (n + shift) pi.
 _SHIFTS = {"cos": arb(0), "sin": arb(0.5), "tan": arb(0.5)}
@@ -57,9 +59,7 @@ def evaluate_in_x(
             raise InputError(
                 f"{name} isn't for equations whose coefficients are functions of x", hint="give y0 and dy0"
             )
-    values = {sympy.Symbol(name): _exact(value, f"the parameter {name}") for name, value in (params or {}).items()}
-    t = read_expression(change.expression).xreplace(values)
-    variable = sympy.Symbol(change.variable)
+    t, variable = function_of_x(change, params), sympy.Symbol(change.variable)
     slope, rate = t.diff(variable), t.args[0].diff(variable)
     circle = isinstance(t, sympy.exp) and bool(in_balls(rate, {}).real.is_zero())
     many = isinstance(x, list | tuple | range)
@@ -70,14 +70,16 @@ def evaluate_in_x(
         raise InputError(f"{t} isn't known to be real and monotone from x0 to x", hint=hint)
     plain = replace(answer.equation, change=None)
     given = replace(answer, equation=plain) if hasattr(answer, "decision") else plain
-    options |= {"x0": t.subs(variable, start), "y0": y0, "dy0": _exact(dy0, "dy0") / slope.subs(variable, start)}
-    real = circle and bool(to_ball(as_number(y0, "y0")).imag.is_zero()) and _is_real(answer.equation, rate)
+    options |= {"x0": t.subs(variable, start), "y0": y0, "digits": digits, "params": params}
+    options["dy0"] = _over(dy0, slope.subs(variable, start))
+    real = (
+        circle
+        and all(to_ball(as_number(v, "y0")).imag.is_zero() for v in (y0, dy0))
+        and _is_real(answer.equation, rate)
+    )
     found: list[Ball | tuple[Ball, Ball]] = []
-    for place in places:
-        count = _chords(given, params, place - start, rate) if circle else 1
-        path = [t.subs(variable, start + (place - start) * sympy.Rational(k, count)) for k in range(1, count)]
-        target = t.subs(variable, place)
-        (state,) = evaluate_states(given, [target], path=path, digits=digits, params=params, **options)
+    widest = _widest_chord(given, params) if circle else None
+    for place, state in zip(places, _states(given, t, variable, start, places, widest, options), strict=True):
         if state.note is not None:
             warnings.warn(f"at {variable} = {place}: {state.note}", AccuracyWarning, stacklevel=3)
         with working_precision(2 * start_bits(digits)):
@@ -85,6 +87,21 @@ def evaluate_in_x(
         y, dy = (finite_ball(acb(value.real) if real else value) for value in both)
         found.append((y, dy) if derivative else y)
     return tuple(found) if many else found[0]
+
+
+def function_of_x(change: Change, params: Mapping[str, Any] | None) -> Any:
+    """t as a SymPy expression, with these values of its parameters."""
+    values = {sympy.Symbol(name): _exact(value, f"the parameter {name}") for name, value in (params or {}).items()}
+    return read_expression(change.expression).xreplace(values)
+
+
+def _over(dy0: Any, slope: Any) -> Any:
+    """dy0/t', exactly or in a ball that is given."""
+    number = as_number(dy0, "dy0")
+    if isinstance(number, Point) or not number.fixed:
+        return _exact(dy0, "dy0") / slope
+    with working_precision(_BALLS):
+        return number.value() / in_balls(slope, {})
 
 
 def _exact(value: Any, name: str) -> Any:
@@ -114,17 +131,40 @@ def _is_real(equation: Any, rate: Any) -> bool:
     return equation.h is None
 
 
-def _chords(answer: Any, params: Mapping[str, Any] | None, length: Any, rate: Any) -> int:
-    """How many chords the polygon has that stands for the arc.  Raises `InputError` for singular points on the circle."""
+def _states(
+    given: Any, t: Any, variable: Any, start: Any, places: list[Any], widest: arb | None, options: dict[str, Any]
+) -> list[Evaluation]:
+    """The states at these places; on the circle from one to the next on either side of the start, along chords."""
+    if widest is None:
+        return list(evaluate_states(given, [t.subs(variable, place) for place in places], **options))
+    found: dict[Any, Evaluation] = {}
+    for side in ([p for p in places if p >= start], [p for p in places if p < start]):
+        here, way = start, list[tuple[Any, Any]]()
+        for place in sorted(side, key=lambda p: abs(p - start)):
+            angle = abs(in_balls((place - here) * t.args[0].diff(variable), {})).upper()
+            count = 1 + int((angle / widest).upper().ceil().unique_fmpz())
+            way += [(here + (place - here) * sympy.Rational(k, count), None) for k in range(1, count)] + [
+                (place, place)
+            ]
+            here = place
+        states = evaluate_states(given, [t.subs(variable, x) for x, _ in way], path="chain", **options) if way else ()
+        found |= {place: state for (_, place), state in zip(way, states, strict=True) if place is not None}
+    return [found[place] for place in places]
+
+
+def _widest_chord(answer: Any, params: Mapping[str, Any] | None) -> arb:
+    """Chords over angles up to twice this are nearer to the circle than the singular points inside.
+
+    Raises `InputError` for singular points on the circle.
+    """
     problem = as_problem(answer, params, forced=True, constants=True)
     radii = [abs(to_acb(z)) for z in problem.singular_points(128)] if problem.embedded is None else [arb(1)]
     if any(radius.overlaps(arb(1)) for radius in radii):
         raise InputError(f"a singular point at a real x, or constants in the equation in {answer.variable}")
     inner = max((radius for radius in radii if radius < 1), default=arb(0))
-    angle = abs(in_balls(length * rate, {})).upper()
-    count = 1 + int((angle / arb(1).min(inner.acos())).upper().ceil().unique_fmpz())
-    assert (angle / (2 * count)).cos() > inner
-    return count
+    widest: arb = arb(1).min(inner.acos())
+    assert (widest / 2).cos() > inner
+    return widest
 
 
 def _cell(argument: Any, t: Any, circle: bool) -> int | None:

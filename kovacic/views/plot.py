@@ -11,17 +11,16 @@ and neither the backend nor the state of pyplot is touched.
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from kovacic.doubles.chart import chart_of
+from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.enclosure.points import Point, as_point, midpoint
-from kovacic.enclosure.precision import Evaluation
-from kovacic.enclosure.problem import as_problem
-from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError
 
 if TYPE_CHECKING:
@@ -31,11 +30,18 @@ _SHARE, _IRREGULAR_SHARE = Fraction(1, 256), Fraction(1, 16)
 """The curve ends this share of its interval before a singular point."""
 
 
+class Sample(NamedTuple):
+    """The solution at one point."""
+
+    x: Point
+    y: Ball
+
+
 @dataclass(frozen=True)
 class Samples:
     """The solution at points of an interval, in runs that are separated by singular points (real parts as doubles)."""
 
-    runs: tuple[tuple[Evaluation, ...], ...]
+    runs: tuple[tuple[Sample, ...], ...]
     singular: tuple[complex, ...]
 
 
@@ -52,10 +58,10 @@ def sample(
         raise InputError(f"the interval from {a} to {b} is empty", hint="give real numbers, the smaller one first")
     if points < 2:
         raise InputError("at least 2 points are needed")
-    problem = as_problem(equation, forced=True, constants=True)
-    singular = problem.singular_points(128)
+    chart = chart_of(equation, {}, options.pop("params", None))
+    singular = chart.singular_points()
     cuts = sorted({z.re for z in singular if z.is_real() and a.re <= z.re <= b.re})
-    wild = {float(midpoint(root).re) for root, order in problem.system.roots("den", 128) if order > 2}
+    wild = {float(midpoint(root).re) for root, order in chart.problem.system.roots("den", 128) if order > 2}
     grids, longest = [], (a.re, a.re)
     for left, right in itertools.pairwise([a.re, *cuts, b.re]):
         # Beside an irregular singular point, solutions are as large as exp(1/distance).
@@ -65,10 +71,12 @@ def sample(
         count = max(2, round(points * (last - first) / (b.re - a.re)))
         grids.append([first + (last - first) * Fraction(k, count - 1) for k in range(count)] if left < right else [])
     initial = {"y0": 1, "dy0": 0} if options.get("which") is options.get("frobenius") is None else {}
-    options = {"digits": 8, **initial, **(options if initial else options | {"y0": None, "dy0": None})}
-    middle = sum(longest) / 2 if x0 is None else x0
-    states = iter(evaluate_states(problem, list(itertools.chain(*grids)), x0=middle, path="above", **options))
-    runs = (tuple(itertools.islice(states, len(grid))) for grid in grids if grid)
+    options = {"limits": None, **initial, **(options if initial else options | {"y0": None, "dy0": None})}
+    chart = replace(chart, given={"x0": sum(longest) / 2 if x0 is None else x0})
+    places = [Point(x) for x in itertools.chain(*grids)]
+    values = map(finite_ball, (y for y, _ in chart.states(places, path="above", **{"digits": 8, **options})))
+    samples = map(Sample, places, values)
+    runs = (tuple(itertools.islice(samples, len(grid))) for grid in grids if grid)
     return Samples(tuple(runs), tuple(map(complex, singular)))
 
 
@@ -118,7 +126,7 @@ def _curves(axes: Any, samples: Samples) -> None:
     band: str | None = "error band"
     for label, colour, part in parts:
         for number, run in enumerate(samples.runs):
-            xs = [float(result.x.re) for result in run if isinstance(result.x, Point)]
+            xs = [float(result.x.re) for result in run]
             ys, radii = [getattr(result.y.mid, part) for result in run], [result.y.radius for result in run]
             axes.plot(xs, ys, color=colour, linewidth=1.5, label=None if number else label)
             if any(radius > 2e-3 * span for radius in radii):
