@@ -7,7 +7,6 @@ equality are always exact, an approximation only chooses between roots that are 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 from itertools import count
 from typing import Any
@@ -103,13 +102,7 @@ def adjoined_root(factor: Poly, target: Any, name: str) -> tuple[Poly, Poly]:
     with ctx.workprec(_PRECISION):
         position = _nearest_root(modulus, target + _complex(old.approximation) * shift)
     field = AlgebraicField(QQ, modulus, "alpha", position)
-    return element(field, theta), element(field, c)
-
-
-def element(field: AlgebraicField, coordinates: Sequence[Fraction]) -> Poly:
-    """The constant with these coordinates over the field below; those that are missing are 0."""
-    padded = [*coordinates, *[Fraction(0)] * (field.dimension - len(coordinates))]
-    return ExtensionPoly(field, tuple(field.base.poly([c]) for c in padded))
+    return field.element(QQ.poly(theta)), field.element(QQ.poly(c))
 
 
 def substituted(constant: Poly, theta: Poly) -> Poly:

@@ -59,8 +59,11 @@ class AlgebraicField(Field):
     @property
     def generator(self) -> ExtensionPoly:
         """The constant c."""
-        zero, one = self.base.poly([]), self.base.poly([1])
-        return ExtensionPoly(self, (zero, one, *[zero] * (self.dimension - 2)))
+        return self.element(self.base.poly([0, 1]))
+
+    def element(self, polynomial: Poly) -> ExtensionPoly:
+        """The value at c of a polynomial over K of a lower degree than the modulus."""
+        return ExtensionPoly(self, tuple(polynomial[i] for i in range(self.dimension)))
 
     def poly(self, coefficients: Iterable[Scalar | Poly]) -> ExtensionPoly:
         parts: list[list[Scalar | Poly]] = [[] for _ in range(self.dimension)]
@@ -104,18 +107,15 @@ class AlgebraicField(Field):
         back = x + self.generator * shift
         return [shifted.gcd(self.embed(factor))(back).monic() for factor, _ in self.base.factor(image)]
 
-    @property
-    def _splits_rarely(self) -> bool:
-        return splitting.splits_rarely(self.base, self.modulus)
-
     def bundles(self, allowed: Callable[[int], bool] | None = None) -> Iterator[tuple[Homomorphism, ...]]:
         return splitting.bundles(self.base, self.modulus, allowed)
 
     def collector(self, shape: tuple[int, ...]) -> Collector:
-        return splitting.Ideals(self.dimension, shape) if self._splits_rarely else self.base.collector(shape)
+        rarely = splitting.splits_rarely(self.base, self.modulus)
+        return splitting.Ideals(self.dimension, shape) if rarely else self.base.collector(shape)
 
     def coordinates(self, bundle: Sequence[Homomorphism], images: Sequence[Sequence[Any]]) -> list[Any]:
-        if self._splits_rarely:
+        if splitting.splits_rarely(self.base, self.modulus):
             return list(images[0])
         return self.base.coordinates(*splitting.coordinates(bundle, images, self.dimension))
 
@@ -266,8 +266,7 @@ class ExtensionPoly(Poly):
         base = self.field.base
         if not any(self.parts[1:]):
             return ExtensionPoly(self.field, (self.parts[0].inverse(), *self.parts[1:]))
-        element = base.poly([part[0] for part in self.parts]).inverse_modulo(self.field.modulus)
-        return ExtensionPoly(self.field, tuple(element[i] for i in range(self.field.dimension)))
+        return self.field.element(base.poly([part[0] for part in self.parts]).inverse_modulo(self.field.modulus))
 
     def to_sympy(self, variable: Any) -> Any:
         """As for every polynomial; the generator is a radical where it is called so, else a symbol."""

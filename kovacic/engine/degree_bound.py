@@ -17,9 +17,6 @@ from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_tot
 from kovacic.decision import Evidence, NecessaryCondition, NoRationalOmega, Rule
 from kovacic.engine.places import Kind, Place, Problem
 
-#: A polynomial with so many terms is moved to another point at once.
-_FEW_TERMS = 16
-
 
 def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
     """A place at which the exponents provably aren't rational over the field of its roots, if one is found quickly."""
@@ -120,12 +117,12 @@ def irregular_difference_squared(place: Place) -> Poly:
     coefficient of t^(nu-1) in N (v N E)^(-1/2), which Newton's iteration gives.
     """
     p, nu, (num, cofactor) = place.factor, place.order // 2, place.near
-    c = -p[0] if p.degree == 1 else AlgebraicField(p.field, p).generator
-    t = c.field.poly([0, 1])
+    extension = AlgebraicField(p.field, p) if p.degree > 1 else None
+    t = (extension or p.field).poly([0, 1])
     end = t**nu
-    N, E = (_moved(f, c, nu) for f in (num, cofactor)) if c else (num, cofactor)
-    if p.degree > 1:
-        slope, power = _moved(p, c, nu + 1) // t, c.field.poly([1])  # p = t slope
+    N, E = (_moved(f, p, extension, nu) for f in (num, cofactor))
+    if extension:
+        slope, power = _moved(p, p, extension, nu + 1) // t, extension.poly([1])  # p = t slope
         for digit in f"{place.order:b}":
             power = power * power * (slope if digit == "1" else 1) % end
         E = E * power
@@ -142,11 +139,10 @@ def irregular_difference_squared(place: Place) -> Poly:
     return value if p.degree == 1 else p.field.poly([part[0] for part in value.parts])
 
 
-def _moved(f: Poly, c: Poly, count: int) -> Poly:
-    """f(t + c) modulo t^count, a long polynomial by halves."""
-    t = c.field.poly([0, 1])
-    if not c or f.degree < _FEW_TERMS or c.field == f.field:
-        return (f(t + c) if c else f.over(c.field)) % t**count
-    half = (f.degree + 1) // 2
-    high, low = divmod(f, f.field.poly([0, 1]) ** half)
-    return (_moved(high, c, count) * (t + c) ** half + _moved(low, c, count)) % t**count
+def _moved(f: Poly, p: Poly, extension: AlgebraicField | None, count: int) -> Poly:
+    """f(t + c) modulo t^count by Taylor's formula, c the class of x modulo p: over the extension by c if there is one."""
+    coefficients = []
+    for k in range(count):
+        coefficients.append(extension.element(f % p) if extension else f % p)
+        f = f.derivative() / (k + 1)
+    return (extension or p.field).poly(coefficients)

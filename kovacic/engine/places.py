@@ -199,46 +199,39 @@ def rational_square_root(constant: Poly) -> Fraction | None:
 
 @dataclass(frozen=True)
 class LocalEquation:
-    """y'' = N / (t^order * E) y modulo p near t = 0, E(0) != 0."""
+    """y'' = N / (t^(2 nu) E) y modulo p near t = 0, E(0) != 0: omega has a pole of order nu."""
 
     N: Any
     E: Any
-    order: int
+    nu: int
 
     @property
     def p(self) -> int:
         return int(self.E.modulus())
 
-    @property
-    def nu(self) -> int:
-        """The order of the pole of omega: max(1, order/2)."""
-        return max(1, self.order // 2)
-
     def expanded(self, order: int) -> LocalEquation:
         """The same to so many terms, with E = 1 where E is long: a term of a solution takes one scalar product, not three."""
         if 6 * self.E.degree() <= order:
             return self
-        size = order + self.order
-        return LocalEquation(self.N.mul_low(self.E.inverse_series_trunc(size), size), self.E**0, self.order)
+        size = order + 2 * self.nu
+        return LocalEquation(self.N.mul_low(self.E.inverse_series_trunc(size), size), self.E**0, self.nu)
 
 
 def local_equation(num: Any, den: Any, order: int) -> LocalEquation:
     """y'' = num/den y modulo p, with a pole of this order at t = 0.  Raises `BadPrimeError` if it has another order."""
     if not den[order]:
         raise BadPrimeError("the order of a pole changes")
-    if order == 1:
-        return LocalEquation(num.left_shift(1), den.right_shift(1), 2)
-    return LocalEquation(num, den.right_shift(order), order)
+    return LocalEquation(num.left_shift(order % 2), den.right_shift(order), (order + 1) // 2)
 
 
 def reduced_equation(equation: LocalEquation, Q: Any) -> tuple[Any, Any, Any]:
     """The polynomial coefficients of `u''`, `u'`, `u` after y = exp(int Q/t^nu) u.
 
-    t^nu E u'' + 2 E Q u' + V u = 0 with t^nu V = E (t^(2 nu) (Q/t^nu)' + Q^2) - t^(2 nu - order) N.
+    t^nu E u'' + 2 E Q u' + V u = 0 with t^nu V = E (t^(2 nu) (Q/t^nu)' + Q^2) - N.
     """
     nu, E = equation.nu, equation.E
     derivative = Q.derivative().left_shift(nu) - (Q * nu).left_shift(nu - 1)
-    rest = E * (derivative + Q * Q) - equation.N.left_shift(2 * nu - equation.order)
+    rest = E * (derivative + Q * Q) - equation.N
     if any(int(rest[i]) for i in range(nu)):
         raise BadPrimeError("the exponential part doesn't solve the equation to leading order")
     return E.left_shift(nu), E * Q * 2, rest.right_shift(nu)

@@ -15,7 +15,6 @@ from flint import acb, arb, fmpq
 
 from kovacic.algebra.embedding import (
     adjoined_root,
-    element,
     principal_root,
     refined_root,
     substituted,
@@ -143,7 +142,7 @@ class Constants:
         if not isinstance(field, AlgebraicField) or field.base == QQ:
             return number
         parts = number.parts if isinstance(number, ExtensionPoly) else (number,)
-        return element(field, [part.field.rational_value(part) or Fraction(0) for part in parts])
+        return field.element(field.base.poly([part.field.rational_value(part) or 0 for part in parts]))
 
     def _number(self, value: Poly) -> Poly | None:
         """A constant that doesn't depend on parameters, as an element of the number field."""
@@ -153,7 +152,8 @@ class Constants:
         known = [c for part in parts if (c := part.field.rational_value(part)) is not None]
         if len(known) < len(parts):
             return None
-        return element(self.numbers, known) if isinstance(self.numbers, AlgebraicField) else self.numbers.poly(known)
+        constant = QQ.poly(known)
+        return self.numbers.element(constant) if isinstance(self.numbers, AlgebraicField) else constant
 
     def embedded(self, function: RatFunc) -> RatFunc:
         """The rational function over the whole field, or over Q if it lies there."""
