@@ -203,18 +203,6 @@ class ExtensionPoly(Poly):
                     products[top - n + i] = products[top - n + i] - products[top] * modulus[i]
         return ExtensionPoly(self.field, tuple(products[:n]))
 
-    def __mul__(self, other: Poly | Scalar) -> ExtensionPoly:
-        field = self.field
-        below = isinstance(other, Poly) and other.field is not field and field.extends(other.field)
-        if below or isinstance(other, (int, Fraction)):
-            return ExtensionPoly(field, tuple(part * other for part in self.parts))
-        return super().__mul__(other)
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Poly | Scalar) -> ExtensionPoly:
-        return self * Fraction(1, other) if isinstance(other, (int, Fraction)) else super().__truediv__(other)
-
     def _divmod(self, other: ExtensionPoly) -> tuple[ExtensionPoly, ExtensionPoly]:
         if self.degree < other.degree:
             return self.field.poly([]), self

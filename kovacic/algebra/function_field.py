@@ -223,10 +223,11 @@ class FunctionPoly(Poly):
         return self.field.make(self.num * other.num, self.den * other.den)
 
     def _divmod(self, other: FunctionPoly) -> tuple[FunctionPoly, FunctionPoly]:
-        """Pseudo-division of the numerators: scale * a = quotient * b + remainder."""
-        field, context = self.field, self.field.context
-        if other.degree == 0:
-            return self._mul(other.inverse()), field.poly([])
+        """By flint's division where there is no remainder, else by pseudo-division: scale * a = quotient * b + remainder."""
+        field, context, content = self.field, self.field.context, other.numerator_content()
+        quotient, remainder = divmod(self.num, other.num // content)
+        if not remainder:
+            return field.make(quotient * other.den, self.den * content), field.poly([])
         x, lead, n = context.gen(0), other._columns()[-1], other.degree
         scale, quotient, remainder = context.constant(1), context.constant(0), self.num
         while not remainder.is_zero() and (degree := int(remainder.degrees()[0])) >= n:
@@ -237,21 +238,6 @@ class FunctionPoly(Poly):
             quotient, scale = quotient * factor + step, scale * factor
         below = scale * self.den
         return field.make(quotient * other.den, below), field.make(remainder, below)
-
-    def __floordiv__(self, other: Poly | Scalar) -> FunctionPoly:
-        """The quotient; the division is exact in most cases, and then flint's is faster by far."""
-        exact = self.exact_quotient(other) if other else None
-        return super().__floordiv__(other) if exact is None else exact
-
-    def exact_quotient(self, divisor: Poly | Scalar) -> FunctionPoly | None:
-        pair = self._common(divisor)
-        if pair is None or not pair[1]:
-            raise ZeroDivisionError("an exact quotient needs a divisor that isn't zero")
-        if pair[0] is not self:
-            return pair[0].exact_quotient(pair[1])  # type: ignore[no-any-return]
-        content = pair[1].numerator_content()
-        quotient, remainder = divmod(self.num, pair[1].num // content)
-        return None if remainder else self.field.make(quotient * pair[1].den, self.den * content)
 
     def _gcd(self, other: FunctionPoly) -> FunctionPoly:
         return FunctionPoly(self.field, self.num.gcd(other.num), self.field.context.constant(1)).monic()

@@ -307,7 +307,7 @@ def _yield_factors(coefficients: tuple[int, ...]) -> Iterator[list[tuple[tuple[i
 
 
 def _integers(polynomial: Any) -> tuple[int, ...]:
-    return tuple(int(c) for c in polynomial.coeffs())
+    return tuple([int(c) for c in polynomial.coeffs()])
 
 
 def _flint_scalar(value: Scalar | Poly) -> Any:

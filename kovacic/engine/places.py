@@ -83,8 +83,7 @@ class Place:
         modulo a prime, it doesn't vanish; if it does vanish, nothing is claimed (and then there is a logarithm only by a
         chance of about 1 in 2^60).  Nothing is claimed either where the series would be longer than the limits allow.
         """
-        delta = self.delta
-        if self.order != 2 or delta is None or delta.denominator > 1:
+        if self.order != 2 or (delta := self.delta) is None or delta.denominator > 1:
             return self.order == 1
         if not 0 < delta <= self.budget.limits.unknown_degree:
             return delta == 0
