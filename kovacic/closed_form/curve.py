@@ -92,11 +92,6 @@ class CurveIntegral:
         return RatFunc(self.g.derivative(), self.g) * Fraction(-1, 2)
 
     @property
-    def rational_part(self) -> RatFunc | None:
-        """C g, if the integral is C s = C g/s; else None."""
-        return None if self.residues or self.rest else self.exact * self.g
-
-    @property
     def is_elementary(self) -> bool:
         """Does (2) give the integral?  False says nothing for genus 1 and higher."""
         return self.g.degree <= 2 or (not self.residues and not self.rest)

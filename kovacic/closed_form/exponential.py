@@ -92,11 +92,6 @@ class ExponentialPrimitive:
             total = sum((self.monomial.t**term.power * term.coefficient for term in self.terms), total)
         return sum((residue.logarithmic for residue in self.poles), total)
 
-    @property
-    def rational_part(self) -> RatFunc | None:
-        """W, if the integral is W k; else None."""
-        return None if self.logarithmic or self.errors or self.terms or self.poles else self.W
-
 
 def integrate_composite(r: RatFunc, E: RatFunc) -> ExponentialPrimitive | str:
     """int r exp(E) dx, or why it is left.

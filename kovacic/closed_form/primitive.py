@@ -43,10 +43,6 @@ class RationalPrimitive:
     def integrand(self) -> RatFunc:
         return self.parts.derivative
 
-    @property
-    def rational_part(self) -> RatFunc | None:
-        return None if self.parts.residues else self.parts.exact
-
 
 @dataclass(frozen=True)
 class PowerPrimitive:
@@ -73,10 +69,6 @@ class PowerPrimitive:
         r = sum((residue.logarithmic for residue in self.poles), self.W.derivative() + self.W * rate)
         return r(self.t) * self.t.derivative()
 
-    @property
-    def rational_part(self) -> RatFunc | None:
-        return None if self.poles else self.W(self.t)
-
 
 @dataclass(frozen=True)
 class OpenPrimitive:
@@ -85,7 +77,7 @@ class OpenPrimitive:
     reason: str
 
 
-#: int r k dx, with r as `integrand`, k'/k as `kernel_derivative`, and W as `rational_part` if the integral is W k alone.
+#: int r k dx, with r as `integrand` and k'/k as `kernel_derivative`.
 Primitive = RationalPrimitive | CurveIntegral | ExponentialPrimitive | PowerPrimitive | OpenPrimitive
 
 
