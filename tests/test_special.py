@@ -455,3 +455,50 @@ def test_names_of_gauss_functions(text: str, names: tuple[str, str | None]) -> N
     for y in found:
         left = (a * y.diff(x, 2) + b * y.diff(x) + c * y).subs({n: sympy.Rational(2, 7), x: sympy.Rational(3, 11)})
         assert abs(sympy.N(left, 30)) < 1e-20
+
+
+# ------------------------------------------------------------------------------------------------ Mathieu's functions
+
+
+@pytest.mark.parametrize(
+    ("coefficient", "damping", "expected"),
+    [
+        ("a - 2*q*cos(2*x)", "0", ("a", "q", "x")),
+        ("a - 2*q*cosh(2*x)", "0", None),
+        ("3 + sin(x)**2", "0", ("7/2", "1/4", "x")),
+        ("l + g*sin(w*x)", "0", ("4*l/w**2", "-2*g/w**2", "w*x/2 - pi/4")),
+        ("1 + cos(x + 1)", "0", ("4", "-2", "x/2 + 1/2")),
+        ("1 + sin(x) + 2*cos(x)", "0", None),
+        ("1 - sin(x) - 2*cos(x)", "0", None),
+        ("1 + 2*sinh(x) + 3*cosh(x)", "0", None),
+        ("1 + sinh(x)", "0", None),
+        ("1 + cos(x)", "2", ("0", "-2", "x/2")),
+        ("2 + cos(3*x)", "2*sin(3*x)", None),
+    ],
+)
+def test_mathieus_functions(coefficient: str, damping: str, expected: tuple[str, str, str] | None) -> None:
+    """The equation itself, by SymPy's derivatives; and the parameters where they are known."""
+    x, y = sympy.Symbol("x"), sympy.Function("y")
+    b, c = sympy.sympify(damping), sympy.sympify(coefficient)
+    if damping.startswith("2*sin"):  # y = u exp(-int b/2)
+        c = c + b.diff(x) / 2 + b**2 / 4
+    found = kovacic.dsolve(y(x).diff(x, 2) + b * y(x).diff(x) + c * y(x)).rhs
+    functions = sorted(found.atoms(sympy.mathieuc, sympy.mathieus), key=str)
+    assert [f.func for f in functions] == [sympy.mathieuc, sympy.mathieus]
+    rest = sympy.expand(found.diff(x, 2) + b * found.diff(x) + c * found)
+    names = {f: sympy.Dummy() for f in rest.atoms(*_MATHIEU)}
+    rest = rest.xreplace(names)
+    for point in (sympy.Rational(3, 7), sympy.Rational(-17, 10)):
+        at = rest.subs({**dict(zip(sympy.symbols("a q l g w C1 C2"), (2, 3, 5, 7, 11, 13, 17), strict=True)), x: point})
+        assert all(abs(sympy.N(at.coeff(name), 30, chop=True)) < 1e-20 for name in names.values())
+    if expected is not None:
+        assert all(f.args == tuple(map(sympy.sympify, expected)) for f in functions)
+
+
+_MATHIEU = (sympy.mathieuc, sympy.mathieus, sympy.mathieucprime, sympy.mathieusprime)
+
+
+@pytest.mark.parametrize("coefficient", ["1 + cos(x) + cos(2*x)", "1 + cos(x)^2 + sin(x)", "1/(2 + cos(x))"])
+def test_other_waves_are_not_mathieus(coefficient: str) -> None:
+    with pytest.raises(NotImplementedError, match="no special function was found"):
+        kovacic.dsolve(f"y'' + ({coefficient})*y = 0")

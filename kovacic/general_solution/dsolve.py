@@ -35,6 +35,7 @@ from kovacic.reading.source import read_source, source_of
 from kovacic.reading.symbolic import function_of
 from kovacic.solution import Solution
 from kovacic.special.answer import special_functions
+from kovacic.special.mathieu import mathieu
 from kovacic.views.sentences import SCREEN
 
 
@@ -123,7 +124,9 @@ def _solved(
     given = read_values(ics, function, equation) if ics else ()
     if solution.case is None or special:
         own = {name: symbol for name, symbol in symbols.items() if name != solution.variable}
-        pair = special_functions(solution.S, solution.gauge, solution.variable, budget, symbols=own)
+        pair: Any = special_functions(solution.S, solution.gauge, solution.variable, budget, symbols=own)
+        if not pair and equation.change is not None:
+            pair = mathieu(solution.S, solution.gauge, equation.change, equation.variable) or pair
         if not pair or (special and not _are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable))):
             raise NotImplementedError(f"{no_solution(solution, known)}; {pair}")
         if solution.status is Status.UNDECIDED and not solution.known:

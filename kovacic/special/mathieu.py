@@ -1,0 +1,52 @@
+"""Mathieu's functions, for equations whose coefficients are waves: y'' = S y in t = exp(k x) or tan(k x).
+
+With s = dt/dx, a function of t, v = u/sqrt(s) satisfies v'' = f v, f = s^2 S - s s''/2 + s'^2/4 (primes are d/dt).  For a wave
+f = mean + size cos(kappa x - shift), which is f'' = -kappa^2 (f - mean) with its values where kappa x = 0, v is a solution of
+
+    w'' + (a - 2 q cos(2 z)) w = 0,     z = (kappa x - shift)/2,    a = -4 mean/kappa^2,    q = 2 size/kappa^2,
+
+which has an even and an odd one.  An imaginary kappa makes the modified equation, in cosh.
+
+Reference: DLMF 28.2, 28.20.
+"""
+
+from __future__ import annotations
+
+import sympy
+from sympy import I, atan, cancel, mathieuc, mathieus, pi, tan
+
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.atoms import Atoms, Expr, display
+from kovacic.closed_form.product import product
+from kovacic.reading.given import Change
+from kovacic.reading.symbolic import read_expression
+
+
+def mathieu(S: RatFunc, gauge: RatFunc, change: Change, variable: str) -> tuple[Expr, Expr] | None:
+    """Two solutions, functions of x; None where f isn't such a wave.  Their Wronskian isn't zero: an even and an odd one.
+
+    >>> import kovacic
+    >>> print(kovacic.dsolve("y'' + (a - 2*q*cos(2*x))*y = 0"))
+    Eq(y(x), C1*mathieuc(a, q, x) + C2*mathieus(a, q, x))
+    """
+    t, x, T = sympy.Symbol(variable), sympy.Symbol(change.variable), read_expression(change.expression)
+    angle, waves = T.args[0], T.func is tan
+    s = T.diff(x).xreplace({T: t})
+    f = cancel(s**2 * Atoms(t).ratio(S) - s * s.diff(t, 2) / 2 + s.diff(t) ** 2 / 4)
+    n = sympy.degree(sympy.fraction(f)[1], t)
+    if s.has(x) or not n:
+        return None
+    unit = n if waves else I * n  # kappa x is unit * angle
+    unit = -unit if (unit * angle).could_extract_minus_sign() else unit
+    slope, kappa = cancel(s * f.diff(t)), unit * angle.diff(x)
+    mean, start = cancel(f + s * slope.diff(t) / kappa**2), 0 if waves else 1
+    cosine, sine = (sympy.expand(part.subs(t, start)) for part in (f - mean, slope / kappa))
+    if mean.has(t) or sympy.expand(cosine**2 + sine**2) == 0:
+        return None
+    shift, size = (atan(sine / cosine), cosine * sympy.sqrt(1 + (sine / cosine) ** 2)) if cosine else (pi / 2, sine)
+    a, q = (sympy.expand(2 * part / kappa**2) for part in (-2 * mean, size))
+    X = RatFunc(S.field.poly([0, 1]))
+    factor = display(product(gauge + (X / (X * X + 1) if waves else 1 / (2 * X))), Atoms(t)).subs(t, T)
+    factor = factor.replace(lambda e: e.func is atan and e.args[0] == T, lambda e: angle)
+    y1, y2 = (factor * function(a, q, sympy.expand((unit * angle - shift) / 2)) for function in (mathieuc, mathieus))
+    return y1, y2
