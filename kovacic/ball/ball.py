@@ -195,7 +195,7 @@ class Rolling:
         On the plane, where omega_3 sqrt(D) is constant, the limit of (12) for R1 -> infinity: every omega_3 satisfies it, but
         not every solution of it is an omega_3.
         """
-        return sp.factor(3 * self.half / self.D), sp.factor(self.leading * (1 - self.ratio**2) / self.D)
+        return sp.factor(3 * self.half / self.D), (1 - self.ratio**2) * sp.factor(self.leading / self.D)
 
     @property
     def S(self) -> sp.Expr:
@@ -207,15 +207,11 @@ class Rolling:
 class InRoots(Rolling):
     """All balls with R/R1 = rho and the different roots x1, x2 of D: up to a constant D is (x - x1)(x - x2).
 
-    Of the body, only A3/A1 occurs besides.  d1, d2 and S are written as the paper prints them.
+    Of the body, only A3/A1 occurs besides.  S is written as the paper prints it.
     """
 
     def __init__(self, rho: sp.Expr) -> None:
         super().__init__(rho, (X - x1) * (X - x2), sp.Integer(1), -A1 / (A1 - A3))
-
-    @property
-    def second_order(self) -> tuple[sp.Expr, sp.Expr]:
-        return sp.Rational(3, 2) * (2 * X - x1 - x2) / self.D, (1 - self.ratio**2) / self.D
 
     @property
     def S(self) -> sp.Expr:
@@ -233,12 +229,13 @@ class BallOnSphere(Rolling):
     @property
     def kind(self) -> str:
         """Which ball this is, in words; undecided symbolic parameters count as generic."""
+        centred = self.ball.a == 0
         if self.leading == 0:
-            return "A1 = A3 and a = 0 (homogeneous): D is constant" if self.ball.a == 0 else "A1 = A3: D is linear in x"
-        side = sign(self.discriminant)
-        if side == 0:
-            return "D has a double root, x1 = x2"
-        if side is None:
-            return "generic: D has two simple roots"
-        place = "real, outside of [-1, 1]" if side > 0 else "a complex conjugate pair"
-        return f"D has two simple roots, {place}" + (", with a = 0" if self.ball.a == 0 else "")
+            return "A1 = A3 and a = 0 (homogeneous): D is constant" if centred else "A1 = A3: D is linear in x"
+        kinds = {
+            None: "generic: D has two simple roots",
+            0: "D has a double root, x1 = x2",
+            1: "D has two simple roots, real, outside of [-1, 1]",
+            -1: "D has two simple roots, a complex conjugate pair",
+        }
+        return kinds[sign(self.discriminant)] + (", with a = 0" if centred else "")

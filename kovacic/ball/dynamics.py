@@ -49,22 +49,18 @@ class Force:
         value, slope = (sp.lambdify(U, f, modules="numpy", cse=True) for f in (V, sp.diff(V, U)))
         u = np.linspace(0.0, np.pi, 33)
         with np.errstate(all="ignore"):
-            here, mirrored, beyond = (
-                np.broadcast_to(np.asarray(value(at), dtype=float), 33) for at in (u, -u, 2 * np.pi - u)
-            )
-        bad = ~np.isfinite(here)
-        if bad.any():
-            raise InputError(f"the potential isn't finite at u = {u[bad.argmax()]:.3g}; it must be on 0 <= u <= pi")
-        if max(np.abs(mirrored - here).max(), np.abs(beyond - here).max()) > 1e-9 * np.abs(here).max():
-            raise InputError(
-                "the potential isn't smooth at the poles: V(-u) = V(u) = V(2 pi - u) fails",
-                hint="a function of cos(u) is: cos(u), sin(u)^2, exp(-cos(u))",
-            )
+            here, *others = (np.broadcast_to(np.asarray(value(at), dtype=float), 33) for at in (u, -u, 2 * np.pi - u))
+        if not np.isfinite(here).all():
+            at = u[np.isfinite(here).argmin()]
+            raise InputError(f"the potential isn't finite at u = {at:.3g}; it must be on 0 <= u <= pi")
+        if np.abs(np.subtract(others, here)).max() > 1e-9 * np.abs(here).max():
+            hint = "a function of cos(u) is: cos(u), sin(u)^2, exp(-cos(u))"
+            raise InputError("the potential isn't smooth at the poles: V(-u) = V(u) = V(2 pi - u) fails", hint=hint)
         return cls(V, value, slope, g)
 
     @classmethod
     def gravity(cls, sphere: BallOnSphere, g: Scalar) -> Force:
-        """A force m g at the centre of mass that presses the ball to the fixed surface (a negative g: pulls it off).
+        """A force m g at the centre of mass that presses the ball to the fixed surface; a negative g pulls it off.
 
         It points to the centre of the sphere, away from it inside, and downwards on a plane.  The centre of mass is at the
         distance d/|k| from the sphere's, d^2 = 1 + a^2 k^2 + 2 a k cos u, 1/k = R1 + R; V is m g (d - 1)/k.
@@ -178,8 +174,7 @@ def unsteadiness(y: Array, f: Array, rate: float) -> Array:
     change = np.array([f[0] / rate, f[1] / rate, f[3], f[4], f[2] / rate, f[5]]) / rate
     square = (z * z).sum(0)
     share = (change[:4] * z).sum(0) / np.where(square > 0, square, 1.0)
-    result: Array = np.sqrt(((change[:4] - share * z) ** 2).sum(0) + (change[4:] ** 2).sum(0))
-    return result
+    return np.asarray(np.sqrt(((change[:4] - share * z) ** 2).sum(0) + (change[4:] ** 2).sum(0)))
 
 
 def cross(a: Vector, b: Vector) -> tuple[Any, Any, Any]:
@@ -191,5 +186,4 @@ def dot(a: Vector, b: Vector) -> Any:
 
 
 def colatitude(s: Array) -> Array:
-    u: Array = np.arctan2(np.hypot(s[0], s[1]), s[2])
-    return u
+    return np.asarray(np.arctan2(np.hypot(s[0], s[1]), s[2]))

@@ -119,8 +119,7 @@ class Motion:
         """The ball's axes in space, as columns of (..., 3, 3)."""
         count, y = self._at(times)
         rows = np.moveaxis(y[6:15], 0, -1).reshape(*count.shape, 3, 3)
-        result: Array = self._space @ _turned(self._turn, count) @ rows @ _turned(_AXIS, -count * self._gain)
-        return result
+        return np.asarray(self._space @ _turned(self._turn, count) @ rows @ _turned(_AXIS, -count * self._gain))
 
     def energy(self, times: Any) -> Array:
         """Kinetic and potential energy, from the integrated angular velocity: constant up to its errors."""
@@ -141,8 +140,7 @@ class Motion:
         turn = cross(ball.rates(self.force.slope, y)[:3], (ball.R * s[0], ball.R * s[1], ball.R * s[2] + ball.a))
         lever = ball.a * ball.kappa / (1 + ball.rho)  # of the centre of mass, by the distance of the two centres
         weight = self.force.g * (1 + lever * s[2]) / np.sqrt(1 + lever**2 + 2 * lever * s[2])
-        result: Array = ball.m * (dot(s, turn) + dot(s, ball.acceleration(s, omega)) + weight)
-        return result
+        return np.asarray(ball.m * (dot(s, turn) + dot(s, ball.acceleration(s, omega)) + weight))
 
     def defects(self, times: Any) -> dict[str, Array]:
         """The closed forms of omega_3 and n at x(t) less the integrated angular velocity's components."""
@@ -151,8 +149,8 @@ class Motion:
         return {"omega_3": omega_3 - y[2], "n": n - dot(y[:3], y[3:6])}
 
     def _closed(self, y: Array) -> tuple[Array, Array]:
-        begin = self._solution(np.array(0.0))
-        return self.ball.transport(y[5], begin[5], begin[2], self.start.n)
+        start = self._solution(np.array(0.0))
+        return self.ball.transport(y[5], start[5], start[2], self.start.n)
 
     def _at(self, times: Any) -> tuple[Array, Array]:
         """The number of whole oscillations, and the states (18, ...) in the first one."""
@@ -191,11 +189,9 @@ def solve_motion(
         raise InputError(f"u is an angle between 0 and pi, not {state.u}")
     if gravity is not None and potential is not None:
         raise InputError("either gravity or a potential")
-    force = (
-        Force.gravity(sphere, 1 if gravity is None else gravity)
-        if potential is None
-        else Force.of(potential_of(potential))
-    )
+    force = Force.gravity(sphere, 1 if gravity is None else gravity)
+    if potential is not None:
+        force = Force.of(potential_of(potential))
     frame = Rotation.from_euler("ZY", [state.v, state.u]).as_matrix()  # (e_u, e_v, e_r) as columns
     along = [(1 + ball.rho) * np.sin(state.u) * state.dv, -(1 + ball.rho) * state.du, state.n]
     y = np.concatenate([frame @ along, frame[:, 2], np.eye(3).ravel(), np.zeros(3)])
@@ -214,12 +210,10 @@ def solve_motion(
         distance = unsteadiness(solution.y, np.array(ball.rates(force.slope, solution.y)), rate)
         approach = float(distance.min() / distance.max())
         if approach < _ASYMPTOTIC:
-            raise LimitExceeded(
-                f"the motion is asymptotic: about t = {solution.t[distance.argmin()]:.6g} it differs from a steady one by"
-                f" less than {_ASYMPTOTIC:g}, where floats don't tell whether and when it turns\n"
-                "  hint: change the initial velocity by 1e-5 of itself",
-                limit="digits",
-            )
+            where = f"about t = {solution.t[distance.argmin()]:.6g} it differs from a steady one by less than {_ASYMPTOTIC:g}"
+            why = f"{where}, where floats don't tell whether and when it turns"
+            hint = "change the initial velocity by 1e-5 of itself"
+            raise LimitExceeded(f"the motion is asymptotic: {why}\n  hint: {hint}", limit="digits")
     turned = solution.sol(cycle)
     before, after = (z[[0, 3]] + 1j * z[[1, 4]] for z in (y, turned))  # of omega and s, across the axis
     gain = float(np.angle((after * before.conj() * [rate**-2, 1.0]).sum()))
@@ -229,10 +223,8 @@ def solve_motion(
     s, c = np.sin(state.theta), np.cos(state.theta)
     below = Rotation.from_euler("ZY", [state.v1, state.u1]).as_matrix() if ball.kappa else np.eye(3)
     space = below @ np.array([[-s, c, 0], [c, s, 0], [0, 0, -1]]) @ frame.T
-    period = None if steady else cycle
-    return Motion(
-        ball, force, state, period, (float(low), float(high)), approach, solution.sol, cycle, gain, turn, space
-    )
+    ends, period = (float(low), float(high)), None if steady else cycle
+    return Motion(ball, force, state, period, ends, approach, solution.sol, cycle, gain, turn, space)
 
 
 def _integrate(ball: Dynamics, force: Force, y: Array, rate: float, *, turns: int) -> Any:
@@ -246,11 +238,9 @@ def _integrate(ball: Dynamics, force: Force, y: Array, rate: float, *, turns: in
         nonlocal count
         count += 1
         if count > MAX_EVALUATIONS:
-            raise LimitExceeded(
-                f"the motion doesn't turn within {MAX_EVALUATIONS} evaluations of its equations: it is almost asymptotic,"
-                " or the potential isn't smooth",
-                limit="evaluations",
-            )
+            why = "it is almost asymptotic, or the potential isn't smooth"
+            said = f"the motion doesn't turn within {MAX_EVALUATIONS} evaluations of its equations: {why}"
+            raise LimitExceeded(said, limit="evaluations")
         return ball.rates(force.slope, state.tolist())
 
     def speed(_: float, state: Array) -> float:
@@ -258,24 +248,20 @@ def _integrate(ball: Dynamics, force: Force, y: Array, rate: float, *, turns: in
 
     speed.terminal = turns or False  # type: ignore[attr-defined]
     scale = np.repeat([rate, 1.0, ball.R], [3, 12, 3])
-    options: dict[str, Any] = {"rtol": 2.3e-14, "atol": 1e-16 * scale, "dense_output": True}
-    end = (1e12 if turns else 10) / rate
-    result = solve_ivp(rates, (0.0, end), y, method="DOP853", events=speed if turns else None, **options)
+    options: dict[str, Any] = {"rtol": 2.3e-14, "atol": 1e-16 * scale, "dense_output": True, "method": "DOP853"}
+    result = solve_ivp(rates, (0.0, (1e12 if turns else 10) / rate), y, events=speed if turns else None, **options)
     if not result.success or (turns and len(result.t_events[0]) < turns):
-        raise LimitExceeded(
-            f"the motion can't be followed beyond t = {result.t[-1]:.6g}: {result.message}", limit="steps"
-        )
+        said = f"the motion can't be followed beyond t = {result.t[-1]:.6g}: {result.message}"
+        raise LimitExceeded(said, limit="steps")
     return result
 
 
 def _apply(matrices: Array, vectors: Array) -> Array:
     """Matrices (..., 3, 3) times vectors (3, ...), as (..., 3)."""
-    result: Array = np.einsum("...ij,j...->...i", matrices, vectors)
-    return result
+    return np.asarray(np.einsum("...ij,j...->...i", matrices, vectors))
 
 
 def _turned(vector: Array, counts: Array) -> Array:
     """Rotations by so many times this rotation vector, (..., 3, 3)."""
     found = Rotation.from_rotvec(np.multiply.outer(np.ravel(counts), vector)).as_matrix()
-    result: Array = found.reshape(*np.shape(counts), 3, 3)
-    return result
+    return np.asarray(found.reshape(*np.shape(counts), 3, 3))

@@ -18,7 +18,7 @@ from kovacic.ball.motion import Motion
 _BLUE, _ORANGE, _GREY, _GREEN = "#1f5f99", "#d9731a", "#8a8a8a", "#2f7d4f"
 
 
-def draw(motion: Motion, times: Array, path: Path | str, *, title: str = "") -> None:
+def draw(motion: Motion, times: Array, file: Path | str, *, title: str = "") -> None:
     """Write the picture of the motion at `times`; the format follows from the suffix (png, pdf, svg).
 
     The file is there whole or, after an error or an interruption, not at all (an older one stays as it was).
@@ -39,7 +39,8 @@ def draw(motion: Motion, times: Array, path: Path | str, *, title: str = "") -> 
     figure = Figure(figsize=(12.5, 2.6 + 1.6 * len(panels)), dpi=110)
     figure.set_layout_engine("constrained", wspace=0.08)
     grid = figure.add_gridspec(len(panels), 2, width_ratios=(1.15, 1))
-    _draw_path(figure.add_subplot(grid[:, 0]), motion.contact(times), motion.ball.kappa)
+    path = figure.add_subplot(grid[:, 0], projection="3d" if motion.ball.kappa else None)
+    _draw_path(path, motion.contact(times), motion.ball.kappa)
     for k, (curves, label, heading, levels) in enumerate(panels):
         axes = figure.add_subplot(grid[k, 1])
         for name, values in curves.items():
@@ -53,7 +54,7 @@ def draw(motion: Motion, times: Array, path: Path | str, *, title: str = "") -> 
     axes.set(xlabel="time t", yscale="log", ylim=(1e-17, max(1e-9, *(30 * error.max() for error in errors.values()))))
     axes.legend(loc="upper right", ncols=3, fontsize=9)
     figure.suptitle(title)
-    target = Path(path).resolve()  # through a symbolic link, which stays one
+    target = Path(file).resolve()  # through a symbolic link, which stays one
     beside = target.with_name(f"{target.stem}.{os.getpid()}{target.suffix}")
     try:
         figure.savefig(beside)
@@ -63,35 +64,26 @@ def draw(motion: Motion, times: Array, path: Path | str, *, title: str = "") -> 
 
 
 def _draw_path(axes: Any, points: Array, kappa: float) -> None:
-    """On the plane; or the sphere seen from the middle of the path, from far away, with circles every 30 degrees."""
-    view = np.eye(3)
+    """On the plane; or on the sphere, seen from far away above the middle of the path, with circles every 30 degrees."""
+    front, shown = np.full(len(points), True), points.T[: 3 if kappa else 2]
     if kappa:
-        radius, (X, Y, Z) = abs(1 / kappa), points.mean(axis=0)
-        azimuth = np.arctan2(Y, X) if np.hypot(X, Y) > 1e-9 * radius else -np.pi / 3
-        elevation = np.clip(np.arctan2(Z, np.hypot(X, Y)), -0.2, 0.7)
-        down, right, towards = Rotation.from_euler("ZY", [azimuth, np.pi / 2 - elevation]).as_matrix().T
-        view = np.array([right, -down, towards])  # the last one towards the eye
-        angle = np.linspace(0, 2 * np.pi, 361)
-        c, s = radius * np.cos(angle), radius * np.sin(angle)
-        axes.plot(c, s, color=_GREY, lw=0.9)
-        for k in np.arange(6) * np.pi / 6:
-            _curve(axes, view @ [s * np.cos(k), s * np.sin(k), c], _GREY, lw=0.5)
-            _curve(axes, view @ [np.sin(k) * c, np.sin(k) * s, np.full(361, radius * np.cos(k))], _GREY, lw=0.5)
+        X, Y, Z = points.mean(axis=0)
+        azimuth, elevation = np.arctan2(Y, X), np.clip(np.arctan2(Z, np.hypot(X, Y)), -0.2, 0.7)
+        axes.view_init(elev=np.degrees(elevation), azim=np.degrees(azimuth))
+        axes.set_proj_type("ortho")
+        v, u = np.mgrid[0 : 2 * np.pi : 73j, 0 : np.pi : 37j]
+        grid = np.array([np.sin(u) * np.cos(v), np.sin(u) * np.sin(v), np.cos(u)]) / abs(kappa)
+        axes.plot_wireframe(*grid, rstride=6, cstride=6, color=_GREY, lw=0.5, alpha=0.4)
+        axes.set_box_aspect((1, 1, 1), zoom=1.7)
         axes.set_axis_off()
+        front = points @ Rotation.from_euler("ZY", [azimuth, -elevation]).as_matrix()[:, 0] >= 0
     else:
         axes.set(xlabel="X", ylabel="Y")
         axes.grid(True, color="#dddddd", lw=0.6)
-    path = view @ points.T
-    _curve(axes, path, _BLUE, lw=1.5)
+        axes.set_aspect("equal", adjustable="datalim")
+    for seen, alpha in ((~front, 0.3), (front, 1)):
+        axes.plot(*np.where(seen, shown, np.nan), color=_BLUE, lw=1.5, alpha=alpha)
     for k, colour, label in ((0, _GREEN, "start"), (-1, _ORANGE, "end")):
-        axes.scatter(*path[:2, k], color=colour, s=40, label=label, zorder=3)
-    where = "sphere (faint: far side)" if kappa else "plane"
-    axes.set_title(f"path of the contact point on the {where}", fontsize=10)
-    axes.set_aspect("equal", adjustable="box" if kappa else "datalim")
+        axes.scatter(*shown[:, k], color=colour, s=40, label=label, zorder=3)
+    axes.set_title(f"path of the contact point on the {'sphere (faint: far side)' if kappa else 'plane'}", fontsize=10)
     axes.legend(loc="upper left" if kappa else "best")
-
-
-def _curve(axes: Any, line: Array, colour: str, *, lw: float) -> None:
-    """What lies behind (its third coordinate is below 0) is faint."""
-    for seen, alpha in ((line[2] < 0, 0.3), (line[2] >= 0, 1)):
-        axes.plot(*np.where(seen, line[:2], np.nan), color=colour, lw=lw, alpha=alpha)
