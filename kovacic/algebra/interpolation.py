@@ -171,11 +171,7 @@ def _monomials(parameters: int, degree: int) -> Iterator[_Exponents]:
 
 
 def _solve(
-    p: int,
-    points: list[_Exponents],
-    values: list[int],
-    above: list[_Exponents],
-    below: list[_Exponents],
+    p: int, points: list[_Exponents], values: list[int], above: list[_Exponents], below: list[_Exponents]
 ) -> list[int] | None:
     """The only solution up to a factor of N(t) = v D(t) at all points, or None."""
     every = {*above, *below}

@@ -75,9 +75,6 @@ class FieldSeries:
         self._terms = [field.poly([1])]
         self._zero = field.poly([])
 
-    def term(self, n: int) -> Any:
-        return self._terms[n]
-
     def polynomial(self, count: int) -> Poly:
         return self._field.poly(self._terms[:count])
 

@@ -13,11 +13,11 @@ from collections.abc import Callable
 from functools import partial
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Structure
+from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, Structure
 from kovacic.engine import imprimitive, primitive, reducible
 from kovacic.engine.necessary import excluded_by_local_data
 from kovacic.engine.places import Problem, analyse
-from kovacic.engine.riccati import Form, Found, Outcome
+from kovacic.engine.riccati import Found, Outcome
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 
@@ -56,7 +56,7 @@ def decide(S: RatFunc, budget: Budget, *, certify: bool = True) -> Decision:
 
 
 def _positive(problem: Problem, found: Found, exclusions: tuple[Exclusion, ...], certify: bool) -> Decision:
-    invariant = None if found.invariant is None else _semi_invariant(problem, found.invariant)
+    invariant = None if found.invariant is None else found.invariant.semi_invariant(problem)
     if not certify:
         return Decision(found.structure, exclusions, invariant=invariant)
     form = found.form()
@@ -67,10 +67,6 @@ def _positive(problem: Problem, found: Found, exclusions: tuple[Exclusion, ...],
         found.structure,
         exclusions,
         invariant=invariant,
-        semi_invariant=_semi_invariant(problem, form),
+        semi_invariant=form.semi_invariant(problem),
         riccati=RiccatiPolynomial(form.P, problem.D, tuple(numerators)),
     )
-
-
-def _semi_invariant(problem: Problem, form: Form) -> SemiInvariant:
-    return SemiInvariant(form.degree, RatFunc(form.R, problem.D), form.P)

@@ -21,7 +21,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from kovacic.algebra.poly import Poly
-from kovacic.decision import Exclusion, Structure
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import Exclusion, SemiInvariant, Structure
 from kovacic.engine.places import Place, Problem
 from kovacic.limits import check_time
 
@@ -49,6 +50,10 @@ class Form:
         """A_0, ..., A_last of equation (2), by default A_(m+1), which is zero exactly when f is a form in the solutions."""
         count = self.degree + 1 if last is None else last
         return numerators(problem.D, problem.T, self.R, self.P, self.degree, count)
+
+    def semi_invariant(self, problem: Problem) -> SemiInvariant:
+        """The same as it is claimed."""
+        return SemiInvariant(self.degree, RatFunc(self.R, problem.D), self.P)
 
     def is_form(self, problem: Problem) -> bool:
         """Is this really a form in the solutions of the equation?"""

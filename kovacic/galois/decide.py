@@ -58,7 +58,7 @@ def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> G
     if F is None or square:
         space = invariants(problem, 2)
     if F is None and isinstance(space, list):
-        F = SemiInvariant(2, RatFunc(space[0].R, problem.D), space[0].P)
+        F = space[0].semi_invariant(problem)
         square = _is_square(problem, F)
     if isinstance(residues, Ground):
         return Group(Kind.BOREL if F is None else Kind.MULTIPLICATIVE, residues, form=F)

@@ -33,7 +33,6 @@ from flint import fmpz, nmod_poly
 
 from kovacic.algebra.modular import BadPrimeError, Homomorphism, simple_roots
 from kovacic.algebra.poly import Field, Poly
-from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.splitting import homomorphisms_modulo
 from kovacic.decision import NoInvariant, SemiInvariant
@@ -152,9 +151,8 @@ def form_of_order(problem: Problem, f: SemiInvariant, n: int) -> SemiInvariant |
     space = invariants(problem, 2 * n)
     if isinstance(space, NoInvariant) or len(space) != (1 if n % 2 else 2):
         return None
-    forms = [SemiInvariant(2 * n, RatFunc(F.R, problem.D), F.P) for F in space]
     power = n * f.logarithmic_derivative
-    return next(form for form in forms if form.logarithmic_derivative != power)
+    return next(form for F in space if (form := F.semi_invariant(problem)).logarithmic_derivative != power)
 
 
 def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:

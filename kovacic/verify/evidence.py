@@ -28,20 +28,9 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRationalOmega, Rule, Structure
 from kovacic.limits import Budget
-from kovacic.verify.local import (
-    Point,
-    ZeroCounts,
-    correction,
-    least_valuation,
-    points,
-    zero_counts,
-)
+from kovacic.verify.local import Point, ZeroCounts, correction, least_valuation, points, zero_counts
 
-_ORDERS = {
-    Structure.TETRAHEDRAL: {1, 2, 3},
-    Structure.OCTAHEDRAL: {1, 2, 3, 4},
-    Structure.ICOSAHEDRAL: {1, 2, 3, 5},
-}
+_ORDERS = {Structure.TETRAHEDRAL: {1, 2, 3}, Structure.OCTAHEDRAL: {1, 2, 3, 4}, Structure.ICOSAHEDRAL: {1, 2, 3, 5}}
 #: The degree of the invariant that the structure would have; together with the uniqueness of omega for reducible groups.
 INVARIANT_DEGREE = dict(zip(Structure, (2, 4, 6, 8, 12), strict=True))
 #: How far down the sequence of primes a record may lie.
