@@ -11,7 +11,7 @@ References: Ulmer & Weil, J. Symb. Comp. 22 (1996); van Hoeij & Weil, J. Pure Ap
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -61,46 +61,36 @@ def least_valuation(place: Place, m: int, *, logarithms: bool = True) -> int | N
     return None
 
 
-@dataclass(frozen=True)
-class Bounds:
-    """Least valuations at the finite places and at infinity, and the largest degree N of P (None: no invariant)."""
-
-    valuations: tuple[int, ...]
-    infinite: int
-    N: int | None
-
-
-def bounds(problem: Problem, m: int) -> Bounds:
-    """Where an invariant of degree m may have zeros and poles."""
-    valuations: list[int] = []
-    N = m
+def bounds(problem: Problem, m: int) -> tuple[list[int], int] | None:
+    """The least valuations of an invariant of degree m, infinity's last, and the largest degree N of P; None if it can't be."""
+    valuations, N = list[int](), m
     for place in problem.places:
         v = least_valuation(place, m)
         if v is None:
-            return Bounds((), 0, None)
+            return None
         valuations.append(v)
         N -= v * place.degree
-    *finite, infinite = valuations
-    return Bounds(tuple(finite), infinite, N if N >= 0 else None)
+    return (valuations, N) if N >= 0 else None
 
 
 def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
     """The rational invariants of degree m: a verified basis, of increasing degrees of P, or the proof that there is none."""
     bound = bounds(problem, m)
-    if bound.N is None:
+    if bound is None:
         return NoInvariant(m)
-    problem.budget.check_degree(bound.N, f"an invariant of degree {m}")
-    R0 = singular_part(problem, bound.valuations)
+    valuations, N = bound
+    problem.budget.check_degree(N, f"an invariant of degree {m}")
+    R0 = singular_part(problem, valuations[:-1])
     lifter, margin, recurrence_tried = Lifter(problem.field), _MARGIN, False
     for bundle in problem.field.bundles():
         problem.budget.check()
         try:
-            spaces = [invariants_modulo(h, problem, m, bound, margin) for h in bundle]
+            spaces = [invariants_modulo(h, problem, m, valuations, N, margin) for h in bundle]
         except BadPrimeError:
             continue
         for h, (space, point) in zip(bundle, spaces, strict=True):
             if not space:
-                return NoInvariant(m, prime=h.p, point=point, degree=bound.N)
+                return NoInvariant(m, prime=h.p, point=point, degree=N)
         if len({len(space) for space, _ in spaces}) > 1:
             continue
         proposal = lifter.add(bundle, [space for space, _ in spaces])
@@ -114,10 +104,10 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
         if (
             not recurrence_tried
             and len(spaces[0][0]) == 1
-            and _recurrence_is_cheaper(problem, m, bound.N, lifter.primes_used)
+            and _recurrence_is_cheaper(problem, m, N, lifter.primes_used)
         ):
             recurrence_tried = True
-            lifted = polynomial_invariant(problem, m, bound.N, (*bound.valuations, bound.infinite))
+            lifted = polynomial_invariant(problem, m, N, valuations)
             if lifted is not None and (form := Form(m, R0, lifted)).is_form(problem):
                 return [form]
     raise AssertionError("the sequence of primes is infinite")
@@ -133,17 +123,17 @@ def _recurrence_is_cheaper(problem: Problem, m: int, N: int, primes_used: int) -
     return problem.field == QQ and primes_used * (N + 20) >= products
 
 
-def invariants_modulo(h: Homomorphism, problem: Problem, m: int, bound: Bounds, margin: int) -> tuple[list[Any], int]:
+def invariants_modulo(
+    h: Homomorphism, problem: Problem, m: int, valuations: Sequence[int], N: int, margin: int
+) -> tuple[list[Any], int]:
     """The echelon basis modulo p of all P whose expansion agrees with a form to N + m + 2 + margin terms; and the point."""
-    if bound.N is None:
-        raise ValueError("no degree bound")
     num, den = h(problem.S.num), h.keeping_degree(problem.S.den)
-    point, N, p = ordinary_point(den), bound.N, h.p
+    point, p = ordinary_point(den), h.p
     order = N + m + 2 + margin
     y1, y2 = fundamental_system(translate(num, point), translate(den, point), order)
     factors = [
         (translate(h.keeping_degree(place.factor), point), -v)
-        for place, v in zip(problem.finite_places, bound.valuations, strict=True)
+        for place, v in zip(problem.finite_places, valuations, strict=False)
         if v
     ]
     # F/Q0 = (y1^m / Q0) * sum_i c_i (y2/y1)^i
