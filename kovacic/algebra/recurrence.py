@@ -126,29 +126,23 @@ def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int) ->
     main = _descend(operator, degree)
     if main is None:
         return None
-    P = main.polynomial
-    if any(main.remainder):
-        other = None if main.free is None else _descend(operator, main.free)
+    P, free, remainder = main
+    if any(remainder):
+        other = None if free is None else _descend(operator, free)
         if other is None:
             return None
-        factor = next((-r / q for r, q in zip(main.remainder, other.remainder, strict=True) if q), None)
-        if factor is None or any(r + factor * q for r, q in zip(main.remainder, other.remainder, strict=True)):
+        factor = next((-r / q for r, q in zip(remainder, other[2], strict=True) if q), None)
+        if factor is None or any(r + factor * q for r, q in zip(remainder, other[2], strict=True)):
             return None
-        P = P + other.polynomial * operator.field.poly([factor])
+        P = P + other[0] * operator.field.poly([factor])
     return P
 
 
-@dataclass(frozen=True)
-class _Descent:
-    """A solution x^start + ... downwards, the power whose coefficient was free and set to 0, what remains below x^0."""
+def _descend(operator: _Operator, start: int) -> tuple[Poly, int | None, list[Any]] | None:
+    """A solution x^start + ... downwards, the power whose coefficient was free and set to 0, what remains below x^0.
 
-    polynomial: Poly
-    free: int | None
-    remainder: list[Any]
-
-
-def _descend(operator: _Operator, start: int) -> _Descent | None:
-    """The solution from x^start downwards; None if a free coefficient meets an obstruction."""
+    None if a free coefficient meets an obstruction.
+    """
     series, width, free = operator.series(), operator.width, None
     remainder: list[Any] = []
     for k in range(start - 1, -width - 1, -1):
@@ -163,4 +157,4 @@ def _descend(operator: _Operator, start: int) -> _Descent | None:
                 return None
             free = k
     downwards = series.polynomial(start + 1)
-    return _Descent(downwards.reversed(start - downwards.degree), free, remainder)
+    return downwards.reversed(start - downwards.degree), free, remainder

@@ -17,7 +17,6 @@ combination of these few solutions is a polynomial of degree N is linear algebra
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 from typing import Any
@@ -42,19 +41,19 @@ def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[
     """
     place = _cheapest_place(problem, m, valuations)
     D, R, T, point = _coefficients(problem, place, valuations)
-    recurrence = _recurrence(m, D, R, T)
+    lowest, *others = _recurrence(m, D, R, T)
     solutions: list[tuple[int, RationalSeries]] = []  # with the powers at which they begin
     conditions, end = [], N + 1
     i = 0
     while i < end:
         if i % 16 == 0:
             problem.budget.check()
-        pivot, factors = recurrence.at(i)
+        pivot, factors = lowest(i), [factor(i - h) for h, factor in enumerate(others[:i], 1)]
         obstructions = [series.extend(pivot, factors) for _, series in solutions]
         if not pivot:
             if any(obstructions):
                 conditions.append(obstructions)
-            solutions.append((i, RationalSeries(recurrence.width)))
+            solutions.append((i, RationalSeries(len(others))))
             end = N + 1 + len(solutions) + _MARGIN
         i += 1
     conditions += [
@@ -113,23 +112,8 @@ def _coefficients(
     return (D * scale).rep.numer(), (R * scale).rep.numer(), (T * scale**2).rep.numer(), point  # type: ignore[attr-defined]
 
 
-@dataclass(frozen=True)
-class _Recurrence:
-    """Equation (2): `polynomials[h]` is l_(m+1,j0+h)."""
-
-    polynomials: list[Any]
-
-    @property
-    def width(self) -> int:
-        return len(self.polynomials) - 1
-
-    def at(self, i: int) -> tuple[Any, list[Any]]:
-        """The factor of u_i, and those of u_(i-1), u_(i-2), ..."""
-        return self.polynomials[0](i), [self.polynomials[h](i - h) for h in range(1, min(self.width, i) + 1)]
-
-
-def _recurrence(m: int, D: Any, R: Any, T: Any) -> _Recurrence:
-    """The operator L_(m+1) of equation (1), by its action on t^i: polynomials in i for the powers t^(i+j), j >= j0.
+def _recurrence(m: int, D: Any, R: Any, T: Any) -> list[Any]:
+    """The factors l_(m+1,j0+h) of equation (2), h = 0, 1, ..., polynomials in i: L_(m+1) of equation (1) by its action on t^i.
 
     M_k = t^k L_k t^i/t^i is a polynomial in t and i, since t d/dt (M t^i) = (i M + t M') t^i.
     """
@@ -145,7 +129,7 @@ def _recurrence(m: int, D: Any, R: Any, T: Any) -> _Recurrence:
         columns.setdefault(int(j), {})[int(power)] = int(coefficient)
     lowest = 0 if constant_term(D) else m + 1
     polynomials = [columns.get(j, {0: 0}) for j in range(lowest, max(columns) + 1)]
-    return _Recurrence([fmpz_poly([terms.get(k, 0) for k in range(max(terms) + 1)]) for terms in polynomials])
+    return [fmpz_poly([terms.get(k, 0) for k in range(max(terms) + 1)]) for terms in polynomials]
 
 
 def _null_vector(rows: list[list[Any]], columns: int) -> list[Any] | None:
