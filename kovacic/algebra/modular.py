@@ -123,11 +123,8 @@ def fundamental_system(num: Any, den: Any, order: int) -> tuple[Any, Any]:
 
 
 def power_series(factors: Sequence[tuple[Any, int]], order: int) -> Any:
-    """`prod f**k` as a series to `order` terms, for integers k of either sign; f(0) must not vanish where k < 0."""
-    p = factors[0][0].modulus() if factors else None
-    if p is None:
-        raise ValueError("at least one factor is needed to know the prime")
-    above, below = nmod_poly([1], p), nmod_poly([1], p)
+    """`prod f**k` as a series to `order` terms, of at least one power; k of either sign, f(0) not 0 where k < 0."""
+    above = below = factors[0][0] ** 0
     for factor, exponent in factors:
         if exponent > 0:
             above = above.mul_low(factor.truncate(order).pow_trunc(exponent, order), order)

@@ -81,10 +81,7 @@ def power_sums(modulus: Poly) -> list[Poly]:
     n = modulus.degree
     sums: list[Poly] = [modulus.field.poly([n])]
     for k in range(1, n):
-        total = modulus[n - k] * k
-        for i in range(1, k):
-            total = total + modulus[n - i] * sums[k - i]
-        sums.append(-total)
+        sums.append(-sum((modulus[n - i] * sums[k - i] for i in range(1, k)), modulus[n - k] * k))
     return sums
 
 

@@ -23,6 +23,7 @@ from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly_ctx, fmpz_poly
 
+from kovacic.algebra.factors import product
 from kovacic.algebra.modular import ordinary_point
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, RationalPoly
@@ -100,13 +101,8 @@ def _coefficients(
         finite = zip(problem.finite_places, valuations, strict=False)
         pairs = [(p.factor(t + point), v, p.weight) for p, v in finite]
         num, den = problem.S.num(t + point), problem.S.den(t + point)
-    D: Poly = QQ.poly([1])
-    for factor, _, weight in pairs:
-        D = D * factor**weight
-    R: Poly = QQ.poly([])
-    for factor, v, _ in pairs:
-        if factor.degree > 0:
-            R = R + v * (D // factor) * factor.derivative()
+    D = product([QQ.poly([1]), *(factor**weight for factor, _, weight in pairs)])
+    R = sum((v * (D // factor) * factor.derivative() for factor, v, _ in pairs), QQ.poly([]))
     T = num * (D * D // den)
     scale = lcm(*(f.content()[1] for f in (D, R, T)))
     return (D * scale).rep.numer(), (R * scale).rep.numer(), (T * scale**2).rep.numer(), point  # type: ignore[attr-defined]

@@ -20,6 +20,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from kovacic.algebra.factors import product
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Exclusion, SemiInvariant, Structure
@@ -122,18 +123,14 @@ def jacobian(f: Form, g: Form, problem: Problem) -> Form:
 
 def singular_part(problem: Problem, valuations: Sequence[int]) -> Poly:
     """R0 with Q0'/Q0 = R0/D for Q0 = prod p^(v_p)."""
-    R = problem.field.poly([])
-    for place, v in zip(problem.finite_places, valuations, strict=True):
-        R = R + v * (problem.D // place.factor) * place.factor.derivative()
-    return R
+    pairs = zip(problem.finite_places, valuations, strict=True)
+    return sum((v * (problem.D // p.factor) * p.factor.derivative() for p, v in pairs), problem.field.poly([]))
 
 
 def singular_factor(problem: Problem, R: Poly, power: int) -> Poly:
     """D^power / Q0 for Q0 = prod p^(v_p) with Q0'/Q0 = R/D, where no v_p exceeds power times the weight of p."""
-    result = problem.field.poly([1])
-    for place in problem.finite_places:
-        result = result * place.factor ** (power * place.weight - residue(problem, R, place))
-    return result
+    parts = (place.factor ** (power * place.weight - residue(problem, R, place)) for place in problem.finite_places)
+    return product([problem.field.poly([1]), *parts])
 
 
 def residue(problem: Problem, R: Poly, place: Place) -> int:
