@@ -21,7 +21,8 @@ from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution, residual, value_at
 from kovacic.closed_form.curve import CurveIntegral
-from kovacic.closed_form.primitive import PowerPrimitive, RationalPrimitive
+from kovacic.closed_form.exponential import ExponentialPrimitive
+from kovacic.closed_form.primitive import RationalPrimitive
 from kovacic.closed_form.product import product
 from kovacic.closed_form.real_pair import is_real_pair
 from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve, Triangular
@@ -117,7 +118,7 @@ def test_an_integral_on_a_curve_needs_all_of_its_parts() -> None:
 def test_the_other_integrals_are_compared_with_y1() -> None:
     omega = Fraction(201, 2) / (X + 15) + Fraction(1, 3) / X
     large = structure_of(solve(transform.from_omega(omega)), Triangular)
-    assert isinstance(large.primitive, PowerPrimitive)
+    assert isinstance(large.primitive, ExponentialPrimitive)
     S = transform.from_omega(omega)
     assert not is_exact_solution(replace(large, primitive=RationalPrimitive(decompose(ONE + ZERO))), S, ZERO)
 

@@ -45,52 +45,52 @@ class ErrorTerm:
 
 
 @dataclass(frozen=True)
-class Monomial:
-    """E = beta t^n + `constant`, t = x - centre."""
-
-    centre: Poly
-    beta: Poly
-    n: int
-    constant: Poly
-
-    @property
-    def t(self) -> RatFunc:
-        return RatFunc(self.beta.field.poly([-self.centre, 1]))
-
-
-@dataclass(frozen=True)
 class ExponentialPrimitive:
-    """h = r k, k = exp(E): W k + sum of c exp(e) Ei(E - e) for (c, e) in `logarithmic` + sum of `errors`.
+    """int r k dx, k = t^alpha exp(E): W k + sum of c exp(e) Ei(E - e) for (c, e) in `logarithmic` + sum of `errors`.
 
-    With `monomial`, k is t^alpha exp(E) and there are `terms`; for n = 1, alpha = 0 also conjugate simple `poles` a with
-    residues rho, each of which gives rho exp(E(a)) Ei(E - E(a)).
+    t is x - c or (x - c)/(x - d), and everything else a function of t.  There are `terms` if E is a `monomial`.  Conjugate
+    simple `poles` a with residues rho give, for E = beta t + constant and alpha = 0, rho exp(E(a)) Ei(E - E(a)); and for E = 0,
+    n the denominator of alpha, rho * sum of z^(n alpha) log(t^(1/n) - z) over the n-th roots z of a.
     """
 
+    t: RatFunc
     E: RatFunc
     W: RatFunc
     logarithmic: tuple[tuple[Poly, Poly], ...] = ()
     errors: tuple[ErrorTerm, ...] = ()
-    monomial: Monomial | None = None
     alpha: Fraction = Fraction(0)
     terms: tuple[GammaTerm, ...] = ()
     poles: tuple[Residue, ...] = ()
 
     @property
+    def _rate(self) -> RatFunc:
+        """dk/dt over k."""
+        slope = self.E.derivative()
+        return slope + self.alpha / RatFunc(self.t.field.poly([0, 1])) if self.alpha else slope
+
+    @property
     def kernel_derivative(self) -> RatFunc:
         """k'/k."""
-        slope = self.E.derivative()
-        return slope + self.alpha / self.monomial.t if self.monomial and self.alpha else slope
+        return self._rate(self.t) * self.t.derivative()
 
     @property
     def integrand(self) -> RatFunc:
         """r, recomputed from the result by (1)."""
-        slope = self.E.derivative()
-        total = self.W.derivative() + self.W * self.kernel_derivative
+        slope, t = self.E.derivative(), RatFunc(self.t.field.poly([0, 1]))
+        total = self.W.derivative() + self.W * self._rate
         total = sum((slope / (self.E - e) * c for c, e in self.logarithmic), total)
         total = sum((term.q.derivative() * term.coefficient for term in self.errors), total)
-        if self.monomial is not None:
-            total = sum((self.monomial.t**term.power * term.coefficient for term in self.terms), total)
-        return sum((residue.logarithmic for residue in self.poles), total)
+        total = sum((t**term.power * term.coefficient for term in self.terms), total)
+        return sum((residue.logarithmic for residue in self.poles), total)(self.t) * self.t.derivative()
+
+
+def monomial(E: RatFunc) -> tuple[Poly, int, Poly] | None:
+    """(beta, n, c) with E = beta x^n + c, None if it isn't so."""
+    c = E.num[0] if E.is_polynomial else E.num // E.den
+    rest = E - c
+    n = rest.num.degree - rest.den.degree
+    x = RatFunc(E.field.poly([0, 1]))
+    return (rest.num.lc, n, c) if c.degree <= 0 and rest == x**n * rest.num.lc else None
 
 
 def integrate_composite(r: RatFunc, E: RatFunc) -> ExponentialPrimitive | str:
@@ -127,7 +127,7 @@ def integrate_composite(r: RatFunc, E: RatFunc) -> ExponentialPrimitive | str:
     more, constants = solved
     logarithmic += [(c, e) for c, e in zip(constants, levels, strict=False) if c]
     errors = [ErrorTerm(c, *square) for c, square in zip(constants[len(levels) :], squares, strict=True) if c]
-    return ExponentialPrimitive(E, W + more, tuple(logarithmic), tuple(errors))
+    return ExponentialPrimitive(RatFunc(r.field.poly([0, 1])), E, W + more, tuple(logarithmic), tuple(errors))
 
 
 def _limit(E: RatFunc) -> list[Poly]:

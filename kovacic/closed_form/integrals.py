@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from fractions import Fraction
 from math import gcd, lcm
 
@@ -11,14 +10,14 @@ import sympy
 from sympy import Add, Ei, Integer, Mul, erf, erfi, exp, pi, sqrt
 
 from kovacic.algebra.partial_fractions import Residue
+from kovacic.algebra.poly import Poly
 from kovacic.closed_form.atoms import Atoms, Expr, display, factors, rational
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.curve_display import curve_integral
 from kovacic.closed_form.elliptic import elliptic
-from kovacic.closed_form.exponential import ExponentialPrimitive, Monomial
+from kovacic.closed_form.exponential import ExponentialPrimitive, monomial
 from kovacic.closed_form.primitive import (
     OpenPrimitive,
-    PowerPrimitive,
     Primitive,
     RationalPrimitive,
     integrate,
@@ -62,8 +61,6 @@ def _terms(y: Product, primitive: Primitive, first: Factors, atoms: Atoms) -> li
     """y times the integral."""
     if isinstance(primitive, RationalPrimitive):
         return _rational(y, primitive, first, atoms)
-    if isinstance(primitive, PowerPrimitive):
-        return _power(y, primitive, first, atoms)
     if isinstance(primitive, ExponentialPrimitive):
         return _exponential(y, primitive, first, atoms)
     raise TypeError(f"{type(primitive).__name__} has no such terms")
@@ -120,12 +117,13 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
 
 
 def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
-    """first * (W k + the terms with Ei, error and gamma functions)."""
-    terms, E, (scale, parts), shape = [], primitive.E, first, primitive.monomial
-    if primitive.W:
-        more = () if shape is None else (Power(shape.t.num, y.field.poly([primitive.alpha])),)
+    """first * (W k + the terms with Ei, error and gamma functions, and logarithms of t^(1/n) - z)."""
+    terms, (scale, parts), t, alpha, shape = [], first, primitive.t, primitive.alpha, monomial(primitive.E)
+    E, W = primitive.E(t), primitive.W(t)
+    if W:
+        more = (Power(p, y.field.poly([e])) for p, e in ((t.num, alpha), (t.den, -alpha)) if p.degree > 0)
         powers = gathered((*y.powers, *more))
-        terms.append(_scaled(*factors(Product(powers, y.roots, y.exponential + E), atoms, primitive.W, like=y)))
+        terms.append(_scaled(*factors(Product(powers, y.roots, y.exponential + E), atoms, W, like=y)))
     for c, e in primitive.logarithmic:
         value = [exp(atoms.constant(e)), Ei(atoms.sum(E - e))]
         terms.append(_scaled(scale * atoms.constant(c), [*parts, *value]))
@@ -134,50 +132,37 @@ def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, at
         root = atoms.sqrt(error.b if grows else -error.b)
         value = [exp(atoms.constant(error.e)), sqrt(pi) * (erfi if grows else erf)(root * atoms.sum(error.q))]
         terms.append(_scaled(scale * atoms.constant(error.coefficient) / (2 * root), [*parts, *value]))
+    n, a = alpha.denominator, atoms.root
+    v = Mul(*(atoms.poly(p) ** rational(Fraction(k, n)) for p, k in ((t.num, 1), (t.den, -1))))
     for residue in primitive.poles:
-        p, a, slope = residue.factor, atoms.root, atoms.constant(E.num.lc)
-        body = atoms.poly(residue.value, a) * exp(atoms.poly(E.num, a)) * Ei(slope * (atoms.x - a))
-        terms.append(_scaled(scale, [*parts, atoms.root_sum(atoms.poly(p, a), body)]))
+        body = atoms.poly(residue.value, a**n)
+        if E:
+            body *= exp(atoms.poly(E.num, a)) * Ei(atoms.constant(E.num.lc) * (atoms.x - a))
+        else:
+            body *= a ** int(alpha * n) * sympy.log(v - a)
+        terms.append(_scaled(scale, [*parts, atoms.root_sum(atoms.poly(residue.factor, a**n), body)]))
     for term in primitive.terms:
         assert shape is not None
-        c, value = _gamma(shape, primitive.alpha, term.power, atoms)
-        shift = exp(atoms.constant(shape.constant))
-        terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, value]))
+        beta, degree, constant = shape
+        c, function = _gamma(beta, degree, atoms.poly(t.num), alpha + term.power, atoms)
+        shift = exp(atoms.constant(constant))
+        terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, function]))
     return terms
 
 
-def _power(y: Product, primitive: PowerPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
-    """first * (W t^alpha + the logarithms of t^(1/n) - z)."""
-    terms = []
-    t, alpha = primitive.t, primitive.alpha
-    if primitive.W:
-        more = (Power(p, y.field.poly([e])) for p, e in ((t.num, alpha), (t.den, -alpha)) if p.degree > 0)
-        merged = replace(y, powers=gathered((*y.powers, *more)))
-        terms.append(_scaled(*factors(merged, atoms, primitive.W(t), like=y)))
-    scale, parts = first
-    n = alpha.denominator
-    v = Mul(*(atoms.poly(p) ** e for p, e in ((t.num, rational(Fraction(1, n))), (t.den, rational(Fraction(-1, n))))))
-    z = atoms.root
-    for residue in primitive.poles:
-        body = atoms.poly(residue.value, z**n) * z ** int(alpha * n) * sympy.log(v - z)
-        value = atoms.root_sum(atoms.poly(residue.factor, z**n), body)
-        terms.append(_scaled(scale, [*parts, value]))
-    return terms
-
-
-def _gamma(shape: Monomial, alpha: Fraction, power: int, atoms: Atoms) -> Scaled:
-    """int t^(power + alpha) exp(beta t^n) dt by equation (1) of `kovacic.closed_form.primitive`."""
-    beta, n, t = atoms.constant(shape.beta), shape.n, atoms.x - atoms.constant(shape.centre)
-    s = (power + alpha + 1) / n
+def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scaled:
+    """int t^power exp(beta t^n) dt by equation (1) of `kovacic.closed_form.primitive`."""
+    beta = atoms.constant(factor)
+    s = (power + 1) / n
     if s == 0:
         return sympy.Rational(1, n), Ei(beta * t**n)
     if s == Fraction(1, 2):
-        positive = beta.is_real is not False and not atoms.is_negative(shape.beta)
-        root = atoms.sqrt(shape.beta if positive else -shape.beta)
+        positive = beta.is_real is not False and not atoms.is_negative(factor)
+        root = atoms.sqrt(factor if positive else -factor)
         u = root * t ** sympy.Rational(n, 2)
         return 1 / (root * n), sqrt(pi) * (erfi if positive else erf)(u)
     order, z = rational(s), -beta * t**n
     if n == 1 and beta.is_negative:
         return -((-beta) ** -order), sympy.uppergamma(order, z)
     # z^(-s) gamma(s, z) is entire; with Gamma(s, z) the powers of z and of t would differ in some sectors.
-    return sympy.Rational(1, n), t ** rational(power + alpha + 1) * z**-order * sympy.lowergamma(order, z)
+    return sympy.Rational(1, n), t ** rational(power + 1) * z**-order * sympy.lowergamma(order, z)

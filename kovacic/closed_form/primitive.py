@@ -21,7 +21,7 @@ from kovacic.algebra.partial_fractions import Decomposition, Residue, decompose,
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
-from kovacic.closed_form.exponential import ExponentialPrimitive, GammaTerm, Monomial, integrate_composite
+from kovacic.closed_form.exponential import ExponentialPrimitive, GammaTerm, integrate_composite, monomial
 from kovacic.closed_form.product import Product
 from kovacic.closed_form.torsion import completed
 
@@ -45,32 +45,6 @@ class RationalPrimitive:
 
 
 @dataclass(frozen=True)
-class PowerPrimitive:
-    """h dx = r(t) t^alpha dt, -1 < alpha < 0, for t = x - c or (x - c)/(x - d): W t^alpha and logarithms of z = t^(1/n).
-
-    A simple pole a with residue rho leaves rho int t^alpha dt/(t - a) = rho * sum of z^(n alpha) log(t^(1/n) - z) over the
-    n-th roots z of a, n the denominator of alpha.  W and `poles` are functions of t.
-    """
-
-    t: RatFunc
-    alpha: Fraction
-    W: RatFunc
-    poles: tuple[Residue, ...]
-
-    @property
-    def kernel_derivative(self) -> RatFunc:
-        """alpha t'/t."""
-        return self.t.derivative() / self.t * self.alpha
-
-    @property
-    def integrand(self) -> RatFunc:
-        """r(t) dt/dx, recomputed from the result."""
-        rate = self.alpha / RatFunc(self.W.field.poly([0, 1]))
-        r = sum((residue.logarithmic for residue in self.poles), self.W.derivative() + self.W * rate)
-        return r(self.t) * self.t.derivative()
-
-
-@dataclass(frozen=True)
 class OpenPrimitive:
     """The integral is left as it is, and `reason` says why."""
 
@@ -78,7 +52,7 @@ class OpenPrimitive:
 
 
 #: int r k dx, with r as `integrand` and k'/k as `kernel_derivative`.
-Primitive = RationalPrimitive | CurveIntegral | ExponentialPrimitive | PowerPrimitive | OpenPrimitive
+Primitive = RationalPrimitive | CurveIntegral | ExponentialPrimitive | OpenPrimitive
 
 
 def integrate_inverse_square(y: Product) -> Primitive:
@@ -148,7 +122,7 @@ def _without_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fractio
     return "it is an incomplete beta integral, with fractional powers of several factors"
 
 
-def _with_power(r: RatFunc, alpha: Fraction, t: RatFunc) -> PowerPrimitive:
+def _with_power(r: RatFunc, alpha: Fraction, t: RatFunc) -> ExponentialPrimitive:
     """int r(t) t^alpha dt."""
     field = r.field
     shift = alpha.numerator // alpha.denominator + 1
@@ -159,48 +133,32 @@ def _with_power(r: RatFunc, alpha: Fraction, t: RatFunc) -> PowerPrimitive:
     for i in range(laurent.num.degree + 1):
         if laurent.num[i]:
             W = W + x ** (lowest + i + 1) * laurent.num[i] * (1 / (lowest + i + 1 + alpha))
-    return PowerPrimitive(t, alpha, W, poles)
+    return ExponentialPrimitive(t, W * 0, W, alpha=alpha, poles=poles)
 
 
 def _with_exponential(r: RatFunc, fractional: list[tuple[Poly, Fraction]], E: RatFunc) -> Primitive | str:
     if len(fractional) > 1 or any(p.degree > 1 for p, _ in fractional):
         return "the integrand has an exponential and fractional powers of several factors"
-    centre = -fractional[0][0][0] if fractional else None
     alpha = fractional[0][1] if fractional else Fraction(0)
-    shape = _monomial(E, centre)
+    below = fractional[0][0] if fractional else E.num if E.is_polynomial else E.den
+    n = below.degree
+    centre = -below[n - 1] / (below.lc * n) if fractional or n > 1 or not E.is_polynomial else below * 0
+    field, given = r.field, (r, E)
+    t = RatFunc(field.poly([-centre, 1]))
+    if centre:
+        r, E = (f(field.poly([centre, 1])) for f in given)
+    shape = monomial(E)
     if shape is None:
         left = "the exponent in the integrand isn't a multiple of a power of x - c, up to a constant"
-        return left if fractional else integrate_composite(r, E)
-    shifted = r(r.field.poly([shape.centre, 1])) if shape.centre else r
-    W, laurent, poles = _reduce(shifted, alpha, shape.beta, shape.n)
-    if poles and (shape.n != 1 or alpha):
-        return "a pole with a residue remains beside the exponential" if alpha else integrate_composite(r, E)
-    W, terms = _reduce_laurent(W, laurent, alpha, shape.beta, shape.n)
-    if shape.centre:
-        W = W(shape.t)
+        return left if fractional else integrate_composite(*given)
+    beta, n, _ = shape
+    W, laurent, poles = _reduce(r, alpha, beta, n)
+    if poles and (n != 1 or alpha):
+        return "a pole with a residue remains beside the exponential" if alpha else integrate_composite(*given)
+    W, terms = _reduce_laurent(W, laurent, alpha, beta, n)
     linear = tuple((residue.value, E.num(-residue.factor[0])) for residue in poles if residue.factor.degree == 1)
     conjugate = tuple(residue for residue in poles if residue.factor.degree > 1)
-    return ExponentialPrimitive(E, W, linear, (), shape, alpha, terms, conjugate)
-
-
-def _monomial(E: RatFunc, centre: Poly | None) -> Monomial | None:
-    """E = beta (x - c)^n + constant, c the given centre if there is one; None if it isn't so."""
-    field = E.field
-    if E.is_polynomial:
-        n, beta = E.num.degree, E.num.lc
-        if centre is None:
-            centre = -E.num[n - 1] / (beta * n) if n > 1 else field.poly([])
-        shifted = E.num(field.poly([centre, 1]))
-        lower = shifted - field.poly([0, 1]) ** n * beta
-        return Monomial(centre, beta, n, lower) if lower.degree <= 0 else None
-    polynomial, rest = divmod(E.num, E.den)
-    if polynomial.degree > 0 or rest.degree > 0:
-        return None
-    n = E.den.degree
-    pole = -E.den[n - 1] / field.poly([n])
-    if E.den != field.poly([-pole, 1]) ** n or (centre is not None and centre != pole):
-        return None
-    return Monomial(pole, rest, -n, polynomial)
+    return ExponentialPrimitive(t, E, W, linear, (), alpha, terms, conjugate)
 
 
 def _reduce(r: RatFunc, alpha: Fraction, beta: Poly, n: int) -> tuple[RatFunc, RatFunc, tuple[Residue, ...]]:
