@@ -22,15 +22,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key, lru_cache
 
-from flint import acb, acb_poly, arb
+from flint import acb, acb_poly, arb, ctx
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision
-from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, sharp_roots
-from kovacic.enclosure.matrices import Matrix, State, adjugate, fundamental, inverse, multiply
+from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, rational_log_derivative, sharp_roots
+from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem, check_segment
 from kovacic.errors import InputError
@@ -62,6 +62,17 @@ class Exponential:
         c = self.constant()
         P = embed(self.P, c)
         return value(self.theta, c, z) + P.derivative()(z) / P(z)
+
+    def embedded(self, a: acb, b: acb) -> tuple[LogDerivative, acb_poly, acb]:
+        """theta, P, and E at b over E at a."""
+        c = self.constant()
+        theta = LogDerivative.make(self.theta, c) if c is not None else rational_log_derivative(self.theta, ctx.prec)
+        return theta, embed(self.P, c), theta.growth(a, b)
+
+    def states(self, a: acb, b: acb) -> list[State]:
+        """y and y' at a and b, where E is 1 at a."""
+        theta, P, E = self.embedded(a, b)
+        return [(g * P(x), g * (theta.value(x) * P(x) + P.derivative()(x))) for x, g in ((a, acb(1)), (b, E))]
 
 
 def value(function: RatFunc, c: acb | None, z: acb) -> acb:
@@ -155,36 +166,24 @@ class ClosedForm:
     def leg(self, a: Point, b: Point) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment, for elementary solutions."""
         check_segment(self.problem.system, a, b)
-        return (self._two if len(self.branches) == 2 else self._unique)(to_acb(a), to_acb(b))
+        ends = to_acb(a), to_acb(b)
+        first, second = [y.states(*ends) for y in self.branches] if len(self.branches) == 2 else self._pair(*ends)
+        start, end = (fundamental(y, z) for y, z in zip(first, second, strict=True))
+        return multiply(end, inverse(start))
 
-    def _two(self, a: acb, b: acb) -> Matrix:
-        """Two omegas: y = E P for either."""
-        ends: tuple[list[State], list[State]] = [], []
-        for branch in self.branches:
-            c = branch.constant()
-            theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
-            for x, growth, states in zip((a, b), (acb(1), theta.growth(a, b)), ends, strict=True):
-                states.append((growth * P(x), growth * (theta.value(x) * P(x) + P.derivative()(x))))
-        return multiply(fundamental(*ends[1]), inverse(fundamental(*ends[0])))
-
-    def _unique(self, a: acb, b: acb) -> Matrix:
-        """A unique omega, equation (1), E^2 rational."""
-        square = self.rational_square
-        assert square is not None
-        theta = LogDerivative.make(self.first.theta, None)
+    def _pair(self, a: acb, b: acb) -> tuple[list[State], list[State]]:
+        """y1 and y2 of equation (1) at a and b, where E^2 is rational."""
+        theta, P, E = self.first.embedded(a, b)
         exact_A, exact_B = self.reduction
-        P, A = embed(self.first.P, None), embed(exact_A, None)
-        dP, dA = P.derivative(), A.derivative()
-        area = LogDerivative.make(exact_B / square, None).exponent(a, b) * value(square, None, a)
-
-        def states(x: acb, E: acb, I: acb) -> Matrix:  # noqa: E741 - the integral in (1)
-            t, p, alpha = theta.value(x), P(x), A(x)
-            y, dy = E * p, E * (t * p + dP(x))
-            slope = (dA(x) - t * alpha + value(exact_B, None, x) * p) / E + dy * I
-            return fundamental((y, dy), (alpha / E + y * I, slope))
-
-        # the Wronskian of y1 and y2 is 1
-        return multiply(states(b, theta.growth(a, b), area), adjugate(states(a, acb(1), acb(0))))
+        assert self.rational_square is not None
+        A, first, second = embed(exact_A, None), self.first.states(a, b), []
+        area = LogDerivative.make(exact_B / self.rational_square, None).exponent(a, b) * value(
+            self.rational_square, None, a
+        )
+        for x, growth, I, (y, dy) in zip((a, b), (acb(1), E), (acb(0), area), first, strict=True):  # noqa: E741
+            slope = A.derivative()(x) - theta.value(x) * A(x) + value(exact_B, None, x) * P(x)
+            second.append((A(x) / growth + y * I, slope / growth + dy * I))
+        return first, second
 
 
 def certified(problem: NumericProblem) -> Decision:

@@ -23,7 +23,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.enclosure.constants import Number, to_ball
-from kovacic.enclosure.exponential import integral, sharp_roots
+from kovacic.enclosure.exponential import LogDerivative, sharp_roots
 from kovacic.enclosure.points import floor, working_precision
 from kovacic.errors import InputError, LimitExceeded
 
@@ -62,20 +62,24 @@ class Embedded:
         """Numerator and denominator of S, at the working precision in force."""
         return self._embed(self.S.num), self._embed(self.S.den)
 
-    def poles(self) -> list[tuple[acb, int]]:
-        """Those of S with their exact multiplicities; raises LimitExceeded where they can't be told apart."""
+    def poles(self, function: RatFunc | None = None) -> list[tuple[acb, int]]:
+        """Those of S, or of another function, with their exact multiplicities; raises LimitExceeded where they can't be told
+        apart."""
         found = []
-        for factor, k in squarefree_factors(self.S.den):
+        for factor, k in squarefree_factors((function or self.S).den):
             roots = sharp_roots(self._embed(factor)) if factor.degree else []
             if len(roots) < factor.degree:
                 raise LimitExceeded("the singular points can't be told apart at this precision", limit="digits")
             found += [(root, k) for root in roots]
         return found
 
-    def growth_of(self, function: RatFunc) -> EmbeddedGauge:
+    def log_derivative(self) -> LogDerivative | None:
         """The gauge at the working precision in force."""
-        num, den = (acb_poly(_real(self._embed(part))) for part in (function.num, function.den))
-        return EmbeddedGauge(num, den)
+        if self.gauge is None:
+            return None
+        for part in (self.gauge.num, self.gauge.den):
+            _real(self._embed(part))
+        return LogDerivative.of(self.gauge, self._embed, self.poles(self.gauge))
 
     def equation(self) -> tuple[arb_poly, arb_poly, arb_poly]:
         """a, b and c of the user's equation, at the working precision in force."""
@@ -102,39 +106,11 @@ class Embedded:
         if isinstance(poly, RationalPoly):
             return acb_poly(poly.rep)
         if isinstance(poly, ExtensionPoly):
-            c, total = _root(poly.field), acb_poly([])
-            for part in reversed(poly.parts):
-                total = total * c + self._embed(part)
-            return total
+            c = _root(poly.field)
+            return sum((self._embed(part) * c**k for k, part in enumerate(poly.parts)), acb_poly([]))
         assert isinstance(poly, FunctionPoly)
         balls = [to_ball(self.values[name]) for name in poly.field.names]
         return _at(poly.num, balls) * (1 / _at(poly.den, balls)[0])
-
-
-@dataclass(frozen=True)
-class EmbeddedGauge:
-    """gamma = num/den in balls, and exp int gamma by rigorous quadratures, which no pole escapes."""
-
-    num: acb_poly
-    den: acb_poly
-
-    def value(self, x: acb) -> acb:
-        """gamma(x); raises InputError at a pole, or too near to one to tell."""
-        found: acb = self.num(x) / self.den(x)
-        return _regular(found)
-
-    def growth(self, a: acb, b: acb) -> acb:
-        """exp(int_a^b gamma) along the straight segment; raises InputError where it meets a pole."""
-        return _regular(integral(lambda z, _: self.num(z) / self.den(z), a, b)).exp()
-
-
-def _regular(value: acb) -> acb:
-    if not value.is_finite():
-        raise InputError(
-            "the path runs through a singular point of the equation, or so near that its constants don't tell",
-            hint="go around it: path=[...] with a vertex off the axis",
-        )
-    return value
 
 
 def _real(poly: acb_poly) -> list[arb]:

@@ -100,10 +100,20 @@ class LogDerivative:
     @classmethod
     def make(cls, theta: RatFunc, c: acb | None) -> LogDerivative:
         """The partial fractions of theta at the working precision in force."""
+        return cls.of(theta, lambda poly: embed(poly, c), zeros(theta.den, c))
+
+    @classmethod
+    def of(cls, theta: RatFunc, embed: Callable[[Poly], acb_poly], poles: list[tuple[acb, int]]) -> LogDerivative:
+        """The same with another embedding of the constants; the poles with their multiplicities."""
         quotient, rest = divmod(theta.num, theta.den)
-        num, den = embed(rest, c), embed(theta.den, c)
-        poles = tuple(Pole(zeta, _principal_part(num, den, zeta, k)) for zeta, k in zeros(theta.den, c))
-        return cls(embed(quotient, c).integral(), poles, embed(theta.num, c), den)
+        num, den = embed(rest), embed(theta.den)
+        parts = tuple(Pole(zeta, _principal_part(num, den, zeta, k)) for zeta, k in poles)
+        return cls(embed(quotient).integral(), parts, embed(theta.num), den)
+
+    def avoids(self, a: acb, b: acb) -> bool:
+        """Is it certain that no pole lies on the straight segment?"""
+        ratios = ((b - pole.zeta) / (a - pole.zeta) for pole in self.poles)
+        return all(ratio.real > 0 or not ratio.imag.contains(0) for ratio in ratios)
 
     def value(self, x: acb) -> acb:
         """theta(x)."""

@@ -22,7 +22,6 @@ from flint import acb, ctx
 from kovacic.enclosure.classical import Classical, frobenius
 from kovacic.enclosure.closed_form import ClosedForm
 from kovacic.enclosure.constants import Number
-from kovacic.enclosure.embedded import EmbeddedGauge
 from kovacic.enclosure.exponential import LogDerivative, rational_log_derivative
 from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.frobenius import Basis, junction, limit
@@ -110,7 +109,7 @@ class Traveller:
 
     problem: NumericProblem
     closed: Closed | None
-    gauge: LogDerivative | EmbeddedGauge | None
+    gauge: LogDerivative | None
     prec: int
     here: Point | Singular
     product: Product
@@ -121,10 +120,8 @@ class Traveller:
     @classmethod
     def at(cls, problem: NumericProblem, x0: Point | Singular, closed: Closed | None, prec: int) -> Traveller:
         """At the start of a journey."""
-        gauge: LogDerivative | EmbeddedGauge | None = None
-        if problem.embedded is not None and problem.embedded.gauge is not None:
-            gauge = problem.embedded.growth_of(problem.embedded.gauge)
-        elif problem.gauge is not None:
+        gauge = None if problem.embedded is None else problem.embedded.log_derivative()
+        if problem.gauge is not None:
             gauge = rational_log_derivative(problem.gauge, ctx.prec)
         found = cls(problem, closed, gauge, prec, x0, Product(), acb(1), forcing_of(problem))
         if isinstance(x0, Point):
@@ -224,10 +221,15 @@ class Traveller:
         """Raise InputError where the gauge has a pole on the way, at a point where S is regular."""
         if self.problem.gauge is not None and len(self.problem.gauge_poles.den) > 1:
             check_segment(self.problem.gauge_poles, here, stop)
+        if self.problem.embedded and self.gauge and not self.gauge.avoids(to_acb(here), to_acb(stop)):
+            raise InputError(
+                "the path runs through a singular point of the equation, or so near that its constants don't tell",
+                hint="go around it: path=[...] with a vertex off the axis",
+            )
 
     def _inverse_growth(self, x: acb, analytic: bool) -> acb:
         """1/g on a ball."""
-        if not isinstance(self.gauge, LogDerivative) or not isinstance(self.here, Point):
+        if self.gauge is None or not isinstance(self.here, Point):
             return acb(1)
         return (-self.gauge.exponent(to_acb(self.here), x, analytic=analytic)).exp() / self.growth
 
