@@ -17,7 +17,7 @@ divided by its value and multiplied by t to the exponent it is the Frobenius sol
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
 from typing import Any
@@ -26,24 +26,22 @@ from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.enclosure.classical_functions import Form, choice_at, form_of, is_integer, rational, value_at
-from kovacic.enclosure.constants import Number
+from kovacic.enclosure.classical_functions import Form, choice_at, form_of, is_integer, rational, square_root, value_at
 from kovacic.enclosure.exponential import rational_log_derivative
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.problem import System, check_segment, distance_lower
+from kovacic.enclosure.problem import System, check_segment
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.special.answer import find
-from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
+from kovacic.special.pullback import Confluent, Gauss, Pullback
 
 _BITS = 64  # in which the course of a leg is proven
 _PIECES = 400  # into which a leg is cut for that, at most
-#: Digits up to which FLINT's functions cost less than Taylor steps, once the pull-back is known, on a short way and on others.
-_NEAR: dict[type, int] = {Airy: 20_000, Confluent: 500, Gauss: 0}
-_FAR: dict[type, int] = {Airy: 20_000, Confluent: 20_000, Gauss: 5_000}
-_NOTHING_NEAR = 4  # what counts as the distance to singular points where there are none
+# Digits up to which FLINT's functions cost less than Taylor steps (measured): Airy's and Bessel's, others, with irrational
+# parameters
+_MOST = 20_000, 2_000, 500
 _DEGREE = 24  # of S, up to which a pull-back is sought
 _LARGEST = 1_000  # parameters of special functions up to which a call of FLINT, which can't be stopped, is short
 
@@ -64,25 +62,24 @@ def classical_of(S: RatFunc) -> Classical | None:
     found = search.pullback
     if found is None or found.f.field != QQ:
         return None
-    equation, squares = found.equation, []
+    equation, squares, kind = found.equation, [], 0
     if isinstance(equation, Gauss):
-        squares = [rational(v) for v in (equation.A, equation.B, equation.C)]
+        squares, kind = [rational(v) for v in (equation.A, equation.B, equation.C)], 1
     elif isinstance(equation, Confluent):
         q, r, M = (rational(v) for v in (equation.q, equation.r, equation.M))
-        squares = [M, r * r / q if q != 0 else fmpq(0)]
-    return Classical(found) if all(abs(v) < _LARGEST**2 for v in squares) else None
+        squares, kind = [4 * M + 1, r * r / q if q != 0 else fmpq(0)], int(q != 0 and r != 0)
+    if any(abs(v) >= _LARGEST**2 for v in squares):
+        return None
+    exact = all(isinstance(square_root(v), fmpq) for v in squares)
+    return Classical(found, _MOST[kind if exact else 2])
 
 
 @dataclass(frozen=True, eq=False)
 class Classical:
-    """A pull-back, and the transition matrices and Frobenius solutions that follow from it."""
+    """A pull-back, and the transition matrices and Frobenius solutions that follow from it; worth while to `most` digits."""
 
     pullback: Pullback
-
-    def is_cheaper(self, digits: int, system: System, start: Singular | Number, targets: Sequence[Number]) -> bool:
-        """Do FLINT's functions cost less than Taylor steps, as measured?  On a short way a disc or two do the same."""
-        kind = type(self.pullback.equation)
-        return digits <= _NEAR[kind] or (digits <= _FAR[kind] and not is_short(system, start, targets))
+    most: int = 0
 
     def leg(self, a: Point, b: Point) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment; raises NotServed."""
@@ -126,14 +123,6 @@ def frobenius(
         raise NotServed
     rest = None if gauge is None else _without_pole(gauge, point.near)
     return Solutions.make(form, point.near, (lower, upper), rest, needed)
-
-
-def is_short(system: System, start: Singular | Number, targets: Sequence[Number]) -> bool:
-    """Do a disc or two of Taylor's series reach all targets, which are within half the distance to the singular points?"""
-    if not isinstance(start, Point):
-        return False
-    near = distance_lower(system, start) or _NOTHING_NEAR
-    return all(isinstance(x, Point) and bool(abs(to_acb(x - start)) < near / 2) for x in targets)
 
 
 @lru_cache(maxsize=64)
@@ -209,10 +198,14 @@ class Solutions:
         if x != self.point:
             _avoids(form, self.point, x, needed[::-1])
         n, d = value_at(form.n, x), value_at(form.d, x)
-        slope = acb((value_at(form.n.derivative(), x) - n / d * value_at(form.d.derivative(), x)) / d)
+        dn, dd = (value_at(poly, x) for poly in form.derivatives)
+        slope = acb((dn - n / d * dd) / d)
         rates = [acb(value_at(derivative, x) / value_at(poly, x)) for poly, derivative, _ in self.factors]
         found = []
         for i, (E, dE) in enumerate(form.values(acb(n / d), needed)):
+            if not self.factors:
+                found.append((E, slope * dE))
+                continue
             exponents = [powers[i] for _, _, powers in self.factors]
             rate = sum((e * value for e, value in zip(exponents, rates, strict=True)), acb(0))
             power = sum((e * log for e, log in zip(exponents, logs, strict=True)), acb(0)).exp()
@@ -296,7 +289,7 @@ def _off(z: acb) -> bool:
     return bool(z.real > 0) or not z.imag.contains(0)
 
 
-def _avoids(form: Form, a: Point, b: Point, needed: Sequence[bool]) -> None:
+def _avoids(form: Form, a: Point, b: Point, needed: tuple[bool, bool]) -> None:
     """Raise NotServed unless the segment is proven not to meet a slit.  That of z is the second solution's only.
 
     On the real axis z and 1 - z keep their signs, since their numerators and denominators have no zeros (`_followed`).

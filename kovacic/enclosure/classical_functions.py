@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from flint import acb, acb_poly, arb, fmpq, fmpq_poly
@@ -46,6 +47,11 @@ class Form:
     powers: tuple[tuple[Any, Any], tuple[Any, Any]]
     values: Solutions
     slits: tuple[Any, Any] = (None, None)
+
+    @cached_property
+    def derivatives(self) -> tuple[fmpq_poly, fmpq_poly]:
+        """n' and d'."""
+        return self.n.derivative(), self.d.derivative()
 
     @property
     def exponents(self) -> list[tuple[Any, Any]]:

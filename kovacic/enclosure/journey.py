@@ -19,7 +19,7 @@ from typing import Any
 
 from flint import acb, ctx
 
-from kovacic.enclosure.classical import Classical, frobenius
+from kovacic.enclosure.classical import Classical, classical_of, frobenius
 from kovacic.enclosure.closed_form import ClosedForm
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.exponential import LogDerivative, rational_log_derivative
@@ -76,6 +76,11 @@ class Journey:
                 found |= zip(ray, states, strict=True)
             states = [found[i] for i in range(len(stops))]
         return [spread(traveller.problem, target, state) for target, state in zip(targets, states, strict=True)]
+
+    @cached_property
+    def classical(self) -> Classical | None:
+        """The equation that S is pulled back from, if it is known."""
+        return None if self.problem.S is None else classical_of(self.problem.S)
 
     @cached_property
     def _begun(self) -> dict[tuple[Closed | None, int], tuple[Traveller, State]]:

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import Any
 
 from flint import acb, acb_mat, arb, fmpq
@@ -201,20 +200,16 @@ def _loops(places: list[tuple[Point, Any]]) -> list[tuple[tuple[Point, ...], Poi
     if not places:
         return []
     centres = [z for z, _ in places]
-    spread = max(abs(p.re - q.re) + abs(p.im - q.im) for p in centres for q in centres)
-    top = max(z.im for z in centres) + max(Fraction(1), spread)
-    middle = sum((z.re for z in centres), Fraction(0)) / len(centres)
-    best: tuple[Any, Point, list[Any]] | None = None
+    spread = max(abs(p.x - q.x) + abs(p.y - q.y) for p in centres for q in centres)
+    top, middle = max(z.y for z in centres) + max(fmpq(1), spread), sum((z.x for z in centres), fmpq(0)) / len(centres)
+    found = []
     for shift in (1, -3, 10, -17, 29, -41):
-        base = Point(
-            (middle + spread * Fraction(shift, 97)).limit_denominator(64) + Fraction(1, 97), top.limit_denominator(64)
+        base = Point(middle + (spread * shift + 1) / 97, top).rounded(
+            int(spread.p.bit_length() - spread.q.bit_length()) - 10
         )
         radii = [min([r, *(_distance_below(z, base, other) for other in centres if other != z)]) / 2 for z, r in places]
-        narrowest = min(radius / r for radius, (_, r) in zip(radii, places, strict=True))
-        if best is None or narrowest > best[0]:
-            best = narrowest, base, radii
-    assert best is not None
-    narrowest, base, radii = best
+        found.append((min(radius / r for radius, (_, r) in zip(radii, places, strict=True)), base, radii))
+    narrowest, base, radii = max(found, key=lambda item: item[0])
     if narrowest == 0:
         raise LimitExceeded("no base point was found that sees the singular points apart", limit="unknown_degree")
     quarter, loops = Point(0, 1), []
@@ -225,7 +220,7 @@ def _loops(places: list[tuple[Point, Any]]) -> list[tuple[tuple[Point, ...], Poi
         for _ in range(4):
             corners.append(corners[-1] * quarter)
         loops.append(((base, *(z + c for c in corners), base), z))
-    return sorted(loops, key=lambda item: (item[1].re - base.re) / (base.im - item[1].im))
+    return sorted(loops, key=lambda item: (item[1].x - base.x) / (base.y - item[1].y))
 
 
 def _root_below(square: Any) -> Any:

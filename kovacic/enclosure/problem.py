@@ -312,11 +312,9 @@ def check_segment(system: System, a: Point, b: Point) -> None:
                 f"the {name} {point} of the path is a singular point of the equation (distance 0)",
                 hint="choose a point beside it; the solutions aren't analytic there",
             )
+    if a == b or is_apart(system, a, b):
+        return
     step = b - a
-    with working_precision(128):
-        start, ahead = to_acb(a), to_acb(step)
-        if a == b or not any(_may_meet((root - start) / ahead) for root, _ in system.roots("den", 128)):
-            return
     first, length = (a.x, step.x) if step.x != 0 else (a.y, step.y)
     unit = step.scaled(1 / length)
     real, imaginary = along(system.den, a - unit.scaled(first), unit)
@@ -324,10 +322,11 @@ def check_segment(system: System, a: Point, b: Point) -> None:
     while poly.degree() > 0:
         roots = _isolated(tuple(int(c) for c in poly.coeffs()), prec)
         with working_precision(prec):
-            inside = [t for z, _ in roots if z.imag.is_zero() and _may_meet(t := (z - first) / length)]
+            inside = [(z.real - first) / length for z, _ in roots if z.imag.is_zero()]
+            inside = [t for t in inside if not (t < 0 or t > 1)]
             if not inside:
                 return
-            t = min((t.real for t in inside), key=lambda t: float(t.mid()))
+            t = min(inside, key=lambda t: float(t.mid()))
             if not (t.contains(0) or t.contains(1)):  # the ends were excluded exactly: else refine
                 distance = float(t.mid()) * math.sqrt(to_fraction(step.norm_squared()))
                 raise InputError(
@@ -337,11 +336,6 @@ def check_segment(system: System, a: Point, b: Point) -> None:
                     "the result depends on the side",
                 )
         prec *= 2
-
-
-def _may_meet(t: acb) -> bool:
-    """Can t be a number of the interval [0, 1]?"""
-    return t.imag.contains(0) and not (t.real < 0 or t.real > 1)
 
 
 def name_of(system: System, point: acb) -> str:

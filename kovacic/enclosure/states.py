@@ -8,7 +8,7 @@ from typing import Literal
 
 from flint import arb
 
-from kovacic.enclosure.classical import Classical, NotServed, classical_of, is_short
+from kovacic.enclosure.classical import Classical, NotServed
 from kovacic.enclosure.closed_form import ClosedForm, closed_form_of
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.journey import Journey
@@ -27,7 +27,6 @@ _NO_CLOSED_FORM = (
     "and Gauss' equations over Q"
 )
 _TAYLOR = "method='taylor' treats every equation"
-_MANY_DIGITS = 100  # from which Taylor steps to a point take a millisecond
 _FEW = 8  # targets up to which a closed form costs less than the Taylor steps, which serve many at once
 
 
@@ -113,34 +112,24 @@ def _closed_form(
     """The closed form, where it is asked for or the cheaper way by a rule that was measured
     (`benchmarks/enclosure_work_precision.py`).
 
-    A closed form without quadrature costs about a millisecond whatever the distance, the digits and the solution's zeros, if
-    its polynomial has a moderate degree: less than the Taylor steps to a few points.  FLINT's functions cost less, also for
-    many points beside the real axis; but a pull-back has to be found, once, in a millisecond or so: of an S that wasn't
-    decided before it isn't looked for where a Taylor step or two to a few digits do.
+    Closed forms of case 1 without quadrature, with a polynomial of moderate degree, cost less than the Taylor steps to a few
+    points, whatever the distance, the digits and the solution's zeros.  So do FLINT's functions up to some digits, for many
+    points beside the real axis, too; a pull-back is sought once, in about the time of a Taylor step.
     """
-    if method == "taylor":
-        return None
     problem = journey.problem
-    if problem.right is not None:
-        if method is not None:
-            raise InputError(
-                "the method 'closed form' is for equations without a right-hand side", hint="method='taylor'"
-            )
+    if method == "taylor" or (problem.right is not None and method is None):
         return None
-    few = len(targets) <= _FEW
-    regular = not isinstance(journey.start.place, Singular)
-    if problem.decision is not None and problem.decision.case == 1 and (few or method) and regular:
+    if problem.right is not None:
+        raise InputError("the method 'closed form' is for equations without a right-hand side", hint="method='taylor'")
+    few = method is not None or len(targets) <= _FEW
+    case_1 = problem.decision is not None and problem.decision.case == 1
+    if case_1 and few and not isinstance(journey.start.place, Singular):
         closed = closed_form_of(problem)
         if closed is not None and (closed.is_elementary if method else closed.is_cheap):
             return closed
-    way = journey.start.place, (*journey.vertices, *targets)
-    if few:
-        sought = problem.decision is not None or digits >= _MANY_DIGITS or not is_short(problem.system, *way)
-    else:
-        sought = not all(isinstance(target, Point) and target.is_real() for target in targets)
-    if method or sought:
-        classical = None if problem.S is None else classical_of(problem.S)
-        if classical is not None and (method or classical.is_cheaper(digits, problem.system, *way)):
+    if few or not all(isinstance(target, Point) and target.is_real() for target in targets):
+        classical = journey.classical
+        if classical is not None and (method or digits <= classical.most):
             return classical
     if method is not None:
         raise InputError(_NO_CLOSED_FORM, hint=_TAYLOR)
