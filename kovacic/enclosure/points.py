@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
@@ -39,6 +40,7 @@ def working_precision(bits: int) -> Iterator[None]:
         yield
 
 
+@dataclass(frozen=True, init=False, repr=False, slots=True)
 class Point:
     """The Gaussian rational re + i im; `x` and `y` are its parts as FLINT's rationals, many times as fast as fractions.
 
@@ -46,26 +48,12 @@ class Point:
     Point(1/2 + 1i)
     """
 
-    __slots__ = ("x", "y")
-
     x: Any
     y: Any
 
     def __init__(self, re: Any, im: Any = 0) -> None:
         _set_x(self, re if type(re) is fmpq else to_fmpq(re))
         _set_y(self, im if type(im) is fmpq else to_fmpq(im))
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError("points are immutable")
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Point, (self.re, self.im)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Point) and bool(self.x == other.x and self.y == other.y)
-
-    def __hash__(self) -> int:
-        return hash((self.x, self.y))
 
     @property
     def re(self) -> Fraction:
