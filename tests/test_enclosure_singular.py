@@ -264,8 +264,7 @@ def test_the_tail_is_below_its_bound(seed: int, monkeypatch: pytest.MonkeyPatch)
     last = min((last for last, _ in found), key=lambda p: p.norm_squared())
     with ctx.workprec(600):
         few, many = (
-            frobenius.Basis(place, last, x, bound, prec).at(last)
-            for prec, (_, bound) in zip((30, 400), found, strict=True)
+            frobenius.basis(place, last, x, bound, prec) for prec, (_, bound) in zip((30, 400), found, strict=True)
         )
         assert all(a.overlaps(b) for a, b in zip(few, many, strict=True))
         assert all(

@@ -1,7 +1,7 @@
 """Starting at a regular singular point: Frobenius series with exponents and logarithms, and a proven bound of their tails.
 
-The guarantee: `Basis.at` returns balls that contain the values and slopes at x of the two solutions of the Frobenius basis,
-continued along the straight segment from the point, with the principal logarithm of t.
+The guarantee: `basis` returns balls that contain the values and slopes at a point of the two solutions of the Frobenius basis,
+continued along the straight segment from the singular point, with the principal logarithm of t.
 
 Conventions (those of ore_algebra).  The basis has the leading terms t^lambda log(t)^k, the dominant one first: by the real
 part of lambda upwards, then by its imaginary part, and the logarithm before its companion.  Each solution has the coefficient
@@ -129,49 +129,42 @@ def junction(point: Singular, towards: Point, prec: int) -> tuple[Point, Majoran
     return (point.near + (towards - point.near).scaled(power_of_two(share))).rounded(e - 20), bound
 
 
-class Basis:
-    """The Frobenius basis on the way from the point to `towards`, at the points of the disc that are no farther than `last`.
+def basis(
+    point: Singular, last: Point, towards: Point, bound: Majorant, prec: int, needed: Sequence[bool] = (True, True)
+) -> Matrix:
+    """The values and slopes of the Frobenius basis (the columns) at `last`, a point of the disc on the way to `towards`.
 
     Solutions that aren't `needed` are zero.
     """
+    with working_precision(int(prec * (1 + _GROWTH)) + 100):
+        t, end = point.offset(last), point.offset(towards)
+        if not (t / end).real > 0:
+            raise LimitExceeded(f"{last} can't be told from the singular point {point}", limit="digits")
+        log, zero = end.log() + (t / end).log(), (acb(0), acb(0))  # continued along the segment
+        found = _expansions(point, last, bound, prec, needed)
+        first, second = (zero if solution is None else solution.at(t, log) for solution in found)
+        # slopes: dy/dx = theta y / t, and -t theta y for t = 1/x
+        factor = -t if point.inverted else 1 / t
+        return first[0], second[0], first[1] * factor, second[1] * factor
 
-    def __init__(
-        self,
-        point: Singular,
-        last: Point,
-        towards: Point,
-        bound: Majorant,
-        prec: int,
-        needed: Sequence[bool] = (True, True),
-    ) -> None:
-        self.point, self.towards, self.bits = point, towards, int(prec * (1 + _GROWTH)) + 100
-        with working_precision(self.bits):
-            lower, upper = point.exponents()
-            op, N, length = point.operator(), point.difference, abs(point.offset(last)).upper()
-            start, resonance = (1, 0), N
-            if N == 0:
-                start, resonance = (0, 1), None
-            elif N is not None and point.is_rational and N <= _SOUGHT and not _has_logarithm(op, lower, N):
-                resonance = -N
-            balls, delta = op.in_balls(), abs(acb(upper) - lower).upper()
-            cases = ((lower, delta, resonance, start), (upper, arb(0), None, (1, 0)))
-            self.solutions = tuple(
-                _expand(balls, case, length, bound, prec) if wanted else None
-                for case, wanted in zip(cases, needed, strict=True)
-            )
 
-    def at(self, x: Point) -> Matrix:
-        """The values and slopes at x (the columns: the two solutions)."""
-        with working_precision(self.bits):
-            t, end = self.point.offset(x), self.point.offset(self.towards)
-            if not (t / end).real > 0:
-                raise LimitExceeded(f"{x} can't be told from the singular point {self.point}", limit="digits")
-            log = end.log() + (t / end).log()  # continued along the segment
-            zero = acb(0), acb(0)
-            first, second = (zero if solution is None else solution.at(t, log) for solution in self.solutions)
-            # slopes: dy/dx = theta y / t, and -t theta y for t = 1/x
-            factor = -t if self.point.inverted else 1 / t
-            return first[0], second[0], first[1] * factor, second[1] * factor
+def _expansions(
+    point: Singular, last: Point, bound: Majorant, prec: int, needed: Sequence[bool]
+) -> list[Expansion | None]:
+    """Both solutions in the disc up to `last`; None for one that isn't needed."""
+    lower, upper = point.exponents()
+    op, N, length = point.operator(), point.difference, abs(point.offset(last)).upper()
+    start, resonance = (1, 0), N
+    if N == 0:
+        start, resonance = (0, 1), None
+    elif N is not None and point.is_rational and N <= _SOUGHT and not _has_logarithm(op, lower, N):
+        resonance = -N
+    balls, delta = op.in_balls(), abs(acb(upper) - lower).upper()
+    cases = ((lower, delta, resonance, start), (upper, arb(0), None, (1, 0)))
+    return [
+        _expand(balls, case, length, bound, prec) if wanted else None
+        for case, wanted in zip(cases, needed, strict=True)
+    ]
 
 
 def limit(point: Singular, start: State) -> State:
@@ -179,9 +172,8 @@ def limit(point: Singular, start: State) -> State:
     beside = point.near + Point(1)
     last, bound = junction(point, beside, 64)
     needed = [not coordinate.is_zero() for coordinate in start]
-    basis = Basis(point, last, beside, bound, max(64, ctx.prec), needed)
-    total = acb(0), acb(0)
-    for coordinate, solution in zip(start, basis.solutions, strict=True):
+    total, found = (acb(0), acb(0)), _expansions(point, last, bound, max(64, ctx.prec), needed)
+    for coordinate, solution in zip(start, found, strict=True):
         if solution is None:
             continue
         powers = [solution.derivative_at_zero(k) for k in (0, 1)]

@@ -24,7 +24,7 @@ from kovacic.enclosure.closed_form import ClosedForm
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.exponential import LogDerivative, rational_log_derivative
 from kovacic.enclosure.forcing import Forcing, forcing_of
-from kovacic.enclosure.frobenius import Basis, junction, limit
+from kovacic.enclosure.frobenius import basis, junction, limit
 from kovacic.enclosure.matrices import Matrix, Product, State, apply, real_part
 from kovacic.enclosure.points import Point, power_of_two, to_acb, to_double
 from kovacic.enclosure.problem import NumericProblem, check_segment
@@ -135,7 +135,7 @@ class Traveller:
 
     def copy(self) -> Traveller:
         """Another one at the same place."""
-        return replace(self, product=self.product.copy())
+        return replace(self)
 
     def _begin(self, x: Point) -> None:
         """From (z, z') to (y, y') at x."""
@@ -143,7 +143,7 @@ class Traveller:
             check_segment(self.problem.system, x, x)
             check_segment(self.problem.gauge_poles, x, x)
         if self.gauge is not None:
-            self.product.push((acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1)))
+            self.product = self.product.after((acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1)))
         self.here = x
 
     def go(self, stop: Point, start: State) -> None:
@@ -154,7 +154,7 @@ class Traveller:
         if stop == self.here:
             return
         if self.closed is not None:
-            self.product.push(self._closed_matrix(self.closed, stop, start))
+            self.product = self.product.after(self._closed_matrix(self.closed, stop, start))
         else:
             self._check_gauge(self.here, stop)
             if self.forcing is not None:
@@ -164,7 +164,7 @@ class Traveller:
                     change = self.forcing.step(leg, self._inverse_growth)
                     y, dy = self.particular
                     self.particular = apply(leg.matrix, (y + change[0], dy + change[1]))
-                self.product.push(leg.matrix)
+                self.product = self.product.after(leg.matrix)
         self.growth *= self._growth(stop)
         self.here = stop
 
@@ -188,7 +188,7 @@ class Traveller:
         origin, places = to_double(here), [to_double(stop) for stop in stops]
         waiting = sorted(range(len(stops)), key=lambda i: abs(places[i] - origin))
         while waiting:
-            last, way = stops[waiting[-1]], self.product.copy()
+            last, way = stops[waiting[-1]], self.product
             found |= {i: self.state(start) for i in waiting if stops[i] == here}
             for leg in walk(system, here, last, self.prec, len(waiting)):
                 served = list(leg.disc.served(system, here, [(i, places[i], stops[i]) for i in waiting]))
@@ -200,7 +200,7 @@ class Traveller:
                     found |= zip(served, map(self._given, states, ends), strict=True)
                     waiting = [i for i in waiting if i not in found]
                 if leg.disc.leave != last:
-                    way.push(leg.matrix)
+                    way = way.after(leg.matrix)
             waiting = [i for i in waiting if i not in found]
         return [found[i] for i in range(len(stops))]
 
@@ -296,11 +296,11 @@ class Traveller:
     def _leave(self, point: Singular, stop: Point, start: State) -> None:
         """Out of the disc around a singular point, or to the stop itself."""
         if self.closed is not None:
-            self.product.push(self._closed_matrix(self.closed, stop, start))
+            self.product = self.product.after(self._closed_matrix(self.closed, stop, start))
         else:
             last, bound = junction(point, stop, self.prec)
             needed = not start[0].is_zero(), not start[1].is_zero()
-            self.product.push(Basis(point, last, stop, bound, self.prec, needed).at(last))
+            self.product = self.product.after(basis(point, last, stop, bound, self.prec, needed))
             stop = last
         self._begin(stop)
 

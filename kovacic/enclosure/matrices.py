@@ -51,21 +51,17 @@ def apply(m: Matrix, v: State) -> State:
 
 
 class Product:
-    """M_k ... M_1 while k grows: a binary counter of partial products, so that every prefix is O(log k) factors."""
+    """M_k ... M_1: a binary counter of partial products, so that every prefix is O(log k) factors."""
 
-    def __init__(self, factors: list[tuple[int, Matrix]] | None = None) -> None:
-        self._parts = list(factors or ())  # sizes are falling powers of two, the earliest factors first
+    def __init__(self, *parts: tuple[int, Matrix]) -> None:
+        self._parts = parts  # sizes are falling powers of two, the earliest factors first
 
-    def push(self, matrix: Matrix) -> None:
-        """Put one more factor on the left."""
-        size = 1
-        while self._parts and self._parts[-1][0] == size:
-            matrix, size = multiply(matrix, self._parts.pop()[1]), 2 * size
-        self._parts.append((size, matrix))
-
-    def copy(self) -> Product:
-        """An independent copy."""
-        return Product(self._parts)
+    def after(self, matrix: Matrix) -> Product:
+        """With one more factor on the left."""
+        parts, size = self._parts, 1
+        while parts and parts[-1][0] == size:
+            matrix, size, parts = multiply(matrix, parts[-1][1]), 2 * size, parts[:-1]
+        return Product(*parts, (size, matrix))
 
     def apply(self, state: State) -> State:
         """M_k ... M_1 v."""
@@ -85,5 +81,5 @@ def product(matrices: list[Matrix]) -> Matrix:
     """M_k ... M_1 for the list [M_1, ..., M_k]."""
     total = Product()
     for matrix in matrices:
-        total.push(matrix)
+        total = total.after(matrix)
     return total.matrix()

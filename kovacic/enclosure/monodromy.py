@@ -20,7 +20,7 @@ from typing import Any
 from flint import acb, acb_mat, arb, fmpq
 
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint, finite_ball
-from kovacic.enclosure.frobenius import Basis, junction
+from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.journey import Traveller
 from kovacic.enclosure.matrices import Matrix, fundamental, inverse, multiply
 from kovacic.enclosure.points import Point, as_point, midpoint, power_of_two, to_acb, working_precision
@@ -145,15 +145,15 @@ def _connection(
     traveller, both = Traveller.at(problem, a, None, prec), (acb(1), acb(1))
     for vertex in middle:
         traveller.go(vertex, both)
-    basis, end = None, b
+    there, end = None, b
     if isinstance(end, Singular):
         here = traveller.here
         assert isinstance(here, Point)
         last, bound = junction(end, here, prec)
-        basis, end = Basis(end, last, here, bound, prec).at(last), last
+        there, end = basis(end, last, here, bound, prec), last
     traveller.go(end, both)
     found = fundamental(traveller.state((acb(1), acb(0))), traveller.state((acb(0), acb(1))))
-    return found if basis is None else multiply(inverse(basis), found)
+    return found if there is None else multiply(inverse(there), found)
 
 
 def monodromy(
