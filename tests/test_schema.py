@@ -11,7 +11,7 @@ import jsonschema
 import pytest
 
 import kovacic
-from kovacic.batch.records import Item, Job, lost, stopped
+from kovacic.batch.records import Item, Job, ProcessLost, refused, stopped
 from kovacic.batch.worker import solve_item
 from kovacic.cli.main import run
 from kovacic.limits import DEFAULT_LIMITS, Limits
@@ -83,7 +83,7 @@ def test_lines_of_lost_processes_and_failed_checks(
     validator: jsonschema.Draft202012Validator, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     item = Item(3, "x", extra={"id": "a"})
-    validator.validate(lost(item, "the worker process ended with signal SIGKILL", 0.5).data)
+    validator.validate(refused(item, ProcessLost("the worker process ended with signal SIGKILL"), 0.5).data)
     validator.validate(stopped(item, "the memory limit of 30 MiB is used up", 0.5).data)
     validator.validate(solve_item(item, Job(), Limits(degree=1, text_length=0)).data)
 

@@ -29,7 +29,7 @@ from contextlib import AbstractContextManager, suppress
 from queue import Empty, Queue, SimpleQueue
 from typing import IO, Any, cast
 
-from kovacic.batch.records import Item, Job, Record, lost, refused, stopped
+from kovacic.batch.records import Item, Job, ProcessLost, Record, refused, stopped
 from kovacic.errors import InputError, KovacicError
 
 # The interpreter looks for modules where this one does, and not in the current directory.
@@ -267,7 +267,7 @@ class Pool(AbstractContextManager["Pool"]):
             if limit is not None:
                 yield stopped(item, limit, seconds)
             elif self._losses[item.number] >= _processes_for(status):
-                yield lost(item, _cause(status, words), seconds)
+                yield refused(item, ProcessLost(_cause(status, words)), seconds)
             else:
                 self._again.appendleft(item)
 

@@ -32,9 +32,13 @@ _LABELS: dict[str | None, tuple[str, int | None, int]] = {
 LABELS = (*(label for label, _, _ in _LABELS.values()), UNDECIDED, ERROR, FAILED)
 _EXIT_STATUS = {FAILED: 4, ERROR: 2, UNDECIDED: 3}
 
+
+class ProcessLost(KovacicError):
+    """The process of an equation ended for a reason that isn't a limit."""
+
+
 # Types of errors that aren't the input's.
-_PROCESS_LOST = "ProcessLost"
-_FAILURES = (_PROCESS_LOST, VerificationFailed.__name__)
+_FAILURES = (ProcessLost.__name__, VerificationFailed.__name__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,7 +163,7 @@ def label_of(data: Mapping[str, Any]) -> str:
 
 
 def refused(item: Item, error: KovacicError, seconds: float = 0.0) -> Record:
-    """The record of an input that isn't an equation or is too large, or of a failed self-check."""
+    """The record of an input that isn't an equation or is too large, or of a failure."""
     if isinstance(error, LimitExceeded):
         return stopped(item, str(error), seconds)
     details: dict[str, Any] = {"type": type(error).__name__, "message": str(error)}
@@ -167,12 +171,6 @@ def refused(item: Item, error: KovacicError, seconds: float = 0.0) -> Record:
         return _without_answer(item, FAILED, {"status": "error", "error": details}, seconds)
     details |= {"message": error.message, "position": error.position, "hint": error.hint}
     return _without_answer(item, ERROR, {"status": "error", "error": details}, seconds)
-
-
-def lost(item: Item, message: str, seconds: float) -> Record:
-    """The record of an equation whose process was lost for a reason that isn't a limit."""
-    error = {"type": _PROCESS_LOST, "message": message}
-    return _without_answer(item, FAILED, {"status": "error", "error": error}, seconds)
 
 
 def stopped(item: Item, reason: str, seconds: float) -> Record:

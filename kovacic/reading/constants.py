@@ -26,7 +26,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, square_part
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.reading.given import ENERGY
+from kovacic.reading.given import ENERGY, lowered, over
 
 T = TypeVar("T")
 
@@ -158,13 +158,7 @@ class Constants:
     def embedded(self, function: RatFunc) -> RatFunc:
         """The rational function over the whole field, or over Q if it lies there."""
         field = self.field
-        if field == function.field == QQ:
-            return function
-        parts = [function.num.over(field), function.den.over(field)]
-        leaves = [leaf for part in parts for leaf in (part.parts[1:] if isinstance(part, ExtensionPoly) else ())]
-        if isinstance(field, AlgebraicField) and not any(leaves):
-            parts = [part.parts[0] for part in parts if isinstance(part, ExtensionPoly)]
-        return RatFunc(parts[0], parts[1], reduced=True)
+        return function if field == function.field == QQ else lowered(over(function, field))
 
     def notices(self) -> list[str]:
         """What the user should know about the field."""

@@ -41,7 +41,6 @@ class EquationReader(RationalReader):
     """What texts and SymPy expressions mean in which the unknown function and its derivatives occur linearly."""
 
     arithmetic: LinearArithmetic
-    constants: Constants
 
     def __init__(self, variable: str, unknown: str, limits: Limits, constants: Constants) -> None:
         arithmetic = LinearArithmetic(limits, variable, unknown, self.coefficient)

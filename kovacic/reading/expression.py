@@ -13,7 +13,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import NotRational
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
-from kovacic.reading.constants import Constants
+from kovacic.reading.constants import Constants, Enlarged
 from kovacic.reading.given import (
     DEFAULT_VARIABLE,
     FUNCTION_NAMES,
@@ -47,20 +47,21 @@ def parse_with(text: str, names: Mapping[str, Value], arithmetic: Arithmetic) ->
     Raises `ParseError`, `NotRational` and `LimitExceeded`.
     """
     variable = next((name for name, value in names.items() if value is VARIABLE), DEFAULT_VARIABLE)
-    return evaluate(tokenize(text), RationalReader(names, variable, arithmetic))  # type: ignore[no-any-return]
+    try:
+        return evaluate(tokenize(text), RationalReader(names, variable, arithmetic, Constants()))  # type: ignore[no-any-return]
+    except Enlarged:
+        raise NotRational(f"a constant in {shortened(text)} that isn't one of {', '.join(names)}") from None
 
 
 class RationalReader:
     """What texts and SymPy expressions mean that denote rational functions.
 
     `names` gives the values of the names that may occur: the variable, and whatever constants the caller's coefficient
-    field has.  `constants` supplies algebraic numbers and parameters; without it both are refused.  `arithmetic` has the
-    operations on the values.  Each method raises `InputError` without a position, which the parser adds.
+    field has.  `constants` supplies algebraic numbers and parameters.  `arithmetic` has the operations on the values.  Each
+    method raises `InputError` without a position, which the parser adds.
     """
 
-    def __init__(
-        self, names: Mapping[str, Value], variable: str, arithmetic: Arithmetic, constants: Constants | None = None
-    ) -> None:
+    def __init__(self, names: Mapping[str, Value], variable: str, arithmetic: Arithmetic, constants: Constants) -> None:
         self.names = names
         self.variable = variable
         self.arithmetic = arithmetic
@@ -83,12 +84,10 @@ class RationalReader:
         value = self.names.get(name)
         if value is not None:
             return value
-        if self.constants is not None and name == "I":
+        if name == "I":
             return self.constants.radical(QQ.poly([-1]), 2, name)  # type: ignore[return-value]
         if (meant := as_function(name)) is not None:
             raise NotRational(f"{name} looks like a function without its parentheses", hint=f"write {meant}")
-        if self.constants is not None and name not in NUMBER_NAMES and name != UNKNOWN:
-            return self.constants.parameter(name)
         if name in NUMBER_NAMES:
             raise NotRational(
                 f"{name} is {NUMBER_NAMES[name]}; constants are rational or algebraic numbers",
@@ -96,9 +95,8 @@ class RationalReader:
             )
         if name == UNKNOWN:
             hint = f"y is the unknown function: give S alone, from y'' = S({self.variable}) y"
-        else:
-            hint = "write * in products; give numbers for parameters; if x isn't the variable, name it (var=, --var)"
-        raise NotRational(f"the symbol {shortened(name)} beside the variable {self.variable}", hint=hint)
+            raise NotRational(f"the symbol y beside the variable {self.variable}", hint=hint)
+        return self.constants.parameter(name)
 
     def derivative(self, text: str) -> Value:
         """A name with primes."""
@@ -150,15 +148,11 @@ class RationalReader:
         closed = self.arithmetic.closed(value)
         if not isinstance(closed, Poly) or not closed.is_constant:
             raise NotRational(f"{place.text()} isn't a rational function of {self.variable}", hint=usage("sqrt"))
-        if self.constants is None:
-            root = closed.field.sqrt(closed) if n == 2 else None
-            hint = None
-        else:
-            radicand = closed.to_str() if closed.field == QQ else ""
-            label = f"{'cbrt' if n == 3 else 'sqrt'}({radicand})" if n < 4 else f"root({radicand}, {n})"
-            root = self.constants.radical(closed, n, label if radicand else place.text())
-            hint = "take the root itself as the parameter: sqrt(t) with t = s^2"
+        radicand = closed.to_str() if closed.field == QQ else ""
+        label = f"{'cbrt' if n == 3 else 'sqrt'}({radicand})" if n < 4 else f"root({radicand}, {n})"
+        root = self.constants.radical(closed, n, label if radicand else place.text())
         if root is None:
+            hint = "take the root itself as the parameter: sqrt(t) with t = s^2"
             raise NotRational(f"{place.text()} isn't rational in the parameters", hint=hint)
         return root
 

@@ -27,7 +27,7 @@ from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
 from kovacic.reading.expression import Place, RationalReader
 from kovacic.reading.given import FUNCTION_NAMES, NUMBER_NAMES
 from kovacic.reading.lexer import tokens_of
-from kovacic.reading.linear import LinearArithmetic
+from kovacic.reading.linear import LinearArithmetic, Symbols
 from kovacic.reading.parser import Site, evaluate, shown
 
 LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
@@ -73,7 +73,7 @@ def walked(expression: Any, reader: RationalReader) -> Any:
 
 def _leaf(node: Any, reader: RationalReader) -> Any:
     if node.is_Symbol:
-        return VARIABLE if node.name == reader.variable else reader.constants.parameter(node.name)  # type: ignore[union-attr]
+        return VARIABLE if node.name == reader.variable else reader.constants.parameter(node.name)
     if node.is_Rational:
         return reader.arithmetic.constant(Fraction(index(node.p), index(node.q)))
     if node.is_Float and node.is_finite:
@@ -81,7 +81,7 @@ def _leaf(node: Any, reader: RationalReader) -> Any:
         exact = Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** int(exponent)
         reader.decimals.append(f"the float {shown(node, 60)} was taken exactly, as {shown(exact, 60)}")
         return reader.arithmetic.constant(exact)
-    value = reader.constants.algebraic(node) if node.is_number and node.is_algebraic else None  # type: ignore[union-attr]
+    value = reader.constants.algebraic(node) if node.is_number and node.is_algebraic else None
     return reader.other_leaf(node) if value is None else value
 
 
@@ -138,7 +138,7 @@ class SymbolicReader(RationalReader):
     arithmetic: LinearArithmetic
 
     def __init__(self, names: Mapping[str, Any] | None, what: str, limits: Limits) -> None:
-        super().__init__({**_CONSTANTS, **(names or {})}, "", LinearArithmetic(limits))
+        super().__init__({**_CONSTANTS, **(names or {})}, "", LinearArithmetic(limits), Symbols())  # type: ignore[arg-type]
         self.any_name = names is None
         self.what = what
 

@@ -30,7 +30,6 @@ class Paragraph:
 
 
 def say(*sentence: str | Math) -> Paragraph:
-    """A paragraph of one sentence."""
     return Paragraph(sentence)
 
 
@@ -47,15 +46,7 @@ class Table:
     rows: Sequence[Sequence[Sentence]]
 
 
-@dataclass(frozen=True)
-class Picture:
-    """A drawing as SVG, for HTML alone."""
-
-    svg: str
-    caption: str
-
-
-Block = Heading | Paragraph | Formula | Table | Picture
+Block = Heading | Paragraph | Formula | Table
 
 
 @dataclass(frozen=True)
@@ -80,8 +71,6 @@ class Format:
             return self.paragraph(self.sentence(block.sentence))
         if isinstance(block, Formula):
             return self.formula(block.math)
-        if isinstance(block, Picture):
-            return f"<figure>{block.svg}<figcaption>{self.plain(block.caption)}</figcaption></figure>"
         rows = [[self.sentence(cell) for cell in row] for row in block.rows]
         return self.table([[self.sentence([cell]) for cell in block.head], *rows])
 

@@ -16,7 +16,7 @@ from kovacic.decision import Exclusion, NecessaryCondition, SemiInvariant, Statu
 from kovacic.engine.places import Place
 from kovacic.errors import KovacicError, LimitExceeded
 from kovacic.views.bibliography import references
-from kovacic.views.document import FORMATS, Block, Formula, Heading, Paragraph, Picture, Table, say
+from kovacic.views.document import FORMATS, Block, Formula, Heading, Paragraph, Table, say
 from kovacic.views.formula import LARGEST_DEGREE, Math, shortened
 from kovacic.views.sentences import (
     SHORTER,
@@ -64,7 +64,7 @@ def explain(solution: Solution, *, format: str = "text", solutions: bool = True)
     blocks = document(solution, solutions=solutions)
     if format != "html":
         return FORMATS[format].render(blocks)
-    body = FORMATS[format].render([*blocks, *_picture(solution)])
+    body = FORMATS[format].render(blocks) + _picture(solution)
     page = _PAGE.replace("BODY", body, 1).replace("TITLE", escape(shortened(solution.text)), 1)
     return page.encode("ascii", "xmlcharrefreplace").decode()
 
@@ -89,7 +89,7 @@ def _in_time(part: Callable[[], Iterator[Block]]) -> Iterator[Block]:
         yield say(f"The rest of this part isn't written out: {limit}.")
 
 
-def _picture(solution: Solution) -> list[Block]:
+def _picture(solution: Solution) -> str:
     """A real solution between and beside the singular points on the axis; nothing where its values can't be had."""
     from kovacic.enclosure.problem import as_problem
 
@@ -99,11 +99,11 @@ def _picture(solution: Solution) -> list[Block]:
         seconds = min(solution.limits.seconds or _PICTURE_SECONDS, _PICTURE_SECONDS)
         figure = solution.plot(low, high, digits=6, points=240, limits=replace(solution.limits, seconds=seconds))
     except (KovacicError, ImportError):
-        return []
-    drawing = StringIO()
-    figure.savefig(drawing, format="svg", metadata={"Date": None})
-    caption = "The solution with y = 1, y' = 0 in the middle of its longest interval without a singular point."
-    return [Heading("A picture"), Picture(drawing.getvalue()[drawing.getvalue().index("<svg") :], caption)]
+        return ""
+    figure.savefig(drawing := StringIO(), format="svg", metadata={"Date": None})
+    svg = drawing.getvalue()[drawing.getvalue().index("<svg") :]
+    caption = "The solution with y = 1, y&#x27; = 0 in the middle of its longest interval without a singular point."
+    return f"\n<h2>A picture</h2>\n\n<figure>{svg}<figcaption>{caption}</figcaption></figure>\n"
 
 
 class _Writer:
@@ -172,8 +172,7 @@ class _Writer:
         assert solution.riccati is not None
         yield Heading("omega = y'/y")
         if solution.omega is not None:
-            equal = rf"\omega = \theta + \frac{{P'}}{{P}} = {omega.latex}"
-            yield Formula(Math(f"omega = theta + P'/P = {omega.text}", equal))
+            yield Formula(Math("omega = theta + P'/P", r"\omega = \theta + \frac{P'}{P}").equals(omega))
         else:
             yield say(
                 f"omega is a root {self.formulas.unknown} of the irreducible polynomial of degree {solution.riccati.degree}"
@@ -192,11 +191,10 @@ class _Writer:
             yield Heading("Solutions" if self.solution.case else "Solutions in special functions")
         for name, y in found:
             long = shortened(y.text) != y.text
-            shown = Math(shortened(y.text), r"\text{(too long to print)}") if long else y
-            yield Formula(Math(f"{name.text} = {shown.text}", f"{name.latex} = {shown.latex}"))
+            yield Formula(name.equals(Math(shortened(y.text), r"\text{(too long to print)}") if long else y))
         if shorter := shorter_pair(self.solution, max((len(y.text) for _, y in found), default=0)):
             yield say(SHORTER.capitalize())
-            yield from (Formula(Math(f"{y.text} = {f.text}", f"{y.latex} = {f.latex}")) for y, f in shorter)
+            yield from (Formula(name.equals(y)) for name, y in shorter)
         yield from (say(f"Note: {note}.") for note in notes)
 
     def group(self) -> Iterator[Block]:

@@ -46,6 +46,9 @@ class Math:
     text: str
     latex: str
 
+    def equals(self, value: Math) -> Math:
+        return Math(f"{self.text} = {value.text}", f"{self.latex} = {value.latex}")
+
 
 def _first_free(taken: set[str], *candidates: str) -> str:
     numbered = (f"{candidates[-1]}{k}" for k in count(1))
@@ -117,8 +120,7 @@ class Formulas:
 
     def named(self, text: str, latex: str, function: RatFunc | Poly) -> Math:
         """`name = function`."""
-        value = self.math(function)
-        return Math(f"{text} = {value.text}", f"{latex} = {value.latex}")
+        return Math(text, latex).equals(self.math(function))
 
     def place(self, place: str) -> Math:
         """A place: infinity, x = 2 where its factor is linear in x with a simple constant, else factor = 0."""
@@ -129,7 +131,7 @@ class Formulas:
         root = "0" if factor == x else None if root is None else root + factor[len(x) + 3 :]
         if root is None or x in root or " " in root:
             return Math(f"{caret(factor)} = 0", f"{latex_text(factor)} = 0")
-        return Math(f"{x} = {root}", f"{latex_text(x)} = {latex_text(root)}")
+        return Math(x, latex_text(x)).equals(Math(root, latex_text(root)))
 
 
 def shortened(text: str) -> str:

@@ -35,8 +35,7 @@ def equation_of(solution: Solution) -> Math:
 
 def normal_form(solution: Solution, y: str = "y") -> Math:
     """y'' = S y."""
-    right = formulas_of(solution).times(solution.S, y, y)
-    return Math(f"{y}'' = {right.text}", f"{y}'' = {right.latex}")
+    return Math(f"{y}''", f"{y}''").equals(formulas_of(solution).times(solution.S, y, y))
 
 
 def omega_of(solution: Solution) -> Math:

@@ -179,8 +179,7 @@ class Steps:
     def _point(self, point: Point) -> Math:
         if point.at is None or point.place.at_infinity:
             return self.formulas.place(str(point.place))
-        at = self._shown(point.at)
-        return Math(f"{self.solution.variable} = {at.text}", f"{latex_text(self.solution.variable)} = {at.latex}")
+        return Math(self.solution.variable, latex_text(self.solution.variable)).equals(self._shown(point.at))
 
     def _outcome(self, family: Family) -> str | Math:
         if family.P is not None:
@@ -190,14 +189,13 @@ class Steps:
         return "not tried" if family.d.is_Integer and family.d >= 0 else ""
 
     def _trial(self, family: Family) -> Iterator[Block]:
-        theta, d = self._shown(family.theta), family.d
-        yield Formula(Math(f"theta = {theta.text}", rf"\theta = {theta.latex}"))
+        d = family.d
+        yield Formula(Math("theta", r"\theta").equals(self._shown(family.theta)))
         unknowns = set(family.unknowns)
         impossible = next((condition for condition in family.conditions if not unknowns & condition.free_symbols), None)
         conditions = [self._shown(condition) for condition in family.conditions[:6]]
         if family.P is not None:
-            P = self._shown(family.P)
-            yield say(f"d = {d}: ", Math(f"P = {P.text}", f"P = {P.latex}"), " is a solution.")
+            yield say(f"d = {d}: ", Math("P", "P").equals(self._shown(family.P)), " is a solution.")
         elif impossible is not None:
             yield say(f"d = {d}: no solution, for a coefficient is ", self._shown(impossible), ", which isn't 0.")
         elif conditions:

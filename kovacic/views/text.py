@@ -116,7 +116,7 @@ def solution_lines(solution: Solution) -> Iterator[str]:
         yield f"{'  ' if solution.case is None else ''}{name}{k} = {shortened(text)}"
     if shorter := shorter_pair(solution, max(map(len, pair), default=0)):
         yield SHORTER
-        yield from (f"  {y.text} = {value.text}" for y, value in shorter)
+        yield from (f"  {name.equals(y).text}" for name, y in shorter)
     yield from (f"note: {note}" for note in notes)
 
 
@@ -173,9 +173,9 @@ def latex_view(solution: Solution) -> str:
     """The equation and, where there are some, two solutions, between dollar signs."""
     found, _ = _in_time(solution)
     shorter = shorter_pair(solution, max((len(value.text) for _, value in found), default=0))
-    lines = [equation_of(solution).latex, *(f"{name.latex} = {value.latex}" for name, value in found)]
+    lines = [equation_of(solution).latex, *(name.equals(value).latex for name, value in found)]
     if shorter:
-        lines += [rf"\text{{{SHORTER}}}", *(f"{name.latex} = {value.latex}" for name, value in shorter)]
+        lines += [rf"\text{{{SHORTER}}}", *(name.equals(value).latex for name, value in shorter)]
     if solution.status in _NEITHER:
         lines.insert(1, rf"\text{{{_NEITHER[solution.status]}}}")
     body = r" \\ ".join(lines)
