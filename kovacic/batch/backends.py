@@ -28,27 +28,22 @@ _LOSSES = 4
 _Engine = tuple[Callable[[Job, list[Item]], Future[list[Record]]], int]
 
 
-class _Kept(threading.local):
-    """The worker process of this thread, and the job for which it was started."""
-
-    pool: Pool | None = None
-    job: Job | None = None
-
-
-_KEPT = _Kept()  # state of the module, because the engine calls a function and gives it no place to keep anything
+# The pool of this thread, a worker process for one job: state of the module, because the engine calls a function and gives it
+# no place to keep anything.
+_KEPT = threading.local()
 
 
 def run_chunk(job: Job, items: list[Item]) -> list[Record]:
     """The records of a chunk, in its order, from the worker process of this thread."""
-    if _KEPT.pool is None or job != _KEPT.job:
-        if _KEPT.pool is not None:
-            _KEPT.pool.close()
-        _KEPT.pool, _KEPT.job = Pool(1, job), job
+    pool: Pool | None = getattr(_KEPT, "pool", None)
+    if pool is None or pool.job != job:
+        if pool is not None:
+            pool.close()
+        pool = _KEPT.pool = Pool(1, job)
     try:
-        return list(_KEPT.pool.run(items, ordered=True))
+        return list(pool.run(items))
     except BaseException:
-        _KEPT.pool.close()
-        _KEPT.pool = None
+        pool.close()  # which starts another process when it is needed
         raise
 
 

@@ -112,10 +112,13 @@ class Child:
             self._to.flush()
 
     def _read(self, events: SimpleQueue[Event]) -> None:
-        with suppress(EOFError, pickle.UnpicklingError):  # the end of the process, perhaps while it wrote
+        try:
             while True:
                 events.put((self, pickle.load(self._from)))
-        events.put((self, None))
+        except (EOFError, pickle.UnpicklingError):  # the end of the process, perhaps while it wrote
+            pass
+        finally:
+            events.put((self, None))
 
 
 class Pool(AbstractContextManager["Pool"]):
@@ -128,7 +131,7 @@ class Pool(AbstractContextManager["Pool"]):
     """
 
     def __init__(self, jobs: int, job: Job) -> None:
-        self._job, self._jobs = job, jobs
+        self.job, self._jobs = job, jobs
         self._events: SimpleQueue[Event] = SimpleQueue()
         self._children: list[Child] = []
         self._again: deque[Item] = deque()
@@ -146,6 +149,7 @@ class Pool(AbstractContextManager["Pool"]):
             child.kill()
         for kept in (self._children, self._again, self._losses):
             kept.clear()
+        self._failed_starts = 0
 
     def pids(self) -> list[int]:
         """The identifiers of the worker processes."""
@@ -179,7 +183,7 @@ class Pool(AbstractContextManager["Pool"]):
     def _records(self, feed: Iterator[Item | None]) -> Iterator[Record]:
         """The records as they come; the feed gives None where there is no item for the moment."""
         while len(self._children) < self._jobs:
-            self._children.append(Child(self._job, self._events))
+            self._children.append(Child(self.job, self._events))
         exhausted = False
         while True:
             for child in self._children:
@@ -221,9 +225,9 @@ class Pool(AbstractContextManager["Pool"]):
     def _deadline(self, child: Child) -> float:
         if not child.ready:
             return child.busy_since + _START_SECONDS
-        if self._job.timeout is None or not child.items:
+        if self.job.timeout is None or not child.items:
             return math.inf
-        return child.busy_since + self._job.timeout + GRACE_SECONDS
+        return child.busy_since + self.job.timeout + GRACE_SECONDS
 
     def _handle(self, events: list[Event]) -> Iterator[Record]:
         for event in events:
@@ -248,7 +252,7 @@ class Pool(AbstractContextManager["Pool"]):
     def _over_time(self, child: Child) -> Record:
         if not child.items:
             raise KovacicError(f"a worker process hasn't started within {_START_SECONDS:g} s")
-        reason = f"the time limit of {self._job.timeout:g} s is used up (process killed)"
+        reason = f"the time limit of {self.job.timeout:g} s is used up (process killed)"
         item = child.items.popleft()
         self._replace(child)
         return stopped(item, reason, time.monotonic() - child.busy_since)
@@ -273,17 +277,17 @@ class Pool(AbstractContextManager["Pool"]):
 
     def _limit_behind(self, status: int, words: str) -> str | None:
         """Which limit the end of a process means; None for another reason."""
-        if self._job.memory is not None and _OUT_OF_MEMORY.search(words):
-            return f"the memory limit of {self._job.memory} MiB is used up (process ended)"
-        if self._job.timeout is not None and _signal_name(status) == "SIGALRM":
-            return f"the time limit of {self._job.timeout:g} s is used up (process ended)"
+        if self.job.memory is not None and _OUT_OF_MEMORY.search(words):
+            return f"the memory limit of {self.job.memory} MiB is used up (process ended)"
+        if self.job.timeout is not None and _signal_name(status) == "SIGALRM":
+            return f"the time limit of {self.job.timeout:g} s is used up (process ended)"
         return None
 
     def _replace(self, child: Child) -> None:
         """Kill a process, take back what it hasn't begun, and start another one."""
         self._again.extendleft(reversed(child.items))
         child.kill()
-        self._children[self._children.index(child)] = Child(self._job, self._events)
+        self._children[self._children.index(child)] = Child(self.job, self._events)
         self.replaced += 1
 
 

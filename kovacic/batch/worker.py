@@ -17,7 +17,6 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -38,15 +37,14 @@ def main() -> None:
     job: Job = pickle.load(sys.stdin.buffer)
     limits, item = job.engine_limits, Item(0, "x**2 + 3")
     record = solve_item(item, job, limits)  # the modules are loaded before the clock of the first equation starts
-    renew_memory = None if job.memory is None else _memory_limit(job.memory)
     gc.freeze()  # what is loaded stays: the collector needn't look at it again
     with suppress(EOFError):
         while True:
             answers.write(pickle.dumps(record))
             answers.flush()
             item = pickle.load(sys.stdin.buffer)
-            if renew_memory is not None:
-                renew_memory()
+            if job.memory is not None:
+                _limit_memory(job.memory)
             _set_alarm(0.0 if job.timeout is None else job.timeout + 5.0)
             record = solve_item(item, job, limits)
             _set_alarm(0.0)
@@ -75,24 +73,13 @@ def _leave_with_parent() -> None:
     threading.Thread(target=watch, daemon=True).start()
 
 
-def _memory_limit(mebibytes: int) -> Callable[[], None]:
-    """What moves the bound on the address space along with what the process has when an equation begins."""
+def _limit_memory(mebibytes: int) -> None:
+    """Move the bound on the address space along with what the process has."""
     resource: Any = __import__("resource")  # not on every system; `Job` with `memory` needs it
-    page, hard = resource.getpagesize(), resource.getrlimit(resource.RLIMIT_AS)[1]
-    statm = os.open("/proc/self/statm", os.O_RDONLY)
-    last = -1
-
-    def renew() -> None:
-        nonlocal last
-        pages = int(os.pread(statm, 32, 0).split(maxsplit=1)[0])
-        if pages != last:
-            last = pages
-            wanted = pages * page + (mebibytes << 20)
-            resource.setrlimit(
-                resource.RLIMIT_AS, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard)
-            )
-
-    return renew
+    with open("/proc/self/statm", "rb") as statm:
+        size = int(statm.readline().split()[0]) * resource.getpagesize()
+    wanted, (_, hard) = size + (mebibytes << 20), resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard))
 
 
 def _set_alarm(seconds: float) -> None:

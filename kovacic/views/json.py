@@ -88,6 +88,7 @@ def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
     names = Formulas(solution.variable, solution.S.field)
     decision = solution.decision
     riccati, form, constants = decision.riccati, decision.semi_invariant, solution.constants
+    conditions = solution.generic_conditions if parameters_of(solution.S.field) else None
     data = {
         "schema": SCHEMA,
         "input": solution.text,
@@ -103,13 +104,22 @@ def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
         },
         "constants": constants and {"symbol": names.symbol, "minimal_polynomial": constants.to_str(names.symbol)},
         "field": _field(solution.S.field),
-        "generic_conditions": _generic(solution),
+        "generic_conditions": None
+        if conditions is None
+        else {key: [*map(str, f)] for key, f in vars(conditions).items()},
         "verified": solution.verified,
         "proof": {
             "structure": decision.structure and decision.structure.value,
             "semi_invariant": form and riccati and {**_form(form, names), "D": names.python(riccati.D)},
             "invariant": decision.invariant and _form(decision.invariant, names),
-            "excluded": [_exclusion(exclusion, names) for exclusion in decision.exclusions],
+            "excluded": [
+                {
+                    "structure": excluded.structure.value,
+                    "case": excluded.structure.case,
+                    "evidence": [_evidence(evidence, names) for evidence in excluded.evidence],
+                }
+                for excluded in decision.exclusions
+            ],
             "undecided": decision.undecided,
         },
         "notices": list(solution.notices),
@@ -147,6 +157,7 @@ def from_dict(data: Mapping[str, Any]) -> Solution:
     parsed = read_input(text, var=given, limits=_LIMITS, exponentials=given != variable)
     S, equation = parsed.S, parsed.equation
     rational = reader = _Reader.over(S.field, variable)
+    names = Formulas(variable, S.field)
     if parsed.variable != variable or data.get("field") != _field(S.field) or rational.ratfunc(data["S"]) != S:
         raise ValueError("S isn't that of the input")
     if data.get("equation") is not None or data.get("gauge") is not None:
@@ -162,7 +173,10 @@ def from_dict(data: Mapping[str, Any]) -> Solution:
     form = None if semi_invariant is None else reader.semi_invariant(semi_invariant)
     decision = Decision(
         structure=None if proof["structure"] is None else Structure(proof["structure"]),
-        exclusions=tuple(_read_exclusion(entry, Formulas(variable, QQ)) for entry in proof["excluded"]),
+        exclusions=tuple(
+            Exclusion(Structure(entry["structure"]), tuple(_read_evidence(item, names) for item in entry["evidence"]))
+            for entry in proof["excluded"]
+        ),
         invariant=None if proof["invariant"] is None else rational.semi_invariant(proof["invariant"]),
         semi_invariant=form,
         riccati=None if form is None else _riccati(form.P, reader.poly(semi_invariant["D"]), riccati, reader),
@@ -195,17 +209,6 @@ def _equation(equation: Equation) -> dict[str, Any]:
         "h": None if equation.h is None else str(equation.h),
         "field": _field(equation.a.field),
         "change": equation.change and {"variable": equation.change.variable, "expression": equation.change.expression},
-    }
-
-
-def _generic(solution: Solution) -> dict[str, list[str]] | None:
-    """Under which conditions an answer for generic parameters was derived; None without parameters."""
-    if not parameters_of(solution.S.field):
-        return None
-    conditions = solution.generic_conditions
-    return {
-        "nonzero": [str(f) for f in conditions.nonzero],
-        "irrational_squares": [str(f) for f in conditions.irrational_squares],
     }
 
 
@@ -276,14 +279,6 @@ def _form(form: SemiInvariant, names: Formulas) -> dict[str, Any]:
     return {"degree": form.degree, "theta": names.python(form.theta), "P": names.python(form.P)}
 
 
-def _exclusion(exclusion: Exclusion, names: Formulas) -> dict[str, Any]:
-    return {
-        "structure": exclusion.structure.value,
-        "case": exclusion.structure.case,
-        "evidence": [_evidence(evidence, names) for evidence in exclusion.evidence],
-    }
-
-
 def _evidence(evidence: Evidence, names: Formulas) -> dict[str, Any]:
     if isinstance(evidence, NecessaryCondition):
         places = [names.place_name(place) for place in evidence.places]
@@ -292,11 +287,6 @@ def _evidence(evidence: Evidence, names: Formulas) -> dict[str, Any]:
     if isinstance(evidence, NoInvariant):
         return {"kind": "no_invariant", **vars(evidence)}
     return {"kind": "no_rational_omega", **vars(evidence), "place": names.place_name(evidence.place)}
-
-
-def _read_exclusion(data: Mapping[str, Any], names: Formulas) -> Exclusion:
-    evidence = tuple(_read_evidence(entry, names) for entry in data["evidence"])
-    return Exclusion(Structure(data["structure"]), evidence)
 
 
 def _read_evidence(data: Mapping[str, Any], names: Formulas) -> Evidence:
