@@ -232,7 +232,7 @@ def test_multiplication_in_a_jacobian_of_genus_two() -> None:
     for c in classes:
         n = curve.order(c, 1000)
         assert n is not None
-        assert curve.multiple(n, c).is_zero
+        assert not curve.multiple(n, c).u.degree()
         assert curve.add(curve.multiple(5, c), curve.multiple(-3, c)) == curve.multiple(2, c)
     a, b, c = classes[:3]
     assert curve.add(curve.add(a, b), c) == curve.add(a, curve.add(b, c))

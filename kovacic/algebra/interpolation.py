@@ -156,8 +156,7 @@ class _Unknown:
         vector = reconstruct_vector(self.residues, self.modulus)
         if vector is None:
             return None
-        numerators, _ = vector
-        split = len(self.terms[0])
+        numerators, split = vector[0], len(self.terms[0])
         return (
             dict(zip(self.terms[0], numerators[:split], strict=True)),
             dict(zip(self.terms[1], numerators[split:], strict=True)),

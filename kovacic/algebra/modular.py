@@ -251,12 +251,7 @@ def inverses_modulo(values: Sequence[int], p: int) -> list[int]:
 
 def square_root(value: int, p: int) -> int | None:
     """A square root modulo p, or None for a non-residue."""
-    value %= p
-    if value == 0:
-        return 0
-    if fmpz(value).jacobi(p) != 1:
-        return None
-    return int(fmpz(value).sqrtmod(p))
+    return None if fmpz(value).jacobi(p) == -1 else int(fmpz(value % p).sqrtmod(p))
 
 
 def square_root_series(series: Any, order: int, root: int) -> Any:

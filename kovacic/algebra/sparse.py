@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import gcd, lcm
+from math import lcm
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
@@ -63,9 +63,7 @@ def _factored_over_q(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
     for part, k in parts:
         terms = part.to_dict()
         denominator = lcm(*(int(c.q) for c in terms.values()))
-        numerators = {e: int(c.p) * (denominator // int(c.q)) for e, c in terms.items()}
-        content = gcd(*numerators.values())
-        factor = context.from_dict({e: n // content for e, n in numerators.items()})
+        _, factor = context.from_dict({e: int(c * denominator) for e, c in terms.items()}).primitive()
         factor = -factor if int(factor.leading_coefficient()) < 0 else factor
         factors.append((factor, int(k)))
         rest = rest / factor ** int(k)

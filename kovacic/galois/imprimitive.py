@@ -181,12 +181,12 @@ def _order_modulo(h: Homomorphism, curve: Curve, l: int) -> int | None:  # noqa:
     above = prod((image for image, e, _ in points if e == 2), start=one)
     below = prod((image ** (-(e // 2)) for image, e, _ in points if e < 0), start=one)
     poles = [
-        (image, r, below * _inverse(above.derivative() * (r.numerator * pow(r.denominator, -1, p) % p), image) % image)
+        (image, r, below * (above.derivative() * (r.numerator * pow(r.denominator, -1, p) % p)).xgcd(image)[1] % image)
         for image, _, r in points
         if r
     ]
     image, _, s = poles[0]
-    jacobian = Jacobian(branch * int((s * s * _inverse(branch, image) % image)[0]))
+    jacobian = Jacobian(branch * int((s * s * branch.xgcd(image)[1] % image)[0]))
     total = jacobian.zero
     for image, r, s in poles:
         total = jacobian.add(total, jacobian.multiple(int(2 * l * r), jacobian.point(image, s)))
@@ -200,9 +200,3 @@ def _moved(points: list[tuple[Any, int, Fraction]], infinity: Point, p: int) -> 
         raise BadPrimeError("no branch point is rational modulo this prime")
     moved = [(image.compose(nmod_poly([r, 1], p)).reverse(), e, residue) for image, e, residue in points]
     return [*(point for point in moved if point[0].degree()), (nmod_poly([0, 1], p), infinity.e, infinity.residue)]
-
-
-def _inverse(value: Any, modulus: Any) -> Any:
-    """The inverse modulo a polynomial without a common root."""
-    common, inverse, _ = value.xgcd(modulus)
-    return inverse * pow(int(common[0]), -1, modulus.modulus()) % modulus

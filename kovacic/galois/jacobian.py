@@ -19,10 +19,6 @@ class DivisorClass(NamedTuple):
     u: Any
     v: Any
 
-    @property
-    def is_zero(self) -> bool:
-        return bool(self.u.degree() == 0)
-
 
 @dataclass(frozen=True)
 class Jacobian:
@@ -64,7 +60,7 @@ class Jacobian:
     def order(self, value: DivisorClass, bound: int) -> int | None:
         """The order of a class, or None if it exceeds `bound`."""
         multiples = accumulate(repeat(value, bound), self.add)
-        return next((k for k, multiple in enumerate(multiples, start=1) if multiple.is_zero), None)
+        return next((k for k, multiple in enumerate(multiples, start=1) if not multiple.u.degree()), None)
 
     def _reduced(self, u: Any, v: Any) -> DivisorClass:
         while 2 * u.degree() >= self.h.degree():
