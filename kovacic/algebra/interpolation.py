@@ -61,8 +61,6 @@ class Samples(Collector):
     A polynomial is proposed as the list of its coefficients, pairs (N, D) of integer coefficients by exponents.
     """
 
-    __slots__ = ("_points", "_unknowns", "_values")
-
     def __init__(self, parameters: int, shape: tuple[int, ...]) -> None:
         super().__init__(shape)
         self._points: dict[int, list[_Exponents]] = {}

@@ -65,8 +65,6 @@ class Lifter:
     leading term vanishes or a space grows, can't spoil what the others say.
     """
 
-    __slots__ = ("_collectors", "_field")
-
     def __init__(self, field: Field) -> None:
         self._field = field
         self._collectors: dict[tuple[int, ...], Collector] = {}
@@ -112,8 +110,6 @@ def inverse_by_primes(element: Poly, modulus: Poly) -> Any:
 
 class Residues(Collector):
     """Rational polynomials modulo the product of the primes so far: the vector of all their coefficients."""
-
-    __slots__ = ("_modulus", "_residue")
 
     def __init__(self, shape: tuple[int, ...]) -> None:
         super().__init__(shape)

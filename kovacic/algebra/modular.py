@@ -45,8 +45,6 @@ class Homomorphism(ABC):
 class Collector(ABC):
     """Images of polynomials of one shape (how many, and how long), from which their coordinates are guessed."""
 
-    __slots__ = ("_next_attempt", "primes_used", "shape")
-
     def __init__(self, shape: tuple[int, ...]) -> None:
         self.shape = shape
         self.primes_used, self._next_attempt = 0, 1

@@ -21,8 +21,6 @@ class RationalSeries:
     The last terms are kept as integers over a common denominator, which grows only by what a division really needs.
     """
 
-    __slots__ = ("_denominator", "_scales", "_terms", "_width", "_window")
-
     def __init__(self, width: int) -> None:
         self._width = width
         self._window = [fmpz(1)]  # the last terms times the denominator, the latest first
@@ -67,8 +65,6 @@ class RationalSeries:
 
 class FieldSeries:
     """The same over any field, in its scalars."""
-
-    __slots__ = ("_field", "_terms", "_width", "_zero")
 
     def __init__(self, field: Field, width: int) -> None:
         self._field, self._width = field, width

@@ -147,8 +147,6 @@ class Ideals(Collector):
     element a = (v_0 + v_1 c + ...)/d is the shortest one [Lenstra, Lenstra & Lovasz 1982].
     """
 
-    __slots__ = ("_dimension", "_modulus", "_values")
-
     def __init__(self, dimension: int, shape: tuple[int, ...]) -> None:
         super().__init__(shape)
         self._dimension, self._modulus = dimension, 1

@@ -109,12 +109,6 @@ def _first_factor(D: Any, P: Any, X: Any, Y: Any, half: Any) -> tuple[Any, Any]:
     return R, zeros
 
 
-def distinguishing_places(problem: Problem) -> list[Place]:
-    """The places at which only finitely many local solutions can belong to omega, the cheapest first."""
-    suitable = [place for place in problem.places if not place.is_apparent]
-    return sorted(suitable, key=lambda place: (place.degree, not place.logarithm, not place.at_infinity))
-
-
 def _unique_omega(problem: Problem) -> Form | Evidence:
     impossible = irrational_exponents(problem)
     if impossible is not None:
@@ -122,7 +116,9 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
     bound = degree_bound(problem) if is_cheap(problem) else None
     if bound is not None and not isinstance(bound, DegreeBound):
         return bound
-    place = distinguishing_places(problem)[0]
+    # Only finitely many local solutions can belong to omega there; the cheapest such place.
+    suitable = (place for place in problem.places if not place.is_apparent)
+    place = min(suitable, key=lambda place: (place.degree, not place.logarithm, not place.at_infinity))
     degrees = _FIRST_DEGREES if bound is None else _ladder(bound.largest)
     # For small degrees the expansion that can be left out costs less than to find it.
     exponents = None if bound is None or bound.largest <= degrees[0] else bound.exponents(place)
