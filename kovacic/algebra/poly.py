@@ -4,9 +4,8 @@
 of degree 0 (or -1, for zero), so that one type serves for both.  The fields are Q (`rationals`), Q(t) for parameters t
 (`function_field`), and simple algebraic extensions of these and of one another (`extension`).
 
-A field adds to the arithmetic of its polynomials: factoring, homomorphisms to prime fields (`bundles`), and the way back
-from images under such homomorphisms (`coordinates`, `collector` and `assemble`, which `lifting` puts together).  Nothing
-else in the package depends on which field it is.
+A field adds: factoring, homomorphisms to prime fields (`bundles`), and the way back from images under these
+(`coordinates`, `collector`, `assemble`; see `lifting`).  Nothing else in the package depends on which field it is.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from math import gcd, lcm
 from typing import Any, Self
 
 from kovacic.algebra.modular import Collector, Homomorphism
-from kovacic.algebra.text import joined_terms, quotient_text
+from kovacic.algebra.text import joined_terms, quotient_str
 
 Scalar = int | Fraction
 
@@ -119,8 +118,7 @@ class Poly(Immutable, ABC):
     __radd__ = __add__
 
     def __sub__(self, other: Poly | Scalar) -> Self:
-        pair = self._common(other)
-        return NotImplemented if pair is None else pair[0]._add(-pair[1])
+        return self + -other
 
     def __rsub__(self, other: Poly | Scalar) -> Self:
         return -self + other
@@ -270,12 +268,6 @@ class Poly(Immutable, ABC):
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.to_str()}>"
-
-
-def quotient_str(num: Poly, den: Poly, variable: str) -> str:
-    """`num/den`, in lowest terms, in Python/SymPy syntax with integer coefficients."""
-    num, den = num.field.ground.cleared(num, den)
-    return quotient_text(num.integer_str(variable), den.integer_str(variable))
 
 
 class Field(ABC):

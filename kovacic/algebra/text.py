@@ -1,8 +1,9 @@
-"""Sums and quotients in Python's syntax, from the texts of their parts."""
+"""Polynomials and quotients in Python's syntax."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 
 def joined_terms(coefficients: Sequence[str], variable: str) -> str:
@@ -20,8 +21,10 @@ def _term(coefficient: str, monomial: str) -> str:
     return f"({coefficient})*{monomial}" if " " in coefficient else f"{coefficient}*{monomial}"
 
 
-def quotient_text(above: str, below: str) -> str:
-    """above/below, in parentheses where they are needed."""
+def quotient_str(num: Any, den: Any, variable: str) -> str:
+    """`num/den`, two polynomials, in lowest terms, with integer coefficients."""
+    num, den = num.field.ground.cleared(num, den)
+    above, below = num.integer_str(variable), den.integer_str(variable)
     return above if below == "1" else f"{_parenthesised(above, ' ')}/{_parenthesised(below, ' *')}"
 
 
