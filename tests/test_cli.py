@@ -227,7 +227,7 @@ def test_bad_input_does_not_stop_the_others(capsys: pytest.CaptureFixture[str]) 
         (["solve", "x^2", "--ics", "y(0)=1", "--json"], 2),
         (["dsolve", "y'' = x*y"], 0),
         (["dsolve", "y'' = (x^5 + 1/x^3)*y"], 0),
-        (["dsolve", "y'' = x^2*y", "--ics", "y(0)=1"], 3),
+        (["dsolve", "y'' = x^2*y", "--ics", "y(0)=1"], 0),
         (["dsolve", "x^2"], 2),
         (["dsolve", "y'' + y = 0", "--ics", "y(0)=__import__('os')"], 2),
         (["dsolve", "x^2*y'' = 2*y", "--ics", "y(0)=1"], 2),

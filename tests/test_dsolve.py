@@ -35,6 +35,7 @@ from kovacic.reading.symbolic import read_expression
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
 y = sympy.Function("y")
+D2, D1, D0 = y(x).diff(x, 2), y(x).diff(x), y(x)
 EQUATIONS_OF_SYMPY = Path(__file__).parent.parent / "benchmarks" / "sympy_equations.txt"
 
 
@@ -844,3 +845,76 @@ def test_values_at_a_jump_and_of_forms_without_a_value() -> None:
     assert values_at(sin(x) / x, x, sympy.Integer(0)) == (1, 0)
     assert values_at(sympy.Integral(exp(w**2), (w, 1, x)), x, sympy.Integer(1)) == (0, sympy.E)
     assert wronskian_at(1 / x, x, x, sympy.Integer(0)) is None
+
+
+def has_values(a: sympy.Expr, b: sympy.Expr, c: sympy.Expr, start: Any, stops: list[Any]) -> bool:
+    """Is what `dsolve` finds for a y'' + b y' + c y = 0, y = 1, y' = 2 at `start` real, and as mpmath's series has it?"""
+    found = dsolve(a * D2 + b * D1 + c * D0, ics={y(start): 1, y(x).diff(x).subs(x, start): 2}).rhs
+    rates = sympy.lambdify(x, (-b / a, -c / a), "mpmath")
+
+    def is_right(stop: Any) -> bool:
+        way = mpmath.mpf(stop - start)
+
+        def slope(t: Any, values: Any) -> list[Any]:
+            p, q = rates(start + t * way)
+            return [way * values[1], way * (p * values[1] + q * values[0])]
+
+        return abs(complex(sympy.N(found.subs(x, stop), 20)) - complex(mpmath.odefun(slope, 0, [1, 2])(1)[0])) < 1e-9
+
+    return all(map(is_right, stops))
+
+
+@pytest.mark.parametrize("S", [x**2, -(x**2), x**3, 9 * x**4, -(x**4), (x - 1) ** 2])
+@pytest.mark.parametrize("start", [-1, 0, 1])
+def test_bessel_functions_join_at_ordinary_points(S: sympy.Expr, start: int) -> None:
+    """sqrt(x) J_nu(f) is a solution on either side of a zero of f, and not the same one, where the equation is regular."""
+    stops = [Rational(-13, 10), Rational(-1, 2), Rational(1, 4), Rational(8, 5)]
+    assert has_values(sympy.Integer(1), sympy.Integer(0), -S, sympy.Integer(start), stops)
+
+
+@pytest.mark.parametrize(
+    ("a", "c"),
+    [
+        (144 * (x**2 - 1) ** 2, 27 * x**2 + 101),  # J = 1/x^2, and 0 is regular
+        (64 * (x**3 + 1) ** 2, 7 * x**4 - 101 * x),  # J = 1/(x^3 + 1)
+        (400 * (x**3 - 1) ** 2, 989 * x - 125 * x**4),
+        (900 * (x**2 + 1) ** 2, 189 * x**2 - 611),
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("start", [Rational(-1, 2), 0, Rational(1, 3)])
+def test_klein_solutions_join_at_ordinary_points(a: sympy.Expr, c: sympy.Expr, start: Any) -> None:
+    """Case 3: 2F1(a, b; c; J) is of the form A + B sqrt(1/J) or A + B (1 - J)^(1/3) at points where the equation is regular."""
+    stops = [Rational(-7, 10), Rational(1, 5), Rational(3, 4)]
+    assert has_values(a, sympy.Integer(0), c, sympy.sympify(start), stops)
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "c", "start"),
+    [
+        ((2 * x - 1) * (x**2 + 1), -(x**2 - 4 * x - 7) / 2, -2 * x**5 + x**4 - x**3 / 2 + 2 * x**2 + 11 * x / 2 - 1, 1),
+        (2 * x * (x - 2) * (x - 1), 3 * x**3 - 5 * x**2 - 12 * x + 6, 0, -3),
+        (2 * x * (x - 2) * (x - 1), 3 * x**3 - 5 * x**2 - 12 * x + 6, 0, 3),
+        (x**2, x, -9 * (x**6 + Rational(1, 16)), -1),
+        (x**2, x, x**2 - Rational(1, 9), -3),
+        (x**2, x, -(x**2) - 1, -3),
+        (1, -x, -(x**2) - x, -1),
+    ],
+    ids=str,
+)
+def test_initial_values_are_numbers(a: Any, b: Any, c: Any, start: int) -> None:
+    """Antiderivatives that aren't known begin at the point; left of a singular one, solutions are real."""
+    point = sympy.Integer(start)
+    assert has_values(*map(sympy.sympify, (a, b, c)), point, [point - Rational(1, 5), point + Rational(1, 3)])
+
+
+@pytest.mark.parametrize("name", ["e", "pi"])
+def test_symbols_may_have_the_names_of_numbers(name: str) -> None:
+    """A SymPy symbol is the user's, whatever it is called; as the variable, too."""
+    k = sympy.Symbol(name, positive=True)
+    assert dsolve(D2 + k**2 * D0).rhs == C1 * cos(k * x) + C2 * sin(k * x)
+    found = dsolve(D2 + k**2 * D0, ics={y(0): k, y(x).diff(x).subs(x, 0): 1}).rhs
+    assert found == k * cos(k * x) + sin(k * x) / k
+    assert dsolve(y(k).diff(k, 2) + y(k)).rhs == C1 * cos(k) + C2 * sin(k)
+    with pytest.raises(kovacic.InputError, match="is a number"):
+        dsolve("y'' + y = 0", var=name)

@@ -9,28 +9,32 @@ from typing import Any
 from warnings import warn
 
 import sympy
-from flint import acb, ctx
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
+from kovacic.algebra.rationals import QQ
 from kovacic.api import solve
 from kovacic.closed_form.atoms import Atoms
-from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import at_edges, solutions
-from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import KleinForm
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.general_solution.antiderivatives import NUMBERS
 from kovacic.general_solution.initial_values import as_mapping, constants, read_values
 from kovacic.general_solution.particular import particular_solution, place_of
-from kovacic.general_solution.real_basis import check_integrals, check_one_side, real_basis, real_particular
+from kovacic.general_solution.real_basis import (
+    are_independent,
+    check_integrals,
+    check_one_side,
+    real_basis,
+    real_particular,
+)
 from kovacic.general_solution.values import size
-from kovacic.general_solution.variation import Basis
+from kovacic.general_solution.variation import Basis, starting_at
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.reading.exponential import in_exponentials, solution_in_terms_of
-from kovacic.reading.given import Equation, Parsed, parameters_of
+from kovacic.reading.given import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.reading.source import read_source, source_of
 from kovacic.reading.symbolic import function_of
 from kovacic.solution import Solution
@@ -99,18 +103,26 @@ def in_special_functions(
 def _general(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits, *, special: bool = False) -> Any:
     budget = Budget(limits)
     with budget.watched():
-        radical = _radical_of(eq)
-        values = as_mapping(ics)
-        if radical is not None:
-            root, symbol, value, new = radical
-            values = {key: v.subs(symbol, value) if hasattr(v, "subs") else v for key, v in values.items()}
-            eq = eq.subs(symbol, value)
+        values, changes = as_mapping(ics), _changes_of(eq)
+        for forward, _ in changes:
+            eq, func, *pairs = (
+                _substituted(e, forward) for e in (eq, func, *(e for item in values.items() for e in item))
+            )
+            values = dict(zip(pairs[::2], pairs[1::2], strict=True))
         equation, function = _read_equation(eq, func, var, budget.limits)
+        if equation.variable in (PI, EULER):
+            raise InputError(f"{equation.variable} is a number", hint="take another name for the variable")
         try:
             found = _solved(eq, equation, function, values, budget, special=special)
         except LimitExceeded as limit:
             raise NotImplementedError(f"undecided: {limit}") from None
-        return found if radical is None else found.subs(new, root)
+        for _, back in reversed(changes):
+            found = found.subs(back)
+        return found
+
+
+def _substituted(e: Any, forward: Mapping[Any, Any]) -> Any:
+    return e.subs(forward) if isinstance(e, sympy.Basic) else e
 
 
 def _solved(
@@ -124,20 +136,20 @@ def _solved(
     given = read_values(ics, function, equation) if ics else ()
     if solution.case is None or special:
         own = {name: symbol for name, symbol in symbols.items() if name != solution.variable}
-        pair: Any = special_functions(solution.S, solution.gauge, solution.variable, budget, symbols=own)
+        pair: Any = special_functions(
+            solution.S, solution.gauge, solution.variable, budget, symbols=own, joined=bool(given)
+        )
         if not pair and equation.change is not None:
             pair = mathieu(solution.S, solution.gauge, equation.change, equation.variable) or pair
-        if not pair or (special and not _are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable))):
+        if not pair or (special and not are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable))):
             raise NotImplementedError(f"{no_solution(solution, known)}; {pair}")
         if solution.status is Status.UNDECIDED and not solution.known:
             warn(f"whether there is a Liouvillian solution is {no_solution(solution)}", stacklevel=4)
         y1, y2 = pair
     else:
         y1, y2 = form = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
-        if isinstance(form.structure, KleinForm):
-            J_poles = Atoms(form.variable).poly(form.structure.J.den)
-            if any(J_poles.subs(form.variable, g.point).equals(0) for g in given):
-                y1, y2 = at_edges(form.structure, solution.S, solution.gauge, solution.variable) or (y1, y2)
+        if given and isinstance(form.structure, KleinForm):
+            y1, y2 = _joined(solution, form.structure, budget) or (y1, y2)
     change = equation.change
     x = sympy.Symbol(equation.variable if change is None else change.variable)
     if change is not None:
@@ -146,13 +158,13 @@ def _solved(
         jumps = equation.h.atoms(sympy.Heaviside, sympy.DiracDelta) if equation.h is not None else ()
         places = [place[0] for place in (place_of(jump, x) for jump in jumps) if place is not None]
         check_one_side((y1, y2), x, [*dict.fromkeys([*(g.point for g in given), *places])])
-        y1, y2 = real_basis(solution, y1, y2, x, given[0].point)
+        y1, y2 = (starting_at(y, x, given[0].point) for y in real_basis(solution, y1, y2, x, given[0].point))
     points = [*dict.fromkeys(g.point for g in given)]
     basis = Basis(y1.xreplace(NUMBERS), y2.xreplace(NUMBERS), x, equation)
     particular = particular_solution(basis, given[0].point if given else None, budget)
     if given and change is None:
         check_one_side((particular,), x, points)
-        check_integrals(particular, equation, x, points)
+        check_integrals((y1, y2, particular), equation, x, [*points, *places])
         particular = real_particular(particular, equation, x, points[0])
     parts = (basis.y1, basis.y2, particular, *(part for g in given for part in (g.point, g.value)))
     taken = symbols.keys() | {symbol.name for e in parts for symbol in getattr(e, "free_symbols", ())}
@@ -172,11 +184,17 @@ def _solved(
     return sympy.Eq(function, general.xreplace(changed) if changed else general, evaluate=False)
 
 
-def _are_independent(y1: Any, y2: Any, x: Any) -> bool:
-    """Is the Wronskian seen not to be zero at a point?"""
-    with ctx.workdps(DIGITS):
-        (u, du, _), (v, dv, _) = (jet(y, x, acb("0.37", "0.61")) for y in (y1, y2))
-        return not (u * dv - du * v).contains(0)
+def _joined(solution: Solution, form: KleinForm, budget: Budget) -> tuple[Any, Any] | None:
+    """Other solutions in case 3, where J is 1 or infinite at real points that aren't singular: functions of J jump there."""
+    S, places = solution.S, form.J.den * (form.J.num - form.J.den)
+    while (common := places.gcd(S.den)).degree > 0:
+        places //= common
+    if places.degree == 0 or (S.field == QQ and not Atoms(sympy.Symbol("x")).poly(places).as_poly().count_roots()):
+        return None
+    pair = special_functions(S, solution.gauge, solution.variable, budget)
+    if pair and are_independent(*pair, sympy.Symbol(solution.variable)):
+        return pair.solutions
+    return at_edges(form, S, solution.gauge, solution.variable)
 
 
 def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str:
@@ -258,19 +276,23 @@ def _divided(eq: Any) -> Any:
     return sympy.Add(*(sympy.cancel(term / leading) for term in sympy.Add.make_args(sympy.expand(expression))))
 
 
-def _radical_of(eq: Any) -> tuple[Any, Any, Any, Any] | None:
-    """A square root r of an expression that is linear in a parameter p, p, p in terms of r, and the symbol r; None without."""
+def _changes_of(eq: Any) -> list[tuple[dict[Any, Any], dict[Any, Any]]]:
+    """Symbols that are replaced in a SymPy expression, and the way back.
+
+    A square root r of an expression that is linear in a parameter p: p in terms of r; and symbols with the names of numbers.
+    """
     if not isinstance(eq, sympy.Basic):
-        return None
+        return []
     roots = [power for power in eq.atoms(sympy.Pow) if power.exp.is_Rational and power.exp.q == 2]
     variables = {symbol for f in eq.atoms(AppliedUndef) for symbol in f.free_symbols} if roots else set()
+    found = []
     for power in sorted(roots, key=str):
-        base = power.base
-        if not base.free_symbols & variables:
-            for symbol in sorted(base.free_symbols, key=str):
-                slope = base.diff(symbol)
-                if slope.is_Rational:
-                    new = sympy.Symbol(f"sqrt_{symbol.name}", positive=True)
-                    rest = (base - slope * symbol).expand()
-                    return sympy.sqrt(base), symbol, (new**2 - rest) / slope, new
-    return None
+        candidates = () if power.base.free_symbols & variables else sorted(power.base.free_symbols, key=str)
+        linear = next((symbol for symbol in candidates if power.base.diff(symbol).is_Rational), None)
+        if linear is not None:
+            slope, new = power.base.diff(linear), sympy.Symbol(f"sqrt_{linear.name}", positive=True)
+            rest = (power.base - slope * linear).expand()
+            found = [({linear: (new**2 - rest) / slope}, {new: sympy.sqrt(power.base)})]
+            break
+    names = {s: sympy.Symbol(f"{s.name}_", **s.assumptions0) for s in eq.free_symbols if s.name in (PI, EULER)}
+    return [*found, (names, {new: symbol for symbol, new in names.items()})] if names else found

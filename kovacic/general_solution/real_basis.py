@@ -7,13 +7,17 @@ well; otherwise the real and the imaginary part of each solution are solutions, 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any
 
 import sympy
+from flint import acb, ctx
+from sympy.functions.special.bessel import BesselBase
 
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
-from kovacic.closed_form.check import is_numerical_solution
+from kovacic.closed_form.check import DIGITS, is_numerical_solution
+from kovacic.closed_form.jets import jet
 from kovacic.errors import InputError
 from kovacic.general_solution.values import size
 from kovacic.general_solution.variation import is_solution, rates
@@ -33,17 +37,21 @@ def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> 
     found: list[Expr] = []
     for y in (y1, y2):
         negative = _negative(y, x, point)
-        turned = y.xreplace({e: e.func(-u, *e.args[1:]) for e, u in negative.items()})
+        turned = y.xreplace({e: _turned(e) for e, u in negative.items()})
         if is_numerical_solution(turned, x, solution.S, solution.gauge):
             found.append(turned)
         else:
             found += _parts(y, point, x)
-    for k, second in enumerate(found[1:], 1):
-        wronskian = (found[0] * second.diff(x) - found[0].diff(x) * second).subs(x, point)
-        value = wronskian.evalf(30)
-        if value.is_number and abs(value) > sympy.Float("1e-20"):
-            return found[0], found[k]
-    return y1, y2
+    second = next((k for k in range(1, len(found)) if are_independent(found[0], found[k], x)), None)
+    return (y1, y2) if second is None else (found[0], found[second])
+
+
+def are_independent(y1: Expr, y2: Expr, x: Expr) -> bool:
+    """Is the Wronskian seen not to be zero at a point?"""
+    with ctx.workdps(DIGITS), suppress(NotImplementedError):
+        (u, du, _), (v, dv, _) = (jet(y, x, acb("0.37", "0.61")) for y in (y1, y2))
+        return not (u * dv - du * v).contains(0)
+    return False
 
 
 def check_one_side(solutions: Sequence[Expr], x: Expr, points: Sequence[Expr]) -> None:
@@ -54,9 +62,9 @@ def check_one_side(solutions: Sequence[Expr], x: Expr, points: Sequence[Expr]) -
         raise InputError(f"a singular point of the equation lies between {said}: on each side the solutions are others")
 
 
-def check_integrals(y: Expr, equation: Equation, x: Expr, points: Sequence[Expr]) -> None:
+def check_integrals(solutions: Sequence[Expr], equation: Equation, x: Expr, points: Sequence[Expr]) -> None:
     """Raises `InputError` where an integral that is left would lead over a real singular point of an equation over Q."""
-    if len(points) < 2 or not y.has(sympy.Integral) or not all(p.is_real for p in points):
+    if len(points) < 2 or not any(y.has(sympy.Integral) for y in solutions) or not all(p.is_real for p in points):
         return
     first, last = sympy.Min(*points), sympy.Max(*points)
     quotients = (part / equation.a for part in (equation.f, equation.b, equation.c))
@@ -74,14 +82,20 @@ def real_particular(y: Expr, equation: Equation, x: Expr, point: Expr) -> Expr:
         return y
     right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
     coefficients = rates(equation, x)
-    candidates = [y.xreplace({e: e.func(-u, *e.args[1:]) for e, u in negative.items()}), *_parts(y, point, x)[:1]]
+    candidates = [y.xreplace({e: _turned(e) for e, u in negative.items()}), *_parts(y, point, x)[:1]]
     return next((found for found in candidates if is_solution(found, coefficients, right, x)), y)
 
 
 def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
-    """The logarithms and roots in an expression, and their arguments."""
-    candidates = {e: e.args[0] for e in y.atoms(sympy.log)}
+    """The logarithms, roots and Bessel's functions in an expression, and their arguments."""
+    candidates = {e: e.args[-1] for e in y.atoms(sympy.log, BesselBase)}
     return candidates | {e: e.base for e in y.atoms(sympy.Pow) if not e.exp.is_Integer and e.base.has(x)}
+
+
+def _turned(e: Expr) -> Expr:
+    if e.is_Pow:
+        return (-e.base) ** e.exp
+    return e.func(*e.args[:-1], -e.args[-1], evaluate=False)  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
 
 
 def _negative(y: Expr, x: Expr, point: Expr) -> dict[Expr, Expr]:
@@ -94,6 +108,8 @@ def _parts(y: Expr, point: Expr, x: Expr) -> list[Expr]:
 
     A number a + i b with a constant modulus m becomes m exp(i acos(a/m)).
     """
+    if y.has(sympy.RootSum, BesselBase):
+        return [y]
     t, turn = sympy.Dummy(real=True), sympy.I * sympy.pi
     back: dict[Expr, Expr] = {t: x}
     real: dict[Expr, Expr] = {}

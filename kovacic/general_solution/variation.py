@@ -223,6 +223,13 @@ def simplified(expression: Expr) -> Expr:
     return sympy.simplify(expression) if size(expression) < _SIMPLIFIED else expression
 
 
+def starting_at(y: Expr, x: Expr, start: Expr) -> Expr:
+    """With integrals from a point on in the place of antiderivatives."""
+    return y.replace(
+        lambda e: isinstance(e, sympy.Integral) and e.limits == (sympy.Tuple(x),), lambda e: _open(e.function, x, start)
+    )
+
+
 def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
     """The unevaluated integral, from `start` on with a variable that doesn't occur."""
     if start is None:

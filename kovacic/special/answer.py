@@ -81,14 +81,21 @@ def find(S: RatFunc, budget: Budget) -> SpecialFunctions:
 
 
 def special_functions(
-    S: RatFunc, gauge: RatFunc, variable: str, budget: Budget, *, symbols: Mapping[str, Any] | None = None
+    S: RatFunc,
+    gauge: RatFunc,
+    variable: str,
+    budget: Budget,
+    *,
+    symbols: Mapping[str, Any] | None = None,
+    joined: bool = False,
 ) -> SpecialFunctions:
     """Solutions of the equation that was given, those of y'' = S y times the gauge factor exp(int gauge dx).
 
     `symbols` are SymPy's symbols for the parameters by name; the expressions are in these, and what is assumed about them is
-    used: with n a natural number, Hermite's equation has `hermite(n, x)`.  The pull-back is verified exactly, in rational
-    functions; what is shown is checked at a point, to 50 digits.  Liouvillian solutions aren't looked for, but
-    where the group is reducible the two solutions may be dependent for some values of the parameters.
+    used: with n a natural number, Hermite's equation has `hermite(n, x)`.  With `joined`, solutions are analytic at ordinary
+    points where the argument of Bessel's functions is zero: series 0F1 instead of these.  The pull-back is verified exactly, in
+    rational functions; what is shown is checked at a point, to 50 digits.  Liouvillian solutions aren't looked for, but where
+    the group is reducible the two solutions may be dependent for some values of the parameters.
 
     >>> import kovacic
     >>> answer = kovacic.solve("x^2*y'' + x*y' + (x^2 - n^2)*y = 0")
@@ -103,7 +110,7 @@ def special_functions(
 
     try:
         with budget.watched():
-            found = solutions(search.pullback, S, gauge, variable, symbols or {})
+            found = solutions(search.pullback, S, gauge, variable, symbols or {}, joined=joined)
     except LimitExceeded as limit:
         return SpecialFunctions(None, search.searched, str(limit))
     if found is None:

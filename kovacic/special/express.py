@@ -34,14 +34,14 @@ from kovacic.special.writer import HALF, Factor, Number, Term, Writer, by_parity
 
 
 def solutions(
-    pullback: Pullback, S: RatFunc, gauge: RatFunc, variable: str, symbols: Mapping[str, Any]
+    pullback: Pullback, S: RatFunc, gauge: RatFunc, variable: str, symbols: Mapping[str, Any], *, joined: bool = False
 ) -> tuple[Expr, Expr] | None:
     """y1 and y2, checked at a point; None where the assumptions on the symbols leave open which solutions are independent.
 
     Raises `VerificationFailed` if the check fails, which is a defect of this package; `LimitExceeded` within `Budget.watched`.
     """
     writer = Writer(gauge, sympy.Symbol(variable), symbols)
-    found = _written(writer, pullback)
+    found = _written(writer, pullback, S.den if joined else None)
     for y in found or ():
         if not is_numerical_solution(y, writer.atoms.x, S, gauge):
             raise VerificationFailed(
@@ -51,7 +51,7 @@ def solutions(
     return (found[0].xreplace(own), found[1].xreplace(own)) if found and own else found
 
 
-def _written(writer: Writer, pullback: Pullback) -> tuple[Expr, Expr] | None:
+def _written(writer: Writer, pullback: Pullback, singular: Poly | None) -> tuple[Expr, Expr] | None:
     equation, f = pullback.equation, pullback.f
     if isinstance(equation, Airy):  # u = Ai(q^(1/3) z)
         z, before = writer.root(equation.q, 3) * writer.argument(f), writer.factor(f, ())
@@ -59,15 +59,25 @@ def _written(writer: Writer, pullback: Pullback) -> tuple[Expr, Expr] | None:
     if isinstance(equation, Gauss):
         return gauss(writer, equation, f)
     if not equation.q:
-        return _bessel(writer, 4 * equation.M + 1, f * equation.r)
+        return _bessel(writer, 4 * equation.M + 1, f * equation.r, singular)
     if not equation.r:
-        return _bessel(writer, equation.M + Fraction(1, 4), f * f * equation.q * Fraction(-1, 4))
+        return _bessel(writer, equation.M + Fraction(1, 4), f * f * equation.q * Fraction(-1, 4), singular)
     return _whittaker(writer, equation, f)
 
 
-def _bessel(writer: Writer, nu_squared: Poly, t: RatFunc) -> tuple[Expr, Expr]:
-    """u = sqrt(t) J_nu(2 sqrt t), or with I, K and -t where the constant factor of t is negative."""
+def _bessel(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:
+    """u = sqrt(t) J_nu(2 sqrt t), or with I, K and -t where the constant factor of t is negative.
+
+    Where t vanishes at a point that isn't `singular`, nu isn't an integer, and t^((1 +- nu)/2) 0F1(; 1 +- nu; -t) are analytic.
+    """
     nu = writer.square_root(nu_squared)
+    if singular is not None and any(k > 0 and p.gcd(singular).degree == 0 for p, k in multiplicities(t)):
+        z = writer.argument(-t)
+        pair = [
+            (writer.factor(t, [((m + 1) * HALF, t)]), hypergeometric((), (writer.constant(m + 1),), z))
+            for m in (nu, -nu)
+        ]
+        return writer.pair(pair[0], pair[1])
     modified = writer.is_negative(t.num.lc)
     z, power = writer.root_of(t * (-4 if modified else 4)), HALF
     degree = next((m - HALF for m in (nu, -nu) if writer.is_degree(m - HALF)), None)
