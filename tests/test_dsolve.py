@@ -918,3 +918,14 @@ def test_symbols_may_have_the_names_of_numbers(name: str) -> None:
     assert dsolve(y(k).diff(k, 2) + y(k)).rhs == C1 * cos(k) + C2 * sin(k)
     with pytest.raises(kovacic.InputError, match="is a number"):
         dsolve("y'' + y = 0", var=name)
+
+
+@pytest.mark.parametrize(("frequency", "start"), [(sqrt(2), 1), (sympy.pi, sympy.pi / 4), (Rational(1, 3), sqrt(3))])
+def test_resonance_at_any_two_points(frequency: Any, start: Any) -> None:
+    """The slope at a point and the value a quarter of a wave later are the same, up to the frequency; values after a period."""
+    slope, value = y(x).diff(x).subs(x, start), y(start + sympy.pi / (2 * frequency))
+    with pytest.raises(kovacic.InputError, match="contradict"):
+        dsolve(D2 + frequency**2 * D0, ics={slope: 1, value: 2})
+    family = dsolve(D2 + frequency**2 * D0, ics={y(start): 1, y(start + 2 * sympy.pi / frequency): 1}).rhs
+    assert C1 in family.free_symbols
+    assert abs(sympy.N(family.subs({x: start, C1: 3}) - 1)) < 1e-12

@@ -192,8 +192,8 @@ def _joined(solution: Solution, form: KleinForm, budget: Budget) -> tuple[Any, A
     if places.degree == 0 or (S.field == QQ and not Atoms(sympy.Symbol("x")).poly(places).as_poly().count_roots()):
         return None
     pair = special_functions(S, solution.gauge, solution.variable, budget)
-    if pair and are_independent(*pair, sympy.Symbol(solution.variable)):
-        return pair.solutions
+    if pair and are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable)):
+        return pair.y1, pair.y2
     return at_edges(form, S, solution.gauge, solution.variable)
 
 

@@ -17,6 +17,7 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import ANTIDERIVATIVES, jet
 from kovacic.errors import InputError
+from kovacic.general_solution.antiderivatives import prepared
 from kovacic.general_solution.values import SECONDS, size, values_at
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import watched_seconds
@@ -204,6 +205,10 @@ def _is_zero(value: Any) -> bool:
 def _zero(value: Any) -> Iterator[bool]:
     if not value.free_symbols and abs(value.evalf(30, maxn=100)) > sympy.Float("1e-20"):
         yield False
+        return
+    above = sympy.numer(sympy.together(prepared(value)))  # a sum of waves, as sin(a) cos(b) isn't
+    if sympy.expand(TR8(sympy.expand(above))) == 0:
+        yield True
         return
     answer = value.equals(0)  # None where neither simplification nor numbers tell
     if answer is not None:
