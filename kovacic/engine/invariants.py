@@ -61,11 +61,11 @@ def least_valuation(place: Place, m: int, *, logarithms: bool = True) -> int | N
     return None
 
 
-def bounds(problem: Problem, m: int) -> tuple[list[int], int] | None:
+def bounds(problem: Problem, m: int, *, logarithms: bool = True) -> tuple[list[int], int] | None:
     """The least valuations of an invariant of degree m, infinity's last, and the largest degree N of P; None if it can't be."""
     valuations, N = list[int](), m
     for place in problem.places:
-        v = least_valuation(place, m)
+        v = least_valuation(place, m, logarithms=logarithms)
         if v is None:
             return None
         valuations.append(v)

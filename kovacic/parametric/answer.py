@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -18,7 +19,7 @@ from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.check import CheckReport, Disagreement, Sampler
-from kovacic.parametric.functions import Point, UndefinedError
+from kovacic.parametric.functions import Point
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
 from kovacic.parametric.record import Reader, constant_data, constant_from
@@ -63,7 +64,9 @@ class Conditions:
 
     def region_at(self, values: Mapping[Any, Any]) -> Condition | None:
         """The region that contains a point; None for the generic one."""
-        point = self.point(values)
+        return self._region(self.point(values))
+
+    def _region(self, point: Point) -> Condition | None:
         return next((region for region in self.regions if region.statement.holds(point)), None)
 
     def determinant(self, number: int) -> tuple[Determinant, ...]:
@@ -109,7 +112,7 @@ class Conditions:
         point = self.point(values)
         try:
             S = point.restricted(self.S)
-        except UndefinedError:
+        except ZeroDivisionError:
             raise InputError(f"S isn't defined at {point}") from None
         decision = decide(S, Budget(self.limits))
         answer = Solution(S.to_str(self.variable), self.variable, S, decision, limits=self.limits)
@@ -122,25 +125,21 @@ class Conditions:
         """What the regions claim; None where S isn't defined."""
         try:
             point.restricted(self.S)
-        except UndefinedError:
+        except ZeroDivisionError:
             return None
-        for region in self.regions:
-            if region.statement.holds(point):
-                return region.verdict if region.defined else None
-        if self.complete is True:
-            return self.generic
-        return Verdict(self.generic.structure, known=False)
+        region = self._region(point)
+        if region is not None:
+            return region.verdict if region.defined else None
+        return self.generic if self.complete is True else Verdict(self.generic.structure, known=False)
 
     def point(self, values: Mapping[Any, Any]) -> Point:
         """The values of the parameters as constants of one field."""
         given = {str(name): value for name, value in values.items()}
-        missing = [name for name in self.parameters if name not in given]
-        unknown = [name for name in given if name not in self.parameters]
+        missing = ", ".join(name for name in self.parameters if name not in given)
+        unknown = ", ".join(name for name in given if name not in self.parameters)
         if missing or unknown:
-            raise InputError(
-                f"values are needed for {', '.join(self.parameters)}",
-                hint=f"missing: {', '.join(missing) or 'none'}; unknown: {', '.join(unknown) or 'none'}",
-            )
+            hint = f"missing: {missing or 'none'}; unknown: {unknown or 'none'}"
+            raise InputError(f"values are needed for {', '.join(self.parameters)}", hint=hint)
         point = _point(self.parameters, [given[name] for name in self.parameters], self.constant, self.limits)
         for name, value in zip(point.names, point.values, strict=True):
             if not self.assumptions.of(name).admits(value):
@@ -153,14 +152,13 @@ class Conditions:
         As far as the time limit allows.
         """
         budget, statements = Budget(self.limits), [region.statement for region in self.regions]
-        counts = {"inside": 0, "outside": 0, "open": 0}
-        disagreements: list[Disagreement] = []
+        counts, disagreements = Counter[str](inside=0, outside=0, open=0), list[Disagreement]()
         sampler = Sampler(self.constant, self.parameters, self.assumptions, Random(seed))
-        for point in islice(sampler.points(statements), 20 * samples):
-            if sum(counts.values()) >= samples or not budget.seconds_left:
+        for point in filter(None, islice(sampler.points(statements), 20 * samples)):
+            if counts.total() >= samples or not budget.seconds_left:
                 break
-            predicted = None if point is None else self.predicted(point)
-            if point is None or predicted is None:
+            predicted = self.predicted(point)
+            if predicted is None:
                 continue
             inside = predicted.known and any(statement.holds(point) for statement in statements)
             counts["inside" if inside else "outside" if predicted.known else "open"] += 1
@@ -211,10 +209,8 @@ class Conditions:
                 Condition(
                     reader.statement(region["statement"]),
                     Verdict.from_dict(region["verdict"]),
-                    region["complete"],
-                    region["defined"],
-                    region["omega"],
-                    tuple(region.get("determinants", ())),
+                    **{name: region[name] for name in ("complete", "defined", "omega")},
+                    determinants=tuple(region.get("determinants", ())),
                 )
                 for region in data["regions"]
             )
@@ -247,14 +243,11 @@ class Conditions:
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """A map of two parameters, or a strip for one: see `kovacic.parametric.plot.plot`."""
-        title = f"y'' = {self._right.text}"
-        return plot(
-            lambda values: str(self.predicted(self.point(values)) or "S not defined"),
-            self.parameters,
-            title,
-            axes,
-            **options,
-        )
+
+        def label_at(values: Mapping[Any, Any]) -> str:
+            return str(self.predicted(self.point(values)) or "S not defined")
+
+        return plot(label_at, self.parameters, f"y'' = {self._right.text}", axes, **options)
 
     def text(self, *, all: bool = False) -> str:
         """The partition in lines: regions in a row with the same case are written together, and at most a screen of them.
@@ -292,9 +285,8 @@ class Conditions:
 
 def _point(names: tuple[str, ...], values: list[Any], constant: Point, limits: Limits) -> Point:
     """Constants of one field, from numbers, SymPy numbers or text, together with the constant of S."""
-    if any(type(value).__module__.startswith("sympy") for value in values) and not any(
-        isinstance(v, str) for v in values
-    ):
+    kinds = {type(value) for value in values}
+    if str not in kinds and any(kind.__module__.startswith("sympy") for kind in kinds):
         import sympy
 
         try:

@@ -15,7 +15,6 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.answer import Conditions
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
-from kovacic.parametric.functions import Point
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.partition import Settings, partition
 from kovacic.parametric.regions import Condition, Verdict, without_empty
@@ -43,10 +42,9 @@ def conditions(
     Every symbol besides the variable is a parameter.  `assume={"n": "positive integer"}` leaves out what then can't happen;
     its words are integer, even, odd, half-integer, rational, irrational, noninteger, nonzero, positive, negative, nonnegative,
     nonpositive, and inequalities such as ">=1/2", for a real number; a number, {"n": 3}, is put in for the parameter.
-    Assumptions of SymPy symbols are used in the same way.  Where a
-    condition has a natural number d in it, its determinants are shown up to d = `max_degree`; `determinant` computes others.
-    A budget that is used up (`limits.seconds`, 30 s where there is
-    none) gives a partial list, and `complete` says that as well.
+    Assumptions of SymPy symbols are used in the same way.  Where a condition has a natural number d in it, its determinants
+    are shown up to d = `max_degree`; `determinant` computes others.  A budget that is used up (`limits.seconds`, 30 s where
+    there is none) gives a partial list, and `complete` says that as well.
 
     Raises `InputError` for what isn't a rational function with parameters, and `LimitExceeded` for an input above the limits.
 
@@ -100,28 +98,19 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
             regions.append(replace(region, statement=region.statement.narrowed(assumptions)))
     while complete is True and regions and regions[-1].plain and regions[-1].verdict == generic == Verdict(None):
         regions.pop()
-    if max_degree is not None:
-        with budget.watched():
-            regions = [_with_determinants(region, max_degree) for region in regions]
-    notices = tuple(_renamed(notice, constant) for notice in parsed.notices if "parameter" not in notice)
+    for k, region in enumerate(regions if max_degree is not None else ()):
+        determinants: list[str] = []
+        if isinstance(region.statement, Natural) and region.statement.m == 1:
+            with budget.watched(), suppress(LimitExceeded):  # as far as time allows
+                determinants.extend(region.statement.shown_determinant(d) for d in range((max_degree or 0) + 1))
+        regions[k] = replace(region, determinants=tuple(determinants))
+    notices = [notice for notice in parsed.notices if "parameter" not in notice]
+    if isinstance(constant.field, AlgebraicField):  # the constant has another name among the parameters, maybe
+        notices = [re.sub(rf"\b{re.escape(constant.field.name)}\b", constant.names[0], notice) for notice in notices]
     claim = (generic, tuple(regions), complete, result.theory)
-    return Conditions(shown, parsed.variable, parameters_of(parsed.S.field), *claim, limits, notices, known, constant)
-
-
-def _with_determinants(region: Condition, largest: int) -> Condition:
-    """The region with its determinants as far as time allows."""
-    shown: list[str] = []
-    if isinstance(region.statement, Natural) and region.statement.m == 1:
-        with suppress(LimitExceeded):
-            shown.extend(region.statement.shown_determinant(number) for number in range(largest + 1))
-    return replace(region, determinants=tuple(shown))
-
-
-def _renamed(notice: str, constant: Point) -> str:
-    """A notice about the algebraic constant, with the name that it has among the parameters."""
-    if not isinstance(constant.field, AlgebraicField):
-        return notice
-    return re.sub(rf"\b{re.escape(constant.field.name)}\b", constant.names[0], notice)
+    return Conditions(
+        shown, parsed.variable, parameters_of(parsed.S.field), *claim, limits, tuple(notices), known, constant
+    )
 
 
 def under_assumptions(

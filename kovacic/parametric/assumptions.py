@@ -15,7 +15,7 @@ from functools import reduce
 from itertools import product
 from math import ceil, floor
 from random import Random
-from typing import Any, NamedTuple
+from typing import Any
 
 from flint import arb, fmpq
 
@@ -182,10 +182,10 @@ class Assumptions:
             if not any(values.meets(coset) for coset in classes):
                 return False
             return True if values.is_covered_by(classes) else None
-        if linear is not None and len(linear.factors) == 1:
-            ((name, factor),) = linear.factors.items()
+        if linear is not None and len(linear[1]) == 1:
+            constant, ((name, factor),) = linear[0], linear[1].items()
             known = self.of(name)
-            solutions = [Coset((c.start - linear.constant) / factor, c.step / abs(factor)) for c in classes]
+            solutions = [Coset((c.start - constant) / factor, c.step / abs(factor)) for c in classes]
             if "noninteger" in known.words and all(s.is_covered_by([_INTEGERS]) for s in solutions):
                 return False
             if not any(_has_number_between(s, known.bounds) for s in solutions):
@@ -194,10 +194,20 @@ class Assumptions:
 
     def vanishes(self, function: FunctionPoly) -> bool | None:
         """Does the function vanish: True (always), False (never) or None?"""
-        value = self._value_of(function)
+        value, above = self._value_of(function), numerator(function)
         if value is not None:
             return not value
-        return False if self._is_nonzero(function) else None
+        values, linear = self._coset_of(function), _linear(above)
+        if values is not None and not values.contains(Fraction(0)):
+            return False
+        if linear is not None and len(linear[1]) == 1:
+            constant, ((name, factor),) = linear[0], linear[1].items()
+            if not self.of(name).admits(QQ.poly([-constant / factor])):
+                return False
+        if len(function.num) == 1:
+            return False if all(self.of(name).nonzero for name in _names(function)) else None
+        nowhere = self._is_irrational(function) or any(self.is_positive(sign * above) for sign in (1, -1))
+        return False if nowhere else None
 
     def _value_of(self, function: FunctionPoly) -> Poly | None:
         """The value of a polynomial in the parameters that have a value; None for any other."""
@@ -206,20 +216,6 @@ class Assumptions:
         if any(k and name not in fixed for part in parts for name, k in zip(names, degrees(part), strict=True)):
             return None
         return function.value_at([fixed.get(name, 0) for name in names], field)
-
-    def _is_nonzero(self, function: FunctionPoly) -> bool:
-        """Can the function be proven to vanish nowhere?"""
-        above = numerator(function)
-        values, linear = self._coset_of(function), _linear(above)
-        if values is not None and not values.contains(Fraction(0)):
-            return True
-        if linear is not None and len(linear.factors) == 1:
-            ((name, factor),) = linear.factors.items()
-            if not self.of(name).admits(QQ.poly([-linear.constant / factor])):
-                return True
-        if len(function.num) == 1:
-            return all(self.of(name).nonzero for name in _names(function))
-        return self._is_irrational(function) or any(self.is_positive(sign * above) for sign in (1, -1))
 
     def is_positive(self, form: FunctionPoly, *, or_zero: bool = False) -> bool:
         """Can a polynomial be proven to be positive, or not negative, everywhere?
@@ -245,16 +241,17 @@ class Assumptions:
         if not known or len(known) < len(_names(form)):
             return None
         if linear is not None:
-            start = linear.constant + sum(factor * known[name].start for name, factor in linear.factors.items())
-            steps = (abs(factor) * known[name].step for name, factor in linear.factors.items())
-            return Coset(start, reduce(common_divisor, steps))
+            start = linear[0] + sum(factor * known[name].start for name, factor in linear[1].items())
+            return Coset(
+                start, reduce(common_divisor, (abs(factor) * known[name].step for name, factor in linear[1].items()))
+            )
         integers = form.den.is_one() and all(coset.is_covered_by([_INTEGERS]) for coset in known.values())
         return _INTEGERS if integers else None
 
     def _is_irrational(self, form: FunctionPoly) -> bool:
         """A linear form in which one parameter is irrational and the others are rational."""
         linear = _linear(form)
-        kinds = [self.of(name).rational for name in (linear.factors if linear else ())]
+        kinds = [self.of(name).rational for name in (linear[1] if linear else ())]
         return kinds.count(False) == 1 and None not in kinds
 
 
@@ -308,21 +305,14 @@ def _has_number_between(coset: Coset, bounds: list[Bound]) -> bool:
     return any(low.admits(number) and high.admits(number) for number in (first, first + coset.step))
 
 
-class _Linear(NamedTuple):
-    """constant + sum of factor * parameter."""
-
-    constant: Fraction
-    factors: dict[str, Fraction]
-
-
-def _linear(form: FunctionPoly) -> _Linear | None:
-    """A linear form in the parameters; None for anything else."""
+def _linear(form: FunctionPoly) -> tuple[Fraction, dict[str, Fraction]] | None:
+    """The constant and the factors of the parameters in a linear form; None for anything else."""
     if not form.den.is_constant() or form.num.total_degree() > 1:
         return None
     den = int(form.den.leading_coefficient())
     terms = {e[1:]: Fraction(int(c), den) for e, c in form.num.to_dict().items()}
     factors = {form.field.names[e.index(1)]: c for e, c in terms.items() if any(e)}
-    return _Linear(next((c for e, c in terms.items() if not any(e)), Fraction(0)), factors)
+    return terms.get((0,) * len(form.field.names), Fraction(0)), factors
 
 
 def _names(form: FunctionPoly) -> list[str]:

@@ -12,7 +12,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.functions import Point, degrees, powers_of
+from kovacic.parametric.functions import Point, coefficients_in, degrees
 from kovacic.parametric.statements import Statement
 
 
@@ -78,10 +78,8 @@ class Sampler:
         candidates = [name for name in free if powers.get(name, 0) > 0]
         self.random.shuffle(candidates)
         for name in sorted(candidates, key=lambda n: powers[n]):
-            # The numerator as a polynomial in this parameter, the others having their values.
-            known, parts = [values[n].over(field) for n in names], powers_of(function, names.index(name))
-            coefficients = [parts[k].value_at(known, field) if k in parts else 0 for k in range(powers[name] + 1)]
-            equation = field.poly(coefficients)
+            known = [values[n].over(field) for n in names]
+            equation = field.poly(coefficients_in(function, names.index(name), known, field))
             if equation.degree < 1:
                 continue
             factor = self.random.choice([f for f, _ in field.factor(equation)])

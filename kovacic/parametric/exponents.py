@@ -17,10 +17,9 @@ from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.engine import invariants
+from kovacic.engine.invariants import bounds
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.engine.riccati import Form, singular_part
-from kovacic.limits import check_time
 from kovacic.parametric.ranks import RankConditions, rank_conditions
 
 #: Q(t), or Q(t) with one square root.
@@ -45,7 +44,7 @@ class LocalPart:
 
 @dataclass(frozen=True)
 class Exponents:
-    """A choice at each place, over Q(t), or over Q(t)(c) where c^2 is `square`."""
+    """A choice at each place, over Q(t), or with one square root."""
 
     field: Roots
     parts: tuple[LocalPart, ...]
@@ -55,19 +54,12 @@ class Exponents:
         """That of P."""
         return 1 - sum((part.exponent for part in self.parts), self.field.poly([]))
 
-    @property
-    def square(self) -> Poly | None:
-        return -self.field.modulus[0] if isinstance(self.field, AlgebraicField) else None
-
     def images(self, problem: Problem, d: int) -> Iterator[Poly]:
         """The images of 1, x, ..., x^d under D P'' + 2 R P' + ((R' D - R D' + R^2 - T)/D) P, theta = R/D."""
-        D, T = (f.over(self.field) for f in (problem.D, problem.T))
+        D = problem.D.over(self.field)
         R = (sum((part.theta for part in self.parts), RatFunc(0 * D)) * D).num
-        zeroth = (R.derivative() * D - R * D.derivative() + R * R - T) // D
         for k in range(d + 1):
-            check_time()
-            P = self.field.poly([0, 1]) ** k
-            yield D * P.derivative().derivative() + 2 * R * P.derivative() + zeroth * P
+            yield 2 * Form(1, R, self.field.poly([0, 1]) ** k).numerators(problem)[-1] // D
 
     def polynomial(self, problem: Problem, d: int) -> Poly | None:
         """The only monic P of degree d that can solve the equation: its coefficients from the highest one down.
@@ -91,18 +83,11 @@ def with_degree(problem: Problem, d: int) -> list[tuple[Exponents, RankCondition
     if chosen is None:
         return None
     found = []
-    for exponents in chosen:
+    for exponents in (e for e in chosen if e.field.rational_value(e.degree) == d):
         field = exponents.field
-        if field.rational_value(exponents.degree) != d:
-            continue
-        one = field.poly([1])
-        basis = [one] if isinstance(field, FunctionField) else [one, field.generator]
-        found.append(
-            (
-                exponents,
-                rank_conditions([image * root for image in exponents.images(problem, d) for root in basis], problem),
-            )
-        )
+        basis = [field.poly([1]), *([] if isinstance(field, FunctionField) else [field.generator])]
+        images = [image * root for image in exponents.images(problem, d) for root in basis]
+        found.append((exponents, rank_conditions(images, problem)))
     return found
 
 
@@ -111,18 +96,16 @@ def _choices(problem: Problem) -> list[Exponents] | None:
 
     The exponents at a place differ by a root: the exponent difference, or the root of the leading coefficient.
     """
-    base = problem.field
+    base, roots = problem.field, list[tuple[Place, Poly]]()
     assert isinstance(base, FunctionField)
     field: Roots = base
-    roots: list[tuple[Place, Poly]] = []
-    for place in problem.places:
-        if place.kind is Kind.ORDINARY:
-            continue
+    for place in (place for place in problem.places if place.kind is not Kind.ORDINARY):
         if place.degree > 1:
             return None
         square = place.delta_squared if place.kind is Kind.REGULAR else _at_infinity(place, problem.S).lc
-        root = None if square is None else field.sqrt(square.over(field))
-        if root is None and square is not None and field == base:
+        assert square is not None  # at a single point
+        root = field.sqrt(square.over(field))
+        if root is None and field == base:
             field = AlgebraicField(base, base.poly([-square, 0, 1]), "root")
             root = field.generator
         if root is None:
@@ -154,28 +137,13 @@ def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
     return [LocalPart(factor, 1 - (sign * ratio - n) / 2, sign * main) for sign in (1, -1)]
 
 
-def least_valuations(problem: Problem, m: int) -> list[int | None]:
-    """Those of a rational form of degree m at the places, whether or not there is a logarithm at special values."""
-    return [invariants.least_valuation(place, m, logarithms=False) for place in problem.places]
-
-
-def number_of_zeros(problem: Problem, m: int) -> int | None:
-    """The largest degree of P for a form of degree m; None where there is no such form at any values of the parameters."""
-    N = m
-    for place, v in zip(problem.places, least_valuations(problem, m), strict=True):
-        if v is None:
-            return None
-        N -= v * place.degree
-    return N if N >= 0 else None
-
-
 def form_conditions(problem: Problem, m: int) -> RankConditions:
     """Where there are more rational forms of degree m than generically."""
-    N = number_of_zeros(problem, m)
-    if N is None:
+    bound = bounds(problem, m, logarithms=False)  # whether or not there is a logarithm at special values
+    if bound is None:
         return RankConditions()
-    R0 = singular_part(problem, [v for v in least_valuations(problem, m)[:-1] if v is not None])
-    x = problem.field.poly([0, 1])
+    (valuations, N), x = bound, problem.field.poly([0, 1])
+    R0 = singular_part(problem, valuations[:-1])
     return rank_conditions([Form(m, R0, x**j).numerators(problem)[-1] for j in range(N + 1)], problem)
 
 
@@ -203,8 +171,9 @@ def solution_of_degree(
     P = exponents.polynomial(problem, d)
     if P is None:
         return None
-    x = sympy.Symbol(variable)
-    c = sympy.Integer(1) if exponents.square is None else sympy.sqrt(sympy.factor(exponents.square.to_sympy(x)))
+    x, field = sympy.Symbol(variable), exponents.field
+    square = -field.modulus[0] if isinstance(field, AlgebraicField) else field.poly([1])
+    c = sympy.sqrt(sympy.factor(square.to_sympy(x)))
 
     def expression(polynomial: Poly) -> Any:
         parts = polynomial.parts if isinstance(polynomial, ExtensionPoly) else [polynomial]

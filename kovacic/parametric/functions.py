@@ -61,6 +61,17 @@ def powers_of(function: FunctionPoly, i: int) -> dict[int, FunctionPoly]:
     return {power: element(function.field, part) for power, part in by_power(function.num, 1 + i).items()}
 
 
+def roots(polynomial: Poly) -> list[Poly]:
+    """The roots in the field, a multiple one several times."""
+    return [-f[0] for f, k in polynomial.field.factor(polynomial) if f.degree == 1 for _ in range(k)]
+
+
+def coefficients_in(function: FunctionPoly, i: int, values: Sequence[Poly], field: Field) -> list[Poly]:
+    """Those of the powers of parameter number i, low to high, in the numerator; the others have these values."""
+    parts = powers_of(function, i)
+    return [parts[k].value_at(values, field) if k in parts else field.poly([]) for k in range(max(parts) + 1)]
+
+
 def constant_term(function: Poly) -> Fraction:
     """That of the Laurent series at 0 of a function of the parameters."""
     return to_fraction(function.rational_coefficients()[0]) if function else Fraction(0)
@@ -73,10 +84,6 @@ def normal_form(function: Poly) -> tuple[FunctionPoly, Fraction, Fraction]:
     above, below = ([int(c) for c in part.coeffs()] for part in (form.num, form.den))
     scale = Fraction(gcd(*below), gcd(*above) * (1 if above[0] > 0 else -1)) if above else Fraction(1)
     return over_parameters(form * scale), scale, shift
-
-
-class UndefinedError(Exception):
-    """S isn't defined at these values of the parameters."""
 
 
 @dataclass(frozen=True)
@@ -93,13 +100,8 @@ class Point:
         return function.value_at(chosen, self.field)
 
     def restricted(self, S: RatFunc) -> RatFunc:
-        """S there.  Raises `UndefinedError` where the denominator vanishes identically."""
-        if not isinstance(S.field, FunctionField):
-            return S
-        above, below = (self.at(over_parameters(part)) for part in S.cleared())
-        if not below:
-            raise UndefinedError
-        return RatFunc(above, below)
+        """S there.  Raises `ZeroDivisionError` where the denominator vanishes identically: S isn't defined."""
+        return RatFunc(*(self.at(over_parameters(part)) for part in S.cleared()))
 
     def __str__(self) -> str:
         return ", ".join(f"{name} = {value.to_str()}" for name, value in zip(self.names, self.values, strict=True))

@@ -8,20 +8,21 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 from itertools import chain, count
 from math import ceil, lcm
 from random import Random
-from typing import Literal
 
 from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.formulas import Notation
+from kovacic.parametric.formulas import member, plain, said
 from kovacic.parametric.functions import Coset, Point, common_multiple, degrees, normal_form, over_parameters
-from kovacic.parametric.spectra import families, integer_condition, kind
-from kovacic.parametric.statements import Statement
+from kovacic.parametric.spectra import Notation, families, integer_condition, kind
+from kovacic.parametric.statements import ALWAYS, Statement, either
+from kovacic.views.formula import Math
 
 #: What integers are called, the first that isn't a parameter.
 LETTERS = "nNmMkKjJ"
@@ -126,24 +127,23 @@ class Congruence(Statement):
     def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
         return replace(self, letter=free_letter(names), fixed=tuple(fixed))
 
-    def written(self, *, latex: bool) -> str:
-        n = Notation(latex, self.letter, self.fixed)
-        form, (first, *others), modulus = self.form, self.residues, self.modulus
+    @cached_property
+    def written(self) -> Math:
+        n, form, (first, *others), modulus = Notation(self.letter, self.fixed), self.form, self.residues, self.modulus
         if form is None:
             return integer_condition(self.equation, [*map(int, self.residues)], int(modulus), n)
         if not others and modulus == 1:
-            return n.function(form) + (f" - {first}" if first else "") + n.member("Z")
+            return said(n.function(form), plain(f" - {first}" if first else ""), member("Z"))
         if not others and not first and modulus.numerator == 1:
-            return n.function(form * modulus.denominator) + n.member("Z")
+            return said(n.function(form * modulus.denominator), member("Z"))
         if not others and modulus == 2 and first.denominator == 1:
-            return n.function(form) + n.words(f" is {kind(self.residues, modulus)[0]}")
+            return said(n.function(form), f" is {kind(self.residues, modulus)[0]}")
         scale = lcm(first.denominator, modulus.denominator)
         equation = over_parameters(form * scale - form.field.poly([0, 1]))
         if not others and sum(map(bool, degrees(equation))) > 1 and families(equation):
-            return integer_condition(equation, [int(first * scale)], int(modulus * scale), replace(n, fixed=()))
+            return integer_condition(equation, [int(first * scale)], int(modulus * scale), Notation(self.letter))
         classes = ", ".join(map(str, self.residues))
-        congruent = rf" \equiv {classes} \pmod{{{modulus}}}" if latex else f" = {classes} mod {modulus}"
-        return n.function(form) + congruent
+        return said(n.function(form), Math(f" = {classes} mod {modulus}", rf" \equiv {classes} \pmod{{{modulus}}}"))
 
 
 def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:
@@ -151,13 +151,10 @@ def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:
     return next(letter for letter in chain(preferred, map("n{}".format, count())) if letter not in names)
 
 
-def integer_roots(equation: FunctionPoly, residues: Sequence[int], modulus: int) -> Literal[True] | list[Statement]:
-    """When does a polynomial in N over Q(t) have an integer root in these classes?
-
-    A list of statements, one for each way (up to the sign of N where the classes are symmetric); True if it always has one.
-    """
+def integer_roots(equation: FunctionPoly, residues: Sequence[int], modulus: int) -> Statement:
+    """When does a polynomial in N over Q(t) have an integer root in these classes?"""
     classes = {r % modulus for r in residues}
-    symmetric = classes == {-r % modulus for r in classes}
+    symmetric = classes == {-r % modulus for r in classes}  # and then the signs of N say the same
     statements: list[Statement] = []
     seen: list[Poly] = []
     field = equation.field
@@ -169,8 +166,8 @@ def integer_roots(equation: FunctionPoly, residues: Sequence[int], modulus: int)
         if len(values) <= factor.degree:
             statements.append(Congruence.make(over_parameters(factor), classes, modulus))
         elif any(root % modulus in classes for root in rational_roots(QQ.poly(values))):
-            return True
-    return statements
+            return ALWAYS
+    return either(*statements)
 
 
 def rational_roots(polynomial: Poly) -> list[Fraction]:

@@ -14,7 +14,7 @@ from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from random import Random
 
 from kovacic.algebra.function_field import FunctionPoly
@@ -27,11 +27,10 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.exponents import PolynomialSolution, form_conditions, solution_of_degree, with_degree
-from kovacic.parametric.formulas import Notation, equation_written, shown, written
+from kovacic.parametric.formulas import equation_written, said, shown, unless_long, words, written
 from kovacic.parametric.functions import (
     Coset,
     Point,
-    UndefinedError,
     degrees,
     irreducible_factors,
     over_parameters,
@@ -40,8 +39,9 @@ from kovacic.parametric.functions import (
 from kovacic.parametric.integers import LETTERS, free_letter, rational_roots
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import Hypersurface, hypersurface
-from kovacic.parametric.spectra import alternatives
+from kovacic.parametric.spectra import Notation, alternatives
 from kovacic.parametric.statements import Statement
+from kovacic.views.formula import Math
 
 #: The largest number that is tried for an example.
 _EXAMPLES = 3
@@ -118,7 +118,7 @@ class Natural(Statement):
         """Where the exponents give the number: a polynomial, its zeros, and S there."""
         for exponents in union(irreducible_factors(factor(Fraction(number))) for factor in self.factors):
             surface = hypersurface(exponents)
-            with suppress(UndefinedError):
+            with suppress(ZeroDivisionError):
                 yield exponents, surface, surface.restricted(self.S)
 
     def determinants(self, number: int) -> list[Determinant]:
@@ -142,24 +142,26 @@ class Natural(Statement):
     def solutions(self, variable: str, number: int | None) -> tuple[PolynomialSolution, ...]:
         """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""
         found: list[PolynomialSolution | None] = []
-        for exponents, surface, S in self._given(number) if number is not None and self.m == 1 else ():
+        if number is None or self.m > 1:
+            return ()
+        for exponents, surface, S in self._given(number):
             if not isinstance(S.num, FunctionPoly) or surface.curve:
                 continue
             problem = analyse(S, Budget())
-            for choice, c in with_degree(problem, number or 0) or ():
-                conditions = [f"{' = 0 or '.join(map(shown, c.polynomials))} = 0"] if c.polynomials else []
-                if c.system and not c.complete:
-                    conditions = [f"{shown(function)} = 0" for function in c.system]
+            for choice, c in with_degree(problem, number) or ():
+                one_of = " = 0 or ".join(map(shown, c.polynomials))
+                conditions = [*map(shown, c.system)] if c.system and not c.complete else [one_of] if one_of else []
                 if c.deficient or conditions:
-                    where = ", ".join([equation_written(exponents), *([] if c.deficient else conditions)])
-                    found.append(solution_of_degree(problem, choice, number or 0, variable, where))
+                    zero = [] if c.deficient else [f"{condition} = 0" for condition in conditions]
+                    where = ", ".join([equation_written(exponents).text, *zero])
+                    found.append(solution_of_degree(problem, choice, number, variable, where))
         return tuple(solution for solution in found if solution is not None)
 
     def shown_determinant(self, number: int) -> str:
         """In one line: one polynomial where it is the same for all exponents that give the number."""
         found: dict[str, dict[str, None]] = {}
         for determinant in self.determinants(number):
-            found.setdefault(equation_written(determinant.exponents), {})[str(determinant)] = None
+            found.setdefault(equation_written(determinant.exponents).text, {})[str(determinant)] = None
         places: dict[str, list[str]] = {}
         for where, texts in found.items():
             places.setdefault(" or ".join(texts), []).append(where)
@@ -197,28 +199,23 @@ class Natural(Statement):
             )
         )
 
-    def written(self, *, latex: bool) -> str:
-        n, m, factors = Notation(latex, self.letter, self.fixed), self.m, self.factors
+    @cached_property
+    def written(self) -> Math:
+        m, factors, d = self.m, self.factors, self.letter
         if not any(k for factor in factors for k in degrees(factor)):
-            numbers = " or ".join(written(-f[0] / f[1]) for f in factors)
+            numbers = " or ".join(written(-f[0] / f[1]).text for f in factors)
             what = "a solution" if m == 1 else f"an invariant of degree {m}"
-            return n.words(f"{what} with {numbers} zero{'s' * (numbers != '1')} exists")
-        which = alternatives(factors, n)
-        if len(which) > _WRITTEN_OUT:
-            which = n.words(f"the exponents allow a natural number {self.letter} of zeros")
-        for_invariant = "" if m == 1 else n.words(f" for an invariant of degree {m}")
-        if latex:
-            return rf"{which},\ {self.letter} \in \mathbb{{N}},\ \Delta_{{{self.letter}}} = 0{for_invariant}"
-        return f"{which}, {self.letter} in N, and Delta_{self.letter} = 0{for_invariant}"
+            return words(f"{what} with {numbers} zero{'s' * (numbers != '1')} exists")
+        short = words(f"the exponents allow a natural number {d} of zeros")
+        which = unless_long(alternatives(factors, Notation(d, self.fixed)), short, lambda _: _WRITTEN_OUT)
+        exists = Math(f", {d} in N, and Delta_{d} = 0", rf",\ {d} \in \mathbb{{N}},\ \Delta_{{{d}}} = 0")
+        return said(which, exists, "" if m == 1 else f" for an invariant of degree {m}")
 
 
 @lru_cache(maxsize=64)
 def _structure_at(S: RatFunc, point: Point) -> Structure | None:
-    """What the engine says at a point, which several statements ask for; None also where S isn't defined."""
-    try:
-        decision = decide(point.restricted(S), Budget(Limits(seconds=_SECONDS)), certify=False)
-    except UndefinedError:
-        return None
+    """What the engine says at a point, which several statements ask for."""
+    decision = decide(point.restricted(S), Budget(Limits(seconds=_SECONDS)), certify=False)
     if decision.status is Status.UNDECIDED:
         raise LimitExceeded(str(decision.undecided), limit="seconds")
     return decision.structure

@@ -20,24 +20,25 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.decision import Decision, Structure
+from kovacic.decision import Structure
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget
 from kovacic.parametric import restriction
-from kovacic.parametric.functions import UndefinedError, degrees, denominators, irreducible_factors, union
+from kovacic.parametric.functions import degrees, denominators, irreducible_factors, union
 from kovacic.parametric.regions import OMEGAS, Condition, Theorem, Verdict
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.search import Findings, search
-from kovacic.parametric.statements import Statement, Vanishes, both, either
+from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
 from kovacic.solution import Solution
 from kovacic.views.sentences import omega_lines
 
 #: The degree of an algebraic number up to which its equation is solved, although it is known to be reducible.
 _WRITTEN_OUT = 2
+_UNKNOWN = Verdict(None, known=False)
 #: Characters of an omega that is written out.
 _LONGEST_OMEGA = 300
 
@@ -82,7 +83,7 @@ def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
     if expected.known and expected.structure is Structure.REDUCIBLE:
         name = "a rational omega for generic values, and so for all"  # where S is defined: see the head of this module
-        theorem: Theorem | None = Theorem(name, restriction.undefined(problem), [(True, expected, "", None)])
+        theorem: Theorem | None = Theorem(name, restriction.undefined(problem), [Condition(ALWAYS, expected)])
     else:
         theorem = kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
     if theorem is None:
@@ -90,11 +91,11 @@ def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
             return Partition(expected, "for generic values only", "no theorem covers all values")
         return _by_candidates(problem, expected, settings)
     regions, always = _degenerate(problem.S, theorem.exceptions, settings), Verdict(None)
-    for statements, verdict, omega, origin in theorem.regions:
-        if statements is True:
-            always = verdict
+    for region in theorem.regions:
+        if region.statement == ALWAYS:
+            always = region.verdict
             break
-        regions.append(Condition(either(statements), verdict, omega=omega, origin=origin))
+        regions += [] if region.statement == NEVER else [region]
     if always == expected and expected.case == 1:
         regions = [region for region in regions if not region.defined]
     if expected.known and expected.case != always.case:
@@ -108,9 +109,8 @@ def _together(regions: list[Condition]) -> bool | str:
 
 
 def _by_candidates(problem: Problem, expected: Verdict, settings: Settings) -> Partition:
-    regions: list[Condition] = []
+    regions, findings = list[Condition](), Findings("polynomial conditions")
     complete: bool | str = True
-    findings = Findings("polynomial conditions")
     try:
         regions = _degenerate(problem.S, restriction.structure_changes(problem), settings)
         known = {r.statement.function for r in regions if isinstance(r.statement, Vanishes)}
@@ -133,10 +133,8 @@ def _by_candidates(problem: Problem, expected: Verdict, settings: Settings) -> P
         structure = statement.structure
         if structure is not expected.structure and (expected.structure is None or structure is Structure.REDUCIBLE):
             primitive = "binary tetrahedral, octahedral or icosahedral" if structure.case == 3 else None
-            verdict = Verdict(structure, family=primitive)
-            omega = OMEGAS[structure]
-            origin = partial(statement.solutions, settings.variable)
-            regions.append(Condition(statement, verdict, omega=omega, origin=origin))
+            verdict, origin = Verdict(structure, family=primitive), partial(statement.solutions, settings.variable)
+            regions.append(Condition(statement, verdict, omega=OMEGAS[structure], origin=origin))
     return Partition(expected, _together(regions) if complete is True else complete, findings.theory, tuple(regions))
 
 
@@ -178,13 +176,12 @@ def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
 
     There a second polynomial g vanishes, so that they are the zeros of the first one on g = 0, and those that are missed there.
     """
-    regions: list[Condition] = []
-    first = Vanishes(function)
+    regions, first = list[Condition](), Vanishes(function)
     for other in hypersurface(function).missed:
         surface, second = hypersurface(other), Vanishes(other)
         try:
             restricted = surface.restricted(S)
-        except UndefinedError:
+        except ZeroDivisionError:
             regions.append(Condition(both(first, second), _UNKNOWN, defined=False))
             continue
         regions += _also(_missed(S, other, settings), first)
@@ -202,15 +199,12 @@ def _also(regions: list[Condition], *conditions: Statement) -> list[Condition]:
     return [replace(region, statement=both(*conditions, region.statement)) for region in regions]
 
 
-_UNKNOWN = Verdict(None, known=False)
-
-
 def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Condition]:
     """The regions where a polynomial vanishes, except for the points that `missed` is about; the last one is all the rest."""
     statement, surface = Vanishes(function), hypersurface(function)
     try:
         S = surface.restricted(S)
-    except UndefinedError:
+    except ZeroDivisionError:
         return [Condition(statement, _UNKNOWN, defined=False)]
     inner, field = partition(S, settings), surface.field
     verdict, complete, omega = inner.generic, inner.complete, None
@@ -221,7 +215,10 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
         omega = OMEGAS[verdict.structure]
         if not is_algebraic or max(degrees(function)) <= _WRITTEN_OUT:
             decision = decide(S, settings.budget)
-            omega = omega_text(S, decision, settings.variable) or omega
+            if decision.riccati is not None:
+                lines = omega_lines(Solution(S.to_str(settings.variable), settings.variable, S, decision))
+                text = " ".join(line.strip() for line in lines)
+                omega = text if len(text) <= _LONGEST_OMEGA else omega
             if field.ground == QQ and not decision.undecided:
                 verdict = replace(verdict, family=str(group_of(S, decision)))
     if field.ground != QQ and complete is not True:
@@ -231,19 +228,8 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
     special = [r for r, first in firsts if not (isinstance(first, Vanishes) and str(first.function) in elsewhere)]
     if surface.curve:
         omega = None
-        special = [
-            replace(region, statement=region.statement.rewritten(surface.back), omega=None, origin=None)
-            for region in special
-        ]
+        without = ((r, r.statement.rewritten(surface.back)) for r in special)
+        special = [replace(r, statement=statement, omega=None, origin=None) for r, statement in without]
     while special and special[-1].defined and (special[-1].verdict, special[-1].complete) == (verdict, complete):
         special.pop()
     return [*_also(special, statement), Condition(statement, verdict, complete, omega=omega)]
-
-
-def omega_text(S: RatFunc, decision: Decision, variable: str) -> str | None:
-    """What a certified decision says about omega; None without a solution."""
-    if decision.riccati is None or decision.structure is None:
-        return None
-    lines = omega_lines(Solution(S.to_str(variable), variable, S, decision))
-    text = " ".join(line.strip() for line in lines)
-    return text if len(text) <= _LONGEST_OMEGA else OMEGAS[decision.structure]

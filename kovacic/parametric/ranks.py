@@ -9,8 +9,11 @@ changes a rank by the same number at all values.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import reduce
 from math import gcd
+from operator import mul
 from random import Random
 from typing import Any
 
@@ -43,17 +46,16 @@ class RankConditions:
     deficient: bool = False
 
 
-def rank_conditions(images: list[Poly], problem: Problem) -> RankConditions:
+def rank_conditions(images: Sequence[Poly], problem: Problem) -> RankConditions:
     """Where do the polynomials over Q(t), or the coordinates of those over an extension, span less than generically?"""
     field = problem.field
     assert isinstance(field, FunctionField)
-    columns = []
-    for image in images:
-        check_time()
-        columns.append(_column(image))
-    rows, eliminated = without_constant_pivots(columns)
+    rows, eliminated = without_constant_pivots([*map(_column, images)])
     rows = [*{tuple(map(str, row)): row for row in map(_normalised, rows)}.values()]
-    rank = _generic_rank(rows, field)
+    # The rank at a random point is a lower bound, and the generic rank but for a probability of about 1/_PRIME.
+    point = [Random(k).randrange(_PRIME) for k in range(len(field.names))]
+    entries = [int(entry(0, *point)) % _PRIME for row in rows for entry in row]
+    rank = int(nmod_mat(len(rows), len(rows[0]), entries, _PRIME).rank()) if rows else 0
     deficient = eliminated + rank < len(images)
     if rank == 0:
         return RankConditions(deficient=deficient)
@@ -62,7 +64,7 @@ def rank_conditions(images: list[Poly], problem: Problem) -> RankConditions:
     random = Random(20240229)
     for _ in range(1 if single else _DETERMINANTS):
         check_time()
-        determinant = _determinant(_mixed(rows, rank, random, zero), field.context.constant(1))
+        determinant = _determinant(_mixed(rows, rank, random, zero))
         if determinant.is_constant() and not determinant.is_zero():
             return RankConditions(deficient=deficient)
         common = common.gcd(determinant)
@@ -80,10 +82,9 @@ def _normalised(row: list[Any]) -> list[Any]:
 
 def _column(image: Poly) -> dict[int, Any]:
     """The coefficients of the coordinates of a polynomial over Q(t) or an extension, without denominators."""
+    check_time()
     leaves = [over_parameters(leaf) for leaf in image.leaves()]
-    common = leaves[0].den
-    for leaf in leaves[1:]:
-        common = common * (leaf.den // common.gcd(leaf.den))
+    common = reduce(lambda m, leaf: m * (leaf.den // m.gcd(leaf.den)), leaves[1:], leaves[0].den)
     return {
         power * len(leaves) + k: coefficient
         for k, leaf in enumerate(leaves)
@@ -129,42 +130,29 @@ def _primitive(row: dict[int, Any]) -> dict[int, Any]:
     return {j: entry // content for j, entry in row.items()} if content > 1 else row
 
 
-def _generic_rank(rows: list[list[Any]], field: FunctionField) -> int:
-    """A lower bound, and the rank itself but for a probability of about 1/_PRIME: the rank at a random point."""
-    point = [Random(k).randrange(_PRIME) for k in range(len(field.names))]
-    entries = [int(entry(0, *point)) % _PRIME for row in rows for entry in row]
-    return int(nmod_mat(len(rows), len(rows[0]), entries, _PRIME).rank()) if rows else 0
-
-
 def _mixed(rows: list[list[Any]], rank: int, random: Random, zero: Any) -> list[list[Any]]:
     """U M V with random small integer matrices, of size rank."""
-
-    def combinations(vectors: list[list[Any]]) -> list[list[Any]]:
-        if len(vectors) == rank:
-            return vectors
-        mixed = []
-        for _ in range(rank):
-            weights = [random.randint(-3, 3) for _ in vectors]
-            columns = zip(*vectors, strict=True)
-            mixed.append([sum((w * c for w, c in zip(weights, column, strict=True)), zero) for column in columns])
-        return mixed
-
-    half = combinations(rows)
-    return combinations([list(column) for column in zip(*half, strict=True)])
+    for _ in range(2):
+        if len(rows) > rank:
+            weights = [[random.randint(-3, 3) for _ in rows] for _ in range(rank)]
+            columns = [*zip(*rows, strict=True)]
+            rows = [[sum(map(mul, line, column), zero) for column in columns] for line in weights]
+        rows = [list(column) for column in zip(*rows, strict=True)]
+    return rows
 
 
-def _determinant(matrix: list[list[Any]], one: Any) -> Any:
-    """Up to its sign, by elimination without fractions [Bareiss 1968]."""
-    rows = [list(row) for row in matrix]
-    n, previous = len(rows), one
+def _determinant(rows: list[list[Any]]) -> Any:
+    """Up to its sign, by elimination without fractions [Bareiss 1968]; the rows are used up."""
+    n, previous = len(rows), None
     for k in range(n - 1):
         pivot = next((i for i in range(k, n) if not rows[i][k].is_zero()), None)
         if pivot is None:
-            return 0 * one
+            return rows[k][k]
         rows[k], rows[pivot] = rows[pivot], rows[k]
         for i in range(k + 1, n):
             for j in range(k + 1, n):
                 check_time()
-                rows[i][j] = (rows[k][k] * rows[i][j] - rows[i][k] * rows[k][j]) // previous
+                value = rows[k][k] * rows[i][j] - rows[i][k] * rows[k][j]
+                rows[i][j] = value // previous if k else value
         previous = rows[k][k]
     return rows[-1][-1]

@@ -40,13 +40,13 @@ def statement_data(statement: Statement) -> dict[str, Any]:
         return {"kind": "zero", "function": statement.function.to_str("x")}
     if isinstance(statement, Congruence):
         form, residues, modulus = statement.form, [*map(_number, statement.residues)], _number(statement.modulus)
-        if form is not None and len(residues) == 1:
-            form = over_parameters(form - statement.residues[0])
-            return {"kind": "lattice", "form": form.to_str("x"), "modulus": modulus}
-        if form is not None:
-            return {"kind": "lattice", "form": form.to_str("x"), "modulus": modulus, "residues": residues}
-        equation = {"unknown": statement.letter, "equation": statement.equation.to_str(statement.letter)}
-        return {"kind": "integer root", **equation, "residues": residues, "modulus": modulus}
+        if form is None:
+            equation = {"unknown": statement.letter, "equation": statement.equation.to_str(statement.letter)}
+            return {"kind": "integer root", **equation, "residues": residues, "modulus": modulus}
+        single = len(residues) == 1
+        form = over_parameters(form - statement.residues[0]) if single else form
+        data = {"kind": "lattice", "form": form.to_str("x"), "modulus": modulus}
+        return data if single else data | {"residues": residues}
     if isinstance(statement, Natural):
         letter = statement.letter
         equations = [factor.to_str(letter) for factor in statement.factors]

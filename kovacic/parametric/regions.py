@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import count, groupby
-from typing import Any, Literal
+from typing import Any
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.decision import Decision, Status, Structure
@@ -166,15 +166,11 @@ class Condition:
 
 @dataclass(frozen=True)
 class Theorem:
-    """What describes all values at which none of the functions in `exceptions` vanishes.
-
-    The regions, in their order, are given by their statements, of which one has to hold (True: the region is all the rest),
-    the verdict, omega in words, and `Condition.origin`.
-    """
+    """The regions, in their order, that describe all values at which none of the functions in `exceptions` vanishes."""
 
     name: str
     exceptions: list[FunctionPoly]
-    regions: Iterable[tuple[Literal[True] | list[Statement], Verdict, str, Origin | None]]
+    regions: Iterable[Condition]
 
 
 def _mirrored(regions: Sequence[Condition]) -> Iterator[Condition]:
@@ -186,17 +182,15 @@ def _mirrored(regions: Sequence[Condition]) -> Iterator[Condition]:
     merged: list[tuple[list[Statement], list[Condition]]] = []
     for first, group in groupby(regions, key=lambda region: both(region.statement).parts[0]):
         block = [replace(region, statement=Both(both(region.statement).parts[1:])) for region in group]
-        said = [replace(region, omega=None) for region in block]
-        last = (
-            merged[-1] if merged and isinstance(first, Vanishes) and isinstance(merged[-1][0][-1], Vanishes) else None
-        )
-        if last is not None and [replace(region, omega=None) for region in last[1]] == said:
-            last[0].append(first)
+        firsts, last = merged[-1] if merged else ([], [])
+        said = [[replace(region, omega=None) for region in regions] for regions in (block, last)]
+        if firsts and isinstance(first, Vanishes) and isinstance(firsts[-1], Vanishes) and said[0] == said[1]:
+            firsts.append(first)
         else:
             merged.append(([first], block))
     for firsts, block in merged:
         for region in block:
-            parts = (either(firsts), *both(region.statement).parts)
+            parts = (either(*firsts), *both(region.statement).parts)
             yield replace(region, statement=Both(parts) if len(parts) > 1 else parts[0])
 
 
@@ -209,11 +203,10 @@ def in_one_line(regions: Sequence[Condition]) -> list[Condition]:
             together = last.statement.merged(region.statement)
             parts = [*_alternatives(last.statement), *_alternatives(region.statement)]
             if together is None and len({type(part) for part in parts}) == 1 and not isinstance(parts[0], Both):
-                together = either(parts)
+                together = either(*parts)
                 together = together if len(together.text()) <= _LINE else None
             if together is not None:
-                found[-1] = replace(last, statement=together)
-                continue
+                region = replace(found.pop(), statement=together)
         found.append(region)
     return found
 
@@ -228,22 +221,14 @@ def without_empty(regions: Sequence[Condition]) -> list[Condition]:
     seen: list[set[Any]] = []
     for region in regions:
         check_time()
-        said = {_key(part) for part in both(region.statement).parts}
-        repeated = any(known <= said for known in seen)
-        charts = [] if repeated else _charts(region.statement)
-        if not repeated and not (charts and all(any(_holds_on(r.statement, *chart) for r in kept) for chart in charts)):
+        said = {str(statement_data(part)) for part in both(region.statement).parts}
+        if any(known <= said for known in seen):
+            continue
+        charts = _charts(region.statement)
+        if not charts or not all(any(_holds_on(r.statement, *chart) for r in kept) for chart in charts):
             seen.append(said)
             kept.append(region)
     return kept
-
-
-def _key(statement: Statement) -> Any:
-    """The same for the same statements, also about functions of more and of fewer parameters."""
-    if isinstance(statement, Vanishes):
-        return str(statement.function)
-    if isinstance(statement, Congruence):
-        return str(statement.equation), statement.residues, statement.modulus
-    return statement
 
 
 def _charts(statement: Statement) -> list[tuple[Point, Assumptions]]:
@@ -257,18 +242,18 @@ def _charts(statement: Statement) -> list[tuple[Point, Assumptions]]:
         return [] if chart is None else [(chart, NOTHING_ASSUMED)]
     charts: list[tuple[Point, Assumptions]] = []
     for part in _alternatives(statement):
-        spectra = families(part.equation) if isinstance(part, Congruence) and part.form is None else []
-        if not isinstance(part, Congruence) or not spectra:
+        if not isinstance(part, Congruence) or part.form is not None or not families(part.equation):
             return []
-        (name, f), names = spectra[0], part.equation.field.names
+        (name, f), names = families(part.equation)[0], part.equation.field.names
         k = next(name for name in map("k{}".format, count()) if name not in names)
         field = FunctionField((*names, k))
         chart = Point(names, tuple(map(field.generator, names)), field)
         above, below = (chart.at(over_parameters(g)) for g in (f.num, f.den))
+        known = Assumptions(((k, Known(("integer",))),))
         for residue in part.residues:
             N = field.generator(k) * part.modulus + residue
-            values = {n: field.generator(n) for n in names} | {name: above(N) / below(N)}
-            charts.append((Point(names, tuple(values.values()), field), Assumptions(((k, Known(("integer",))),))))
+            values = tuple(above(N) / below(N) if n == name else field.generator(n) for n in names)
+            charts.append((Point(names, values, field), known))
     return charts
 
 
@@ -295,9 +280,9 @@ def _holds_on(statement: Statement, chart: Point, known: Assumptions) -> bool:
     try:
         if isinstance(statement, Vanishes):
             return not chart.at(statement.function)
-        if not isinstance(statement, Congruence) or not known:
-            return False
-        equation = over_parameters(chart.at(statement.equation))
+        if isinstance(statement, Congruence) and known:
+            equation = over_parameters(chart.at(statement.equation))
+            return Congruence.make(equation, statement.residues, statement.modulus).decided(known) is True
     except (ValueError, ZeroDivisionError):  # a function of other parameters, or not defined at these values
-        return False
-    return Congruence.make(equation, statement.residues, statement.modulus).decided(known) is True
+        pass
+    return False

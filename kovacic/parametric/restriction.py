@@ -13,37 +13,26 @@ larger space that is right at all of its points is right on the slice, and if it
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-from kovacic.algebra.extension import ExtensionPoly, norm
-from kovacic.algebra.factors import product
-from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.rationals import QQ
-from kovacic.engine.places import Kind, Problem, analyse
-from kovacic.limits import Budget
-from kovacic.parametric.formulas import shown
-from kovacic.parametric.functions import denominators, element, irreducible_factors, over_parameters, union
-
-if TYPE_CHECKING:
-    from kovacic.solution import Solution
-
-
 from fractions import Fraction
 from itertools import count
 from math import gcd
+from typing import TYPE_CHECKING
 
-from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.function_field import FunctionField
-from kovacic.algebra.poly import Field
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
+from kovacic.algebra.factors import product
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.parametric.functions import (
-    Point,
-    degrees,
-    numerator,
-    powers_of,
-)
+from kovacic.algebra.rationals import QQ
+from kovacic.engine.places import Kind, Problem, analyse
+from kovacic.limits import Budget
+from kovacic.parametric import functions
+from kovacic.parametric.formulas import shown
+from kovacic.parametric.functions import Point, degrees, element, irreducible_factors, over_parameters, union
 from kovacic.parametric.statements import Statement
+
+if TYPE_CHECKING:
+    from kovacic.solution import Solution
 
 
 def undefined(problem: Problem) -> list[FunctionPoly]:
@@ -94,7 +83,7 @@ def generic_conditions(solution: Solution) -> GenericConditions:
     riccati, constants = solution.decision.riccati, solution.constants
     if riccati is not None:
         for polynomial in (riccati.P, riccati.D, *riccati.numerators):
-            changes += [irreducible_factors(_down(d)) for d in denominators(polynomial)]
+            changes += [irreducible_factors(_down(d)) for d in functions.denominators(polynomial)]
     if constants is not None:
         changes.append(_common_zeros(constants, constants.derivative()))
     squares = [p.delta_squared for p in problem.places if p.kind is Kind.REGULAR and p.delta_squared is not None]
@@ -159,17 +148,13 @@ def hypersurface(function: FunctionPoly) -> Hypersurface:
     if curve is not None:
         return curve
     names, powers = function.field.names, degrees(function)
-    leading = {i: powers_of(function, i)[k] for i, k in enumerate(powers) if k}
-    i = min(
-        leading, key=lambda i: (powers[i], powers[i] == 1 and (not leading[i].num.is_constant(), len(leading[i].num)))
-    )
+    leading = {i: functions.powers_of(function, i)[k] for i, k in enumerate(powers) if k}
+    simple = {i: (not A.num.is_constant(), len(A.num)) if powers[i] == 1 else () for i, A in leading.items()}
+    i = min(leading, key=lambda i: (powers[i], simple[i]))
     rest = FunctionField(tuple(name for name in names if name != names[i]))
     smaller: Field = rest if rest.names else QQ
     values = [rest.generator(name) if name in rest.names else smaller.poly([0]) for name in names]
-    parts = powers_of(function, i)
-    coefficients = [
-        parts[k].value_at(values, smaller) if k in parts else smaller.poly([]) for k in range(powers[i] + 1)
-    ]
+    coefficients = functions.coefficients_in(function, i, values, smaller)
     if powers[i] == 1:
         values[i] = -coefficients[0] / coefficients[1]
         factors = tuple(irreducible_factors(leading[i]))
@@ -216,18 +201,14 @@ def with_free_constant(S: RatFunc) -> tuple[RatFunc, RatFunc, Point]:
     if not isinstance(field, AlgebraicField):
         return S, S, NO_CONSTANT
     base = field.base
-    if not isinstance(base, FunctionField):
-        raise TypeError("one algebraic constant over a field with parameters is expected")
+    assert isinstance(base, FunctionField)
     name = next(name for k in count() if (name := field.name + "_" * k) not in base.names)
     larger = FunctionField((*base.names, name))
-    den = larger.poly([1])
-    for factor, power in field.factor(S.den):
-        den = den * _free(factor, larger) ** power
-    lifted = RatFunc(_free(S.num, larger), den * _free(field.poly([S.den.lc]), larger))
-    modulus = QQ.poly([base.rational_value(c) or 0 for c in field.modulus])
+    factors = [_free(S.den.lc, larger), *(_free(factor, larger) ** k for factor, k in field.factor(S.den))]
+    num, modulus = _free(S.num, larger), QQ.poly([base.rational_value(c) or 0 for c in field.modulus])
     numbers = AlgebraicField(QQ, modulus, field.name, field.approximation)
-    shown = RatFunc(_free(S.num, larger), _free(S.den, larger))
-    return lifted, shown, Point((name,), (numbers.generator,), numbers)
+    point = Point((name,), (numbers.generator,), numbers)
+    return RatFunc(num, product(factors)), RatFunc(num, _free(S.den, larger)), point
 
 
 def _free(polynomial: Poly, larger: FunctionField) -> Poly:
@@ -251,5 +232,5 @@ def _reduced(function: FunctionPoly, constant: Point) -> FunctionPoly:
     assert isinstance(numbers, AlgebraicField)
     extension = AlgebraicField(base, base.poly([QQ.rational_value(c) or 0 for c in numbers.modulus]))
     values = [*(extension.embed(base.generator(name)) for name in base.names), extension.generator]
-    total = _free(numerator(function).value_at(values, extension), field)
+    total = _free(functions.numerator(function).value_at(values, extension), field)
     return over_parameters(total / element(field, function.den))

@@ -21,11 +21,10 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache, reduce
+from functools import cached_property, lru_cache, reduce
 from itertools import product
 from math import gcd, lcm
 from random import Random
-from typing import Literal
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
@@ -33,9 +32,10 @@ from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
 from kovacic.parametric.formulas import root_written, shown
-from kovacic.parametric.functions import Point, common_multiple, normal_form, over_parameters
+from kovacic.parametric.functions import Point, common_multiple, normal_form, over_parameters, roots
 from kovacic.parametric.integers import Congruence, integer_roots
-from kovacic.parametric.statements import Statement
+from kovacic.parametric.statements import ALWAYS, Statement, either
+from kovacic.views.formula import Math
 
 _F = Fraction
 #: Schwarz's rows: the structure, the exponent differences modulo 1, and whether l + m + q must be even.
@@ -93,41 +93,34 @@ class Schwarz(Statement):
     structures: tuple[Structure, ...]
 
     def _holds(self, point: Point) -> bool:
-        value = point.at(self.cubic)
-        differences: list[Fraction | None] = []
-        for factor, multiplicity in value.field.factor(value):
-            difference = rational_square_root(-factor[0]) if factor.degree == 1 else None
-            differences += [difference] * (multiplicity * factor.degree)
-        return kimura(differences) in self.structures
+        return kimura([*map(rational_square_root, roots(point.at(self.cubic)))]) in self.structures
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         return replace(self, cubic=change(self.cubic))
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         """Equations that give the exponent differences values from a row of the table; [] where they aren't rational in t."""
-        field = self.cubic.field
-        roots = [field.sqrt(-factor[0]) for factor, k in field.factor(self.cubic) if factor.degree == 1 and k == 1]
+        differences = [self.cubic.field.sqrt(square) for square in dict.fromkeys(roots(self.cubic))]
         rows = [[_F(k, 60) for k in key] for key, structure in _table().items() if structure in self.structures]
         values = random.choice(rows) if rows else [_F(1, 2), _F(3, 2), _F(random.randint(1, 9), random.randint(2, 9))]
         random.shuffle(values)
-        known = [over_parameters(root) for root in roots if root is not None]
+        known = [over_parameters(difference) for difference in differences if difference is not None]
         return [root - value for root, value in zip(known, values, strict=True)] if len(known) == 3 else []
 
-    def written(self, *, latex: bool) -> str:
-        return rf"\text{{{self._in_rows().replace('^', chr(92) + '^{}')}}}" if latex else self._in_rows()
+    @cached_property
+    def written(self) -> Math:
+        names = _differences(self.cubic)
+        rows = [k for k, row in _SCHWARZ.items() if row[0] in self.structures]
+        which = f"rows {rows[0]}-{rows[-1]}" if rows else "row 1 (two half-integers)"
+        text = f"the exponent differences {', '.join(names)} are in Schwarz's {which}"
+        if self.structures == (Structure.IMPRIMITIVE,) and len(names) == 3:
+            text = _two_half_integers(names)
+        return Math(text, rf"\text{{{text.replace('^', chr(92) + '^{}')}}}")
 
     def merged(self, other: Statement) -> Schwarz | None:
         if isinstance(other, Schwarz) and other.cubic == self.cubic:
             return Schwarz(self.cubic, (*self.structures, *other.structures))
         return None
-
-    def _in_rows(self) -> str:
-        names = _differences(self.cubic)
-        if self.structures == (Structure.IMPRIMITIVE,) and len(names) == 3:
-            return _two_half_integers(names)
-        rows = [k for k, row in _SCHWARZ.items() if row[0] in self.structures]
-        which = f"rows {rows[0]}-{rows[-1]}" if rows else "row 1 (two half-integers)"
-        return f"the exponent differences {', '.join(names)} are in Schwarz's {which}"
 
 
 def _two_half_integers(names: list[str]) -> str:
@@ -147,7 +140,7 @@ def _differences(cubic: FunctionPoly) -> list[str]:
     factors = cubic.field.factor(cubic)
     if any(factor.degree > 1 for factor, _ in factors):
         return [f"(the square roots of the roots of {shown(cubic, 'Z')})"]
-    return [root_written(-factor[0]) for factor, k in factors for _ in range(k)]
+    return [root_written(-factor[0]).text for factor, k in factors for _ in range(k)]
 
 
 def is_fuchsian(problem: Problem) -> bool:
@@ -160,22 +153,13 @@ def singular_points(problem: Problem) -> int:
     return sum(place.degree for place in problem.places if place.kind is not Kind.ORDINARY)
 
 
-def applies(problem: Problem) -> bool:
-    """At most three singular points on the sphere, all of them regular."""
-    return singular_points(problem) <= 3 and is_fuchsian(problem)
-
-
 def squares_of_differences(problem: Problem) -> FunctionPoly:
     """The monic cubic over Q(t) whose roots are the squares of the exponent differences."""
-    field = problem.field
-    cubic = field.poly([1])
+    cubic = problem.field.poly([1])
     for place in problem.places:
         if place.kind is not Kind.ORDINARY:
             cubic = cubic * characteristic_polynomial(difference_squared(place), place.factor)
-    one = field.poly([-1, 1])
-    while cubic.degree < 3:
-        cubic = cubic * one
-    return over_parameters(cubic)
+    return over_parameters(cubic * problem.field.poly([-1, 1]) ** max(3 - cubic.degree, 0))
 
 
 def difference_squared(place: Place) -> Poly:
@@ -213,43 +197,37 @@ def group(problem: Problem, structure: Structure) -> str | None:
         return f"mu_n, or G_a extended by mu_n, {where}; else G_m, or the Borel group"
     if structure is not Structure.IMPRIMITIVE:
         return None
-    rest = list(constants)
-    for half in [d for d in constants if d is not None and d.denominator == 2][:2]:
-        rest.remove(half)
+    halves = [d for d in constants if d is not None and d.denominator == 2]
+    rest = [d for d in constants if d not in halves] + halves[2:]
     if len(constants) >= 2 and rest:
         return "the infinite dihedral group" if rest[0] is None else "dicyclic"
     if len(constants) == 2 and variable is not None:
-        return f"dicyclic where {root_written(variable)} is rational, else the infinite dihedral group"
+        return f"dicyclic where {root_written(variable).text} is rational, else the infinite dihedral group"
     return "dicyclic where the third exponent difference is rational, else the infinite dihedral group"
 
 
-def structures(problem: Problem) -> Iterator[tuple[Structure, Literal[True] | list[Statement]]]:
-    """Each structure with the statements that say when the group has it and none of those before; True: always."""
+def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
+    """Each structure with the statement that says when the group has it and none of those before."""
     if singular_points(problem) <= 2:
-        yield Structure.REDUCIBLE, True
+        yield Structure.REDUCIBLE, ALWAYS
         return
     cubic = squares_of_differences(problem)
     s1, s2, s3 = -cubic[2], cubic[1], -cubic[0]
     z = cubic.field.poly([0, 0, 1])
-    reducible = integer_roots(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z, [1], 2)
-    if reducible:
-        yield Structure.REDUCIBLE, reducible
+    yield Structure.REDUCIBLE, integer_roots(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z, [1], 2)
     constants, _ = _split(cubic)
     always, single = kimura(constants), _one_function(cubic)
     if always is not None:
-        yield always, True
+        yield always, ALWAYS
     if always is not None or len(constants) == 3:
         return
     residues = {int(60 * d) % 120 if d is not None and d.denominator <= 5 else None for d in constants}
     for structure in (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL):
         rows = (set(row) for row, known in _table().items() if known is structure)
-        statements: list[Statement] = []
         if single is not None:
-            statements = _classes(single, structure)
+            yield structure, _classes(single, structure)
         elif structure is Structure.IMPRIMITIVE or any(residues <= row for row in rows):
-            statements = [Schwarz(cubic, (structure,))]
-        if statements:
-            yield structure, statements
+            yield structure, Schwarz(cubic, (structure,))
 
 
 @dataclass(frozen=True)
@@ -272,22 +250,18 @@ class _OneFunction:
 
 def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     """The exponent differences by one function of the parameters, where they are."""
-    field = cubic.field
-    factors = [(-factor[0], k) for factor, k in field.factor(cubic) if factor.degree == 1]
-    free = [over_parameters(square) for square, _ in factors if field.rational_value(square) is None]
-    if not free or sum(k for _, k in factors) < 3:
+    field, squares = cubic.field, roots(cubic)
+    free = [over_parameters(square) for square in squares if field.rational_value(square) is None]
+    if not free or len(squares) < 3:
         return None
-    root = field.sqrt(free[0])
-    lines: list[tuple[Fraction, Fraction] | None] = []
-    for square, k in factors:
-        if field.rational_value(square) is not None:
-            constant = rational_square_root(square)
-            line = None if constant is None else (_F(0), constant)
-        else:
-            line = _line(square, free[0], root)
-            if line is None:
+    root, lines = field.sqrt(free[0]), list[tuple[Fraction, Fraction] | None]()
+    for square in squares:
+        constant = rational_square_root(square)
+        lines.append(None if constant is None else (_F(0), constant))
+        if field.rational_value(square) is None:
+            lines[-1] = _line(square, free[0], root)
+            if lines[-1] is None:
                 return None
-        lines += [line] * k
     return _OneFunction(free[0], None if root is None else over_parameters(root), tuple(lines))
 
 
@@ -305,32 +279,28 @@ def _line(square: Poly, first: FunctionPoly, root: Poly | None) -> tuple[Fractio
     return (a, shift - a * other_shift) if form == other else None
 
 
-def _classes(single: _OneFunction, structure: Structure) -> list[Statement]:
+def _classes(single: _OneFunction, structure: Structure) -> Statement:
     """Where w gives the exponent differences this structure, and the equation isn't reducible."""
-    slopes = [line[0] for line in single.lines if line is not None and line[0]]
-    period = reduce(common_multiple, (2 / abs(a) for a in slopes))
-    found: set[Fraction] = set()
-    for a, b in {line for line in single.lines if line is not None and line[0]}:
-        for value in (_F(k, d) for d in (2, 3, 4, 5) for k in range(2 * d) if gcd(k, d) == 1):
-            step = abs(2 / a)
-            found |= {((value - b) / a + j * step) % period for j in range(int(period / step))}
+    lines = {line for line in single.lines if line is not None and line[0]}
+    period = reduce(common_multiple, (2 / abs(a) for a, _ in lines))
+    values = [_F(k, d) for d in (2, 3, 4, 5) for k in range(2 * d) if gcd(k, d) == 1]
+    found = {
+        ((value - b) / a + j * abs(2 / a)) % period
+        for (a, b), value in product(lines, values)
+        for j in range(int(period * abs(a) / 2))
+    }
     # w and -w are the same where only w^2 is known.
     admitted = [w for w in sorted(found) if single.structure(w) is structure]
-    if not admitted:
-        return []
-    if single.root is not None:
+    if admitted and single.root is not None:
         equation = over_parameters(single.root.field.poly([0, 1]) - single.root)
-        return [Congruence.make(equation, admitted, period)]
+        return Congruence.make(equation, admitted, period)
     statements: list[Statement] = []
     for denominator in sorted({w.denominator for w in admitted}):
         D = lcm(denominator, period.denominator)
         residues = [int(D * w) for w in admitted if w.denominator == denominator]
         equation = over_parameters(single.square.field.poly([-(D**2) * single.square, 0, 1]))
-        found_here = integer_roots(equation, residues, int(D * period))
-        if found_here is True:
-            raise AssertionError("an exponent difference that depends on a parameter isn't constant")
-        statements += found_here
-    return statements
+        statements.append(integer_roots(equation, residues, int(D * period)))
+    return either(*statements)
 
 
 def _split(cubic: FunctionPoly) -> tuple[list[Fraction | None], Poly | None]:

@@ -16,14 +16,17 @@ from dataclasses import dataclass, field
 from itertools import product
 from math import lcm, prod
 
+from kovacic.algebra.extension import AlgebraicField, norm
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.decision import Structure
 from kovacic.engine.degree_bound import irregular_difference_squared
+from kovacic.engine.invariants import least_valuation
 from kovacic.engine.places import Kind, Problem
 from kovacic.errors import LimitExceeded
-from kovacic.parametric.exponents import form_conditions, least_valuations, with_degree
-from kovacic.parametric.functions import over_parameters, union
+from kovacic.parametric import riemann
+from kovacic.parametric.exponents import form_conditions, with_degree
+from kovacic.parametric.functions import over_parameters
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import RankConditions
 
@@ -86,19 +89,16 @@ def _degrees_that_decide(problem: Problem) -> dict[int, list[Structure]] | None:
 
 def _degrees_that_are_possible(problem: Problem) -> dict[int, list[Structure]]:
     """4 where two places can be branch points of case 2 for some values of the parameters; 12 where case 3 isn't excluded."""
-    branch_points = sum(
-        place.degree
-        for place in problem.places
-        if place.kind is Kind.RAMIFIED
-        or (place.kind is Kind.REGULAR and (place.delta is None or place.delta.denominator == 2))
-    )
-    excluded = any(
-        place.kind in (Kind.UNRAMIFIED, Kind.RAMIFIED) or (place.delta is not None and place.delta.denominator > 5)
-        for place in problem.places
-    )
-    possible = {4: branch_points >= 2, 12: not excluded}
-    structures = {4: [Structure.IMPRIMITIVE], 12: [Structure.TETRAHEDRAL]}
-    return {m: structures[m] for m in possible if possible[m]}
+    branch_points, found = 0, dict[int, list[Structure]]()
+    for place in problem.places:
+        denominator = 0 if place.delta is None else place.delta.denominator
+        if place.kind is Kind.RAMIFIED or (place.kind is Kind.REGULAR and denominator in (0, 2)):
+            branch_points += place.degree
+    if branch_points >= 2:
+        found[4] = [Structure.IMPRIMITIVE]
+    if riemann.is_fuchsian(problem) and all(p.delta is None or p.delta.denominator <= 5 for p in problem.places):
+        found[12] = [Structure.TETRAHEDRAL]
+    return found
 
 
 def _differences(problem: Problem) -> list[Poly] | None:
@@ -114,19 +114,12 @@ def _differences(problem: Problem) -> list[Poly] | None:
     return found
 
 
-def _signed_sums(squares: list[Poly], start: Poly) -> Poly:
+def _signed_sums(squares: list[Poly], field: Field) -> Poly:
     """The squarefree polynomial in Y over Q(t) whose roots are the sums of +- the square roots."""
-    total = start
+    total = field.poly([0, 1])
     for square in squares:
-        # F(Y + Z) = even + odd Z with Z^2 = square, by Taylor's formula.
-        even, odd, derivative = 0 * start, 0 * start, total
-        for k in range(total.degree + 1):
-            if k % 2:
-                odd = odd + derivative * square ** (k // 2)
-            else:
-                even = even + derivative * square ** (k // 2)
-            derivative = derivative.derivative() / (k + 1)
-        total = even * even - square * odd * odd
+        root = AlgebraicField(field, field.poly([-square, 0, 1])).generator  # formally, if there is one in the field
+        total = norm(total(root.field.poly([0, 1]) + root))
         total = total // total.gcd(total.derivative())
     return total
 
@@ -140,7 +133,7 @@ def _reducible(problem: Problem, findings: Findings) -> None:
         return
     field = problem.field
     weights = sum(p.weight * p.degree for p in problem.places if p.kind is not Kind.ORDINARY)
-    sums = _signed_sums(differences, field.poly([0, 1]))
+    sums = _signed_sums(differences, field)
     factors: list[FunctionPoly] = []
     for factor, _ in field.factor(sums(field.poly([weights - 2, 2]))):
         if not _may_be_natural(factor):
@@ -162,10 +155,9 @@ def _forms(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, 
     except LimitExceeded:  # too large polynomials for that time
         problem.budget.check()
         complete = False
-    variable: list[tuple[Poly, int]] = []  # the square of the difference, and how often it can occur in the sum
-    room = m
-    for place, v in zip(problem.places, least_valuations(problem, m), strict=True):
-        square = place.delta_squared
+    variable, room = list[tuple[Poly, int]](), m  # the square of the difference, and how often it can occur in the sum
+    for place in problem.places:
+        square, v = place.delta_squared, least_valuation(place, m, logarithms=False)
         if place.kind is Kind.REGULAR and square is None:
             return None
         if place.kind is Kind.REGULAR and square is not None and field.rational_value(square) is None:
@@ -181,9 +173,9 @@ def _forms(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, 
     for choice in product(*(range(largest + 1) for _, largest in variable)):
         if any(choice):
             chosen = [k * k * square for k, (square, _) in zip(choice, variable, strict=True) if k]
-            sums = _signed_sums(chosen, field.poly([0, 1]))(field.poly([-room, 1]))
+            sums = _signed_sums(chosen, field)(field.poly([-room, 1]))
             factors += [over_parameters(factor) for factor, _ in field.factor(sums) if _may_be_natural(factor)]
-    return tuple(union([factors]))
+    return tuple(dict.fromkeys(factors))
 
 
 def _may_be_natural(factor: Poly) -> bool:

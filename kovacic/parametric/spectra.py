@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 from math import floor
@@ -17,7 +17,17 @@ from math import floor
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.parametric.formulas import Notation, root_written
+from kovacic.parametric.formulas import (
+    joined,
+    member,
+    name_written,
+    plain,
+    root_written,
+    said,
+    unless_long,
+    words,
+    written,
+)
 from kovacic.parametric.functions import (
     constant_term,
     degrees,
@@ -27,13 +37,29 @@ from kovacic.parametric.functions import (
     powers_of,
 )
 from kovacic.reading.given import ENERGY
+from kovacic.views.formula import Math
 
 #: Characters of a spectrum that is given beside two square roots; and by how many it may be longer than one square root.
 _BESIDE, _LONGER = 90, 40
 #: How much more the length of f(n) counts than that of what is said about n, and what it costs to solve for a later parameter.
 _WEIGHT, _LATER = 3, 10
-#: What is said about n, in a notation.
-Words = Callable[[Notation], str]
+#: For which rational numbers n is something possible?
+Possible = Callable[[Fraction], bool]
+
+
+@dataclass(frozen=True)
+class Notation:
+    """`letter` is what an integer is called; the `fixed` parameters are those that nothing is solved for."""
+
+    letter: str = "n"
+    fixed: tuple[str, ...] = ()
+
+    def function(self, function: Poly | RatFunc) -> Math:
+        """The shortest form of a function of the parameters and the integer."""
+        return written(function if isinstance(function, RatFunc) else over_parameters(function), self.letter)
+
+    def equals(self, name: str, function: Poly | RatFunc) -> Math:
+        return said(name_written(name), plain(" = "), self.function(function))
 
 
 def families(equation: FunctionPoly, fixed: Sequence[str] = ()) -> list[tuple[str, RatFunc]]:
@@ -45,19 +71,19 @@ def families(equation: FunctionPoly, fixed: Sequence[str] = ()) -> list[tuple[st
     return [(name, -RatFunc(part.get(0, 0 * part[1]), part[1])) for name, part in parts]
 
 
-def equation_text(equation: FunctionPoly, n: Notation) -> str:
+def equation_text(equation: FunctionPoly, n: Notation) -> Math:
     """`equation = 0`, solved for a parameter where one occurs linearly."""
     if not any(degrees(equation)) and equation.degree == 1:
-        return f"{n.letter} = {n.function(-equation[0] / equation[1])}"
+        return n.equals(n.letter, -equation[0] / equation[1])
     for name, f in families(equation, n.fixed):
-        return f"{n.name(name)} = {n.function(f)}"
-    return f"{n.function(numerator(equation))} = 0"
+        return n.equals(name, f)
+    return said(n.function(numerator(equation)), plain(" = 0"))
 
 
-def alternatives(equations: Sequence[FunctionPoly], n: Notation) -> str:
+def alternatives(equations: Sequence[FunctionPoly], n: Notation) -> Math:
     """That one of the equations holds: `b = +-2*(d + 1)`, `n = 2*d, 2*d + 1 or -2*d - 3`, `n or -n - 1 = 2*d or 2*d + 1`."""
     functions: dict[str, list[RatFunc]] = {}
-    others: list[str] = []
+    others: list[Math] = []
     for equation in equations:
         family = families(equation, n.fixed) if any(degrees(equation)) else []
         if family:
@@ -65,15 +91,15 @@ def alternatives(equations: Sequence[FunctionPoly], n: Notation) -> str:
         else:
             others.append(equation_text(equation, n))
     for name, known in functions.items():
-        what, total = [n.name(name)], _sum_in_pairs(known)
+        what, total = [name_written(name)], _sum_in_pairs(known)
         if total:
             what.append(n.function(over_parameters(total - total.field.generator(name))))
             pairs = [sorted((f, RatFunc(total) - f), key=str) for f in known]
             known = [*dict.fromkeys(min(pair, key=lambda f: _is_negative(n, f)) for pair in pairs)]
         texts = _with_signs(known, n)
-        listed = texts if len(texts) < 3 else [", ".join(texts[:-1]), texts[-1]]
-        others.append(f"{n.alternatives(what)} = {n.alternatives(listed)}")
-    return n.alternatives(others)
+        listed = texts if len(texts) < 3 else [joined(texts[:-1], plain(", ")), texts[-1]]
+        others.append(said(joined(what), plain(" = "), joined(listed)))
+    return joined(others)
 
 
 def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
@@ -86,22 +112,24 @@ def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
     return None
 
 
-def _with_signs(functions: Sequence[RatFunc], n: Notation) -> list[str]:
+def _with_signs(functions: Sequence[RatFunc], n: Notation) -> list[Math]:
     """How the functions are written, with one text for f and -f."""
-    texts: dict[RatFunc, str] = {}
+    texts: dict[RatFunc, Math] = {}
     for f in functions:
         if -f in texts:
-            text = n.function(min((-f, f), key=lambda g: _is_negative(n, g)))
-            outside = re.sub(r"[({][^()]*[)}]", "", text)
-            is_sum = " + " in outside or " - " in outside
-            texts[-f] = (r"\pm " if n.latex else "+-") + (f"({text})" if is_sum else text)
+            value = n.function(min((-f, f), key=lambda g: _is_negative(n, g)))
+            text, latex = (
+                f"({t})" if any(sign in re.sub(r"[({][^()]*[)}]", "", t) for sign in (" + ", " - ")) else t
+                for t in (value.text, value.latex)
+            )
+            texts[-f] = Math(f"+-{text}", rf"\pm {latex}")
         else:
             texts[f] = n.function(f)
     return [*texts.values()]
 
 
 def _is_negative(n: Notation, f: RatFunc) -> bool:
-    return replace(n, latex=False).function(f).lstrip("(").startswith("-")
+    return n.function(f).text.lstrip("(").startswith("-")
 
 
 def kind(residues: Sequence[Fraction | int], modulus: Fraction | int) -> tuple[str, str]:
@@ -115,103 +143,90 @@ def kind(residues: Sequence[Fraction | int], modulus: Fraction | int) -> tuple[s
     return "an integer", f" = {', '.join(map(str, residues))} mod {modulus}"
 
 
-def integer_condition(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> str:
+def integer_condition(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> Math:
     """That a polynomial in N over Q(t) has an integer root in these classes."""
     best, roots = _spectrum(equation, residues, modulus, n), _roots(equation)
-    if best is None and roots is None:
-        return equation_text(equation, n) + _for_integers(residues, modulus)(n)
     if roots is None:
-        return best.written(n) if best else ""
+        return best or said(equation_text(equation, n), _for_integers(residues, modulus, n))
     mean, squares = roots
     constant = floor(constant_term(mean) / modulus) * modulus
     terms = [n.function(over_parameters(mean - constant))] if mean != constant else []
-    terms += [root_written(square, latex=n.latex) for square in squares]
-    sum_of_roots = (r" \pm " if n.latex else " +- ").join(terms) + n.words(" is " + "".join(kind(residues, modulus)))
+    roots_with_signs = joined([*terms, *map(root_written, squares)], Math(" +- ", r" \pm "))
+    sum_of_roots = said(roots_with_signs, " is " + "".join(kind(residues, modulus)))
     if best is None:
         return sum_of_roots
-    spectrum = best.written(n)
     if len(squares) > 1:
-        short = len(best.written(replace(n, latex=False))) <= _BESIDE
-        return sum_of_roots + n.words(", that is ") + spectrum if short else sum_of_roots
-    return spectrum if len(spectrum) <= len(sum_of_roots) + _LONGER else sum_of_roots
+        return said(sum_of_roots, ", that is ", best) if len(best.text) <= _BESIDE else sum_of_roots
+    return unless_long(best, sum_of_roots, lambda other: len(other) + _LONGER)
 
 
-def _for_integers(residues: Sequence[int], modulus: int) -> Words:
+def _for_integers(residues: Sequence[int], modulus: int, n: Notation) -> Math:
     before, after = kind(residues, modulus)
-    return lambda n: n.words(f" for {before} {n.letter}{after}")
+    return words(f" for {before} {n.letter}{after}")
 
 
-@dataclass(frozen=True)
-class _Spectrum:
-    """`name = f(n)`, what is said of n, and for which rational numbers that is possible."""
-
-    name: str
-    f: RatFunc
-    words: Words
-    possible: Callable[[Fraction], bool] = lambda n: True
-
-    def written(self, n: Notation) -> str:
-        """With what the statement says for a possible n at which f isn't defined: that its numerator vanishes there."""
-        notes = []
-        for factor, _ in self.f.field.factor(self.f.den) if self.f.den.degree else ():
-            root = self.f.field.rational_value(-factor[0]) if factor.degree == 1 else None
-            value = None if root is None or not self.possible(root) else over_parameters(self.f.num(root))
-            if value is not None and value.field.rational_value(value) is None:
-                texts = [n.function(factor) for factor in irreducible_factors(value)]
-                zero = texts[0] if len(texts) == 1 else "*".join(f"({text})" for text in texts)
-                notes.append(f"{zero} = 0{n.words(' where ')}{n.letter} = {root}")
-        note = f" ({', '.join(notes)})" if notes else ""
-        return f"{n.name(self.name)} = {n.function(self.f)}{note}{self.words(n)}"
-
-
-def _spectrum(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> _Spectrum | None:
-    """The shortest of the ways to choose n; None where no parameter is linear."""
-    known, plain = families(equation, n.fixed), replace(n, latex=False)
-    choices = [
-        (_LATER * k + _WEIGHT * len(plain.function(choice.f)) + len(choice.words(plain)), choice)
-        for k, (name, f) in enumerate([pair for pair in known if pair[0] == ENERGY] or known)
-        for choice in _choices(equation, name, f, residues, modulus)
-    ]
-    return min(choices, key=lambda choice: choice[0])[1] if choices else None
+def _spectrum(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> Math | None:
+    """`name = f(n)` and what is said of n, by the shortest of the ways to choose n; None where no parameter is linear."""
+    known = families(equation, n.fixed)
+    choices: list[tuple[int, str, RatFunc, Math, Possible]] = []
+    for k, (name, f) in enumerate([pair for pair in known if pair[0] == ENERGY] or known):
+        for g, what, possible in _choices(equation, f, residues, modulus, n):
+            length = _LATER * k + _WEIGHT * len(n.function(g).text) + len(what.text)
+            choices.append((length, name, g, what, possible))
+    if not choices:
+        return None
+    _, name, f, what, possible = min(choices, key=lambda choice: choice[0])
+    # What the statement says for a possible n at which f isn't defined: that its numerator vanishes there.
+    notes: list[Math] = []
+    for factor, _ in f.field.factor(f.den) if f.den.degree else ():
+        root = f.field.rational_value(-factor[0]) if factor.degree == 1 else None
+        value = None if root is None or not possible(root) else over_parameters(f.num(root))
+        if value is not None and value.field.rational_value(value) is None:
+            zeros = [n.function(zero) for zero in irreducible_factors(value)]
+            zero = zeros[0] if len(zeros) == 1 else said(plain("("), joined(zeros, plain(")*(")), plain(")"))
+            notes.append(said(zero, plain(" = 0"), " where ", plain(f"{n.letter} = {root}")))
+    note = [plain(" ("), joined(notes, plain(", ")), plain(")")] if notes else []
+    return said(n.equals(name, f), *note, what)
 
 
 def _choices(
-    equation: FunctionPoly, name: str, f: RatFunc, residues: Sequence[int], modulus: int
-) -> Iterator[_Spectrum]:
-    """f(N) with N = n; with N = s n + r, n an integer; with N = s n + c, n shifted by a function of the parameters."""
+    equation: FunctionPoly, f: RatFunc, residues: Sequence[int], modulus: int, n: Notation
+) -> Iterator[tuple[RatFunc, Math, Possible]]:
+    """f(N) with N = n; with N = s n + r, n an integer; with N = s n + c, n shifted by a function of the parameters.
+
+    Each with what is said of n, and for which rational numbers n that is possible.
+    """
     N = equation.field.poly([0, 1])
     mirrored = equation(-N) == (-1) ** equation.degree * equation
     single = len(residues) == 1 or (mirrored and {*residues} == {residues[0], -residues[0] % modulus})
     if equation.degree > 1 or not single:
-        in_classes = _for_integers(residues, modulus)
-        yield _Spectrum(name, f, in_classes, lambda n: n.denominator == 1 and int(n) % modulus in residues)
+        in_classes = _for_integers(residues, modulus, n)
+        yield f, in_classes, lambda n: n.denominator == 1 and int(n) % modulus in residues
     if single and (modulus < 3 or not mirrored):
         signs, shifts = ((1, -1), (0, -1, 1)) if modulus == 1 else ((1,), (0, -1))
         for sign, shift in product(signs, shifts):
             chosen = RatFunc(N * (sign * modulus) + residues[0] + modulus * shift)
-            yield _Spectrum(name, f(chosen), _for_integers([0], 1), lambda n: n.denominator == 1)
+            yield f(chosen), _for_integers([0], 1, n), lambda n: n.denominator == 1
     center = _center(equation, f)
     if center is None:
         return
-    u = over_parameters((center - residues[0]) / modulus)
+    u, comma = over_parameters((center - residues[0]) / modulus), Math(", ", r",\ ")
     if single:
         centered = f(RatFunc(N * modulus + center))
-        yield _Spectrum(name, centered, _in_integers(N, u, centered(RatFunc(-N)) == centered))
+        yield centered, said(comma, _in_integers(N, u, n, even=centered(RatFunc(-N)) == centered)), lambda n: True
     if not single or constant_term(center).denominator > 1 or int(u.den.content()) > 1:
         form, what = over_parameters(N + center), " is " + "".join(kind(residues, modulus))
-        yield _Spectrum(name, f(RatFunc(form)), lambda n: n.comma + n.function(form) + n.words(what))
+        yield f(RatFunc(form)), said(comma, n.function(form), what), lambda n: True
 
 
-def _in_integers(N: Poly, u: FunctionPoly, even: bool) -> Words:
+def _in_integers(N: Poly, u: FunctionPoly, n: Notation, *, even: bool) -> Math:
     """That n + u is an integer; where only n^2 matters: that n + u or n - u - 1 is a natural number."""
     constant = constant_term(u)
     u = over_parameters(u - constant)
-    forms = [over_parameters(N + u), over_parameters(N - u - 1)]
+    form, other = n.function(N + u), n.function(N - u - 1)
     if constant.denominator > 1:
-        return lambda n: f"{n.comma}{n.function(forms[0])} - {-constant % 1}{n.member('Z')}"
-    if even:
-        return lambda n: n.comma + n.alternatives([*map(n.function, forms)]) + n.member("N")
-    return lambda n: n.comma + n.function(forms[0]) + n.member("Z")
+        return said(form, plain(f" - {-constant % 1}"), member("Z"))
+    return said(joined([form, other]), member("N")) if even else said(form, member("Z"))
 
 
 def _center(equation: FunctionPoly, f: RatFunc) -> Poly | None:

@@ -7,14 +7,17 @@ for Schwarz's table, `natural` for determinants.  Nothing here is numerical.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
+from functools import cached_property
 from random import Random
+from typing import ClassVar
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.formulas import equation_written
+from kovacic.parametric.formulas import equation_written, joined, said
 from kovacic.parametric.functions import Point, numerator
+from kovacic.views.formula import Math
 
 
 class Statement(ABC):
@@ -30,15 +33,17 @@ class Statement(ABC):
     @abstractmethod
     def _holds(self, point: Point) -> bool: ...
 
+    @cached_property
     @abstractmethod
-    def written(self, *, latex: bool) -> str:
-        """In words and formulas, as text or as LaTeX without dollar signs."""
+    def written(self) -> Math:
+        """In words and formulas."""
 
     def text(self) -> str:
-        return self.written(latex=False)
+        return self.written.text
 
     def latex(self) -> str:
-        return self.written(latex=True)
+        """Without dollar signs."""
+        return self.written.latex
 
     def merged(self, other: Statement) -> Statement | None:
         """Both statements in one (either holds), where they are about the same function; else None."""
@@ -86,15 +91,20 @@ class Vanishes(Statement):
     def decided(self, assumptions: Assumptions) -> bool | None:
         return assumptions.vanishes(self.function)
 
-    def written(self, *, latex: bool) -> str:
-        return equation_written(self.function, latex=latex)
+    @cached_property
+    def written(self) -> Math:
+        return equation_written(self.function)
 
 
 @dataclass(frozen=True)
 class _Several(Statement):
-    """A statement made of others."""
+    """A statement made of others: one truth value of a part decides."""
 
     parts: tuple[Statement, ...]
+    decisive: ClassVar[bool]
+
+    def _holds(self, point: Point) -> bool:
+        return any(part.holds(point) is self.decisive for part in self.parts) is self.decisive
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         return replace(self, parts=tuple(part.rewritten(change) for part in self.parts))
@@ -102,33 +112,42 @@ class _Several(Statement):
     def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
         return replace(self, parts=tuple(part.avoiding(names, fixed) for part in self.parts))
 
+    def decided(self, assumptions: Assumptions) -> bool | None:
+        decisions = {part.decided(assumptions) for part in self.parts}
+        return self.decisive if self.decisive in decisions else None if None in decisions else not self.decisive
+
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """The parts that aren't the case anyway: false ones where one has to hold, true ones where all have to."""
-        needless = isinstance(self, Both)
-        parts = tuple(p.narrowed(assumptions) for p in self.parts if p.decided(assumptions) is not needless)
+        parts = tuple(p.narrowed(assumptions) for p in self.parts if p.decided(assumptions) is not (not self.decisive))
         return parts[0] if len(parts) == 1 else replace(self, parts=parts) if parts else self
 
 
 class Either(_Several):
     """At least one of the statements holds."""
 
-    def _holds(self, point: Point) -> bool:
-        return any(part.holds(point) for part in self.parts)
+    decisive = True
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         return random.choice(self.parts).sample(random)
 
-    def decided(self, assumptions: Assumptions) -> bool | None:
-        decisions = {part.decided(assumptions) for part in self.parts}
-        return True if True in decisions else None if None in decisions else False
+    @cached_property
+    def written(self) -> Math:
+        parts = [part.written for part in self.parts]
+        text = self._joined([part.text for part in parts], " or ", " for ")
+        return Math(text, self._joined([part.latex for part in parts], r" \text{ or } ", r" \text{ for "))
 
-    def written(self, *, latex: bool) -> str:
-        word, before = (r" \text{ or } ", r" \text{ for ") if latex else (" or ", " for ")
-        texts = [part.written(latex=latex) for part in self.parts]
+    def _joined(self, texts: list[str], word: str, before: str) -> str:
+        """A common start "n = " or "E = f(n), ", and a common end, from `before` on, are written once."""
         if self.is_about_one_value:
             head, values = texts[0].partition(" = ")[0], [text.partition(" = ")[2] for text in texts]
             return f"{head} = {', '.join(values[:-1])}{word}{values[-1]}"
-        return joined(texts, word, before)
+        heads, separators, ends = zip(*(text.rpartition(before) for text in texts), strict=True)
+        if len(set(ends)) == 1 and all(separators):
+            return f"{word.join(heads)}{before}{ends[0]}"
+        starts = {text.partition(", ")[0] for text in texts}
+        if len(starts) == 1 and all(", " in text for text in texts):
+            return f"{starts.pop()}, {word.join(text.partition(', ')[2] for text in texts)}"
+        return word.join(texts)
 
     @property
     def is_about_one_value(self) -> bool:
@@ -140,39 +159,24 @@ class Either(_Several):
 class Both(_Several):
     """All of the statements hold."""
 
+    decisive = False
+
     def merged(self, other: Statement) -> Statement | None:
         if not isinstance(other, Both) or other.parts[:-1] != self.parts[:-1]:
             return None
         last = self.parts[-1].merged(other.parts[-1])
         return None if last is None else replace(self, parts=(*self.parts[:-1], last))
 
-    def _holds(self, point: Point) -> bool:
-        return all(part.holds(point) for part in self.parts)
-
     def sample(self, random: Random) -> list[FunctionPoly]:
         return [function for part in self.parts for function in part.sample(random)]
 
-    def decided(self, assumptions: Assumptions) -> bool | None:
-        decisions = {part.decided(assumptions) for part in self.parts}
-        return False if False in decisions else None if None in decisions else True
-
-    def written(self, *, latex: bool) -> str:
-        texts = [part.written(latex=latex) for part in self.parts]
-        brackets = (r"\left({}\right)" if latex else "({})") if len(texts) > 1 else "{}"
-        ambiguous = [isinstance(part, Either) and not part.is_about_one_value for part in self.parts]
-        texts = [brackets.format(t) if several else t for several, t in zip(ambiguous, texts, strict=True)]
-        return (r" \text{ and } " if latex else ", and ").join(texts)
-
-
-def joined(texts: list[str], word: str, before: str) -> str:
-    """The texts with a word between them; a common start "E = f(n), " and a common end, from `before` on, are written once."""
-    heads, separators, ends = zip(*(text.rpartition(before) for text in texts), strict=True)
-    if len(set(ends)) == 1 and all(separators):
-        return f"{word.join(heads)}{before}{ends[0]}"
-    starts = {text.partition(", ")[0] for text in texts}
-    if len(starts) == 1 and all(", " in text for text in texts):
-        return f"{starts.pop()}, {word.join(text.partition(', ')[2] for text in texts)}"
-    return word.join(texts)
+    @cached_property
+    def written(self) -> Math:
+        parts = [part.written for part in self.parts]
+        for k, part in enumerate(self.parts):
+            if len(parts) > 1 and isinstance(part, Either) and not part.is_about_one_value:
+                parts[k] = said(Math("(", r"\left("), parts[k], Math(")", r"\right)"))
+        return joined(parts, Math(", and ", r" \text{ and } "))
 
 
 def both(*statements: Statement) -> Both:
@@ -180,16 +184,18 @@ def both(*statements: Statement) -> Both:
     return Both(tuple(part for one in statements for part in (one.parts if isinstance(one, Both) else (one,))))
 
 
-def either(statements: Sequence[Statement]) -> Statement:
+#: What is true everywhere, and nowhere.
+ALWAYS, NEVER = Both(()), Either(())
+
+
+def either(*statements: Statement) -> Statement:
     """One statement that says that at least one of them holds; those about one form are merged."""
     merged: list[Statement] = []
-    for statement in statements:
-        for k, known in enumerate(merged):
-            union = known.merged(statement)
-            if union is not None:
-                merged[k] = union
-                break
-        else:
-            if statement not in merged:
-                merged.append(statement)
+    for statement in (part for one in statements for part in (one.parts if isinstance(one, Either) else (one,))):
+        unions = ((k, union) for k, known in enumerate(merged) if (union := known.merged(statement)) is not None)
+        place = next(unions, None)
+        if place is not None:
+            merged[place[0]] = place[1]
+        elif statement not in merged:
+            merged.append(statement)
     return merged[0] if len(merged) == 1 else Either(tuple(merged))

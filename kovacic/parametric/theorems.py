@@ -35,6 +35,8 @@ Theorem [Martinet & Ramis 1989; Duval & Loday-Richaud 1992].  For q != 0 the equ
 SL2, for an imprimitive group needs two branch points, and a finite one no irregular point; SL2 has no subgroup of finite
 index, so the group over C(x) is the same.  For q = 0, r != 0: case 1 never (n odd) and case 2 exactly when 2 Delta/n is an odd
 integer, since an imprimitive group becomes reducible over C(sqrt x); n even is the first kind with n/2 and beta = 0.
+The irregular point makes the group infinite.  For q != 0 a solution with a rational omega has one of two exponential factors;
+the group is diagonal where both occur, as for beta = 0.
 
 In case 1 there, with signs e, f (both +-1) for which d is a natural number (DLMF 18.8),
 
@@ -47,10 +49,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import partial
 from itertools import product
 from math import gcd
-from typing import Any, Literal
+from typing import Any
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -61,10 +64,8 @@ from kovacic.parametric.exponents import PolynomialSolution, possible, root
 from kovacic.parametric.formulas import root_written, shifted
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
-from kovacic.parametric.regions import OMEGAS, Theorem, Verdict
-from kovacic.parametric.statements import Statement, both, either
-
-Statements = Literal[True] | list[Statement]
+from kovacic.parametric.regions import OMEGAS, Condition, Theorem, Verdict
+from kovacic.parametric.statements import NEVER, Statement, both
 
 
 @dataclass(frozen=True)
@@ -107,58 +108,44 @@ def symmetries(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Po
 def kimura(problem: Problem, variable: str) -> Theorem | None:
     """Kimura's theorem, where the equation or its quotient has at most three singular points, and regular ones."""
     for coordinate, equation in _quotients(problem, variable) if riemann.is_fuchsian(problem) else ():
-        if riemann.applies(equation):
+        if riemann.is_fuchsian(equation) and riemann.singular_points(equation) <= 3:
             points = "singular points" if coordinate.n == 1 else f"singular points in {coordinate}"
             omegas, origin = dict(OMEGAS), partial(jacobi_solutions, equation, coordinate, variable)
             if coordinate.n == 1:
                 omegas[Structure.REDUCIBLE] = riemann.omega(problem, variable)
             regions = (
-                (
-                    statements,
-                    Verdict(structure, family=family),
-                    omegas[structure],
-                    origin if structure.case == 1 else None,
-                )
-                for structure, statements, family in structures(equation, coordinate.n)
+                replace(region, omega=omegas[structure], origin=origin if region.case == 1 else None)
+                for region in structures(equation, coordinate.n)
+                if (structure := region.verdict.structure)
             )
-            return Theorem(
-                f"at most three regular {points}: Kimura's theorem", restriction.confluence(problem), regions
-            )
+            name = f"at most three regular {points}: Kimura's theorem"
+            return Theorem(name, restriction.confluence(problem), regions)
     return None
 
 
 def _quotients(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Problem]]:
     """The equation, and those in z = s^n."""
     yield Coordinate(variable), problem
-    z = problem.field.poly([0, 1])
+    z = RatFunc(problem.field.poly([0, 1]))
     for coordinate, num, den in symmetries(problem, variable):
-        if coordinate.n > 1:
-            n = coordinate.n
-            yield (
-                coordinate,
-                analyse((RatFunc(num, den) - (1 + 0 * z) * (n * n - 1) / 4) / RatFunc(n * z) ** 2, problem.budget),
-            )
+        n = coordinate.n
+        if n > 1:
+            yield coordinate, analyse((RatFunc(num, den) - Fraction(n * n - 1, 4)) / (n * z) ** 2, problem.budget)
 
 
-def structures(problem: Problem, n: int) -> Iterator[tuple[Structure, Statements, str | None]]:
+def structures(problem: Problem, n: int) -> Iterator[Condition]:
     """As `riemann.structures`, for the equation in x, with the family of the groups where the structure doesn't say it."""
-    for structure, statements in riemann.structures(problem):
+    for structure, statement in riemann.structures(problem):
         family = riemann.group(problem, structure)
         if structure is Structure.IMPRIMITIVE and n % 2 == 0:
             diagonal = _with_denominators(problem, (2, 2))
-            if diagonal:
-                yield Structure.REDUCIBLE, diagonal, None
-            if diagonal is True:
-                return
+            yield Condition(diagonal, Verdict(Structure.REDUCIBLE))
         if structure is Structure.TETRAHEDRAL and n % 3 == 0:
             threefold = _with_denominators(problem, (3, 3, 2))
-            if threefold:
-                yield Structure.IMPRIMITIVE, threefold, "the quaternion group"
-            if threefold is True:
-                return
+            yield Condition(threefold, Verdict(Structure.IMPRIMITIVE, family="the quaternion group"))
         if structure is Structure.OCTAHEDRAL and n % 2 == 0:
             family = "binary tetrahedral, or octahedral"
-        yield structure, statements, family
+        yield Condition(statement, Verdict(structure, family=family))
 
 
 def jacobi_solutions(
@@ -176,10 +163,8 @@ def jacobi_solutions(
         if place.kind is Kind.ORDINARY or place.degree > 2:
             continue
         square = riemann.difference_squared(place)
-        if place.at_infinity:
-            points.append((None, root(square)))
-        elif place.degree == 1:
-            points.append(((0 * square - place.factor[0]).to_sympy(x), root(square)))
+        if place.degree == 1:
+            points.append((None if place.at_infinity else (-place.factor[0]).to_sympy(x), root(square)))
         else:
             half, rest = (place.factor[k].to_sympy(x) for k in (1, 0))
             for sign in (1, -1):
@@ -202,8 +187,8 @@ def jacobi_solutions(
     return possible(found)
 
 
-def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> Statements:
-    """When the exponent differences at 0, at infinity and at the third point have these denominators; [] for never."""
+def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> Statement:
+    """When the exponent differences at 0, at infinity and at the third point have these denominators."""
     squares = [problem.field.poly([1])] * 3
     for place in problem.places:
         if place.kind is not Kind.ORDINARY and place.delta_squared is not None:
@@ -211,14 +196,11 @@ def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> State
     found: list[Statement] = []
     for square, denominator in zip(squares, denominators, strict=False):
         equation = over_parameters(problem.field.poly([-square * denominator**2, 0, 1]))
-        residues = [r for r in range(denominator) if gcd(r, denominator) == 1]
-        statements = integer_roots(equation, residues, denominator)
-        if statements is not True:
-            if not statements:
-                return []
-            statement = either(statements)
-            found += [] if statement in found else [statement]
-    return [both(*found)] if found else True
+        statement = integer_roots(equation, [r for r in range(denominator) if gcd(r, denominator) == 1], denominator)
+        if statement == NEVER:
+            return NEVER
+        found += [] if statement in found else [statement]
+    return both(*found)
 
 
 @dataclass(frozen=True)
@@ -245,22 +227,9 @@ class Confluent:
             f"deg P = (-{n}{beta}{difference})/2 is {natural}"
         )
 
-    @property
-    def verdict(self) -> Verdict:
-        """The structure and the family of the groups where a Liouvillian solution exists.
-
-        An irregular point makes the group infinite.  With q = 0 it is imprimitive.  Otherwise a solution with a rational omega
-        has one of two exponential factors, and both occur where each sign of beta fits, as for beta = 0; the group is diagonal
-        then.
-        """
-        if not self.q:
-            return Verdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
-        family = "Borel group, or G_m where both exponential factors occur" if self.r else "G_m"
-        return Verdict(Structure.REDUCIBLE, family=family)
-
 
 def _signed(square: Poly) -> str:
-    root = root_written(square)
+    root = root_written(square).text
     return "" if root == "0" else f" +- ({root})" if " " in root else f" +- {root}"
 
 
@@ -298,7 +267,14 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     form, n, z = Confluent(coordinate, b, r, q), coordinate.n, problem.field.poly([0, 0, 1])
     delta, beta = 1 + 4 * b, r * r / q if q else r  # squares
     equation = (z - beta - delta) ** 2 - 4 * beta * delta if q else z - 4 * delta
-    statements = integer_roots(over_parameters(equation), [n], 2 * n)
-    region = (statements, form.verdict, form.omega, partial(laguerre_solutions, form, variable))
+    statement, origin = (
+        integer_roots(over_parameters(equation), [n], 2 * n),
+        partial(laguerre_solutions, form, variable),
+    )
+    verdict = Verdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
+    if q:
+        family = "Borel group, or G_m where both exponential factors occur" if r else "G_m"
+        verdict = Verdict(Structure.REDUCIBLE, family=family)
+    region = Condition(statement, verdict, omega=form.omega, origin=origin)
     name = f"{'Whittaker' if q else 'Bessel'}'s equation in {coordinate}: Martinet & Ramis"
-    return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(q or r)], [region] * bool(statements))
+    return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(q or r)], [region])

@@ -124,11 +124,15 @@ def search(S: RatFunc, places: Sequence[Place], variable: str, m: int) -> Search
     families = None
     if prod(map(len, choices)) <= _MOST_FAMILIES:
         all_families = [Family(family, _degree(family, points, m)) for family in product(*choices)]
-        natural = [family for family in all_families if is_natural(family.d) and not _all_even(family, m)]
-        trial = _Trial.of_all(S, points, choices, m, variable) if natural else None
-        tried = {} if trial is None else trial.of(natural)
-        families = tuple(all_families if m == 1 and total <= 8 else natural)
-        families = tuple(tried.get(id(family), family) for family in families)
+        natural = [
+            family
+            for family in all_families
+            if is_natural(family.d) and not (m == 2 and all(choice.value % 2 == 0 for choice in family.choices))
+        ]
+        field = _field(S, points, choices) if natural else None
+        tried = {} if field is None else _Trial(S, points, m, variable, field).of(natural)
+        chosen = all_families if m == 1 and total <= _FEW_FAMILIES else natural
+        families = tuple(tried.get(id(family), family) for family in chosen)
     return Search(m, tuple(points), tuple(choices), total, _naturals(choices, points, m), families)
 
 
@@ -149,10 +153,6 @@ def _points(place: Place) -> list[Point]:
 def _degree(choices: Sequence[Choice], points: Sequence[Point], m: int) -> Any:
     finite = Add(*(point.count * choice.value for point, choice in zip(points[1:], choices[1:], strict=True)))
     return settled(SCALE[m] * (choices[0].value - finite))
-
-
-def _all_even(family: Family, m: int) -> bool:
-    return m == 2 and all(choice.value % 2 == 0 for choice in family.choices)
 
 
 def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[Point], m: int) -> int | None:
@@ -216,18 +216,16 @@ def _irregular(place: Place) -> tuple[Choice, ...]:
     return tuple(Choice((s * last + sign * nu) / 2, tuple((power, s * c) for power, c in terms if c)) for s in (1, -1))
 
 
+def _field(S: RatFunc, points: Sequence[Point], choices: Sequence[Sequence[Choice]]) -> Any:
+    """The field of all numbers that occur; None for numbers outside every `domain`."""
+    chosen = [choice for options in choices for choice in options]
+    numbers = [Integer(1), *(point.at for point in points if point.at not in (None, oo))]
+    numbers += [choice.value for choice in chosen] + [c for choice in chosen for _, c in choice.singular]
+    return domain(numbers + [number(part[k]) for part in (S.num, S.den) for k in range(part.degree + 1)])
+
+
 class _Trial:
     """Step 3, in the ring K[x], K the field of all numbers that occur; everything over the common denominator D."""
-
-    @classmethod
-    def of_all(cls, S: RatFunc, points: Any, choices: Any, m: int, variable: str) -> _Trial | None:
-        """None for numbers outside every `_domain`."""
-        chosen = [choice for options in choices for choice in options]
-        numbers = [point.at for point in points if point.at not in (None, oo)]
-        numbers += [choice.value for choice in chosen] + [c for choice in chosen for _, c in choice.singular]
-        numbers += [number(part[k]) for part in (S.num, S.den) for k in range(part.degree + 1)]
-        field = domain([Integer(1), *numbers])
-        return None if field is None else cls(S, points, m, variable, field)
 
     def __init__(self, S: RatFunc, points: Sequence[Point], m: int, variable: str, field: Any) -> None:
         self.m, self.x, self.field = m, Symbol(variable), field
