@@ -493,3 +493,20 @@ def test_a_picture_is_written_whole_or_not_at_all(tmp_path, monkeypatch):
     draw(motion, times, picture)
     assert picture.read_text(encoding="utf-8").startswith("<?xml")
     assert [path.name for path in tmp_path.iterdir()] == ["path.svg"]
+
+
+@pytest.mark.parametrize(
+    "potential",
+    [
+        sp.E * sp.cos(U) + sp.pi,
+        sp.exp(-3 * sp.cos(U) / 2) / (2 + sp.cos(U)) ** sp.Rational(3, 2),
+        sp.log(3 + sp.cos(2 * U)) * sp.sqrt(2) + sp.sin(U) ** 2 * sp.tanh(sp.cos(U)),
+        sp.cosh(sp.cos(U)) + sp.atan(sp.sin(U) ** 4) - sp.acos(sp.cos(U) / 2),
+    ],
+)
+def test_potentials_of_sympy_are_taken_as_they_are(potential):
+    """They are read as text, by the parser of everything else; floats in them have all their digits."""
+    assert potential_of(potential) == potential
+    assert float(potential_of((0.1 + 0.2) * potential).subs(U, 1)) == float(
+        (sp.Rational(0.1 + 0.2) * potential).subs(U, 1)
+    )

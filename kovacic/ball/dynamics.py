@@ -75,10 +75,8 @@ class Force:
 def as_float(value: Any, name: str, *, least: float = 0.0) -> float:
     """A float as it is; text and SymPy's numbers are read exactly.  Raises `InputError` for what a motion can't begin with."""
     number = sp.Float(value) if isinstance(value, float | np.floating) else exact(value, name)
-    if not number.is_number:
-        raise InputError(f"numbers are needed for a motion, and {name} = {value} isn't one")
-    if number != 0 and not least <= abs(float(number)) <= LARGEST:
-        hint = f"choose units that bring it between {1 / LARGEST:g} and {LARGEST:g}"
+    if not number.is_number or (number != 0 and not least <= abs(float(number)) <= LARGEST):
+        hint = f"numbers are needed; choose units that bring them between {1 / LARGEST:g} and {LARGEST:g}"
         raise InputError(f"{name} = {value} isn't a number that a motion can start with", hint=hint)
     return float(number)
 

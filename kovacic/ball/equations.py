@@ -41,7 +41,7 @@ for _name, _tex in (("u", "u"), ("u'", r"\dot{u}"), ("v'", r"\dot{v}"), ("n", "n
     _TEX |= {sp.Symbol(f"Theta_{_name}"): _part, sp.Symbol(f"dTheta_{_name}/dt"): rf"\frac{{d}}{{dt}}{_part}"}
 
 _k, _eps, _tilt = 1 + R / R1, R + a * cos(u), (A3 - A1) * R * cos(u) + A3 * a
-_s, _c, _rho, _pull = sin(u), cos(u), R / R1, R / (R + R1)
+_s, _c, _rho, _pull, _turn = sin(u), cos(u), R / R1, R / (R + R1), _k * _eps
 #: What the paper prints, by name; D is a name in a1, ..., d2.
 PRINTED: dict[str, sp.Expr] = {
     "c11": -_rho * sin(theta),
@@ -58,10 +58,9 @@ PRINTED: dict[str, sp.Expr] = {
     "dTheta_u'/dt": T_u
     + (1 - _rho**2) * _s * dv * T_n
     + _pull / _s * n * T_dv
-    + m * R * a * _s * n**2
-    + m * R * _k * _eps * _s * n * dv
+    + m * R * _s * n * (a * n + _turn * dv)
     - V_u,
-    "dTheta_v'/dt": -(1 - _rho**2) * _s * du * T_n - _pull * _s * n * T_du - m * R * _k * _eps * _s * du * n,
+    "dTheta_v'/dt": -(1 - _rho**2) * _s * du * T_n - _pull * _s * n * T_du - m * R * _s * n * _turn * du,
     "dTheta_n/dt": _pull * _s * dv * T_du - _pull / _s * du * T_dv - m * R * a * _s * du * n,
     "D": A1 * A3 + A1 * m * R**2 * _s**2 + A3 * m * (R * _c + a) ** 2,
     "a1": -m * R**2 * _tilt * _s / (R1 * D),
