@@ -23,7 +23,7 @@ _SENSITIVE = 1e-3
 _TURNING = "turning points", "u = {0[0]:.12g} and {0[1]:.12g}"
 _STEADY = "steady motion", "u = {0[0]:.12g} stays constant"
 _CONTACT = "({0[0]:.12g}, {0[1]:.12g}, {0[2]:.12g}) at the end"
-_PULLED = "from t = {:.6g} on it has to pull at times: a ball that isn't held leaves the surface"
+_PULLED = "from t = {:.6g} on it has to pull at times: a free ball leaves the surface there, this one is held"
 _DIFFERENCE = "omega_3 {0[omega_3]:.2e}, n {0[n]:.2e}: closed form against the integrated motion"
 _LOST = "digits are lost: it comes as near as {:.1g} to an unstable steady motion"
 #: A key of the JSON and its value; then, where it is shown, its label, and as a template what is said (the value itself).
