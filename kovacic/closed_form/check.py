@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpq
@@ -29,20 +28,22 @@ DIGITS = 50
 def is_exact_solution(form: ClosedStructure, S: RatFunc, gauge: RatFunc) -> bool:
     """Do both solutions, divided by the gauge factor, satisfy y'' = S y?  Computed from the factors as they are written.
 
-    With omega = y'/y the condition is omega' + omega^2 = S; a pair (u, v) stands for omega = u +- sqrt(delta) v and the like,
-    and an integral is right if its derivative, computed from its parts, is the integrand.  Only for cases 1 and 2.
+    With omega = y'/y the condition is omega' + omega^2 = S; for omega = u +- w, w^2 rational and not 0, that is
+    u' + u^2 + w^2 = S and w' + 2 u w = 0.  An integral is right if its derivative, computed from its parts, is the integrand.
+    Only for cases 1 and 2.
     """
     if isinstance(form, Diagonal):
         first, second = _without(gauge, form.first), _without(gauge, form.second)
         return first != second and _is_riccati_solution(first, S) and _is_riccati_solution(second, S)
-    if isinstance(form, Conjugate):
-        return _conjugate(form, S, gauge)
     if isinstance(form, Triangular):
         omega = _without(gauge, form.first)
         same = omega == form.bare.logarithmic_derivative
         return same and _is_riccati_solution(omega, S) and _is_inverse_square(form.primitive, form.bare)
-    if isinstance(form, OnCurve):
-        return _on_curve(form, S, gauge)
+    if isinstance(form, Conjugate | OnCurve):
+        u, square = _mean_and_square(form)
+        u = u - gauge
+        solves = u.derivative() + u * u + square == S and not square.derivative() + 4 * u * square
+        return bool(square) and solves and (isinstance(form, Conjugate) or _is_complete(form.integral))
     raise TypeError("solutions of case 3 are checked numerically")
 
 
@@ -51,35 +52,25 @@ def _without(gauge: RatFunc, y: Product) -> RatFunc:
     return y.logarithmic_derivative - gauge if gauge else y.logarithmic_derivative
 
 
-def _riccati(omega: RatFunc) -> RatFunc:
-    return omega.derivative() + omega * omega
-
-
 def _is_riccati_solution(omega: RatFunc, S: RatFunc) -> bool:
     """omega' + omega^2 = S, multiplied by the denominators."""
     n, d = omega.num, omega.den
     return (n.derivative() * d - n * d.derivative() + n * n) * S.den == S.num * (d * d)
 
 
-def _conjugate(form: Conjugate, S: RatFunc, gauge: RatFunc) -> bool:
-    A, B, delta = form.A, form.B, form.delta
-    slope_a, slope_b = A.derivative(), B.derivative()
-    norm = A * A - B * B * delta
-    u = _without(gauge, form.common) + RatFunc(A * slope_a - B * slope_b * delta, norm)
-    v = form.phase.derivative + RatFunc(A * slope_b - B * slope_a, norm)
-    return bool(v) and _riccati(u) + v * v * delta == S and not v.derivative() + 2 * u * v
-
-
-def _on_curve(form: OnCurve, S: RatFunc, gauge: RatFunc) -> bool:
-    """omega = u +- kappa r/sqrt(g): u' + u^2 + kappa^2 r^2/g = S and (r/sqrt(g))' + 2 u r/sqrt(g) = 0."""
-    u, r, g = _without(gauge, form.common), form.integral.integrand, RatFunc(form.integral.g)
+def _mean_and_square(form: Conjugate | OnCurve) -> tuple[RatFunc, RatFunc]:
+    """u and w^2: those of the common factor and of sqrt(delta) V' or kappa r/sqrt(g), and of the zeros A +- ...."""
+    u = form.common.logarithmic_derivative
+    if isinstance(form, Conjugate):
+        A, B, delta = form.A, form.B, form.delta
+        norm = A * A - B * B * delta
+        v = form.phase.derivative + RatFunc(A * B.derivative() - A.derivative() * B, norm)
+        return u + logarithmic_derivative(norm) / 2, v * v * delta
+    r, g = form.integral.integrand, form.integral.g
     if form.zeros is not None:
-        u = u + logarithmic_derivative(form.zeros.norm(g.num)) * Fraction(1, 2)
-        r = r + form.zeros.integrand(g.num)
-    rate = r.derivative() / r - g.derivative() / (2 * g)
-    if not _is_complete(form.integral):
-        return False
-    return _riccati(u) + r * r / g * form.kappa_squared == S and not rate + 2 * u
+        u = u + logarithmic_derivative(form.zeros.norm(g)) / 2
+        r = r + form.zeros.integrand(g)
+    return u, r * r / g * form.kappa_squared
 
 
 def _is_complete(integral: CurveIntegral) -> bool:

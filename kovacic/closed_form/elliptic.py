@@ -30,7 +30,6 @@ Integrals (1971), 239, 260 and 361.54, where the angle is that of cos(phi) = (1 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import sympy
@@ -42,15 +41,6 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
-
-
-@dataclass(frozen=True)
-class _Legendre:
-    """t as a function of u = x or x^2, and R with r du/sqrt(g) = R dt/sqrt(t (t - 1) (t - 1/m)) up to a constant."""
-
-    t: RatFunc
-    m: Poly
-    integrand: RatFunc
 
 
 def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] | None:
@@ -67,8 +57,7 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
     if len(quadratic) == 1:  # two real roots
         r, branch, inner = _over(AlgebraicField(g.field, quadratic[0]), r, RatFunc(g), inner)
         g = branch.num
-    roots = _roots(g)
-    terms = _by_sine(r, roots, inner, atoms) if len(roots) == g.degree else _by_tangent(r, g, inner, atoms)
+    terms = (_by_sine if len(_roots(g)) == g.degree else _by_tangent)(r, g, inner, atoms)
     if not terms:
         return _of_first_kind(g, atoms) if r == r.num.lc and inner is None else None
     terms = [(c, e) for c, e in terms if c]
@@ -124,14 +113,22 @@ def _moved(r: RatFunc, g: RatFunc, back: RatFunc) -> tuple[RatFunc, Poly]:
     return r(back), (g(back) / back.derivative() ** 2).num.monic()
 
 
-def _by_sine(r: RatFunc, roots: list[Poly], inner: RatFunc | None, atoms: Atoms) -> list[tuple[Poly, Expr]]:
+def _by_sine(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> list[tuple[Poly, Expr]]:
     """By (1), from all branch points."""
-    legendre = _legendre(r, _ordered(roots, inner is not None, atoms))
-    t, m = RatFunc(r.field.poly([0, 1])), legendre.m
-    done = integrate_on_curve(legendre.integrand, t.num * (t.num - 1) * (t.num - m.inverse()))
+    start, one, last = _ordered(_roots(g), inner is not None, atoms)
+    x = RatFunc(g.field.poly([0, 1]))
+    t, back = x - start, x + start
+    if last is not None:
+        t, back = (x - start) / (x - last), (x * last - start) / (x - 1)
+    if one is not None:
+        scale = (t.num(one) / t.den(one)).inverse()
+        t, back = t * scale, back(x / scale)
+    r, g = _moved(r, RatFunc(g), back)
+    m = -(g[2] + 1).inverse()
+    done = integrate_on_curve(r, g)
     if any(residue.factor.degree > 1 for residue in done.residues):
         return []
-    shown, root = _square_root(legendre.t, inner, atoms)
+    shown, root = _square_root(t, inner, atoms)
     phi, modulus = asin(root), atoms.constant(m)
     terms: list[tuple[Poly, Expr]] = []
     if done.exact:
@@ -230,8 +227,8 @@ def _halved(p: Poly) -> Poly:
     return p.field.poly([p[k] for k in range(0, p.degree + 1, 2)])
 
 
-def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> list[Poly | None]:
-    """What becomes 0, 1, 1/m and infinity (None is infinity): 0 < t < 1 for real x, and 0 < m < 1 where there is a choice."""
+def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> tuple[Poly, Poly | None, Poly | None]:
+    """What becomes 0, 1, and infinity (None is infinity): 0 < t < 1 for real x, and 0 < m < 1 where there is a choice."""
     shown = {a: atoms.constant(a) for a in roots}
     values = {a: float(shown[a]) if shown[a].is_number and shown[a].is_real else None for a in roots}
     known = sorted((a for a in roots if values[a] is not None), key=lambda a: values[a] or 0)
@@ -239,22 +236,5 @@ def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> list[Poly | None]:
     if even:
         zero = next(a for a in points if not a)
         above = [a for a in points if values[a] is None or (values[a] or 0) > 0]
-        below = [a for a in points[::-1] if a and a not in above]
-        return [zero, *above, *below, None] if above else [zero, None, below[1], below[0]]
-    return [*points, None] if len(points) == 3 else [*points[1:], points[0]]
-
-
-def _legendre(r: RatFunc, points: list[Poly | None]) -> _Legendre:
-    start, one, other, last = points
-    assert start is not None
-    x = RatFunc(r.field.poly([0, 1]))
-    if last is None:
-        assert one is not None
-        assert other is not None
-        scale = (one - start).inverse()
-        back = x / scale + start
-        return _Legendre((x - start) * scale, ((other - start) * scale).inverse(), r(back))
-    scale = r.field.poly([1]) if one is None else (one - last) * (one - start).inverse()
-    t, back = (x - start) / (x - last) * scale, (x * last - scale * start) / (x - scale)
-    image = scale if other is None else t.num(other) * t.den(other).inverse()
-    return _Legendre(t, image.inverse(), r(back) * back.derivative() * (x - scale) ** 2)
+        return (zero, above[0], None) if above else (zero, None, points[0])
+    return (points[0], points[1], None) if len(points) == 3 else (points[1], points[2], points[0])

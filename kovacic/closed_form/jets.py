@@ -194,19 +194,24 @@ _DERIVATIVES: dict[Any, Callable[[Sequence[Number], Number], list[Number]]] = {
 }
 
 
+#: Functions that SymPy writes by others.
+_REWRITTEN: dict[Any, Any] = {
+    **dict.fromkeys((sympy.sinh, sympy.cosh, sympy.tanh), sympy.exp),
+    **dict.fromkeys((sympy.acos, sympy.atanh), sympy.log),
+    **dict.fromkeys((sympy.elliptic_k, sympy.elliptic_e), sympy.hyper),
+}
+
+
 def _rewritten(e: Any) -> Any:
-    """Hyperbolic functions by exponentials, spherical Bessel functions by Bessel's, polynomials by 2F1, 1F1; or None."""
+    """By functions that are known here: those above, spherical Bessel functions, and polynomials by 2F1, 1F1; or None."""
     half, gamma = sympy.S.Half, sympy.gamma
-    if isinstance(e, sympy.sinh | sympy.cosh | sympy.tanh):
-        return e.rewrite(sympy.exp)
-    if isinstance(e, sympy.acos | sympy.atanh):
-        return e.rewrite(sympy.log)
-    if isinstance(e, sympy.elliptic_k | sympy.elliptic_e) and len(e.args) == 1:
-        return sympy.pi / 2 * sympy.hyper((half if isinstance(e, sympy.elliptic_k) else -half, half), (1,), e.args[0])
+    if e.func in _REWRITTEN and (e.func is not sympy.elliptic_e or len(e.args) == 1):
+        return e.rewrite(_REWRITTEN[e.func])
     if isinstance(e, sympy.jn | sympy.yn):
         n, z = e.args
-        kind = sympy.besselj if isinstance(e, sympy.jn) else sympy.bessely
-        return sympy.sqrt(sympy.pi / (2 * z)) * kind(n + half, z)
+        return sympy.sqrt(sympy.pi / (2 * z)) * (sympy.besselj if isinstance(e, sympy.jn) else sympy.bessely)(
+            n + half, z
+        )
     if isinstance(e, sympy.laguerre | sympy.assoc_laguerre):
         n, a, z = e.args if len(e.args) == 3 else (e.args[0], sympy.S.Zero, e.args[1])
         return gamma(n + a + 1) / gamma(n + 1) / gamma(a + 1) * sympy.hyper((-n,), (a + 1,), z)
