@@ -55,6 +55,9 @@ class Point:
         _set_x(self, re if type(re) is fmpq else to_fmpq(re))
         _set_y(self, im if type(im) is fmpq else to_fmpq(im))
 
+    def __hash__(self) -> int:  # that of FLINT's rationals goes by way of fractions
+        return hash((self.x.p, self.x.q, self.y.p, self.y.q))
+
     @property
     def re(self) -> Fraction:
         """The real part."""

@@ -27,7 +27,7 @@ _NO_CLOSED_FORM = (
     "and Gauss' equations over Q"
 )
 _TAYLOR = "method='taylor' treats every equation"
-_FEW = 8  # targets up to which a closed form costs less than the Taylor steps, which serve many at once
+_FEW = 16  # targets up to which a closed form costs less than the Taylor steps, which serve many at once
 
 
 def evaluate_states(
