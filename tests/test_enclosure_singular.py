@@ -390,3 +390,11 @@ def test_from_infinity_around_a_singular_point(side: Any, vertex: str) -> None:
     assert around[1].overlaps(evaluate(gauss, 3, **start))
     other = evaluate(gauss, "1/2", path=[4, "1 - I" if side == "above" else "1 + I"], **start)
     assert not around[0].overlaps(other)
+
+
+@pytest.mark.parametrize("equation", ["2/x^2", "-1 - 5/(36*x^2)", "x^2*y'' + x*y' + (x^2 - 1/9)*y = 0"])
+@pytest.mark.parametrize("method", [None, "taylor"])
+def test_a_path_that_stays_at_its_singular_start_is_refused(equation: str, method: Any) -> None:
+    for x in (0, 1):
+        with pytest.raises(InputError, match="doesn't leave the singular point 0"):
+            evaluate(equation, x, x0=0, which="regular", path=[0], method=method)

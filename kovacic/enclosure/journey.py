@@ -65,14 +65,14 @@ class Journey:
         traveller, start = self._begun[key]
         stops = [middle(target) for target in targets]
         if self.chain:
-            one = traveller.copy()
+            one = replace(traveller)
             states = [one.visit(stop, start) for stop in stops]
         elif self.side is None:
             states = traveller.fan(stops, start)
         else:
             found: dict[int, State] = {}
             for ray in _rays(traveller.here, stops):
-                states = traveller.copy().around([stops[i] for i in ray], start, self.side)
+                states = replace(traveller).around([stops[i] for i in ray], start, self.side)
                 found |= zip(ray, states, strict=True)
             states = [found[i] for i in range(len(stops))]
         return [spread(traveller.problem, target, state) for target, state in zip(targets, states, strict=True)]
@@ -133,10 +133,6 @@ class Traveller:
             found._begin(x0)
         return found
 
-    def copy(self) -> Traveller:
-        """Another one at the same place."""
-        return replace(self)
-
     def _begin(self, x: Point) -> None:
         """From (z, z') to (y, y') at x."""
         if self.problem.gauge is not None:
@@ -179,7 +175,7 @@ class Traveller:
         alone = self.forcing is not None or is_split(system, self.prec // max(1, len(stops)))
         if alone or isinstance(here, Singular):
             for ray in _rays(here, stops):
-                one = self.copy()
+                one = replace(self)
                 while ray and (alone or isinstance(one.here, Singular)):
                     first = ray.pop(0)
                     found[first] = one.visit(stops[first], start)
@@ -295,6 +291,8 @@ class Traveller:
 
     def _leave(self, point: Singular, stop: Point, start: State) -> None:
         """Out of the disc around a singular point, or to the stop itself."""
+        if point.is_at(stop):
+            raise InputError(f"the path doesn't leave the singular point {point}", hint="go on to another point")
         if self.closed is not None:
             self.product = self.product.after(self._closed_matrix(self.closed, stop, start))
         else:
