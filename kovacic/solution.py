@@ -171,6 +171,10 @@ class Solution:
             found = replace(found, y1=found.y1.xreplace(plain), y2=found.y2.xreplace(plain))
         return self._in_given_variable(found)  # type: ignore[no-any-return]
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Without `numeric`, which has what doesn't pickle."""
+        return {name: value for name, value in self.__dict__.items() if name != "numeric"}
+
     @cached_property
     def numeric(self) -> NumericProblem:
         """What `at` and its relatives evaluate, read once."""

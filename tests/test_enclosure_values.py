@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 import pickle
 import random
@@ -743,3 +744,12 @@ def test_a_ball_is_printed_with_the_digits_that_were_asked_for(digits: int) -> N
         assert abs(mpmath.mpf(text) - exact) < abs(exact) * mpmath.mpf(10) ** -digits
         assert abs(mpmath.mpf(text) - exact) <= mpmath.mpf(radius) * 2
     assert len(repr(value)) < 80
+
+
+@pytest.mark.parametrize("equation", ["x^2*y'' + x*y' + (x^2 - 1/9)*y = 0", "1/x + 1", "pi*x", "sqrt(2)*x"])
+def test_a_solution_pickles_after_it_was_evaluated(equation: str) -> None:
+    solution = kovacic.solve(equation)
+    values = solution.at([2, 3j], x0=1, y0=1, dy0=0)
+    for other in (pickle.loads(pickle.dumps(solution)), copy.deepcopy(solution)):
+        assert other == solution
+        assert other.at([2, 3j], x0=1, y0=1, dy0=0) == values
