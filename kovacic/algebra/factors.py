@@ -54,7 +54,8 @@ def expansions(num: Poly, den: Poly, factors: Sequence[tuple[Poly, int]]) -> lis
     """
     moduli = [p if k < 4 else p ** (k // 2) for p, k in factors]
     if len(factors) < _FEW_FACTORS:
-        return [(num % modulus, den // p**k % modulus) for (p, k), modulus in zip(factors, moduli, strict=True)]
+        pairs = zip(factors, moduli, strict=True)
+        return [(num % modulus, (den // p**k if k else den) % modulus) for (p, k), modulus in pairs]
     one, tree = num.field.poly([1]), products([p**k for p, k in factors])
     simple = _leading_terms(num, factors, moduli, tree) if len(factors) >= _MANY_FACTORS else None
     if simple is not None:

@@ -73,7 +73,8 @@ class Place:
     @cached_property
     def delta(self) -> Fraction | None:
         """Delta >= 0 at a regular place where it is rational, else None."""
-        return None if self.delta_squared is None else rational_square_root(self.delta_squared)
+        square = self.delta_squared
+        return None if square is None else rational_square_root(square)
 
     @cached_property
     def logarithm(self) -> bool:
@@ -85,15 +86,16 @@ class Place:
         """
         if self.order != 2 or (delta := self.delta) is None or delta.denominator > 1:
             return self.order == 1
-        if not 0 < delta <= self.budget.limits.unknown_degree:
-            return delta == 0
+        n = delta.numerator
+        if not 0 < n <= self.budget.limits.unknown_degree:
+            return n == 0
         for h in self.factor.field.homomorphisms():
             self.budget.check()
             try:
                 root = next(simple_roots(h.keeping_degree(self.factor)), None)
                 if root is not None:
                     num, den = translate(h(self.num), root), translate(h.keeping_degree(self.den), root)
-                    return logarithm_obstruction(local_equation(num, den, 2), int(delta)) != 0
+                    return logarithm_obstruction(local_equation(num, den, 2), n) != 0
             except BadPrimeError:
                 pass
         raise AssertionError("the sequence of primes is infinite")
@@ -190,7 +192,7 @@ def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:
 def rational_square_root(constant: Poly) -> Fraction | None:
     """The non-negative rational square root of a constant of the field, or None."""
     value = constant.field.rational_value(constant)
-    if value is None or value < 0:
+    if value is None or value.numerator < 0:
         return None
     p, q = isqrt(value.numerator), isqrt(value.denominator)
     return Fraction(p, q) if p * p == value.numerator and q * q == value.denominator else None
