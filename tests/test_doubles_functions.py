@@ -18,7 +18,8 @@ import kovacic.doubles.tabulate as kovacic_tables
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.doubles import double_double as dd
-from kovacic.doubles.lambdify import _exponentials, lambdify, measure, samples
+from kovacic.doubles.chart import Chart
+from kovacic.doubles.lambdify import lambdify, measure, samples
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import BLOCK, MEDIAN, WORST
 from kovacic.doubles.tabulate import TabulatedFunction, tabulate
@@ -190,11 +191,12 @@ def test_the_reference_of_case_1_is_that_of_the_taylor_route(S: str) -> None:
     """The closed form in balls, and the integration of the equation."""
     problem = as_problem(kovacic.solve(S))
     base, points = as_point("1/3", "x"), [as_point(v, "x") for v in ("1/7", "2/3", "5/8")]
-    found = _exponentials(problem, 0, base, points)
-    assert found is not None
+    found = Chart(problem, {}).beginning(0, base).states(points, 50, None)
     slope = ball_from_flint(omega(problem, 0, base, 4000))
-    for y, state in zip(found, evaluate_states(problem, points, x0=base, y0=1, dy0=slope, digits=50), strict=True):
+    exact = evaluate_states(problem, points, x0=base, y0=1, dy0=slope, digits=50)
+    for (y, dy), state in zip(found, exact, strict=True):
         assert y.overlaps(ball_to_flint(state.y))
+        assert dy.overlaps(ball_to_flint(state.dy))
         assert y.rel_accuracy_bits() > 166
 
 

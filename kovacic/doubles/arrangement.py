@@ -28,6 +28,7 @@ from kovacic.closed_form.structure import OnCurve, build
 from kovacic.doubles.double_double import Complex, Pair
 from kovacic.doubles.product_form import Conic, Factor, ProductForm, RationalFunction, Shape
 from kovacic.doubles.region import Region
+from kovacic.doubles.tabulate import polynomial_table
 from kovacic.enclosure.closed_form import Exponential, certified, exponentials, omega, value
 from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, zeros
 from kovacic.enclosure.points import Point, to_acb
@@ -36,31 +37,47 @@ from kovacic.enclosure.problem import NumericProblem
 _SAME = 2.0**-60
 """Balls this close together are the same point or exponent: distinct ones were separated at a far higher precision."""
 
-_MAX_ZEROS = 200
-"""Polynomials of a higher degree are not split into their zeros (which takes degree^4 time)."""
+_FEW_ZEROS, _MAX_ZEROS = 60, 200
+"""Polynomials of a degree between these are tabulated on an interval: their zeros take degree^4 time, and may be lost.  Those
+of a higher degree are tabulated where their solution can't be, up to a singular point."""
 
 Powers = list[tuple[acb, acb]]  # (zeta, exponent)
 
 
-def product_form(problem: NumericProblem, which: int, region: Region, base: Point) -> ProductForm | None:
+def product_form(problem: NumericProblem, which: int, region: Region, base: Point, careful: bool) -> ProductForm | None:
     """The solution number `which` as a product, at a working precision of some 200 bits; None where there is no such form.
 
-    None means case 3, case 2 on a curve of positive genus or for complex arguments, and polynomials of degree above 200.
+    None means case 3, case 2 on a curve of positive genus or for complex arguments, and polynomials of degree above 200 on a
+    regular interval.
     """
     branches = exponentials(problem)
     if branches:
-        return _exponential(branches[which], region, base)
+        return _exponential(branches[which], region, base, careful)
     return _on_curve(problem, which, region, base) if region.is_real else None
 
 
-def _exponential(branch: Exponential, region: Region, base: Point) -> ProductForm | None:
-    if branch.P.degree > _MAX_ZEROS:
+def _exponential(branch: Exponential, region: Region, base: Point, careful: bool) -> ProductForm | None:
+    c, degree, table = branch.constant(), branch.P.degree, None
+    if degree > _MAX_ZEROS and not any(region.singular):
         return None
-    c = branch.constant()
+    if region.is_real and degree > _FEW_ZEROS:
+        table = polynomial_table(lambda: _normalised(branch, base), degree, region, careful)
+    elif degree > _MAX_ZEROS:
+        return None
     theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
-    powers = [(pole.zeta, pole.coefficients[0]) for pole in theta.poles] + [(z, acb(k)) for z, k in zeros(branch.P, c)]
+    roots = zeros(branch.P, c) if table is None else []
+    if table is None and sum(k for _, k in roots) < degree:
+        return None  # not all were found
+    powers = [(pole.zeta, pole.coefficients[0]) for pole in theta.poles] + [(z, acb(k)) for z, k in roots]
     is_real = region.is_real and _all_real([*theta.num.coeffs(), *theta.den.coeffs(), *P.coeffs()])
-    return ProductForm(region, base, _factors(powers, to_acb(base), is_real), _exponent(theta), is_real)
+    factors = _factors(powers, to_acb(base), is_real)
+    return ProductForm(region, base, factors, _exponent(theta), is_real, polynomial=table, careful=careful)
+
+
+def _normalised(branch: Exponential, base: Point) -> acb_poly:
+    """P/P(base), at the working precision in force."""
+    P = embed(branch.P, branch.constant())
+    return P * (1 / P(to_acb(base)))
 
 
 def _all_real(values: list[acb]) -> bool:

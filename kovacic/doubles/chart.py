@@ -17,15 +17,17 @@ from flint import acb, acb_series, arb, arb_poly, ctx, fmpq_poly
 from kovacic.doubles.double_double import horner
 from kovacic.doubles.region import Region, region_of
 from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
-from kovacic.enclosure.closed_form import finite_base, omega
+from kovacic.enclosure.closed_form import Exponential, exponentials, finite_base, omega
 from kovacic.enclosure.constants import in_balls
+from kovacic.enclosure.exponential import LogDerivative, embed
 from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import Point, as_point, midpoint, power_of_two, working_precision
+from kovacic.enclosure.points import Point, as_point, midpoint, power_of_two, to_acb, working_precision
+from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, NotRational
-from kovacic.limits import Limits
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.reading.read import read_input
 
 _SLOPE_BITS = 4000
@@ -39,6 +41,7 @@ class Chart:
 
     problem: NumericProblem
     given: dict[str, Any]
+    branch: Exponential | None = None
 
     def region(self, interval: tuple[object, object]) -> tuple[Region, list[Point]]:
         """See `region_of`."""
@@ -50,13 +53,38 @@ class Chart:
 
     def beginning(self, which: int, base: Point) -> Chart:
         """The solution with this logarithmic derivative, 1 at the base."""
+        branches = exponentials(self.problem)
+        if branches:
+            return replace(self, given={"x0": base}, branch=branches[which])
         slope = ball_from_flint(omega(self.problem, which, base, _SLOPE_BITS))
         return replace(self, given={"x0": base, "y0": 1, "dy0": slope})
 
     def states(self, points: Sequence[Point], digits: int, limits: Limits | None, **options: Any) -> list[State]:
         """y and y', to so many digits where they can be had."""
+        if self.branch is not None:
+            return self._closed(self.branch, points, digits, Budget(limits or DEFAULT_LIMITS))
         options |= {"digits": digits, "limits": limits, **self.given}
         return [s.state for s in evaluate_states(self.problem, points, **options)]
+
+    def _closed(self, branch: Exponential, points: Sequence[Point], digits: int, budget: Budget) -> list[State]:
+        """y = exp(int theta) P/P(base) and y' from the certificate: without the zeros of P, and without an integration of the
+        equation, in which the dominant solution would grow."""
+        goal, prec, found = start_bits(digits) - 24, 2 * start_bits(digits) + branch.P.degree, dict[Point, State]()
+        while True:
+            with working_precision(prec):
+                c, z = branch.constant(), to_acb(self.given["x0"])
+                theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
+                slope, factor = P.derivative(), 1 / P(z)
+                for point in (point for point in points if point not in found):
+                    budget.check()
+                    x = to_acb(point)
+                    growth = theta.growth(z, x) * factor
+                    y = growth * P(x)
+                    if y.rel_accuracy_bits() > goal or (prec > 4 * goal and y.contains(0)) or prec > _SLOPE_BITS:
+                        found[point] = y, theta.value(x) * y + growth * slope(x)
+            if all(point in found for point in points):
+                return [found[point] for point in points]
+            prec *= 2
 
     def singular_points(self) -> list[Point]:
         """The midpoints of enclosures."""

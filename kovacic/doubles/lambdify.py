@@ -19,7 +19,6 @@ import math
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -31,11 +30,8 @@ from kovacic.doubles.chart import Chart, chart_of
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Measured, Region
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
-from kovacic.enclosure.closed_form import exponentials
-from kovacic.enclosure.exponential import LogDerivative, embed
-from kovacic.enclosure.points import Point, as_point, to_acb, working_precision
+from kovacic.enclosure.points import as_point, working_precision
 from kovacic.enclosure.precision import AccuracyWarning
-from kovacic.enclosure.problem import NumericProblem
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
@@ -46,8 +42,6 @@ _DIGITS = 50
 _PREC = 240
 _BITS = 166
 """The bits of 50 digits."""
-_HIGHEST = 4000
-"""Bits up to which closed forms are computed."""
 
 _SAMPLES = 24
 _ZEROS = 3
@@ -113,21 +107,24 @@ def lambdify(
     budget = Budget(limits or DEFAULT_LIMITS)
     with budget.watched():
         region, candidates = chart.region(interval)
-        form = None
-        if not start:
-            base = chart.base(which, candidates)
-            if type(chart) is Chart:
+        variants = (careful,) if careful is not None else (False, True) if check else (False,)
+        base = None if start else chart.base(which, candidates)
+        if base is not None:
+            chart = chart.beginning(which, base)
+        for variant in variants:
+            form = None
+            if base is not None and type(chart) is Chart:
                 with working_precision(_PREC):
-                    form = product_form(problem, which, region, base)
+                    form = product_form(problem, which, region, base, variant)
             if form is None and not region.is_real:
                 raise InputError(
                     "complex arguments need a solution of case 1", hint="evaluate treats every complex point"
                 )
-            chart = chart.beginning(which, base)
-        make = partial(table_of, chart, interval, limits=budget.share(1).limits)
-        variants = (careful,) if careful is not None else (False, True) if check else (False,)
-        for variant in variants:
-            function: Function = replace(form, careful=variant) if form is not None else make(careful=variant)
+            function: Function = (
+                table_of(chart, interval, variant, budget.share(1).limits)
+                if form is None
+                else replace(form, careful=variant)
+            )
             found = _measured(function, chart, None if start else which, budget) if check else None
             if not isinstance(found, Measured) or found.keeps_the_promise:
                 break
@@ -168,13 +165,9 @@ def _errors(function: Function, chart: Chart, which: int | None, points: Any, li
     given = samples(function) if points is None else np.atleast_1d(points)
     exact = [as_point(complex(x), "x") for x in given]
     found = [complex(v) for v in function(given)]
-    reference = None
-    if which is not None and type(chart) is Chart:
-        reference = _exponentials(chart.problem, which, chart.given["x0"], exact)
-    if reference is None:
-        reference = [y for y, _ in chart.states(exact, _DIGITS, limits, method="taylor")]
-        if not all(y.contains(0) or y.rel_accuracy_bits() >= _BITS for y in reference):
-            raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
+    reference = [y for y, _ in chart.states(exact, _DIGITS, limits, method="taylor")]
+    if not all(y.contains(0) or y.rel_accuracy_bits() >= _BITS for y in reference):
+        raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
     with working_precision(_PREC):
         pairs = [(v, y) for v, y in zip(found, reference, strict=True) if not y.contains(0)]
         quotients = [(acb(v) / y).mid() for v, y in pairs if TINY < abs(v) < math.inf]
@@ -185,26 +178,6 @@ def _errors(function: Function, chart: Chart, which: int | None, points: Any, li
         factor = acb(1) if which is None else quotients[len(quotients) // 2]
         errors = [error for v, y in pairs if (error := _units(v, (y * factor).mid())) is not None]
     return Measured(float(np.median(errors)), max(errors), len(errors))
-
-
-def _exponentials(problem: NumericProblem, which: int, base: Point, points: Sequence[Point]) -> list[acb] | None:
-    """y/y(base) = exp(int theta) P/P(base) in balls, to 50 digits or 0; None in cases 2 and 3.
-
-    From the certificate, without the zeros of P, and without an integration of the equation, in which the dominant solution
-    would grow.
-    """
-    prec, branches = _PREC, exponentials(problem)
-    while branches:
-        with working_precision(prec):
-            c = branches[which].constant()
-            theta, P, z = LogDerivative.make(branches[which].theta, c), embed(branches[which].P, c), to_acb(base)
-            found = [theta.growth(z, x) * P(x) / P(z) for x in map(to_acb, points)]
-        if prec > _HIGHEST or all(
-            y.rel_accuracy_bits() >= _BITS or (y.contains(0) and prec > 2 * _PREC) for y in found
-        ):
-            return found
-        prec *= 2
-    return None
 
 
 def samples(function: Function) -> Any:
@@ -222,7 +195,9 @@ def samples(function: Function) -> Any:
     y, beside = function(x), np.empty(0)
     if not np.iscomplexobj(y):
         k = np.flatnonzero(np.sign(y[1:]) * np.sign(y[:-1]) < 0)
-        zeros = x[k] + (x[k + 1] - x[k]) / (1 + np.abs(y[k + 1] / y[k]))
+        with np.errstate(all="ignore"):
+            quotient = np.abs(y[k + 1] / y[k])
+        zeros = x[k] + (x[k + 1] - x[k]) / (1 + np.where(np.isfinite(quotient), quotient, 1.0))
         gaps = np.diff([low, *zeros, region.high.real])
         chosen = np.unique(np.linspace(0, len(zeros) - 1, _ZEROS if len(zeros) else 0).astype(int))
         beside = np.concatenate(

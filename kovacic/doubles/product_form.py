@@ -10,6 +10,7 @@ interval.  With X = x + g'(0)/2 and g = X^2 + m for deg g = 2 (g is monic):
     ELLIPSE    deg g = 2, sigma = -1:    t = s/(M + X),        X = M (1 - t^2)/(1 + t^2),      M = sqrt(-m).            (1)
 
 - Polynomial factors stay products over their zeros z_k, which are double-doubles: t - z_k keeps its digits near a zero.
+  Those with many zeros are tabulated (`kovacic.doubles.tabulate`).
 - Powers that are small multiples of 1/4 are multiplied out, with the binary exponent apart; all others are one logarithm.
 - E and F are kept as partial fractions.
 - |turn_j| = 1, and (t - zeta_j)/turn_j > 0 at the middle of the interval, so that the principal power is the continuous
@@ -44,6 +45,7 @@ from kovacic.doubles.double_double import (
     square_root,
 )
 from kovacic.doubles.region import Measured, Region, in_blocks
+from kovacic.doubles.tabulate import TabulatedFunction
 from kovacic.enclosure.points import Point
 
 _MULTIPLIED_OUT = 8
@@ -138,8 +140,8 @@ class ProductForm:
     and log |y|, without overflow.
 
     `base` is the point near the middle where powers are positive.  `is_real` says that the function is real; then pairs of
-    conjugate factors are merged.  `careful` stands for double-doubles, else it is plain double arithmetic; `measured` is the
-    error that `lambdify` found.
+    conjugate factors are merged.  `polynomial` stands for a factor with many zeros.  `careful` stands
+    for double-doubles, else it is plain double arithmetic; `measured` is the error that `lambdify` found.
     """
 
     region: Region
@@ -149,6 +151,7 @@ class ProductForm:
     is_real: bool
     sheet: RationalFunction = RationalFunction()
     conic: Conic | None = None
+    polynomial: TabulatedFunction | None = None
     careful: bool = True
     measured: Measured | None = None
 
@@ -194,6 +197,11 @@ class ProductForm:
             t, size = Complex(parameter), np.max(np.abs(double(parameter)), initial=0.0)
             growth.append(self.sheet(Complex(point.re), Complex(s)))
         product = _Product(t, careful, size + max((f.reach for f in self.factors), default=0.0))
+        if self.polynomial is not None:
+            numbers, powers = self.polynomial.parts(x)
+            if careful:
+                numbers = [v if isinstance(v, Pair) else Pair(v, 0.0 * v) for v in numbers]
+            product.value, product.binary = Complex(*numbers), 0 if powers is None else powers
         for f in self.factors:
             product.multiply(f, growth)
         found = [g for g in growth if g is not None]

@@ -17,15 +17,17 @@ it is far smaller than its neighbours.  In plain doubles the error is some 2^-52
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from flint import arb, arb_mat, arb_poly
+from flint import acb, acb_poly, arb, arb_mat, arb_poly
 from numpy.polynomial import chebyshev
 
+from kovacic.algebra.rationals import to_fmpq
 from kovacic.doubles.chart import Chart, chart_of
 from kovacic.doubles.double_double import Pair, double, folded, horner, scaled, two_sum
 from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks
@@ -39,6 +41,8 @@ _PREC = 300
 _GROWTH = 12.0
 """The sums of the coefficients of y1 and y2 are at most so large."""
 _MAX_PIECES, _SMALLEST = 5000, -1000
+_DEPTH = 40
+"""How often the interval is halved for a polynomial."""
 _ROOM = 900
 """Binary exponents up to here stay in the coefficients."""
 
@@ -139,23 +143,95 @@ def table_of(chart: Chart, interval: tuple[object, object], careful: bool, limit
         cells, series = _pieces(chart, region, variant, budget)
     states = chart.states([Point(centre) for centre, _ in cells], variant.digits, budget.share(1).limits)
     with working_precision(_PREC):
-        coefficients, powers = _combined(cells, series, states, variant)
+        parts, powers = _combined(cells, series, states, variant)
+    x0 = chart.given.get("x0")
+    return _assembled(region, x0 if isinstance(x0, Point) else None, cells, parts, powers, variant)
+
+
+def polynomial_table(P: Callable[[], acb_poly], degree: int, region: Region, careful: bool) -> TabulatedFunction | None:
+    """A polynomial on an interval, from its balls; None where it can't be done, as beside a zero of high multiplicity."""
+    variant, prec = _CAREFUL if careful else _PLAIN, _PREC + 3 * degree
+    while True:
+        with working_precision(prec):
+            found = _shifted(P(), region, variant)
+            if found is None:
+                return None
+            peaks = {cell: max(abs(v).mid() for v in row) for cell, row in found.items()}
+            if all(
+                v.rad() < peaks[cell] * arb((1, -variant.bits)) for cell, row in found.items() for v in map(abs, row)
+            ):
+                break
+        prec *= 2
+    cells = sorted(found)
+    powers = np.array([int(log2(peaks[cell])) for cell in cells])
+    rows = [[v * arb((1, -int(k))) for v in found[cell]] for cell, k in zip(cells, powers, strict=True)]
+    names = ("real",) if all(v.imag.is_zero() for row in rows for v in row) else ("real", "imag")
+    parts = [Pair(*np.stack([_halves([getattr(v, name) for v in row]) for row in rows], axis=-1)) for name in names]
+    return _assembled(region, None, cells, parts, powers, variant)
+
+
+def _shifted(P: acb_poly, region: Region, variant: _Variant) -> dict[Cell, list[acb]] | None:
+    """The Taylor series on the pieces: that of a half is that of the whole, without the terms that don't count there."""
+    low, high, (centre, e) = Fraction(region.low.real), Fraction(region.high.real), _root(region)
+    done, least, open_ = dict[Cell, list[acb]](), e - _DEPTH, list[tuple[Cell, acb_poly]]()
+    open_.append(((centre, e), P(acb_poly([arb(to_fmpq(centre)), arb((1, e))]))))
+    while open_:
+        (c, e), here = open_.pop()
+        coefficients: list[Any] = here.coeffs()
+        sizes = [abs(v).mid() for v in coefficients]
+        peak = max(sizes)
+        if max(sizes[variant.terms :], default=arb(0)) <= peak * arb((1, -variant.bits)):
+            done[c, e] = coefficients[: variant.terms] + [acb(0)] * (variant.terms - len(coefficients))
+            continue
+        if e <= least or len(done) > _MAX_PIECES:
+            return None
+        h = Fraction(2) ** e
+        if len(sizes) > 2 * variant.terms:  # the polynomial may be far smaller somewhere on the piece
+            ends = max(low, c - h), min(high, c + h)
+            us = [acb(to_fmpq((ends[0] + (ends[1] - ends[0]) * Fraction(k, 16) - c) / h)) for k in range(17)]
+            slope, share = here.derivative(), arb((1, -2 * len(sizes).bit_length()))
+            peak = min(max(abs(here(u)).mid(), abs(slope(u)).mid() * share) for u in us)
+        while sizes[-1] < peak * arb((1, -2 * variant.bits)):
+            sizes.pop()
+        kept = acb_poly(coefficients[: len(sizes)])
+        halves = [(sign, c + sign * h / 2) for sign in (-1, 1)]
+        open_ += [
+            ((middle, e - 1), kept(acb_poly([arb(sign) / 2, arb(1) / 2])))
+            for sign, middle in halves
+            if middle + h / 2 > low and middle - h / 2 < high
+        ]
+    return done
+
+
+def _assembled(
+    region: Region, base: Point | None, cells: list[Cell], parts: list[Pair], powers: Any, variant: _Variant
+) -> TabulatedFunction:
+    """The table with the highest terms lowered."""
+    table = []
+    for part in parts:
+        lowered = np.tensordot(_lowering(*variant[:2]), part.hi[variant.kept :], 1)
+        part = part[: variant.kept] + Pair(lowered)
+        table.append([part.hi, part.lo])
     edges, exponents = np.array([float(c + Fraction(2) ** e) for c, e in cells[:-1]]), np.array([e for _, e in cells])
-    arrays = edges, np.array([float(c) for c, _ in cells]), exponents, powers, coefficients
+    arrays = edges, np.array([float(c) for c, _ in cells]), exponents, powers, np.array(table)
     for array in arrays:
         array.flags.writeable = False
-    x0 = chart.given.get("x0")
-    return TabulatedFunction(region, x0 if isinstance(x0, Point) else None, *arrays, careful=careful)
+    return TabulatedFunction(region, base, *arrays, careful=variant is _CAREFUL)
+
+
+def _root(region: Region) -> Cell:
+    """A piece that contains the interval."""
+    low, high = Fraction(region.low.real), Fraction(region.high.real)
+    e = math.frexp(float(high - low))[1]
+    # Off the round numbers, at which solutions may be zero: that couldn't be told from other small values.
+    grain = max(Fraction(2) ** (e - 24), Fraction(math.ulp(max(-low, high))))
+    return (low // grain - Fraction(2) ** e * Fraction(53, 128) // grain) * grain + Fraction(2) ** e, e
 
 
 def _pieces(chart: Chart, region: Region, variant: _Variant, budget: Budget) -> tuple[list[Cell], Pair]:
     """The pieces from left to right, and y1, y2 and y3 on them: an array of terms, series and pieces."""
     low, high = Fraction(region.low.real), Fraction(region.high.real)
-    e = math.frexp(float(high - low))[1]
-    # Off the round numbers, at which solutions may be zero: that couldn't be told from other small values.
-    grain = max(Fraction(2) ** (e - 24), Fraction(math.ulp(max(-low, high))))
-    left = (low // grain - Fraction(2) ** e * Fraction(53, 128) // grain) * grain
-    open_, done = [(left + Fraction(2) ** e, e)], dict[Cell, Any]()
+    open_, done = [_root(region)], dict[Cell, Any]()
     while open_:
         e = open_[0][1]
         if len(open_) + len(done) > _MAX_PIECES:
@@ -221,7 +297,7 @@ def _lowering(terms: int, kept: int) -> Any:
     return np.array([np.pad(row, (0, kept - len(row))) for row in rows]).T
 
 
-def _combined(cells: list[Cell], series: Pair, states: list[State], variant: _Variant) -> tuple[Any, Any]:
+def _combined(cells: list[Cell], series: Pair, states: list[State], variant: _Variant) -> tuple[list[Pair], Any]:
     """The coefficients of the solution, and the powers of two that they are to be multiplied by."""
     data, powers = [], []
     for (y, dy), (_, e) in zip(states, cells, strict=True):
@@ -239,6 +315,5 @@ def _combined(cells: list[Cell], series: Pair, states: list[State], variant: _Va
         found = series[:, 0] * y + series[:, 1] * dy
         if part == "real":
             found += scaled(series[:, 2], -np.array(powers))
-        found = found[: variant.kept] + Pair(np.tensordot(_lowering(*variant[:2]), found.hi[variant.kept :], 1))
-        parts.append([found.hi, found.lo])
-    return np.array(parts), np.array(powers)
+        parts.append(found)
+    return parts, np.array(powers)
