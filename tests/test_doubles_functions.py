@@ -532,3 +532,38 @@ def test_a_function_that_is_wrong_beside_its_zeros_only_is_seen() -> None:
     assert not measure(Shifted(), "x", start={"x0": 0, "y0": 1, "dy0": 0}).keeps_the_promise  # type: ignore[arg-type]
     even = np.linspace(-8.7, 2.7, 24)  # evenly spread points wouldn't see it
     assert measure(Shifted(), "x", even, start={"x0": 0, "y0": 1, "dy0": 0}).keeps_the_promise  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("equation", "interval"),
+    [
+        ("(1-x^2)*y'' - 2*x*y' + 150*151*y = 0", (-1, 1)),  # Legendre
+        ("(1-x^2)*y'' - 2*x*y' + 250*251*y = 0", (-1, 1)),
+        ("x*y'' + (1-x)*y' + 120*y = 0", (0, 400)),  # Laguerre
+        ("x^2*y'' + 2*x*y' + (x^2 - 80*81)*y = 0", (2, 600)),  # spherical Hankel: the zeros are complex
+        ("x^2 - 301", (-20, 20)),
+    ],
+)
+def test_polynomials_with_many_zeros_are_tabulated(equation: str, interval: Any) -> None:
+    """Up to singular points, too; at 300 points against the certificate in balls, and the known functions."""
+    solution = kovacic.solve(equation)
+    points = np.linspace(*interval, 302)[1:-1]
+    for careful in (False, True):
+        f = lambdify(solution, interval=interval, careful=careful, check=False)
+        assert isinstance(f, ProductForm)
+        assert f.polynomial is not None
+        found = measure(f, solution, points)
+        assert found.worst < (4 if careful else 1e5)
+        assert found.median < (1 if careful else 20)
+    n = {"1": 150, "2": 250}.get(equation.split("+ ")[-1][0])
+    if equation.startswith("(1") and n:
+        known = scipy.special.eval_legendre(n, points)
+        k = int(np.argmax(np.abs(known)))
+        assert np.allclose(f(points) / f(points[k]) * known[k], known, rtol=0, atol=1e-12)
+
+
+def test_zeros_beyond_the_range_of_doubles_are_no_error() -> None:
+    """The values on both sides of a change of sign may be infinite."""
+    f = lambdify(kovacic.solve("x*y'' + (1-x)*y' + 200*y = 0"), interval=(0, 800))
+    assert f.measured is not None
+    assert f.measured.keeps_the_promise

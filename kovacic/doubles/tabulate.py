@@ -180,18 +180,19 @@ def _shifted(P: acb_poly, region: Region, variant: _Variant) -> dict[Cell, list[
         coefficients: list[Any] = here.coeffs()
         sizes = [abs(v).mid() for v in coefficients]
         peak = max(sizes)
-        if max(sizes[variant.terms :], default=arb(0)) <= peak * arb((1, -variant.bits)):
+        slow = variant is _CAREFUL or sum(sizes, arb(0)) <= _GROWTH * max(sizes[:2])
+        if slow and max(sizes[variant.terms :], default=arb(0)) <= peak * arb((1, -variant.bits)):
             done[c, e] = coefficients[: variant.terms] + [acb(0)] * (variant.terms - len(coefficients))
             continue
         if e <= least or len(done) > _MAX_PIECES:
             return None
-        h = Fraction(2) ** e
+        h, floor = Fraction(2) ** e, peak * arb((1, -2 * variant.bits))
         if len(sizes) > 2 * variant.terms:  # the polynomial may be far smaller somewhere on the piece
-            ends = max(low, c - h), min(high, c + h)
-            us = [acb(to_fmpq((ends[0] + (ends[1] - ends[0]) * Fraction(k, 16) - c) / h)) for k in range(17)]
+            us = np.linspace(float((max(low, c - h) - c) / h), float((min(high, c + h) - c) / h), 9)
             slope, share = here.derivative(), arb((1, -2 * len(sizes).bit_length()))
-            peak = min(max(abs(here(u)).mid(), abs(slope(u)).mid() * share) for u in us)
-        while sizes[-1] < peak * arb((1, -2 * variant.bits)):
+            least_peak = min(max(abs(here(u)).mid(), abs(slope(u)).mid() * share) for u in map(acb, us.tolist()))
+            floor = least_peak * arb((1, -variant.bits - 40))
+        while sizes[-1] < floor:
             sizes.pop()
         kept = acb_poly(coefficients[: len(sizes)])
         halves = [(sign, c + sign * h / 2) for sign in (-1, 1)]
