@@ -228,4 +228,6 @@ def chart_of(
                 raise reason from None
     plain = replace(answer.equation, change=None)
     inner = replace(answer, equation=plain) if hasattr(answer, "decision") else plain
-    return Changed(as_problem(inner, params, forced=constants, constants=constants), given, answer, params)
+    return Changed(
+        as_problem(inner, params, forced=constants, constants=constants), given, answer=answer, params=params
+    )
