@@ -56,13 +56,7 @@ def _batch_options(command: Command) -> Command:
 @options.VAR
 @_batch_options
 def batch(
-    file: str,
-    output: Path | None,
-    resume: bool,
-    form: str | None,
-    var: str | None,
-    limits: Limits,
-    **run: Any,
+    file: str, output: Path | None, resume: bool, form: str | None, var: str | None, limits: Limits, **run: Any
 ) -> int:
     """Decide every equation of FILE; "-" is standard input.
 

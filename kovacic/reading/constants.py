@@ -13,13 +13,7 @@ from typing import Any, TypeVar
 
 from flint import acb, arb, fmpq
 
-from kovacic.algebra.embedding import (
-    adjoined_root,
-    principal_root,
-    refined_root,
-    substituted,
-    vanishing_factor,
-)
+from kovacic.algebra.embedding import adjoined_root, principal_root, refined_root, substituted, vanishing_factor
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc

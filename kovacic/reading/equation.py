@@ -20,16 +20,7 @@ from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
 from kovacic.reading.constants import Constants
 from kovacic.reading.expression import Place, RationalReader
-from kovacic.reading.given import (
-    ENERGY,
-    EULER,
-    FUNCTION_NAMES,
-    PI,
-    TRANSCENDENTAL_HINT,
-    UNKNOWN,
-    Equation,
-    over,
-)
+from kovacic.reading.given import ENERGY, EULER, FUNCTION_NAMES, PI, TRANSCENDENTAL_HINT, UNKNOWN, Equation, over
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import REST, LinearArithmetic, LinearForm, is_rational
 from kovacic.reading.parser import Site

@@ -14,13 +14,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.errors import NotRational
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.reading.constants import Constants, Enlarged
-from kovacic.reading.given import (
-    DEFAULT_VARIABLE,
-    FUNCTION_NAMES,
-    NUMBER_NAMES,
-    TRANSCENDENTAL_HINT,
-    UNKNOWN,
-)
+from kovacic.reading.given import DEFAULT_VARIABLE, FUNCTION_NAMES, NUMBER_NAMES, TRANSCENDENTAL_HINT, UNKNOWN
 from kovacic.reading.lexer import PRIMES, tokenize
 from kovacic.reading.parser import Site, evaluate, shortened, shown
 

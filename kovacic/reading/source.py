@@ -14,16 +14,7 @@ from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import RationalReader, as_function
-from kovacic.reading.given import (
-    DEFAULT_VARIABLE,
-    ENERGY,
-    EULER,
-    FUNCTION_NAMES,
-    NUMBER_NAMES,
-    PI,
-    UNKNOWN,
-    Parsed,
-)
+from kovacic.reading.given import DEFAULT_VARIABLE, ENERGY, EULER, FUNCTION_NAMES, NUMBER_NAMES, PI, UNKNOWN, Parsed
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens, is_equation, tokens_of
 from kovacic.reading.parser import evaluate
 
@@ -41,12 +32,7 @@ class Source(NamedTuple):
 
 
 def source_of(
-    given: Any,
-    variable: str | None,
-    limits: Limits = DEFAULT_LIMITS,
-    *,
-    unknown: Any = None,
-    equation: bool = False,
+    given: Any, variable: str | None, limits: Limits = DEFAULT_LIMITS, *, unknown: Any = None, equation: bool = False
 ) -> Source:
     """A text, or a SymPy expression; `unknown` is the name, or y(x), where more than one function occurs.
 
@@ -157,9 +143,8 @@ def _unknown_of(tokens: Tokens) -> str:
     for k, kind in enumerate(tokens.kinds[:-3]):
         if kind == "HEAD" and tokens.pieces[k] in DERIVATIVES:
             following, after, inner = tokens.kinds[k + 2], tokens.kinds[k + 3], tokens.pieces[k + 2]
-            if following == "HEAD" and inner not in DERIVATIVES | FUNCTION_NAMES.keys():
-                return inner
-            if following == "NAME" and after in ("COMMA", "RPAR"):
+            called = following == "HEAD" and inner not in DERIVATIVES | FUNCTION_NAMES.keys()
+            if called or (following == "NAME" and after in ("COMMA", "RPAR")):
                 return inner
     return UNKNOWN
 

@@ -93,16 +93,16 @@ def _markdown_table(rows: list[list[str]]) -> str:
 def _latex_table(rows: list[list[str]]) -> str:
     """Columns as wide as they are, or with lines that are broken where they would be wider than the page together."""
     widths = [max(map(width, column)) for column in zip(*rows, strict=True)]
-    long = [sum(widths) > _PAGE and w > _PAGE / 6 for w in widths]
-    narrow = sum(w for w, is_long in zip(widths, long, strict=True) if not is_long)
-    share = max(0.3, 0.9 - narrow / _PAGE) / max(1, sum(w for w, is_long in zip(widths, long, strict=True) if is_long))
-    columns = "".join(
-        rf"p{{{share * w:.2f}\linewidth}}" if is_long else "l" for w, is_long in zip(widths, long, strict=True)
-    )
+    wide = sum(w for w in widths if sum(widths) > _PAGE and w > _PAGE / 6)
+    share = max(0.3, 0.9 - (sum(widths) - wide) / _PAGE) / max(1, wide)
+    shares = [
+        share * w if sum(widths) > _PAGE and w > _PAGE / 6 else 0 for w in widths
+    ]  # of the line, where it is broken
+    columns = "".join(rf"p{{{part:.2f}\linewidth}}" if part else "l" for part in shares)
     cells = [
         [
-            rf"\raggedright {breakable(cell, share * w * _PAGE)}" if is_long else cell
-            for cell, is_long, w in zip(row, long, widths, strict=True)
+            rf"\raggedright {breakable(cell, part * _PAGE)}" if part else cell
+            for cell, part in zip(row, shares, strict=True)
         ]
         for row in rows
     ]
