@@ -155,6 +155,28 @@ def test_another_gauge_is_refused(equation: str) -> None:
         loads({**json.loads(kovacic.solve("x").to_json()), "gauge": "1/x"})
 
 
+@pytest.mark.parametrize("name", ["a", "b", "c", "f"])
+def test_another_equation_is_refused(name: str) -> None:
+    """Twice a coefficient, or 1 in place of 0: not the equation that the input says."""
+    data = json.loads(kovacic.solve("x^2*y'' + x*y' + (x^2-1/4)*y = 0").to_json())
+    other = f"2*({data['equation'][name]})" if name != "f" else "1"
+    with pytest.raises(InputError, match="the equation isn't that of the input"):
+        loads({**data, "equation": {**data["equation"], name: other}})
+
+
+def test_another_field_is_refused() -> None:
+    data = json.loads(kovacic.solve("sqrt(2)*x^2 + a").to_json())
+    assert loads(data).verify()
+    for change in (
+        {"parameters": ["b"]},
+        {"parameters": []},
+        {"minimal_polynomial": "t**2 - 3"},
+        {"symbol": "sqrt(3)"},
+    ):
+        with pytest.raises(InputError, match="S isn't that of the input"):
+            loads({**data, "field": {**data["field"], **change}})
+
+
 def test_omega_beside_a_proof_that_there_is_none_is_refused() -> None:
     none, data = (json.loads(kovacic.solve(text).to_json()) for text in ("x", "2"))
     for change in ({"riccati": data["riccati"]}, {"constants": data["constants"]}):
