@@ -116,7 +116,11 @@ class RationalReader:
             if len(arguments) == 1 and index:
                 return self._radical(arguments[0], index, site)
             if len(arguments) == 2 and not index:
-                return self._radical(arguments[0], self._index(arguments[1]), site)
+                number = self.arithmetic.number(arguments[1])
+                if number is None or number.denominator != 1 or not 1 < number <= _LARGEST_INDEX:
+                    said = f"the index of a root is an integer from 2 to {_LARGEST_INDEX}"
+                    raise NotRational(said, hint="root(2, 3) is the cube root of 2")
+                return self._radical(arguments[0], number.numerator, site)
         if head in self.names:
             hint = f"for a product write {head}*({site.inside()})"
             raise NotRational(f"{head} is followed by a parenthesis like a function", hint=hint)
@@ -128,14 +132,6 @@ class RationalReader:
         if node.is_number:
             raise NotRational(f"{message} number, nor known to be an algebraic one", hint=TRANSCENDENTAL_HINT)
         raise NotRational(f"{message} function of {self.variable}")
-
-    def _index(self, value: Value) -> int:
-        number = self.arithmetic.number(value)
-        if number is None or number.denominator != 1 or not 1 < number <= _LARGEST_INDEX:
-            raise NotRational(
-                f"the index of a root is an integer from 2 to {_LARGEST_INDEX}", hint="root(2, 3) is the cube root of 2"
-            )
-        return number.numerator
 
     def _radical(self, value: Value, n: int, place: Place) -> Poly:
         """The principal n-th root of a number, or of a parameter's square; an error for a function of the variable."""

@@ -22,7 +22,8 @@ from kovacic.reading.source import read_source, source_of
 def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, exponentials: bool = False) -> Parsed:
     """S as a rational function with the name of its variable, from whatever the user has.
 
-    S is a string, a SymPy expression, a pair (numerator, denominator) of coefficient sequences from low to high powers,
+    S is a string, a SymPy expression, a pair (numerator, denominator) of coefficient sequences from low to high powers (of
+    integers, fractions, SymPy rationals and numpy integers; a float is rarely the number that was meant, and is refused),
     an integer, a fraction, or a `RatFunc`; or it is an equation, as a string with derivatives of an unknown function, as a
     SymPy `Eq` or expression with a function y(x), or as an `Equation`, and then the result has it.  `var` is a name or a
     SymPy symbol; by default it is the only symbol, else x.  SymPy isn't imported unless S comes from it.  With `exponentials`,
@@ -59,7 +60,12 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, expo
     if isinstance(S, Equation):
         return Parsed(S.S, S.variable, equation=S)
     if isinstance(S, tuple | list) and len(S) == 2:
-        return parse_coefficients(S[0], S[1], variable=variable, limits=limits)
+        above, below = (_polynomial(*part, limits) for part in zip(S, ("numerator", "denominator"), strict=True))
+        if not below:
+            raise NotRational(
+                "the denominator is zero", hint="give the pair (numerator, denominator), low powers first"
+            )
+        return Parsed(RatFunc(above, below), variable or DEFAULT_VARIABLE)
     raise InputError(
         f"{type(S).__name__!r} isn't a form of S that can be read",
         hint='give a string "x^2 + 3", a SymPy expression, or the pair of coefficient sequences ([3, 0, 1], [1])',
@@ -98,23 +104,6 @@ def _variable_name(var: Any) -> str | None:
     if name is not None and not name.isidentifier():
         raise InputError(f"{name!r} can't be the name of a variable", hint="take a letter or a word: x, t, x1")
     return name
-
-
-def parse_coefficients(
-    num: Sequence[Any], den: Sequence[Any], *, variable: str | None = None, limits: Limits = DEFAULT_LIMITS
-) -> Parsed:
-    """The quotient of two polynomials, given by their coefficients from low to high powers.
-
-    Coefficients are integers, fractions, SymPy rationals and numpy integers.  Raises `NotRational` for others, floats
-    among them (a float is rarely the number that was meant), and for a zero denominator; `LimitExceeded`.
-
-    >>> str(parse_coefficients([3, 0, 1], [1]).S)
-    'x**2 + 3'
-    """
-    above, below = _polynomial(num, "numerator", limits), _polynomial(den, "denominator", limits)
-    if not below:
-        raise NotRational("the denominator is zero", hint="give the pair (numerator, denominator), low powers first")
-    return Parsed(RatFunc(above, below), variable or DEFAULT_VARIABLE)
 
 
 def _polynomial(coefficients: Sequence[Any], what: str, limits: Limits) -> Poly:

@@ -78,7 +78,14 @@ def render(
         yield f"  for generic parameters: {solution.generic_conditions}"
         yield "  (kovacic conditions tells for which values more is solvable)"
     if solution.verified:
-        yield f"  {style('verified', 'good')}: {_how_verified(solution)}"
+        if solution.status is Status.LIOUVILLIAN:
+            how = "omega' + omega^2 = S holds exactly"
+            how += ", and what was excluded was recomputed by independent code" if solution.proof else ""
+        elif solution.status is Status.NONE_EXISTS:
+            how = "every exclusion was recomputed by independent code"
+        else:
+            how = "what was excluded before the limit was recomputed by independent code"
+        yield f"  {style('verified', 'good')}: {how}"
     elif solution.status is not Status.UNDECIDED:
         yield f"  {style('not verified', 'bad')}"
 
@@ -154,15 +161,6 @@ def _exclusions(solution: Solution) -> list[str]:
         which = f" ({', '.join(structures)})" if case == 3 else ""
         lines.append(f"not case {case}{which}: {reasons}")
     return lines
-
-
-def _how_verified(solution: Solution) -> str:
-    if solution.status is Status.UNDECIDED:
-        return "what was excluded before the limit was recomputed by independent code"
-    if solution.status is Status.NONE_EXISTS:
-        return "every exclusion was recomputed by independent code"
-    identity = "omega' + omega^2 = S holds exactly"
-    return identity + (", and what was excluded was recomputed by independent code" if solution.proof else "")
 
 
 def _of_degree(degree: int) -> str:
