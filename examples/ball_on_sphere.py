@@ -14,8 +14,7 @@ import time
 import sympy as sp
 
 import kovacic
-from kovacic.ball import Ball, closed_form
-from kovacic.ball.ball import InRoots
+from kovacic.ball import Ball, InRoots, closed_form
 from kovacic.ball.equations import R1, R, derivation, equations_of, holds
 from kovacic.ball.theorems import theorem
 

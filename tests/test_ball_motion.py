@@ -380,6 +380,7 @@ def test_work_is_bounded(monkeypatch):
         ("sqrt(cos(u) - 2)", "isn't finite"),
         ("sqrt(-1)*cos(u)", "real function"),
         ("q*cos(u)", "can't contain q"),
+        ("E*cos(u)", "can't contain E"),
         ("__import__('os')", "unexpected character"),
         ("cos(u", "never closed"),
         ("cos(u)^0.5", "isn.t finite"),

@@ -91,8 +91,10 @@ def potential_of(value: Potential) -> sp.Expr:
     """
     if not isinstance(value, str | sp.Expr | float | int):
         raise InputError(f"the potential is text, a number or a SymPy expression, it can't be {value!r}")
-    text = value if isinstance(value, str) else str(sp.nsimplify(value, rational=True, rational_conversion="exact"))
-    V = read_expression(text, what="the potential", names={"u": U, "E": sp.E})
+    names = {"u": U}
+    if not isinstance(value, str):  # in text, E isn't Euler's number
+        value, names["E"] = str(sp.nsimplify(value, rational=True, rational_conversion="exact")), sp.E
+    V = read_expression(value, what="the potential", names=names)
     if V.has(sp.I):
         raise InputError(f"the potential is a real function of u, it can't be {value}")
     return V
