@@ -9,6 +9,7 @@ from math import gcd, lcm
 import published
 import pytest
 import strategies
+import sympy
 import transform
 from flint import nmod_poly
 from hypothesis import assume, given, settings
@@ -19,7 +20,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind as PlaceKind
 from kovacic.engine.places import analyse
-from kovacic.galois import Ground, Kind
+from kovacic.galois import Ground, Group, Kind
 from kovacic.galois.gauged import _residues_on_curve, _torus
 from kovacic.galois.imprimitive import curve_of, form_of_order
 from kovacic.galois.jacobian import Jacobian
@@ -194,6 +195,40 @@ def test_primitive_groups(example: strategies.Example) -> None:
     assume(example.group is not None)
     orders = {strategies.TETRAHEDRAL: 24, strategies.OCTAHEDRAL: 48, strategies.ICOSAHEDRAL: 120}
     assert group.order == orders[example.group]
+
+
+@pytest.mark.parametrize(
+    "group",
+    [Group(Kind.CYCLIC, Ground.RESIDUES, n) for n in (1, 2, 3, 4, 7)]
+    + [Group(Kind.DICYCLIC, Ground.INVARIANT, n) for n in (2, 3, 4, 5)]
+    + [Group(kind, Ground.PRIMITIVE) for kind in (Kind.TETRAHEDRAL, Kind.OCTAHEDRAL, Kind.ICOSAHEDRAL)],
+    ids=lambda group: group.name,
+)
+def test_the_matrices_generate_a_group_of_the_right_order(group: Group) -> None:
+    def key(m: list[complex]) -> tuple[complex, ...]:
+        return tuple(complex(round(z.real, 6) + 0.0, round(z.imag, 6) + 0.0) for z in m)
+
+    def times(a: list[complex], b: list[complex]) -> list[complex]:
+        product = [a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2]]
+        return [*product, a[2] * b[1] + a[3] * b[3]]
+
+    generators = [[complex(sympy.N(entry, 20)) for entry in matrix] for matrix in group.generators()]
+    one = [1 + 0j, 0j, 0j, 1 + 0j]
+    elements, new = {key(one)}, [one]
+    while new:
+        products = {key(p): p for element in new for g in generators if key(p := times(element, g)) not in elements}
+        new = list(products.values())
+        elements.update(products)
+        assert len(elements) <= 200
+    assert len(elements) == group.order
+    assert all(abs(a * d - b * c - 1) < 1e-5 for a, b, c, d in elements)
+
+
+def test_the_diagonal_group_has_a_free_parameter() -> None:
+    (matrix,) = kovacic.solve("1").group.generators()
+    assert matrix.det() == 1
+    assert len(matrix.free_symbols) == 1
+    assert kovacic.solve("x^2 + 3").group.generators() is None
 
 
 @pytest.mark.parametrize(

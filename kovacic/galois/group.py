@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from kovacic.decision import GroupClaim, SemiInvariant
 
@@ -152,5 +152,41 @@ class Group:
         """The dimension as an algebraic group; 0 for a finite one, None if it wasn't determined."""
         return self._facts.dimension
 
+    def generators(self) -> tuple[Any, ...] | None:
+        """SymPy matrices that generate the group, acting on (y1, y2) suitably chosen and scaled.
+
+        For a finite group they generate it; for G_m there is one, with a free parameter t.  None for the other groups.
+        The diagonal ones are diagonal in the basis of the solutions with y'/y rational (cyclic, G_m) or of degree 2
+        (dicyclic); the bases of the primitive groups are those of Klein's forms [Ikosaeder (1884), part I, chapter II].
+        """
+        import sympy
+
+        I, half = sympy.I, sympy.Rational(1, 2)  # noqa: E741 - SymPy's name
+        swap = sympy.Matrix([[0, 1], [-1, 0]])
+        if self.kind is Kind.CYCLIC:
+            return () if self.n == 1 else (_rotation(self.n),)
+        if self.kind is Kind.MULTIPLICATIVE:
+            t = sympy.Symbol("t", nonzero=True)
+            return (sympy.diag(t, 1 / t),)
+        if self.kind is Kind.DICYCLIC and self.n is not None:
+            return (_rotation(2 * self.n), swap)
+        third = half * sympy.Matrix([[-1 - I, -1 - I], [1 - I, -1 + I]])
+        if self.kind is Kind.TETRAHEDRAL:
+            return (sympy.diag(I, -I), swap, third)
+        if self.kind is Kind.OCTAHEDRAL:
+            return (_rotation(8), swap, third)
+        if self.kind is Kind.ICOSAHEDRAL:
+            z = sympy.exp(2 * sympy.pi * I / 5)
+            T = sympy.Matrix([[z**4 - z, z**2 - z**3], [z**2 - z**3, z - z**4]]) / sympy.sqrt(5)
+            return (-sympy.diag(z**3, z**2), T)
+        return None
+
     def __str__(self) -> str:
         return self.name
+
+
+def _rotation(n: int | None) -> Any:
+    import sympy
+
+    z = sympy.exp(2 * sympy.pi * sympy.I / n)
+    return sympy.diag(z, 1 / z)

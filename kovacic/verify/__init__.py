@@ -5,6 +5,9 @@ every smaller structure, which makes that polynomial irreducible over C(x): with
 2 has no factor; a primitive group whose smaller ones are excluded has no omega of a smaller degree.  A negative one is
 checked by the evidence against every structure.  Only exact arithmetic and arithmetic modulo primes in the direction in
 which it proves something (a rank can only drop) is used.
+
+S and a `Decision` go in, a `Verification` comes out.  Read `verify` here first, then `identity` for the positive claims and
+`evidence`, with `local` and `residue`, for the negative ones; `group` and `torsion` check the group.
 """
 
 from __future__ import annotations
