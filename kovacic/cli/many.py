@@ -217,7 +217,7 @@ def _print_summary(summary: Summary, answered: int, seconds: float) -> None:
     """Counts by case and the times, on standard error."""
     from kovacic.views.document import FORMATS, Paragraph, Table
 
-    counts = Table(("outcome", "equations"), [[[k], [str(n)]] for k, n in [*summary.rows(), ("all", summary.total)]])
+    counts = Table(("outcome", "equations"), [[k, str(n)] for k, n in [*summary.rows(), ("all", summary.total)]])
     lines = [f"{seconds:.1f} s in all, {summary.total / max(seconds, 1e-9):.0f} equations a second"]
     if summary.slowest is not None:
         quantiles = f"median {summary.quantile(0.5):.2g} s, 90 % within {summary.quantile(0.9):.2g} s"
@@ -225,4 +225,4 @@ def _print_summary(summary: Summary, answered: int, seconds: float) -> None:
         lines.insert(0, f"time of an equation: {quantiles}, {slowest}")
     if answered:
         lines.insert(0, f"{answered} more had been answered before")
-    print(FORMATS["text"].render([counts, Paragraph(["\n".join(lines)])]), end="", file=sys.stderr)
+    print(FORMATS["text"].render([counts, Paragraph("\n".join(lines))]), end="", file=sys.stderr)

@@ -84,9 +84,8 @@ def with_values(
             raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
     texts = {name: number_text(value, limits) for name, value in values.items()}
     change = None if parsed.equation is None else parsed.equation.change
-    filled = Template(parsed.text if change is None and not isinstance(S, str) else str(S).strip(), [*texts]).filled(
-        texts
-    )
+    text = parsed.text if change is None and not isinstance(S, str) else str(S).strip()
+    filled = Template(text, [*texts]).filled(texts)
     rest = {name: what for name, what in given.items() if str(name) not in texts}
     variable = parsed.variable if change is None else change.variable
     return filled, read_input(filled, var=variable, limits=limits, exponentials=True), rest or None

@@ -1,12 +1,12 @@
 """A small document model: headings, paragraphs, formulas and tables, and its renderings.
 
-A sentence is a sequence of plain strings and `Math`.
+A sentence is a plain string, `Math`, or a sequence of these.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from kovacic.views.breaking import LINE, breakable, pieces, width
@@ -15,7 +15,7 @@ from kovacic.views.formula import Math
 #: Characters in a line of a LaTeX table.
 _PAGE = 66
 
-Sentence = Sequence[str | Math]
+Sentence = str | Math | Sequence[str | Math]
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Formula:
 class Table:
     """Rows of cells; without a head, the first cell of each row is its title."""
 
-    head: Sequence[str | Math]
+    head: Sequence[Sentence]
     rows: Sequence[Sequence[Sentence]]
 
 
@@ -71,12 +71,12 @@ class Format:
             return self.paragraph(self.sentence(block.sentence))
         if isinstance(block, Formula):
             return self.formula(block.math)
-        rows = [[self.sentence(cell) for cell in row] for row in block.rows]
-        return self.table([[self.sentence([cell]) for cell in block.head], *rows])
+        return self.table([[self.sentence(cell) for cell in row] for row in (block.head, *block.rows)])
 
-    def sentence(self, sentence: Iterable[str | Math]) -> str:
+    def sentence(self, sentence: Sentence) -> str:
         """The parts of a sentence, one after the other."""
-        return "".join(self.math(part) if isinstance(part, Math) else self.plain(part) for part in sentence)
+        parts = (sentence,) if isinstance(sentence, str | Math) else sentence
+        return "".join(self.math(part) if isinstance(part, Math) else self.plain(part) for part in parts)
 
 
 def _text_table(rows: list[list[str]]) -> str:

@@ -220,7 +220,7 @@ class _Writer:
         checks = self.solution.verify().checks
         if checks:
             yield Heading("Checks by independent code")
-            rows = [[[check.statement], ["passed" if check.passed else "FAILED"]] for check in checks]
+            rows = [[check.statement, "passed" if check.passed else "FAILED"] for check in checks]
             yield Table(("statement", "result"), rows)
 
     def bibliography(self) -> Iterator[Block]:

@@ -81,14 +81,13 @@ class Steps:
                 delta = Math(f"sqrt({square.text})", rf"\sqrt{{{square.latex}}}")
             else:
                 delta = "not rational"
-        cells: list[str | Math] = [
+        return [
             self.formulas.place(str(place)),
             "1" if place.at_infinity else str(place.degree),
             str(place.order) if not place.at_infinity else str(-self.solution.S.degree) if self.solution.S else "-",
             _KINDS[place.kind] + (", logarithm" if place.logarithm else ""),
             delta,
         ]
-        return [[cell] for cell in cells]
 
     def necessary(self) -> Iterator[Block]:
         yield Heading("Kovacic's necessary conditions (section 2.1)")
@@ -98,7 +97,7 @@ class Steps:
             verdict: list[str | Math] = ["holds" if _allowed(case, self.places) else "fails"]
             for k, place in enumerate(failing):
                 verdict += [", " if k else " at ", self.formulas.place(str(place))]
-            rows.append([[str(case)], [condition], verdict])
+            rows.append([str(case), condition, verdict])
         yield Table(("case", "condition", "verdict"), rows)
 
     def search(self) -> Iterator[Block]:
@@ -139,7 +138,7 @@ class Steps:
             rows: list[list[Sentence]] = []
             for family in shown:
                 values = [self._shown(choice.value) for choice in family.choices]
-                rows.append([*([value] for value in values), [self._shown(family.d)], [self._outcome(family)]])
+                rows.append([*values, self._shown(family.d), self._outcome(family)])
             yield Table(head, rows)
         if len(search.families) > _MOST_SHOWN:
             yield say(f"and {len(search.families) - _MOST_SHOWN} more.")
@@ -162,10 +161,10 @@ class Steps:
             if case == 1:
                 t = Symbol(self.solution.variable) - (0 if point.place.at_infinity or point.at is None else point.at)
                 singular = self._shown(Add(*(c * t**power for power, c in choices[0].singular)))
-                rows.append([[self._point(point)], [singular], [values[0]], [values[-1]]])
+                rows.append([self._point(point), singular, values[0], values[-1]])
             else:
                 inside = ", ".join(value.text for value in values)
-                rows.append([[self._point(point)], [Math(f"{{{inside}}}", rf"\{{{inside}\}}")]])
+                rows.append([self._point(point), Math(f"{{{inside}}}", rf"\{{{inside}\}}")])
         alphas = (Math(f"alpha{sign}", rf"\alpha^{sign}") for sign in "+-")
         return Table(
             ("place", Math("[sqrt S]", r"[\sqrt{S}]"), *alphas) if case == 1 else ("place", Math("E", "E")), rows

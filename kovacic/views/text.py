@@ -184,27 +184,27 @@ def html_view(solution: Solution) -> str:
     """A table of status, case, group, solutions and check."""
     from kovacic.views.document import FORMATS, Table
 
-    rows: list[tuple[Sentence, Sentence]] = [(["equation"], [equation_of(solution)])]
+    rows: list[tuple[Sentence, Sentence]] = [("equation", equation_of(solution))]
     if solution.equation is not None and not solution.equation.is_normal_form:
-        rows.append((["normal form"], [normal_form(solution)]))
+        rows.append(("normal form", normal_form(solution)))
     words = {
         Status.LIOUVILLIAN: "Liouvillian solutions exist",
         Status.NONE_EXISTS: "no Liouvillian solution exists",
         Status.UNDECIDED: f"undecided: {solution.reason}",
     }
-    rows.append((["status"], [words[solution.status]]))
+    rows.append(("status", words[solution.status]))
     if solution.case is not None:
-        rows.append((["case"], [str(solution.case)]))
+        rows.append(("case", str(solution.case)))
     if (group := solution.group) is not None:
-        rows.append((["Galois group"], [Math(group.name, group.latex), f", {group.description}"]))
+        rows.append(("Galois group", [Math(group.name, group.latex), f", {group.description}"]))
     found, notes = _in_time(solution)
     for name, value in found:
-        rows.append(([name], [value if len(value.latex) <= _LONGEST else Math(value.text[:_LONGEST], "")]))
-    rows += [(["note"], [note]) for note in notes]
+        rows.append((name, value if len(value.latex) <= _LONGEST else Math(value.text[:_LONGEST], "")))
+    rows += [("note", note) for note in notes]
     if found and solution.closed_form is not None:
-        rows.append((["solutions checked"], [solution.closed_form.checked]))
-    rows.append((["verified"], ["yes, by independent code" if solution.verified else "no"]))
-    rows += [(["note"], [notice]) for notice in solution.notices]
+        rows.append(("solutions checked", solution.closed_form.checked))
+    rows.append(("verified", "yes, by independent code" if solution.verified else "no"))
+    rows += [("note", notice) for notice in solution.notices]
     return FORMATS["html"].render([Table((), rows)]).rstrip()
 
 
