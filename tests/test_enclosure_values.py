@@ -753,3 +753,20 @@ def test_a_solution_pickles_after_it_was_evaluated(equation: str) -> None:
     for other in (pickle.loads(pickle.dumps(solution)), copy.deepcopy(solution)):
         assert other == solution
         assert other.at([2, 3j], x0=1, y0=1, dy0=0) == values
+
+
+@pytest.mark.parametrize("name", ["atan", "asin", "acos", "asinh", "atanh", "acosh"])
+def test_inverse_functions_on_the_right(name: str) -> None:
+    """y'' = h, y(0) = y'(0) = 0: y(1) = int_0^1 (1 - s) h(s) ds."""
+    given = f"{name}(x/2 + 3)" if name == "acosh" else f"{name}(x/2)"
+    h = getattr(mpmath, name)
+    exact = mpmath.quad(lambda s: (1 - s) * h(s / 2 + 3 * (name == "acosh")), [0, 1])
+    assert abs(float(evaluate(f"y'' = {given}", 1, x0=0, y0=0, dy0=0)) - exact) < 1e-12
+
+
+@pytest.mark.parametrize("right", ["tan(x)", "1/cos(x)", "1/(exp(x) - 3)", "log(2 - x)", "sqrt(3/2 - x)"])
+def test_singular_points_of_the_right_hand_side_are_refused(right: str) -> None:
+    """Between 1 and 11/5; rational right-hand sides are refused likewise.  Beside it, and up to it, there are values."""
+    with pytest.raises(InputError, match="on the way"):
+        evaluate(f"y'' + y' + 2*y = {right}", "11/5", x0="1/2", y0=0, dy0=0)
+    assert evaluate(f"y'' + y' + 2*y = {right}", "1", x0="1/2", y0=0, dy0=0).digits >= 15

@@ -19,6 +19,8 @@ from kovacic.errors import InputError
 _FUNCTIONS = """
     exp sin cos tan cot sec csc asin acos atan sinh cosh tanh coth sech csch asinh acosh atanh gamma erf erfc zeta
 """
+#: Their branch cuts are those of logarithms and roots.
+_INVERSE = {"asin", "acos", "atan", "asinh", "acosh", "atanh"}
 
 
 @dataclass(frozen=True)
@@ -134,7 +136,9 @@ def in_balls(expression: Any, values: Mapping[Any, acb], *, analytic: bool = Fal
         name = type(node).__name__
         if name == "log" and len(node.args) == 1:
             return of(node.args[0]).log(analytic=analytic)
-        if name in _FUNCTIONS.split() and len(node.args) == 1 and not (analytic and name[0] == "a"):
+        if analytic and name in _INVERSE:
+            return of(node.rewrite(sympy.log))
+        if name in _FUNCTIONS.split() and len(node.args) == 1:
             result: acb = getattr(of(node.args[0]), name)()
             return result
         raise InputError(

@@ -17,7 +17,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from flint import acb, acb_poly, arb
+from flint import acb, acb_poly, arb, fmpq
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.enclosure.closed_form import value
@@ -28,8 +28,10 @@ from kovacic.enclosure.points import Point, to_acb
 from kovacic.enclosure.problem import NumericProblem, System, check_segment
 from kovacic.enclosure.taylor import error_radii
 from kovacic.enclosure.transport import Leg
+from kovacic.errors import InputError
 
 _PIECES = 16  # pieces of a way on which |F| is bounded
+_LEAST = fmpq(1, 2**40)  # the part of a way that is looked at for a singularity
 
 
 @dataclass(frozen=True)
@@ -50,9 +52,21 @@ class Forcing:
         return total + in_balls(self.function, values, analytic=analytic) * value(self.over, None, x)
 
     def check(self, a: Point, b: Point) -> None:
-        """Raise InputError where the rational part, or 1/a, has a pole on the way."""
+        """Raise InputError where a part has a pole or a branch point on the way, but for its ends."""
         for function in (self.rational, self.over):
             check_segment(System.of(function), a, b)
+        pieces = [(fmpq(0), fmpq(1))] if self.function is not None else []
+        while pieces:
+            low, high = pieces.pop()
+            middle = (low + high) / 2
+            inside = acb(arb(arb(middle), arb((high - low) / 2).upper()))
+            if self.value(to_acb(a) + (to_acb(b) - to_acb(a)) * inside, analytic=True).is_finite():
+                continue
+            if high - low > _LEAST:
+                pieces += [(low, middle), (middle, high)]
+            elif low > 0 and high < 1:
+                where = to_acb(a) + (to_acb(b) - to_acb(a)) * arb(middle)
+                raise InputError(f"{self.function} isn't analytic near {where.mid().str(6, radius=False)}, on the way")
 
     def step(self, leg: Leg, growth: Callable[[acb, bool], acb]) -> State:
         """What the right-hand side adds to the state where the disc is entered; `growth` is 1/g on a ball."""

@@ -75,18 +75,10 @@ def dsolve(
     >>> print(dsolve("y'' + y = 0", ics="y(0)=0, y(pi/2)=3"))
     Eq(y(x), 3*sin(x))
     """
-    return _general(eq, func, ics, var, limits)
+    return _general(eq, func, ics=ics, var=var, limits=limits)
 
 
-def in_special_functions(
-    found: Any,
-    eq: Any,
-    func: Any = None,
-    *,
-    ics: Mapping[Any, Any] | str | None = None,
-    var: str | None = None,
-    limits: Limits = DEFAULT_LIMITS,
-) -> Any:
+def in_special_functions(found: Any, eq: Any, func: Any = None, **given: Any) -> Any:
     """What `dsolve` has `found`, in special functions: where that is more than a screen, and they take less than half of it.
 
     None where they take more, or none are known.  Arguments as for `dsolve`.
@@ -95,12 +87,20 @@ def in_special_functions(
     if length <= SCREEN:
         return None
     with suppress(NotImplementedError, InputError):
-        other = _general(eq, func, ics, var, limits, special=True)
+        other = _general(eq, func, special=True, **given)
         return other if len(str(other.rhs)) < length / 2 else None
     return None
 
 
-def _general(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits, *, special: bool = False) -> Any:
+def _general(
+    eq: Any,
+    func: Any,
+    *,
+    ics: Any = None,
+    var: str | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+    special: bool = False,
+) -> Any:
     budget = Budget(limits)
     with budget.watched():
         values, changes = as_mapping(ics), _changes_of(eq)
@@ -222,48 +222,47 @@ def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str
 
 def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equation, Any]:
     """The equation and the unknown function as the user writes it."""
-    try:
-        return _rational(eq, func, var, limits)
-    except NotRational:
-        found = in_exponentials(source_of(eq, var, equation=True), limits)
-        if found is None or found.equation is None or found.equation.change is None:
-            raise
-        x = sympy.Symbol(found.equation.change.variable)
-        name = sympy.Function(found.equation.unknown)(x)
-        return found.equation, name if isinstance(eq, str) else function_of(eq)
-
-
-def _rational(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equation, Any]:
     applied = func if isinstance(func, AppliedUndef) else None
     name = func if applied is None else applied.func  # y of y(x)
     if func is not None and not isinstance(name, UndefinedFunction):
         raise InputError(f"{func!r} isn't a function", hint="give y(x), or y = Function('y')")
-    if isinstance(eq, str):
-        x, unknown = var if applied is None else str(applied.args[0]), None if func is None else str(name)
-        eq = read_source(source_of(eq, x, limits, unknown=unknown, equation=True), limits).equation
     if isinstance(eq, Equation):
         return eq, applied or (name or sympy.Function(eq.unknown))(sympy.Symbol(eq.variable))
-    if not hasattr(eq, "free_symbols"):
+    unknown: Any = None if func is None else str(name)
+    if isinstance(eq, str):
+        var = var if applied is None else str(applied.args[0])
+    elif not hasattr(eq, "free_symbols"):
         raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
-    if func is not None and applied is None:
-        found = sorted((f for f in eq.atoms(AppliedUndef) if f.func == func), key=str)
-        applied = next((f for f in found if f.args[0].is_Symbol), None)
-        if applied is None:
-            raise InputError(f"{func} isn't a function in the equation")
-    function = function_of(eq) if applied is None else applied
+    else:
+        if func is not None and applied is None:
+            found = sorted((f for f in eq.atoms(AppliedUndef) if f.func == func), key=str)
+            applied = next((f for f in found if f.args[0].is_Symbol), None)
+            if applied is None:
+                raise InputError(f"{func} isn't a function in the equation")
+        unknown = applied = function_of(eq) if applied is None else applied
+    equation = _read(eq, var, unknown, limits)
+    x = sympy.Symbol(equation.variable if equation.change is None else equation.change.variable)
+    return equation, applied or (name or sympy.Function(equation.unknown))(x)
 
-    def read(given: Any) -> tuple[Equation, Any]:
-        found = read_source(source_of(given, var, unknown=function, equation=True), limits).equation
-        assert found is not None
-        return found, function
 
+def _read(eq: Any, var: str | None, unknown: Any, limits: Limits) -> Equation:
+    """Rational as it is, or divided by a coefficient, or in an exponential function."""
+    source = source_of(eq, var, limits, unknown=unknown, equation=True)
     try:
-        return read(eq)
+        try:
+            parsed = read_source(source, limits)
+        except NotRational:
+            divided = None if isinstance(eq, str) else _divided(eq)
+            if divided is None:
+                raise
+            parsed = read_source(source_of(divided, var, limits, unknown=unknown, equation=True), limits)
     except NotRational:
-        divided = _divided(eq)
-        if divided is None:
+        found = in_exponentials(source, limits)
+        if found is None or found.equation is None or found.equation.change is None:
             raise
-        return read(divided)
+        parsed = found
+    assert parsed.equation is not None
+    return parsed.equation
 
 
 def _divided(eq: Any) -> Any:
