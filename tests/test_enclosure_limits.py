@@ -31,6 +31,12 @@ from kovacic.views.plot import sample
 START: dict[str, Any] = {"y0": 1, "dy0": 0}
 
 
+def test_a_number_beyond_all_doubles_is_named() -> None:
+    with pytest.raises(LimitExceeded, match=r"from 0 to 1.0*e\+399, which takes"):
+        evaluate("1/(x+10^400)", 10**399, x0=0, method="taylor", **START)
+    assert str(Point(Fraction(7**1000, 3))) == "4.17752213321906e+844"
+
+
 @pytest.mark.parametrize(
     ("S", "x", "x0"),
     [("x", 10**6, 0), ("-1-1/x^2", 10**9, 1), ("10^20", 1, 0), ("10^20", 1j, 0), ("1/x^6", "1e-8", 1)],

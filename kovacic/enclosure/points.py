@@ -118,8 +118,13 @@ def power_of_two(e: int) -> Any:
 
 
 def _short(value: Fraction) -> str:
-    text = str(value)
-    return text if len(text) <= 24 else f"{float(value):.15g}"
+    text = str(value) if value.numerator.bit_length() + value.denominator.bit_length() < 100 else ""
+    if 0 < len(text) <= 24:
+        return text
+    try:
+        return f"{float(value):.15g}"
+    except OverflowError:
+        return f"{Decimal(value.numerator) / value.denominator:.15g}"
 
 
 def as_point(value: Any, name: str) -> Point:

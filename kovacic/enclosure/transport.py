@@ -40,6 +40,7 @@ _MANY = 50
 # For so many targets on one way the growth in a disc may be less: shorter polynomials at every target, more discs
 _FEWER_BITS = 12.0
 _MAX_DISCS = 200_000
+_ROUNDED = 1e-15  # more than the relative errors of doubles
 _TRIED = 16  # steps after which the time of the others is known well enough
 
 
@@ -64,12 +65,13 @@ class Disc:
         """
         if self.begin is None:
             return
-        centre, scale, unit = self.frame.centre, self.frame.scale, math.ldexp(1.0, min(self.frame.e, 1023))
+        centre, scale, e = self.frame.centre, self.frame.scale, self.frame.e
+        unit = math.ldexp(1.0, e) if abs(e) < 900 else -1.0  # beyond the range of doubles the end alone is served
         corners = (centre + Point(x * scale, y * scale) for x in (1, -1) for y in (1, -1))
         free, near = self.begin == a or is_apart(system, a, *corners), to_double(centre)
         for number, place, x in targets:
-            inside = abs(place - near) <= 1.001 * unit and (x - centre).norm_squared() <= scale * scale
-            if inside and (free or (self.stop == 1 and x == self.leave) or is_apart(system, a, self.begin, x)):
+            inside = abs(place - near) + _ROUNDED * (abs(place) + abs(near)) <= unit  # `Frame.seen` checks it exactly
+            if (self.stop == 1 and x == self.leave) or (inside and (free or is_apart(system, a, self.begin, x))):
                 yield number
 
 
