@@ -2,7 +2,7 @@
 
 Regenerate:  python benchmarks/doubles_speed.py      writes results/doubles_speed.{json,md}      (`--quick` prints only)
 
-Processor time of one call, the best of nine; errors in units in the last place at 24 points, median / worst, measured for all
+Processor time of building with its check and of one call, the best of nine; errors in units in the last place at 24 points, median / worst, measured for all
 in the same way.  SciPy's and SymPy's functions are multiplied by what makes them solutions of the equation.
 """
 
@@ -116,9 +116,9 @@ def compare(row: Row) -> dict[str, Any]:
     solution = kovacic.solve(row.equation)
     points = np.linspace(*row.interval, POINTS + 2)[1:-1]
     options: dict[str, Any] = row.start or {}
-    begin = time.perf_counter()
+    begin = time.process_time()
     ours = lambdify(solution, interval=row.interval, **options)
-    result: dict[str, Any] = {"name": row.name, "build": time.perf_counter() - begin, "careful": ours.careful}
+    result: dict[str, Any] = {"name": row.name, "build": time.process_time() - begin, "careful": ours.careful}
     functions = {"kovacic": ours, "scipy": row.scipy}
     functions["double-doubles"] = lambdify(solution, interval=row.interval, careful=True, check=False, **options)
     if row.sympy is not None:

@@ -128,6 +128,11 @@ class Complex:
             return Complex(self.re * other.re, self.re * other.im)
         return Complex(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
 
+    @property
+    def is_zero(self) -> bool:
+        """Is this the constant 0?"""
+        return self.im is None and isinstance(self.re, Pair) and np.ndim(self.re.hi) == 0 and self.re == Pair(0.0)
+
     def conjugate(self) -> Complex:
         """re - i im."""
         return Complex(self.re, None if self.im is None else -self.im)
@@ -182,7 +187,9 @@ def horner(coefficients: Iterable[Any], x: Any) -> Any:
     """A polynomial (coefficients high to low) at x, of numbers of any kind here."""
     first, *rest = coefficients
     for c in rest:
-        first = first * x + c
+        first = first * x
+        if not (isinstance(c, Complex) and c.is_zero):
+            first = first + c
     return first
 
 

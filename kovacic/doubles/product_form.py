@@ -179,7 +179,8 @@ class ProductForm:
             value *= Complex(np.exp(rest.hi) * (1.0 + rest.lo))
             binary = np.clip(binary + turns, -6000, 6000).astype(np.int64)
         elif growth is not None:
-            value *= Complex(np.exp(growth.re))
+            factor = Complex(np.exp(growth.re))
+            value = factor if np.ndim(value.re) == 0 else value * factor
         if growth is not None and growth.im is not None:
             value *= _turn(growth)
         if np.ndim(binary):
@@ -208,10 +209,11 @@ class ProductForm:
         total = sum(found[1:], found[0]) if found else None
         if total is not None and self.is_real:
             total = Complex(total.re)
-        zero = 0.0 * x.real
+        one = Complex(np.ones(x.shape) if careful or total is None else 1.0)
         if careful:
+            zero = 0.0 * x.real
             total = Complex(Pair(zero, zero)) + (total or Complex(Pair(0.0)))
-        return product.value or Complex(zero + 1.0), product.binary, total
+        return product.value or one, product.binary, total
 
 
 class _Product:
