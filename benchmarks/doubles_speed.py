@@ -2,8 +2,9 @@
 
 Regenerate:  python benchmarks/doubles_speed.py      writes results/doubles_speed.{json,md}      (`--quick` prints only)
 
-Processor time of building with its check and of one call, the best of nine; errors in units in the last place at 24 points, median / worst, measured for all
-in the same way.  SciPy's and SymPy's functions are multiplied by what makes them solutions of the equation.
+Processor time of building with its check and of one call, the best of nine; errors in units in the last place at 24 points,
+median / worst, measured for all in the same way.  SciPy's and SymPy's functions are multiplied by what makes them solutions of
+the equation.
 """
 
 from __future__ import annotations
