@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import lcm
 from operator import mul
 from typing import Any
@@ -81,32 +80,22 @@ class FieldSeries:
         return self._zero if pivot else -total
 
 
-@dataclass(frozen=True)
-class _Operator:
-    """`second P'' + first P' + zeroth P`: it takes x^k to sum_j L_j(k) x^(k+s-j), L_j(k) = a_j k (k-1) + b_j k + c_j."""
+def _operator(second: Poly, first: Poly, zeroth: Poly) -> list[tuple[Any, ...]]:
+    """The (a_j, b_j, c_j) of `second P'' + first P' + zeroth P`, integers over Q.
 
-    field: Field
-    coefficients: list[tuple[Any, ...]]
-
-    def L(self, j: int, k: int) -> Any:
-        a, b, c = self.coefficients[j]
-        return a * (k * (k - 1)) + b * k + c
-
-    @property
-    def width(self) -> int:
-        return len(self.coefficients) - 1
-
-    def series(self) -> RationalSeries | FieldSeries:
-        return RationalSeries(self.width) if self.field == QQ else FieldSeries(self.field, self.width)
-
-
-def _operator(second: Poly, first: Poly, zeroth: Poly) -> _Operator:
-    field, parts = first.field, list[Any]([second, first, zeroth])
+    It takes x^k to sum_j L_j(k) x^(k+s-j), L_j(k) = a_j k (k-1) + b_j k + c_j.
+    """
+    parts = list[Any]([second, first, zeroth])
     shift = max(second.degree - 2, first.degree - 1, zeroth.degree)
-    if field == QQ:
+    if first.field == QQ:
         scale = lcm(*(f.content()[1] for f in parts))
         parts = [(f * scale).rep.numer() for f in parts]
-    return _Operator(field, [tuple(f[shift + 2 - i - j] for i, f in enumerate(parts)) for j in range(shift + 3)])
+    return [tuple(f[shift + 2 - i - j] for i, f in enumerate(parts)) for j in range(shift + 3)]
+
+
+def _at(coefficients: tuple[Any, ...], k: int) -> Any:
+    a, b, c = coefficients
+    return a * (k * (k - 1)) + b * k + c
 
 
 def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int) -> Poly | None:
@@ -116,36 +105,37 @@ def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int) ->
     more than one other k; if that is a smaller natural number, a multiple of the solution that begins there may have to
     be added.
     """
-    operator = _operator(second, first, zeroth)
-    if operator.L(0, degree):
+    field, operator = first.field, _operator(second, first, zeroth)
+    if _at(operator[0], degree):
         return None
-    main = _descend(operator, degree)
+    main = _descend(field, operator, degree)
     if main is None:
         return None
     P, free, remainder = main
     if any(remainder):
-        other = None if free is None else _descend(operator, free)
+        other = None if free is None else _descend(field, operator, free)
         if other is None:
             return None
         factor = next((-r / q for r, q in zip(remainder, other[2], strict=True) if q), None)
         if factor is None or any(r + factor * q for r, q in zip(remainder, other[2], strict=True)):
             return None
-        P = P + other[0] * operator.field.poly([factor])
+        P = P + other[0] * field.poly([factor])
     return P
 
 
-def _descend(operator: _Operator, start: int) -> tuple[Poly, int | None, list[Any]] | None:
+def _descend(field: Field, operator: list[tuple[Any, ...]], start: int) -> tuple[Poly, int | None, list[Any]] | None:
     """A solution x^start + ... downwards, the power whose coefficient was free and set to 0, what remains below x^0.
 
     None if a free coefficient meets an obstruction.
     """
-    series, width, free = operator.series(), operator.width, None
-    remainder: list[Any] = []
+    lowest, *others = operator
+    width, free, remainder = len(others), None, list[Any]()
+    series = RationalSeries(width) if field == QQ else FieldSeries(field, width)
     for k in range(start - 1, -width - 1, -1):
         if k % 64 == 0:
             check_time()
-        pivot = operator.L(0, k) if k >= 0 else 0
-        obstruction = series.extend(pivot, [operator.L(j, k + j) for j in range(1, min(width, start - k) + 1)])
+        pivot = _at(lowest, k) if k >= 0 else 0
+        obstruction = series.extend(pivot, [_at(row, k + j) for j, row in enumerate(others[: start - k], 1)])
         if k < 0:
             remainder.append(obstruction)
         elif not pivot:
