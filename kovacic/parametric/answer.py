@@ -114,8 +114,7 @@ class Conditions:
             S = point.restricted(self.S)
         except ZeroDivisionError:
             raise InputError(f"S isn't defined at {point}") from None
-        decision = decide(S, Budget(self.limits))
-        answer = Solution(S.to_str(self.variable), self.variable, S, decision, limits=self.limits)
+        answer = Solution(S.to_str(self.variable), self.variable, S, decide(S, Budget(self.limits)), limits=self.limits)
         verified = bool(answer.verify())
         if not verified and answer.status is not Status.UNDECIDED:
             raise VerificationFailed(f"the answer for S = {S} failed its own check; please report it")
@@ -234,9 +233,8 @@ class Conditions:
 
     @property
     def _where_generic(self) -> str:
-        if self.complete is True:
-            return "otherwise" if self.regions else "always"
-        return "otherwise, for generic values" if self.regions else "for generic values"
+        words = ["otherwise"] * bool(self.regions) + ["for generic values"] * (self.complete is not True)
+        return ", ".join(words) or "always"
 
     def _repr_latex_(self) -> str:
         return f"${self.latex()}$"
@@ -272,11 +270,9 @@ class Conditions:
         lines = [self.text(all=True)]
         for region in self.regions:
             lines += ["", f"{region.statement.text()}: {region.verdict if region.defined else region.group}"]
-            lines += [f"  {region.omega}"] if region.omega else []
-            known = [*region.solution(), *(s for d in range(len(region.determinants)) for s in region.solution(d))]
-            lines += [f"  {solution}" for solution in known]
-            if not known and region.case == 1 and not region.omega:
-                lines.append(f"  {region.why_no_solution}")
+            known = [s for d in (None, *range(len(region.determinants))) for s in region.solution(d)]
+            shown = [*([region.omega] if region.omega else []), *known]
+            lines += [f"  {line}" for line in shown or ([region.why_no_solution] if region.case == 1 else [])]
         return "\n".join(lines)
 
     def __str__(self) -> str:

@@ -27,8 +27,6 @@ from kovacic.errors import InputError
 from kovacic.parametric.functions import Coset, common_divisor, degrees, element, numerator, over_parameters
 
 _DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
-
-
 _INTEGERS = Coset(Fraction(0), Fraction(1))
 _COSETS = {
     "integer": _INTEGERS,
@@ -95,21 +93,18 @@ class Known:
     def admits(self, value: Poly) -> bool:
         """May the parameter have this value?  An algebraic number of which any conjugate may be meant has no sign."""
         number = value.field.rational_value(value)
-        if number is None:
-            return self.rational is not True and (not self.bounds or self._bounds_admit(value))
-        return self._admits(number) and (bool(number) or not self.nonzero)
+        if number is not None:
+            return self._admits(number) and (bool(number) or not self.nonzero)
+        if self.rational is True or not self.bounds or getattr(value.field, "approximation", None) is None:
+            return self.rational is not True
+        ball = enclosure(value)
+        ends = ((b.sign, arb(fmpq(b.end.numerator, b.end.denominator))) for b in self.bounds)
+        return ball.imag.contains(0) and not any((ball.real - end) * sign < 0 for sign, end in ends)
 
     def _admits(self, number: Fraction) -> bool:
         classes = all(_COSETS[word].contains(number) for word in self.words if word in _COSETS)
         noninteger = "noninteger" not in self.words or number.denominator > 1
         return classes and noninteger and self.rational is not False and all(b.admits(number) for b in self.bounds)
-
-    def _bounds_admit(self, value: Poly) -> bool:
-        if getattr(value.field, "approximation", None) is None:
-            return True
-        ball = enclosure(value)
-        ends = ((b.sign, arb(fmpq(b.end.numerator, b.end.denominator))) for b in self.bounds)
-        return ball.imag.contains(0) and not any((ball.real - end) * sign < 0 for sign, end in ends)
 
     def sample(self, random: Random) -> Fraction:
         """A small rational number, in the known class if there is one."""
@@ -300,9 +295,9 @@ def _has_number_between(coset: Coset, bounds: list[Bound]) -> bool:
     """Is there a number of the class within the bounds?"""
     if len(bounds) < 2:
         return True
-    low, high = sorted(bounds, key=lambda bound: -bound.sign)
+    low = max(bounds, key=lambda bound: bound.sign)
     first = coset.start + ceil((low.end - coset.start) / coset.step) * coset.step
-    return any(low.admits(number) and high.admits(number) for number in (first, first + coset.step))
+    return any(all(bound.admits(number) for bound in bounds) for number in (first, first + coset.step))
 
 
 def _linear(form: FunctionPoly) -> tuple[Fraction, dict[str, Fraction]] | None:

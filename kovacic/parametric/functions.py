@@ -28,10 +28,9 @@ def element(field: FunctionField, num: Any) -> FunctionPoly:
     return FunctionPoly(field, num, field.context.constant(1))
 
 
-def numerator(function: Poly) -> FunctionPoly:
+def numerator(function: FunctionPoly) -> FunctionPoly:
     """The numerator of a polynomial over Q(t)."""
-    known = over_parameters(function)
-    return element(known.field, known.num)
+    return element(function.field, function.num)
 
 
 def irreducible_factors(function: Poly) -> list[FunctionPoly]:

@@ -137,7 +137,7 @@ class Congruence(Statement):
         if not others and not first and modulus.numerator == 1:
             return said(n.function(form * modulus.denominator), member("Z"))
         if not others and modulus == 2 and first.denominator == 1:
-            return said(n.function(form), f" is {kind(self.residues, modulus)[0]}")
+            return said(n.function(form), f" is {kind(self.residues, modulus)}")
         scale = lcm(first.denominator, modulus.denominator)
         equation = over_parameters(form * scale - form.field.poly([0, 1]))
         if not others and sum(map(bool, degrees(equation))) > 1 and families(equation):

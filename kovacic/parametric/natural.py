@@ -10,6 +10,7 @@ References: P. Acosta-Humanez & D. Blazquez-Sanz, DCDS-B 10 (2008); A. V. Turbin
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -159,12 +160,11 @@ class Natural(Statement):
 
     def shown_determinant(self, number: int) -> str:
         """In one line: one polynomial where it is the same for all exponents that give the number."""
-        found: dict[str, dict[str, None]] = {}
+        found, places = defaultdict[str, dict[str, None]](dict), defaultdict[str, list[str]](list)
         for determinant in self.determinants(number):
-            found.setdefault(equation_written(determinant.exponents).text, {})[str(determinant)] = None
-        places: dict[str, list[str]] = {}
+            found[equation_written(determinant.exponents).text][str(determinant)] = None
         for where, texts in found.items():
-            places.setdefault(" or ".join(texts), []).append(where)
+            places[" or ".join(texts)].append(where)
         values = [f"{value} where {' or '.join(where)}" for value, where in places.items()]
         text = ", ".join(values if len(values) > 1 else places)
         return f"Delta_{number} = {text if len(text) <= _WRITTEN_OUT else text[:_WRITTEN_OUT] + '...'}"

@@ -14,7 +14,6 @@ from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
@@ -104,36 +103,30 @@ class Reader:
             plain = f"algebraic_constant_{number}"
             text, names[plain] = text.replace(constant, plain), names.pop(constant)
         value = arithmetic.rational(parse_with(text, names, arithmetic))
-        return RatFunc(self._embedded(value.num), self._embedded(value.den))
+        return RatFunc(value.num.over(self.field), value.den.over(self.field))
 
     def polynomial(self, text: str, letter: str = "x") -> FunctionPoly:
         value = self.function(text, letter)
-        return over_parameters(value.num / value.den.lc if value.den.degree == 0 else value.num // value.den)
-
-    def _embedded(self, part: Poly) -> Poly:
-        return part if part.field == self.field else self.field.embed(part)
+        return over_parameters(value.num // value.den)
 
     def statement(self, data: Mapping[str, Any]) -> Statement:
         """The statement that `statement_data` wrote.  Raises `InputError` for any other data."""
         kind = data.get("kind")
         if kind == "zero":
             return Vanishes(self.polynomial(data["function"]))
-        if kind == "lattice":
-            residues, equation = data.get("residues", [0]), self.field.poly([0, 1]) - self.polynomial(data["form"])
-            return Congruence.make(over_parameters(equation), map(Fraction, residues), Fraction(data["modulus"]))
-        if kind == "integer root":
-            equation, letter = self.polynomial(data["equation"], data["unknown"]), data["unknown"]
-            residues = tuple(map(Fraction, data["residues"]))
-            return Congruence(equation, residues, Fraction(data["modulus"]), letter)
-        if kind == "natural number":
-            letter = data["unknown"]
-            equations = tuple(self.polynomial(text, letter) for text in data["equations"])
-            S, structure = self.function(data["S"], data["variable"]), Structure(data["structure"])
-            return Natural(S, data["degree"], equations, structure, letter)
-        if kind == "schwarz":
-            structures = tuple(Structure(value) for value in data["structures"])
-            return Schwarz(self.polynomial(data["squares"], data["unknown"]), structures)
         if kind in ("and", "or"):
-            parts = tuple(self.statement(part) for part in data["parts"])
+            parts = tuple(map(self.statement, data["parts"]))
             return Both(parts) if kind == "and" else Either(parts)
+        letter, residues = data.get("unknown", "x"), tuple(map(Fraction, data.get("residues", [0])))
+        if kind == "lattice":
+            equation = self.field.poly([0, 1]) - self.polynomial(data["form"])
+            return Congruence.make(equation, residues, Fraction(data["modulus"]))
+        if kind == "integer root":
+            return Congruence(self.polynomial(data["equation"], letter), residues, Fraction(data["modulus"]), letter)
+        if kind == "natural number":
+            equations = tuple(self.polynomial(text, letter) for text in data["equations"])
+            S = self.function(data["S"], data["variable"])
+            return Natural(S, data["degree"], equations, Structure(data["structure"]), letter)
+        if kind == "schwarz":
+            return Schwarz(self.polynomial(data["squares"], letter), tuple(map(Structure, data["structures"])))
         raise InputError(f"{kind!r} isn't a kind of condition")

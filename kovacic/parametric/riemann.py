@@ -177,8 +177,11 @@ def omega(problem: Problem, variable: str) -> str:
     differences = _differences(squares_of_differences(problem))
     if len(differences) != 3:
         return f"{general}, P a polynomial"
-    signs = "".join(f" +- ({d})" if " " in d else f" +- {d}" for d in differences)
-    return f"{general} with signs for which deg P = (-1{signs})/2 is a natural number"
+    return f"{general} with signs for which deg P = (-1{''.join(map(with_sign, differences))})/2 is a natural number"
+
+
+def with_sign(term: str) -> str:
+    return f" +- ({term})" if " " in term else f" +- {term}"
 
 
 def group(problem: Problem, structure: Structure) -> str | None:

@@ -132,37 +132,33 @@ def _is_negative(n: Notation, f: RatFunc) -> bool:
     return n.function(f).text.lstrip("(").startswith("-")
 
 
-def kind(residues: Sequence[Fraction | int], modulus: Fraction | int) -> tuple[str, str]:
-    """What an integer in these classes is, before and after its name: "an odd integer", " not divisible by 3"."""
+def kind(residues: Sequence[Fraction | int], modulus: Fraction | int, letter: str = "") -> str:
+    """What an integer in these classes is, maybe with its name: "an odd integer n", "an integer not divisible by 3"."""
+    name = f" {letter}" if letter else ""
     if modulus == 1 and not any(residues):
-        return "an integer", ""
+        return f"an integer{name}"
     if modulus == 2 and list(residues) in ([0], [1]):
-        return f"an {'odd' if residues[0] else 'even'} integer", ""
+        return f"an {'odd' if residues[0] else 'even'} integer{name}"
     if len(residues) > 1 and list(residues) == list(range(1, int(modulus))):
-        return "an integer", f" not divisible by {modulus}"
-    return "an integer", f" = {', '.join(map(str, residues))} mod {modulus}"
+        return f"an integer{name} not divisible by {modulus}"
+    return f"an integer{name} = {', '.join(map(str, residues))} mod {modulus}"
 
 
 def integer_condition(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> Math:
     """That a polynomial in N over Q(t) has an integer root in these classes."""
     best, roots = _spectrum(equation, residues, modulus, n), _roots(equation)
     if roots is None:
-        return best or said(equation_text(equation, n), _for_integers(residues, modulus, n))
+        return best or said(equation_text(equation, n), words(f" for {kind(residues, modulus, n.letter)}"))
     mean, squares = roots
     constant = floor(constant_term(mean) / modulus) * modulus
-    terms = [n.function(over_parameters(mean - constant))] if mean != constant else []
-    roots_with_signs = joined([*terms, *map(root_written, squares)], Math(" +- ", r" \pm "))
-    sum_of_roots = said(roots_with_signs, " is " + "".join(kind(residues, modulus)))
+    terms = [n.function(mean - constant)] if mean != constant else []
+    signed = joined([*terms, *map(root_written, squares)], Math(" +- ", r" \pm "))
+    sum_of_roots = said(signed, f" is {kind(residues, modulus)}")
     if best is None:
         return sum_of_roots
     if len(squares) > 1:
         return said(sum_of_roots, ", that is ", best) if len(best.text) <= _BESIDE else sum_of_roots
     return unless_long(best, sum_of_roots, lambda other: len(other) + _LONGER)
-
-
-def _for_integers(residues: Sequence[int], modulus: int, n: Notation) -> Math:
-    before, after = kind(residues, modulus)
-    return words(f" for {before} {n.letter}{after}")
 
 
 def _spectrum(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> Math | None:
@@ -200,33 +196,28 @@ def _choices(
     mirrored = equation(-N) == (-1) ** equation.degree * equation
     single = len(residues) == 1 or (mirrored and {*residues} == {residues[0], -residues[0] % modulus})
     if equation.degree > 1 or not single:
-        in_classes = _for_integers(residues, modulus, n)
+        in_classes = words(f" for {kind(residues, modulus, n.letter)}")
         yield f, in_classes, lambda n: n.denominator == 1 and int(n) % modulus in residues
     if single and (modulus < 3 or not mirrored):
         signs, shifts = ((1, -1), (0, -1, 1)) if modulus == 1 else ((1,), (0, -1))
         for sign, shift in product(signs, shifts):
             chosen = RatFunc(N * (sign * modulus) + residues[0] + modulus * shift)
-            yield f(chosen), _for_integers([0], 1, n), lambda n: n.denominator == 1
+            yield f(chosen), words(f" for an integer {n.letter}"), lambda n: n.denominator == 1
     center = _center(equation, f)
     if center is None:
         return
     u, comma = over_parameters((center - residues[0]) / modulus), Math(", ", r",\ ")
     if single:
-        centered = f(RatFunc(N * modulus + center))
-        yield centered, said(comma, _in_integers(N, u, n, even=centered(RatFunc(-N)) == centered)), lambda n: True
+        # n + u is an integer; where only n^2 matters: n + u or n - u - 1 is a natural number
+        centered, constant = f(RatFunc(N * modulus + center)), constant_term(u)
+        forms = [n.function(N + u - constant), n.function(N - u + constant - 1)]
+        integers = [forms[0], plain(f" - {-constant % 1}" if constant.denominator > 1 else ""), member("Z")]
+        if constant.denominator == 1 and centered(RatFunc(-N)) == centered:
+            integers = [joined(forms), member("N")]
+        yield centered, said(comma, *integers), lambda n: True
     if not single or constant_term(center).denominator > 1 or int(u.den.content()) > 1:
-        form, what = over_parameters(N + center), " is " + "".join(kind(residues, modulus))
+        form, what = over_parameters(N + center), f" is {kind(residues, modulus)}"
         yield f(RatFunc(form)), said(comma, n.function(form), what), lambda n: True
-
-
-def _in_integers(N: Poly, u: FunctionPoly, n: Notation, *, even: bool) -> Math:
-    """That n + u is an integer; where only n^2 matters: that n + u or n - u - 1 is a natural number."""
-    constant = constant_term(u)
-    u = over_parameters(u - constant)
-    form, other = n.function(N + u), n.function(N - u - 1)
-    if constant.denominator > 1:
-        return said(form, plain(f" - {-constant % 1}"), member("Z"))
-    return said(joined([form, other]), member("N")) if even else said(form, member("Z"))
 
 
 def _center(equation: FunctionPoly, f: RatFunc) -> Poly | None:

@@ -51,7 +51,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from itertools import product
+from itertools import chain, product
 from math import gcd
 from typing import Any
 
@@ -85,9 +85,8 @@ class Coordinate:
 def symmetries(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Poly, Poly]]:
     """Coordinates s, n the largest number for which s^2 S, with S in this coordinate, is num/den in z = s^n; num and den.
 
-    They are found by the fixed points that can belong to a group of Moebius maps: the first is infinity, or a pole.
-
-    The other one is the mean of the poles where the first is infinity, or of the zeros if there are none.
+    They are found by the fixed points that can belong to a group of Moebius maps: the first is infinity, or a pole.  The
+    other one is the mean of the poles where the first is infinity, or of the zeros if there are none.
     """
     S, field = problem.S, problem.field
     x = RatFunc(field.poly([0, 1]))
@@ -107,7 +106,15 @@ def symmetries(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Po
 
 def kimura(problem: Problem, variable: str) -> Theorem | None:
     """Kimura's theorem, where the equation or its quotient has at most three singular points, and regular ones."""
-    for coordinate, equation in _quotients(problem, variable) if riemann.is_fuchsian(problem) else ():
+    z = RatFunc(problem.field.poly([0, 1]))
+    quotients = (
+        (coordinate, analyse((RatFunc(num, den) - Fraction(n * n - 1, 4)) / (n * z) ** 2, problem.budget))
+        for coordinate, num, den in symmetries(problem, variable)
+        if (n := coordinate.n) > 1
+    )
+    for coordinate, equation in (
+        chain([(Coordinate(variable), problem)], quotients) if riemann.is_fuchsian(problem) else ()
+    ):
         if riemann.is_fuchsian(equation) and riemann.singular_points(equation) <= 3:
             points = "singular points" if coordinate.n == 1 else f"singular points in {coordinate}"
             omegas, origin = dict(OMEGAS), partial(jacobi_solutions, equation, coordinate, variable)
@@ -121,16 +128,6 @@ def kimura(problem: Problem, variable: str) -> Theorem | None:
             name = f"at most three regular {points}: Kimura's theorem"
             return Theorem(name, restriction.confluence(problem), regions)
     return None
-
-
-def _quotients(problem: Problem, variable: str) -> Iterator[tuple[Coordinate, Problem]]:
-    """The equation, and those in z = s^n."""
-    yield Coordinate(variable), problem
-    z = RatFunc(problem.field.poly([0, 1]))
-    for coordinate, num, den in symmetries(problem, variable):
-        n = coordinate.n
-        if n > 1:
-            yield coordinate, analyse((RatFunc(num, den) - Fraction(n * n - 1, 4)) / (n * z) ** 2, problem.budget)
 
 
 def structures(problem: Problem, n: int) -> Iterator[Condition]:
@@ -220,17 +217,13 @@ class Confluent:
         if not self.q:
             return f"omega of degree 2, rational in {z} and sqrt({z}){where}"
         power = "" if n == 1 else f" {z}" if n == 2 else f" {z}^{n - 1}"
-        beta, difference = (_signed(square) for square in (self.r * self.r / self.q, 1 + 4 * self.b))
+        squares = self.q, self.r * self.r / self.q, 1 + 4 * self.b
+        rate, beta, difference = (riemann.with_sign(root_written(f).text) if f else "" for f in squares)
         natural = "a natural number" if n == 1 else f"a natural multiple of {n}"
         return (
-            f"omega ={_signed(self.q)}{power} + (1{difference})/(2 {z}) + P'/P{where}, with signs for which "
+            f"omega ={rate}{power} + (1{difference})/(2 {z}) + P'/P{where}, with signs for which "
             f"deg P = (-{n}{beta}{difference})/2 is {natural}"
         )
-
-
-def _signed(square: Poly) -> str:
-    root = root_written(square).text
-    return "" if root == "0" else f" +- ({root})" if " " in root else f" +- {root}"
 
 
 def laguerre_solutions(form: Confluent, variable: str, _: int | None = None) -> tuple[PolynomialSolution, ...]:

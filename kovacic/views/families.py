@@ -174,24 +174,21 @@ def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[Point], m: i
 
 def _choices(point: Point, m: int) -> tuple[Choice, ...] | None:
     """Step 1; None where the exponents aren't square roots of constants."""
-    place = point.place
+    place, centre = point.place, 2 if m == 2 else 6
     if place.kind is Kind.ORDINARY or (place.at_infinity and place.order == 1):
         return tuple(Choice(Integer(e)) for e in ((0, 1) if m == 1 else (0, 2, 4) if m == 2 else range(13)))
-    if place.order == 1:
-        return (Choice(Integer({1: 1, 2: 4}.get(m, 12))),)
     if place.order > 2:
         if m == 2:
             return (Choice(Integer(4 - place.order if place.at_infinity else place.order)),)
         return _irregular(place) if m == 1 and place.degree == 1 and place.order % 2 == 0 else None
-    if m == 1:
-        if place.delta_squared is None:
-            return None
+    if place.order == 1:
+        return (Choice(Integer(1 if m == 1 else 2 * centre)),)
+    if m == 1 and place.delta_squared is not None:
         delta = root(place.delta_squared)
         return tuple(Choice((1 + sign * delta) / 2) for sign in ((1, -1) if delta else (1,)))
-    if place.delta is None:
-        return (Choice(Integer(2 if m == 2 else 6)),)
-    centre, steps = (2, (-2, 0, 2)) if m == 2 else (6, tuple(Fraction(12 * k, m) for k in range(-m // 2, m // 2 + 1)))
-    values = {centre + step * place.delta for step in steps}
+    if m == 1:
+        return None
+    values = {centre + Fraction(2 * centre * k, m) * (place.delta or 0) for k in range(-m // 2, m // 2 + 1)}
     return tuple(Choice(Integer(int(value))) for value in sorted(values) if value.denominator == 1)
 
 
@@ -243,14 +240,8 @@ class _Trial:
     def _product(self, powers: Sequence[int]) -> Any:
         return prod((f**k for f, k in zip(self.factors, powers, strict=True)), start=self.ring.one)
 
-    def _without(self, index: int, power: int) -> Any:
-        """D over this power of a factor."""
-        return self._product([k - power * (i == index) for i, k in enumerate(self.weights)])
-
     def _polynomial(self, polynomial: Poly) -> Any:
-        return self.ring.from_list(
-            [self.field.from_sympy(number(polynomial[k])) for k in range(polynomial.degree, -1, -1)]
-        )
+        return self.ring.from_list([self.field.from_sympy(number(c)) for c in reversed([*polynomial])])
 
     def of(self, families: Sequence[Family]) -> dict[int, Family]:
         """The families that were tried, by their ids: all of few, else those up to the first success."""
@@ -269,10 +260,12 @@ class _Trial:
         D, scale, convert = self.D, SCALE[self.m], self.field.from_sympy
         theta, Dtheta = [], self.ring.zero
         for index, (choice, f) in enumerate(zip(family.choices[1:], self.factors, strict=True)):
-            Dtheta += self._without(index, 1) * f.diff(0) * convert(scale * choice.value)
-            theta.append(Mul(scale * choice.value, f.diff(0).as_expr(self.x) / f.as_expr(self.x)))
+            others = self._product([k * (i != index) for i, k in enumerate(self.weights)])  # D = others f^weight
+            rest, slope = self.weights[index], f.diff(0)
+            Dtheta += others * f ** (rest - 1) * slope * convert(scale * choice.value)
+            theta.append(Mul(scale * choice.value, slope.as_expr(self.x) / f.as_expr(self.x)))
             for power, c in choice.singular:
-                Dtheta += self._without(index, -power) * convert(c)
+                Dtheta += others * f ** (rest + power) * convert(c)
                 theta.append(c * f.as_expr(self.x) ** power)
         for power, c in family.choices[0].singular:
             Dtheta += D * self.ring.gens[0] ** power * convert(c)
@@ -281,12 +274,10 @@ class _Trial:
         columns = [self._image(self.ring.gens[0] ** k, Dtheta) for k in range(d + 1)]
         height = 1 + max([0, *(column.degree() for column in columns if column)])
         rows = [[column.coeff(self.ring.gens[0] ** i) for column in columns] for i in range(height)]
-        kernel = [
-            self.ring.from_list(v[::-1]) for v in DomainMatrix(rows, (height, d + 1), self.field).nullspace().to_list()
-        ]
+        kernel = DomainMatrix(rows, (height, d + 1), self.field).nullspace().to_list()
         if kernel:
-            P = max(kernel, key=lambda polynomial: polynomial.degree()).monic().as_expr(self.x)
-            return replace(family, theta=Add(*theta), P=P)
+            longest = max((self.ring.from_list(vector[::-1]) for vector in kernel), key=lambda P: P.degree())
+            return replace(family, theta=Add(*theta), P=longest.monic().as_expr(self.x))
         return self._failed(replace(family, theta=Add(*theta)), rows)
 
     def _image(self, P: Any, Dtheta: Any) -> Any:
