@@ -929,3 +929,35 @@ def test_resonance_at_any_two_points(frequency: Any, start: Any) -> None:
     family = dsolve(D2 + frequency**2 * D0, ics={y(start): 1, y(start + 2 * sympy.pi / frequency): 1}).rhs
     assert C1 in family.free_symbols
     assert abs(sympy.N(family.subs({x: start, C1: 3}) - 1)) < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("equation", "integrals"),
+    [
+        ("y'' + y = x*tan(x)", {"x/cos(x)"}),
+        ("y'' + y = x^2*tan(x)", {"x**2/cos(x)"}),
+        ("y'' = x*tan(x)", {"x*sin(x)/cos(x)", "x**2*sin(x)/cos(x)"}),
+        ("y'' + y = x*sec(x)", {"x*sin(x)/cos(x)"}),
+        ("y'' + y = exp(x)*sec(x)", {"exp(x)*sin(x)/cos(x)"}),
+        ("y'' - y = x*tan(x)", {"x*exp(-x)*sin(x)/cos(x)", "x*exp(x)*sin(x)/cos(x)"}),
+        ("y'' + y = tan(x)", set()),
+        ("y'' + y = sec(x)", set()),
+    ],
+)
+def test_beside_tangents_only_what_is_not_elementary_stays(
+    equation: str, integrals: set[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At once, without SymPy's rules in another process; and it is a solution, by SymPy's derivatives."""
+    monkeypatch.setattr("kovacic.general_solution.variation.last_of", None)
+    found = kovacic.dsolve(equation).rhs
+    assert {str(integral.function) for integral in found.atoms(sympy.Integral)} == integrals
+    left, right = (sympy.sympify(side) for side in equation.replace("y''", "D").replace("^", "**").split("="))
+    rest = left.subs({"D": found.diff(x, 2), "y": found}) - right
+    assert sympy.simplify(rest.rewrite(sympy.cos)) == 0
+
+
+def test_an_integral_beside_a_tangent_begins_at_the_initial_value() -> None:
+    """y'' = x tan(x), y(1) = 1, y'(1) = 0, against Taylor's method."""
+    found = kovacic.dsolve("y'' = x*tan(x)", ics="y(1)=1, y'(1)=0").rhs
+    steps = mpmath.odefun(lambda t, y: [y[1], t * mpmath.tan(t)], 1, [1, 0])
+    assert abs(sympy.N(found.subs(x, sympy.Rational(5, 4))) - steps(mpmath.mpf("1.25"))[0]) < 1e-12

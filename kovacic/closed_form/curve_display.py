@@ -7,7 +7,7 @@ kappa int r dx/sqrt(g) is a sum of kappa C sqrt(g) and of kappa c log(Q) or kapp
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 
 import sympy
@@ -18,20 +18,14 @@ from kovacic.closed_form.atoms import Atoms, Expr, discriminant, display, ration
 from kovacic.closed_form.curve import CurveIntegral, Unit, unit
 from kovacic.closed_form.structure import OnCurve
 
-
-@dataclass(frozen=True)
-class _Terms:
-    """int r dx/sqrt(g) = sum of coefficient * log(base) + sum of `others`; notes on what was left as an integral."""
-
-    logarithms: tuple[tuple[Expr, Expr], ...]
-    others: tuple[Expr, ...]
-    notes: tuple[str, ...] = ()
+#: int r dx/sqrt(g) = sum of coefficient * log(base) for the first + sum of the second; notes on what was left as an integral.
+_Terms = tuple[list[tuple[Expr, Expr]], list[Expr], tuple[str, ...]]
 
 
 def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, tuple[str, ...]]:
     """int r dx/sqrt(g), and notes."""
-    terms = _terms(integral, atoms, alone=False)
-    return Add(*terms.others, *(c * log(base) for c, base in terms.logarithms)), terms.notes
+    logarithms, others, notes = _terms(integral, atoms, alone=False)
+    return Add(*others, *(c * log(base) for c, base in logarithms)), notes
 
 
 def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
@@ -39,27 +33,25 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
     form = _oriented(form)
     zeros, oscillates = form.zeros, atoms.is_negative(form.kappa_squared)
     kappa = atoms.sqrt(-form.kappa_squared if oscillates else form.kappa_squared)
-    terms = _terms(form.integral, atoms, alone=zeros is None)
+    logarithms, others, notes = _terms(form.integral, atoms, alone=zeros is None)
     common = display(form.common, atoms)
     A, B = Integer(1), Integer(0)
     if zeros is not None:  # up to a common factor, without denominators
         (a, A), (b, B) = atoms.primitive(zeros.A), atoms.primitive(zeros.B)
         numbers, roots = (rational(b / a) * kappa * sqrt(atoms.poly(form.integral.g))).as_coeff_Mul()
         A, B = numbers.q * A, numbers.p * B * roots
-    if not terms.others and not terms.logarithms:
-        return common * A, common * B, terms.notes
+    if not others and not logarithms:
+        return common * A, common * B, notes
     if oscillates:
-        angle = Add(
-            *(_times(kappa, t) for t in terms.others), *(_times(kappa, c) * log(b) for c, b in terms.logarithms)
-        )
+        angle = Add(*(_times(kappa, t) for t in others), *(_times(kappa, c) * log(b) for c, b in logarithms))
         c, s = cos(angle), sin(angle)
-        return common * (A * c - B * s), common * (A * s + B * c), terms.notes
-    powers = [(base, _times(kappa, c)) for c, base in terms.logarithms]
-    inner = Add(*(_times(kappa, t) for t in terms.others))
+        return common * (A * c - B * s), common * (A * s + B * c), notes
+    powers = [(base, _times(kappa, c)) for c, base in logarithms]
+    inner = Add(*(_times(kappa, t) for t in others))
     first, second = (
         Mul(common, A + sign * B, *(b ** (sign * e) for b, e in powers), exp(sign * inner)) for sign in (1, -1)
     )
-    return first, second, terms.notes
+    return first, second, notes
 
 
 def _times(factor: Expr, term: Expr) -> Expr:
@@ -99,9 +91,9 @@ def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
     if not integral.is_elementary:
         if integral.unit is None:
             others.append(sympy.Integral(atoms.ratio(integral.without_exact) / root, atoms.x))
-            return _Terms((), tuple(others), (f"integral left because {integral.reason}",))
+            return [], others, (f"integral left because {integral.reason}",)
         _append_unit(integral.unit, root, atoms, logarithms, others)
-        return _Terms(tuple(logarithms), tuple(others))
+        return logarithms, others, ()
     if integral.rest:
         # x - (x1 + x2)/2 + sqrt(g); alone, for real roots that aren't symmetric to 0, its square root, which has another sign
         # of sqrt(g) in some regions.
@@ -115,7 +107,7 @@ def _terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool) -> _Terms:
             _append_unit(found, root, atoms, logarithms, others)
         else:
             others.append(_root_sum(integral, residue, root, atoms))
-    return _Terms(tuple(logarithms), tuple(others))
+    return logarithms, others, ()
 
 
 def _append_unit(u: Unit, root: Expr, atoms: Atoms, logarithms: list[tuple[Expr, Expr]], others: list[Expr]) -> None:

@@ -133,7 +133,7 @@ def _by_sine(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> list[t
     terms: list[tuple[Poly, Expr]] = []
     if done.exact:
         W = root * sqrt(atoms.factored(1 - shown)) * sqrt(atoms.factored(1 - shown * m))
-        terms.append(_multiple(done.exact(shown) / 2, W, atoms))
+        terms.append((lead := done.exact.num.lc, atoms.factored(done.exact(shown) / (2 * lead)) * W))
     terms.append((m * done.rest[0] + done.rest[1], elliptic_f(phi, modulus)))
     terms.append((-done.rest[1], elliptic_e(phi, modulus)))
     for residue in done.residues:
@@ -177,7 +177,9 @@ def _by_tangent(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> lis
     # w as sqrt(s) (1 + s) sqrt(1 - m sin(phi)^2), for the branches of F and E where s < -1.
     W = root * sqrt(atoms.factored(RatFunc(quadratic, (x.num + 1) ** 2)(shown)))
     phi, modulus = 2 * atan(root), atoms.constant(m)
-    terms: list[tuple[Poly, Expr]] = [_multiple((C * (x + 1))(shown), W, atoms)] if C else []
+    terms: list[tuple[Poly, Expr]] = []
+    if C:
+        terms.append((lead := C.num.lc, atoms.factored((C * (x + 1))(shown) / lead) * W))
     first = done.rest[0] + done.rest[1]
     for residue in done.residues:
         tau, rho = -residue.factor[0], residue.value[0]
@@ -204,13 +206,6 @@ def _square_root(t: RatFunc, inner: RatFunc | None, atoms: Atoms) -> tuple[RatFu
         return t, sqrt(atoms.factored(t))
     shown = t(inner * inner)
     return shown, atoms.factored(inner) * sqrt(atoms.factored(shown / (inner * inner)))
-
-
-def _multiple(C: RatFunc, W: Expr, atoms: Atoms) -> tuple[Poly, Expr]:
-    """C W, its constant by itself."""
-    lead = C.num.lc
-    (a, top), (b, bottom) = (atoms.primitive(p) for p in ((C / lead).num, (C / lead).den))
-    return lead * (a / b), top / bottom * W
 
 
 def _over(field: Field, *functions: Any) -> tuple[Any, ...]:

@@ -198,6 +198,9 @@ _DERIVATIVES: dict[Any, Callable[[Sequence[Number], Number], list[Number]]] = {
 _REWRITTEN: dict[Any, Any] = {
     **dict.fromkeys((sympy.sinh, sympy.cosh, sympy.tanh), sympy.exp),
     **dict.fromkeys((sympy.acos, sympy.atanh), sympy.log),
+    sympy.sec: sympy.cos,
+    sympy.csc: sympy.sin,
+    sympy.cot: sympy.tan,
     **dict.fromkeys((sympy.elliptic_k, sympy.elliptic_e), sympy.hyper),
 }
 

@@ -2,6 +2,7 @@
 
 - Products of powers and exponentials of rational functions (Ei, erf, gamma functions): `kovacic.closed_form.primitive`.
 - Logarithms and inverse tangents times these, by parts; waves times rational functions (sine and cosine integrals).
+- Tangents, cotangents, secants, ... times functions whose residues aren't constant: the rest, and an `Integral` that stays.
 - Polynomials times exponentials and waves in x, log(x) or exp(k x): Y' for Y'' = g, by undetermined coefficients.
 - Rational functions of exp(k x), or of s = sin(theta) and c = cos(theta), theta = w x + phi, by partial fractions in
 
@@ -34,7 +35,7 @@ NUMBERS = {sympy.Symbol(PI): sympy.pi, sympy.Symbol(EULER): sympy.E}
 
 
 def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
-    """int g dx, None where a term isn't of one of these kinds.
+    """int g dx, None where a term isn't of one of these kinds; an `Integral` that isn't elementary beside tangents.
 
     >>> x = sympy.Symbol("x")
     >>> antiderivative(tan(x) ** 2 + log(x), x)
@@ -46,7 +47,15 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
         return None
     if functions <= {exp} and (whole := _of_product(integrand, x)) is not None:
         return whole
-    rules = (_by_coefficients, _in_logarithms, _in_exponentials, _in_waves, _of_product, _beside_waves)
+    rules = (
+        _by_coefficients,
+        _in_logarithms,
+        _in_exponentials,
+        _in_waves,
+        _of_product,
+        _beside_waves,
+        _beside_tangents,
+    )
     groups: dict[Expr, list[Expr]] = {}  # terms with the same logarithms
     for term in sympy.Add.make_args(integrand):
         inverse = [factor for factor in sympy.Mul.make_args(term) if factor.as_base_exp()[0].func in (log, atan)]
@@ -197,6 +206,22 @@ def _at_a_pole(fraction: Expr, wave: Expr, slope: Expr, x: Expr) -> Expr | None:
     # sin(u + p) = cos(p) sin(u) + sin(p) cos(u), and p + pi/2 for the cosine.
     a, b = (cos(phase), sin(phase)) if wave.func is sin else (-sin(phase), cos(phase))
     return total + factor * number * (a * sympy.Si(u) + b * sympy.Ci(u))
+
+
+def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
+    """int q + (a + b s)/c dx for a wave c with simple zeros: at these s = 1 or -1, and residues must be constant [Risch]."""
+    below = [f.base for f in sympy.Mul.make_args(term) if f.is_Pow and f.exp == -1 and f.base.func in (sin, cos)]
+    if len(below) != 1:
+        return None
+    c, s = below[0], (cos if below[0].func is sin else sin)(below[0].args[0])
+    if not (term * c).is_polynomial(s, c):
+        return None
+    (_, q), rest = sympy.reduced(term * c, [s**2 + c**2 - 1, c], s, c)
+    waves = rest.has(log, atan) or any(rest.xreplace({s: sign}).has(sin, cos) for sign in (1, -1))
+    if waves or not all(rest.xreplace({s: sign}).has(x) for sign in (1, -1)):
+        return None
+    found = antiderivative(q, x)
+    return None if found is None else found + sympy.Integral(rest / c, x)
 
 
 def _rate(g: Expr, x: Expr) -> RatFunc | None:

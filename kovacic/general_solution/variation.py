@@ -121,11 +121,11 @@ class Basis:
         """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
         right = prepared(right)
         parts = [antiderivative(y * right / self.wronskian, self.x) for y in (self.y2, self.y1)]
-        return (
-            None if parts[0] is None or parts[1] is None else self._checked(parts, right, rates(self.equation, self.x))
-        )
+        if any(part is None or part.has(sympy.Integral) for part in parts):
+            return None
+        return self._checked(parts, right, rates(self.equation, self.x))
 
-    def _checked(self, parts: Sequence[Expr], right: Expr, coefficients: tuple[Expr, Expr]) -> Expr | None:
+    def _checked(self, parts: Sequence[Any], right: Expr, coefficients: tuple[Expr, Expr]) -> Expr | None:
         whole = expand(self.y2 * parts[1] - self.y1 * parts[0])
         candidates = []
         for form in (whole, expand(TR8(whole))) if whole.has(sin, cos) else (whole,):  # TR8: products of waves as waves
@@ -147,12 +147,10 @@ class Basis:
             found = pool.map(lambda k: last_of(_stages, integrands[k], self.x, seconds=limit), asked)
             for k, stages in zip(asked, found, strict=True):
                 integrands[k], known[k] = stages or (integrands[k], None)
-        if (
-            None not in known
-            and self.equation.change is None
-            and (whole := self._checked(known, right, coefficients)) is not None
-        ):
-            return whole
+        if None not in known and self.equation.change is None:
+            whole = self._checked(known, right, coefficients)
+            if whole is not None:
+                return whole.replace(lambda e: e.func is sympy.Integral, lambda e: _open(e.function, self.x, start))
         direct = [y * right / self._by_definition for y in (self.y2, self.y1)]
         tried = ((integrands, known), (plain, own), (direct, (None, None)))  # SymPy's forms may have other branches
         for forms, done in tried:
