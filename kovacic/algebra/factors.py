@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import reduce
 from itertools import islice
 from operator import mul
 from typing import Any
@@ -20,7 +21,7 @@ _FEW_FACTORS = 12
 
 def product(factors: Sequence[Poly]) -> Poly:
     """The product of at least one polynomial."""
-    return products(factors)[-1][0]  # type: ignore[no-any-return]
+    return products(factors)[-1][0] if len(factors) >= _FEW_FACTORS else reduce(mul, factors)
 
 
 def products(factors: Sequence[Any]) -> list[list[Any]]:

@@ -114,6 +114,8 @@ class RationalPoly(Poly):
         return RationalPoly(self.rep // other.rep) if type(other) is RationalPoly else super().__floordiv__(other)
 
     def __truediv__(self, other: Poly | Scalar) -> RationalPoly:
+        if type(other) is RationalPoly and other.rep.degree() == 0:
+            return RationalPoly(self.rep / other.rep[0])
         return RationalPoly(self.rep / other) if type(other) is int and other else super().__truediv__(other)
 
     def _add(self, other: RationalPoly) -> RationalPoly:
