@@ -20,7 +20,7 @@ from kovacic.algebra.factors import _remainders, expansions, product, products
 from kovacic.algebra.lifting import Lifter, prime, rational_reconstruction
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ, RationalPoly
+from kovacic.algebra.rationals import QQ, RationalPoly, _factored
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.algebra.sparse import _factored_over_q, factorisation
 from kovacic.algebra.traces import characteristic_polynomial, is_provably_not_a_square, trace_of_square_root
@@ -364,3 +364,21 @@ def test_sparse_polynomials_factor_whatever_their_coefficients_are(
     assert all(f.total_degree() == 1 for f, _ in factors)
     assert _factored_over_q(whole)[0] == constant
     assert sorted(_factored_over_q(whole)[1], key=str) == sorted(factors, key=str)
+
+
+@given(st.lists(polynomials.filter(lambda f: f.degree > 0), min_size=1, max_size=4), st.integers(1, 7), st.booleans())
+def test_factors_of_powers_are_those_of_their_roots(parts: list[RationalPoly], n: int, equal: bool) -> None:
+    """Powers of long squarefree polynomials, of others, and products with different multiplicities."""
+    base = prod(parts, start=QQ.poly([7, 0, 3] + [0] * 48 + [5]))
+    power = base**n if equal else base**n * parts[0]
+    numerator = power.rep.numer()
+    expected = sorted((str(f), k) for f, k in numerator.factor()[1])
+    assert sorted((str(f), k) for f, k in _factored(numerator)) == expected
+    assert sorted((str(f), k) for f, k in _factored(-6 * numerator)) == expected
+
+
+def test_a_product_with_the_degree_of_a_power_is_none() -> None:
+    """a b^3 has the degree of (a b)^2."""
+    a, b = (QQ.poly([c, 1] + [0] * 29 + [1]) for c in (3, 5))
+    numerator = (a * b**3).rep.numer()  # type: ignore[attr-defined]
+    assert sorted((str(f), k) for f, k in _factored(numerator)) == sorted((str(f), k) for f, k in numerator.factor()[1])

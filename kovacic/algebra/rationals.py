@@ -20,6 +20,8 @@ from kovacic.limits import check_duration, check_time, watched_seconds
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
 _EUCLID_DEGREE = 16
+#: Above this degree it is tried first whether a polynomial to be factored is a power: gcds with derivatives are slow.
+_ROOT_DEGREE = 100
 #: Above this degree polynomials are factored in a process that can be stopped.
 _LONG_DEGREE = 400
 #: Integers up to this size are factored, to write sqrt(8) as 2*sqrt(2); of larger ones factors of so many bits are found.
@@ -269,7 +271,7 @@ class RationalField(Field):
         if numerator.degree() > _LONG_DEGREE and watched_seconds(inf) < inf:
             factors = [(fmpz_poly(list(factor)), k) for factor, k in _factored_apart(_integers(numerator))]
         else:
-            factors = numerator.factor()[1]
+            factors = _factored(numerator)
         if len(factors) > 1:
             factors.sort(key=lambda pair: (pair[0].degree(), _integers(pair[0])))
         return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), k) for f, k in factors]
@@ -293,6 +295,33 @@ class RationalField(Field):
         return "Q"
 
 
+def _factored(polynomial: Any) -> list[tuple[Any, int]]:
+    """The factors; of a power of a squarefree polynomial, as which a prime shows it, those of its root."""
+    degree = polynomial.degree()
+    if degree > _ROOT_DEGREE and (image := nmod_poly(polynomial, next(primes()))).degree() == degree:
+        radical = image // image.gcd(image.derivative())
+        n, rest = divmod(degree, radical.degree())
+        leading = int(image.leading_coefficient())  # of the radical, too
+        if n > 1 and not rest and image * pow(leading, n - 1, image.modulus()) == radical**n:
+            root = _root(fmpq_poly(polynomial, polynomial.leading_coefficient()), n)
+            if root is not None:
+                return [(factor, n * k) for factor, k in root.numer().factor()[1]]
+    return polynomial.factor()[1]  # type: ignore[no-any-return]
+
+
+def _root(power: Any, n: int) -> Any:
+    """The monic r with r^n = power, from the leading coefficients by Newton's iteration for 1/r; None without one."""
+    size = power.degree() // n + 1
+    top = fmpq_poly(power.coeffs()[: -size - 1 : -1])
+    inverse, known = fmpq_poly([1]), 1
+    while known < size:
+        known = min(2 * known, size)
+        inverse += inverse.mul_low(1 - top.mul_low(inverse.pow_trunc(n, known), known), known) / n
+    series = top.mul_low(inverse.pow_trunc(n - 1, size), size)
+    root = fmpq_poly([series[size - 1 - i] for i in range(size)])
+    return root if root**n == power else None
+
+
 @lru_cache(maxsize=16)
 def _factored_apart(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
     """The factors, found where it can be stopped: that may take hours, for x^5040 - 1 or where many factors lie modulo p.
@@ -305,7 +334,7 @@ def _factored_apart(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...]
 
 
 def _yield_factors(coefficients: tuple[int, ...]) -> Iterator[list[tuple[tuple[int, ...], int]]]:
-    yield [(_integers(f), k) for f, k in fmpz_poly(list(coefficients)).factor()[1]]
+    yield [(_integers(f), k) for f, k in _factored(fmpz_poly(list(coefficients)))]
 
 
 def _integers(polynomial: Any) -> tuple[int, ...]:
