@@ -205,7 +205,8 @@ def test_the_reference_of_case_1_is_that_of_the_taylor_route(S: str) -> None:
     [
         ("x^2 - 11", (-5, 5), False),
         ("x^2 - 1", (0, 30), True),  # exp(-x^2/2), the exponent is up to 450
-        ("x^2 - 401", (-20, 20), True),  # 200 factors
+        ("x^2 - 401", (-20, 20), False),  # 200 zeros: tabulated
+        ("x^2 - 121", (-30, 30), True),  # 60 factors, exp(-450)
         ("(10^6/x - 10^6/(x+1))^2 - 10^6/x^2 + 10^6/(x+1)^2", (10**4, 10**7), True),  # (x/(x + 1))^(10^6)
     ],
 )
@@ -540,8 +541,7 @@ def test_a_function_that_is_wrong_beside_its_zeros_only_is_seen() -> None:
         ("(1-x^2)*y'' - 2*x*y' + 150*151*y = 0", (-1, 1)),  # Legendre
         ("(1-x^2)*y'' - 2*x*y' + 250*251*y = 0", (-1, 1)),
         ("x*y'' + (1-x)*y' + 120*y = 0", (0, 400)),  # Laguerre
-        ("x^2*y'' + 2*x*y' + (x^2 - 80*81)*y = 0", (2, 600)),  # spherical Hankel: the zeros are complex
-        ("x^2 - 301", (-20, 20)),
+        ("x^2*y'' + 2*x*y' + (x^2 - 80*81)*y = 0", (0, 600)),  # spherical Hankel: the zeros are complex
     ],
 )
 def test_polynomials_with_many_zeros_are_tabulated(equation: str, interval: Any) -> None:
@@ -560,6 +560,23 @@ def test_polynomials_with_many_zeros_are_tabulated(equation: str, interval: Any)
         known = scipy.special.eval_legendre(n, points)
         k = int(np.argmax(np.abs(known)))
         assert np.allclose(f(points) / f(points[k]) * known[k], known, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("equation", "interval"),
+    [
+        ("x^2 - 301", (-20, 20)),
+        ("x^2*y'' + 2*x*y' + (x^2 - 80*81)*y = 0", (2, 600)),
+        ("-(10^6 - 1/4)/(1-x^2) - 3/(4*(1-x^2)^2)", ("-99/100", "99/100")),
+    ],
+)
+def test_solutions_with_many_zeros_are_tabulated(equation: str, interval: Any) -> None:
+    solution = kovacic.solve(equation)
+    for careful in (False, True):
+        f = lambdify(solution, interval=interval, careful=careful)
+        assert isinstance(f, TabulatedFunction)
+        assert f.measured is not None
+        assert f.measured.worst < (1 if careful else 1000)
 
 
 def test_zeros_beyond_the_range_of_doubles_are_no_error() -> None:

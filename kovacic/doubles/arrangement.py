@@ -31,15 +31,17 @@ from kovacic.doubles.region import Region
 from kovacic.doubles.tabulate import polynomial_table
 from kovacic.enclosure.closed_form import Exponential, certified, exponentials, omega, value
 from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, zeros
-from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.frame import least_growth
+from kovacic.enclosure.points import Point, as_point, to_acb
 from kovacic.enclosure.problem import NumericProblem
 
 _SAME = 2.0**-60
 """Balls this close together are the same point or exponent: distinct ones were separated at a far higher precision."""
 
-_FEW_ZEROS, _MAX_ZEROS = 60, 200
-"""Polynomials of a degree between these are tabulated on an interval: their zeros take degree^4 time, and may be lost.  Those
-of a higher degree are tabulated where their solution can't be, up to a singular point."""
+_FEW_ZEROS, _MAX_ZEROS, _SHORT = 60, 200, 2000.0
+"""Zeros take degree^4 time, and may be lost.  Of a polynomial of a degree between these the solution is tabulated on an
+interval where it grows and oscillates by less than exp(2000), and the polynomial where the interval ends in a singular point;
+of a higher degree always."""
 
 Powers = list[tuple[acb, acb]]  # (zeta, exponent)
 
@@ -47,22 +49,26 @@ Powers = list[tuple[acb, acb]]  # (zeta, exponent)
 def product_form(problem: NumericProblem, which: int, region: Region, base: Point, careful: bool) -> ProductForm | None:
     """The solution number `which` as a product, at a working precision of some 200 bits; None where there is no such form.
 
-    None means case 3, case 2 on a curve of positive genus or for complex arguments, and polynomials of degree above 200 on a
-    regular interval.
+    None means case 3, case 2 on a curve of positive genus or for complex arguments, and polynomials of degree above 60 where
+    a table is better.
     """
     branches = exponentials(problem)
     if branches:
-        return _exponential(branches[which], region, base, careful)
+        return _exponential(problem, branches[which], region, base, careful)
     return _on_curve(problem, which, region, base) if region.is_real else None
 
 
-def _exponential(branch: Exponential, region: Region, base: Point, careful: bool) -> ProductForm | None:
+def _exponential(
+    problem: NumericProblem, branch: Exponential, region: Region, base: Point, careful: bool
+) -> ProductForm | None:
     c, degree, table = branch.constant(), branch.P.degree, None
-    if degree > _MAX_ZEROS and not any(region.singular):
-        return None
-    if region.is_real and degree > _FEW_ZEROS:
+    if degree > _FEW_ZEROS and region.is_real and any(region.singular):
         table = polynomial_table(lambda: _normalised(branch, base), degree, region, careful)
-    elif degree > _MAX_ZEROS:
+    elif degree > _FEW_ZEROS and region.is_real:
+        ends = (as_point(end.real, "an end") for end in (region.low, region.high))
+        if degree > _MAX_ZEROS or least_growth(problem.system, *ends) < _SHORT:
+            return None
+    if table is None and degree > _MAX_ZEROS:
         return None
     theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
     roots = zeros(branch.P, c) if table is None else []

@@ -80,7 +80,7 @@ class Chart:
                     x = to_acb(point)
                     growth = theta.growth(z, x) * factor
                     y = growth * P(x)
-                    if y.rel_accuracy_bits() > goal or (prec > 4 * goal and y.contains(0)) or prec > _SLOPE_BITS:
+                    if y.rel_accuracy_bits() > goal or prec > _SLOPE_BITS + 4 * branch.P.degree:
                         found[point] = y, theta.value(x) * y + growth * slope(x)
             if all(point in found for point in points):
                 return [found[point] for point in points]

@@ -111,9 +111,9 @@ def lambdify(
         base = None if start else chart.base(which, candidates)
         if base is not None:
             chart = chart.beginning(which, base)
+        form: ProductForm | None = None
         for variant in variants:
-            form = None
-            if base is not None and type(chart) is Chart:
+            if base is not None and type(chart) is Chart and (form is None or form.polynomial is not None):
                 with working_precision(_PREC):
                     form = product_form(problem, which, region, base, variant)
             if form is None and not region.is_real:
