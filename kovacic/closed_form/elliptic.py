@@ -17,11 +17,11 @@ curve is w^2 = s (s^2 + b s + 1), and with m = (2 - b)/4, s = tan(phi/2)^2, sin(
 
 of which the first is taken for tau < 0 and the second, where n > 1, else.
 
-For an irreducible cubic g over Q its largest real root is adjoined, and one root of a quartic g goes to infinity.  A quartic
+For an irreducible cubic g over Q with one real root, this is adjoined, and one root of a quartic g goes to infinity.  A quartic
 X^4 + p X^2 + q X + s without a root becomes even by the involution that exchanges the roots in two pairs, as for a positive
 root z of z^3 + 2 p z^2 + (p^2 - 4 s) z - q^2: its fixed points, X^2 - (q/z) X - (p + z)/2 = 0, go to 0 and infinity.  Left as
-integrals: quartics for which z isn't rational, or r isn't even; poles that are conjugate
-over the field, and in (2) those where more than one root has to be adjoined, for that takes more than a screen.
+integrals: irreducible cubics with three real roots, quartics for which z isn't rational or r isn't even; poles that are
+conjugate over the field, and in (2) those where more than one root has to be adjoined, for that takes more than a screen.
 
 Reference: NIST Handbook of Mathematical Functions (2010), 19.2 and 19.29; for (2) Byrd & Friedman, Handbook of Elliptic
 Integrals (1971), 239, 260 and 361.54, where the angle is that of cos(phi) = (1 - s)/(1 + s).
@@ -59,20 +59,10 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
         g = branch.num
     terms = (_by_sine if len(_roots(g)) == g.degree else _by_tangent)(r, g, inner, atoms)
     if not terms:
-        return _of_first_kind(g, atoms) if r == r.num.lc and inner is None else None
+        return None
     terms = [(c, e) for c, e in terms if c]
     last = terms[-1][0].inverse()
     return [(atoms.constant(c * last), e) for c, e in terms]
-
-
-def _of_first_kind(g: Poly, atoms: Atoms) -> list[tuple[Expr, Expr]] | None:
-    """int dx/sqrt(g) by (1), from the branch points as real roots of a polynomial over Q; None unless all are real."""
-    points = sympy.real_roots(atoms.poly(g)) if g.field == QQ else []
-    if len(points) < g.degree:
-        return None
-    *last, start, one, other = points
-    ratio = [(z - start) / (z - last[0]) if last else z - start for z in (atoms.x, one, other)]
-    return [(sympy.Integer(1), elliptic_f(asin(sqrt(ratio[0] / ratio[1])), ratio[1] / ratio[2]))]
 
 
 def _in_square(r: RatFunc, g: Poly) -> tuple[RatFunc, Poly, RatFunc | None]:
