@@ -70,6 +70,11 @@ def _pair(e: Expr, x: Expr, a: Expr) -> Pair:
         return a, _ONE
     if e.is_Atom:
         return e, _ZERO
+    if isinstance(e, sympy.RootSum):  # SymPy's substitution would compute rational sums exactly, without end
+        root, inner = e.fun.variables[0], e.fun.expr
+        sums = (sympy.Lambda(root, _substituted(part, x, a)) for part in (inner, inner.diff(x)))
+        value, slope = (sympy.RootSum(e.poly, part, auto=False) for part in sums)
+        return value, slope
     if not (e.is_Add or e.is_Mul or e.is_Pow or e.func in _SLOPES):
         return (_substituted(e, x, a), _substituted(e.diff(x), x, a)) if e.has_free(x) else (e, _ZERO)
     pairs = [_pair(argument, x, a) for argument in (e.args[:1] if e.func is Heaviside else e.args)]
