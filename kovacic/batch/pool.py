@@ -87,7 +87,7 @@ class Child:
         """What the process has to do next."""
         self.items.extend(items)
         self.busy_since = time.monotonic()
-        self._send(*items)
+        self._send(*[(item.number, item.text, item.var, item.extra) for item in items])
 
     def kill(self) -> None:
         """End the process at once and wait for it; its reader thread ends as well."""
@@ -114,7 +114,7 @@ class Child:
     def _read(self, events: SimpleQueue[Event]) -> None:
         try:
             while True:
-                events.put((self, pickle.load(self._from)))
+                events.put((self, Record(*pickle.load(self._from))))
         except (EOFError, pickle.UnpicklingError):  # the end of the process, perhaps while it wrote
             pass
         finally:

@@ -40,9 +40,9 @@ def main() -> None:
     gc.freeze()  # what is loaded stays: the collector needn't look at it again
     with suppress(EOFError):
         while True:
-            answers.write(pickle.dumps(record))
+            answers.write(pickle.dumps((record.number, record.label, record.seconds, record.json)))
             answers.flush()
-            item = pickle.load(sys.stdin.buffer)
+            item = Item(*pickle.load(sys.stdin.buffer))
             if job.memory is not None:
                 _limit_memory(job.memory)
             _set_alarm(0.0 if job.timeout is None else job.timeout + 5.0)
