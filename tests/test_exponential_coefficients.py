@@ -418,3 +418,20 @@ def test_the_shell_and_none_as_an_option(capsys: pytest.CaptureFixture[str]) -> 
     for option in ({"path": "above"}, {"which": "regular"}, {"frobenius": (1, 0)}):
         with pytest.raises(kovacic.InputError, match="functions of x"):
             kovacic.evaluate("exp(x)", 1, **start, **option)
+
+
+@pytest.mark.parametrize(
+    ("equation", "second"),
+    [
+        ("cos(x)*y'' + sin(x)*y' = 0", sympy.sin),
+        ("sin(x)*y'' - cos(x)*y' = 0", sympy.cos),
+        ("cosh(x)*y'' - sinh(x)*y' = 0", sympy.sinh),
+    ],
+)
+def test_solutions_join_where_the_new_variable_has_a_branch_point(equation: str, second: Any) -> None:
+    """sin(x) isn't sqrt(cos(2 x) - 1), whose slope jumps at the ordinary point 0; 1 and `second` are solutions."""
+    x = sympy.Symbol("x")
+    found = kovacic.dsolve(equation, ics={"y(1)": 2, "y'(1)": 3}).rhs
+    expected = 2 + 3 * (second(x) - second(1)) / second(x).diff(x).subs(x, 1)
+    for point in (-2, -1, Fraction(1, 3), 3, 5):
+        assert abs(sympy.N((found - expected).subs(x, sympy.Rational(point)), 20)) < 1e-15

@@ -81,6 +81,9 @@ def in_terms_of(change: Change, expression: Any, variable: str) -> Any:
         if integral.limits == (sympy.Tuple(own),)
     }
     result = expression.xreplace(integrals).xreplace({own: t})
+    if t.func in (sympy.cos, sympy.cosh):  # roots of t + 1 and t - 1 as powers that join where t is 1 or -1
+        roots = {e for e in result.atoms(sympy.Pow) if e.base in (t + 1, t - 1, 1 - t) and not e.exp.is_Integer}
+        return result.xreplace({e: _by_halves(t, e) for e in roots})
     if t.func is not sympy.exp:
         return result
     result = result.replace(
@@ -98,6 +101,14 @@ def solution_in_terms_of(change: Change, solution: Any, variable: str) -> Any:
         return result
     number, rest = result.as_independent(*result.free_symbols, as_Add=False)
     return rest if number.is_number else result
+
+
+def _by_halves(t: Any, power: Any) -> Any:
+    """cos(w) + 1 = 2 cos(w/2)^2, cos(w) - 1 = -2 sin(w/2)^2, and likewise for cosh, in a power."""
+    base, exponent, half = power.base, power.exp, t.args[0] / 2
+    function = {sympy.cos: sympy.sin, sympy.cosh: sympy.sinh}[t.func] if base != t + 1 else t.func
+    sign = -1 if base != t + 1 and (t.func is sympy.cos) == (base == t - 1) else 1
+    return sympy.Integer(2 * sign) ** exponent * function(half) ** (2 * exponent)
 
 
 def _is_exponential_and_one(e: Any) -> bool:
