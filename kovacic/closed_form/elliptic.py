@@ -5,7 +5,7 @@ t (1 - t) (1 - m t) and t = sin(phi)^2, dt/W = 2 dphi/sqrt(1 - m sin(phi)^2), so
 
     int dt/W = 2 F(phi|m),   int t dt/W = 2 (F - E)/m,   int dt/((t - tau) W) = -2 Pi(1/tau; phi|m)/tau.            (1)
 
-For even g and r, x^2 takes the place of x: the roots of g themselves needn't lie in the field.
+For g and r that are even about c, (x - c)^2 takes the place of x: the roots of g themselves needn't lie in the field.
 
 One finite branch point a is enough beside infinity, where the other two may be conjugate: with A^2 = g'(a), x = a + A s the
 curve is w^2 = s (s^2 + b s + 1), and with m = (2 - b)/4, s = tan(phi/2)^2, sin(phi)^2 = 4 s/(1 + s)^2, n = (1 + tau)^2/(4 tau),
@@ -17,11 +17,10 @@ curve is w^2 = s (s^2 + b s + 1), and with m = (2 - b)/4, s = tan(phi/2)^2, sin(
 
 of which the first is taken for tau < 0 and the second, where n > 1, else.
 
-For an irreducible cubic g over Q with one real root, this is adjoined, and one root of a quartic g goes to infinity.  A quartic
-X^4 + p X^2 + q X + s without a root becomes even by the involution that exchanges the roots in two pairs, as for a positive
-root z of z^3 + 2 p z^2 + (p^2 - 4 s) z - q^2: its fixed points, X^2 - (q/z) X - (p + z)/2 = 0, go to 0 and infinity.  Left as
-integrals: irreducible cubics with three real roots, quartics for which z isn't rational or r isn't even; poles that are
-conjugate over the field, and in (2) those where more than one root has to be adjoined, for that takes more than a screen.
+For an irreducible cubic g over Q with one real root, this is adjoined, and one root of a quartic g goes to infinity.  Left as
+integrals: irreducible cubics with three real roots, quartics without a root in the field that aren't even about their centre;
+poles that are conjugate over the field, and in (2) those where more than one root has to be adjoined, for that takes more
+than a screen.
 
 Reference: NIST Handbook of Mathematical Functions (2010), 19.2 and 19.29; for (2) Byrd & Friedman, Handbook of Elliptic
 Integrals (1971), 239, 260 and 361.54, where the angle is that of cos(phi) = (1 - s)/(1 + s).
@@ -29,7 +28,6 @@ Integrals (1971), 239, 260 and 361.54, where the angle is that of cos(phi) = (1 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import sympy
@@ -66,36 +64,12 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
 
 
 def _in_square(r: RatFunc, g: Poly) -> tuple[RatFunc, Poly, RatFunc | None]:
-    """r, g, and t where these are in u = t^2 for a Moebius function t of x; None where there is no such t."""
-    x = RatFunc(g.field.poly([0, 1]))
-    for t, back in _moves(x, g) if g.degree == 4 else ():
-        lifted, square = _over(t.field, r, RatFunc(g))
-        moved, curve = _moved(lifted, square, back)
-        if not curve[1] and not curve[3] and moved(-t.field.poly([0, 1])) == moved:
-            return RatFunc(_halved(moved.num), _halved(moved.den)), _halved(curve) * t.field.poly([0, 1]), t
-    return r, g, None
-
-
-def _moves(x: RatFunc, g: Poly) -> Iterator[tuple[RatFunc, RatFunc]]:
-    """x, and t by the involution of a quartic over Q without a root, with x as a function of t."""
-    yield x, x
-    if g.field != QQ or _roots(g):
-        return
-    centre = -g[3] / 4
-    p, q, s = ((g(x.num + centre))[k] for k in (2, 1, 0))
-    if not q:
-        yield x - centre, x + centre
-    for z in filter(None, _roots(g.field.poly([-q * q, p * p - 4 * s, 2 * p, 1]))):
-        field: Field = g.field
-        half = q / (2 * z)
-        square = half * half + (p + z) / 2
-        if (field.rational_value(square) or 0) <= 0:
-            continue
-        if (root := field.sqrt(square)) is None:
-            field = AlgebraicField(field, field.poly([-square, 0, 1]))
-            root = field.generator
-        t, first, last = RatFunc(field.poly([0, 1])), centre + half + root, centre + half - root
-        yield (t - first) / (t - last), (first - t * last) / (1 - t)
+    """r, g, and t where these are in u = t^2, t = x - c; None where there is no such t."""
+    x, centre = RatFunc(g.field.poly([0, 1])), -g[g.degree - 1] / g.degree
+    moved, curve = _moved(r, RatFunc(g), x + centre)
+    if g.degree == 3 or curve[1] or moved(-x) != moved:
+        return r, g, None
+    return RatFunc(_halved(moved.num), _halved(moved.den)), _halved(curve) * x.num, x - centre
 
 
 def _moved(r: RatFunc, g: RatFunc, back: RatFunc) -> tuple[RatFunc, Poly]:
