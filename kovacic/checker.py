@@ -184,7 +184,7 @@ class Place:
 
     def exponents(self) -> Any:
         """A ball around the sum over the roots of p of the real parts of the least exponents (k not odd > 2)."""
-        total, nu = arb(0), self.nu
+        total, nu, cap, ctx.cap = arb(0), self.nu, ctx.cap, self.nu + 1  # where FLINT's series end
         parts = self.num * self.p ** (2 * nu - self.k), self.den // self.p**self.k, self.p
         for root, _ in self.p.complex_roots():
             shifted = (acb_poly([arb(c) for c in f.coeffs()])(acb_poly([root, 1])).coeffs() for f in parts)
@@ -192,6 +192,7 @@ class Place:
             ratio = num / (rest * acb_series([unit[i + 1] for i in range(nu)], nu) ** self.k)  # t^(2 nu) S
             half = ratio[0].sqrt() * (ratio / ratio[0]).sqrt()[nu - 1] if nu > 1 else (1 + 4 * ratio[0]).sqrt() / 2
             total += arb(nu) / 2 + (abs(half.real) if self.logarithm else -abs(half.real))
+        ctx.cap = cap
         return total
 
     def expansions(self, root: int, q: int, count: int) -> Iterator[Any]:
@@ -259,9 +260,8 @@ def order_modulo(q: int, n: int, num: Any, den: Any, poles: list[tuple[Any, Any]
         rows = [[int(f[j]) for j in range(N + 1, 2 * N)] for f in multiples]
         return bool(rows) and int(nmod_mat(rows, q).rank()) < len(rows)
 
-    demand(
-        principal(n) and not any(principal(n // int(p)) for p, _ in fmpz(n).factor()), f"{n} is the order modulo {q}"
-    )
+    least = principal(n) and not any(principal(n // int(p)) for p, _ in fmpz(n).factor())
+    demand(least, f"{n} is the order modulo {q}")
     return n
 
 

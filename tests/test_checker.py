@@ -13,6 +13,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import flint
 import pytest
 import strategies
 import transform
@@ -431,3 +432,17 @@ def test_mutated_evidence_ends_in_a_verdict(text: str) -> None:
                 place = place[key]
             place[path[-1]] = wrong
             assert checker.verdict(json.dumps(data)).startswith(("checked", "refuted: ", "not checked: "))
+
+
+@pytest.mark.parametrize("e", [-3, 2, 40])
+@pytest.mark.parametrize("nu", [2, 9, 10, 11, 12, 30])
+def test_exponents_at_irregular_places_of_any_order(nu: int, e: int) -> None:
+    """omega = 1/x^nu + e/x belongs to the exponent e, and the other solution to nu - e; FLINT's series end after ten terms."""
+    x = RatFunc(QQ.poly([0, 1]))
+    omega = x**-nu + e / x
+    S = omega.derivative() + omega * omega
+    with flint.ctx.workprec(333):
+        place = checker.Place(checker.X, 2 * nu, S.num.rep, S.den.rep)
+        assert place.exponents().contains(min(e, nu - e))
+        assert abs(place.exponents() - min(e, nu - e)) < 1e-20
+    assert flint.ctx.cap == 10
