@@ -140,9 +140,12 @@ def irregular_difference_squared(place: Place) -> Poly:
 
 
 def _moved(f: Poly, p: Poly, extension: AlgebraicField | None, count: int) -> Poly:
-    """f(t + c) modulo t^count by Taylor's formula, c the class of x modulo p: over the extension by c if there is one."""
+    """f(t + c) modulo t^count, c the class of x modulo p: by Taylor's formula over the extension by c, if there is one."""
+    if extension is None:
+        t = p.field.poly([0, 1])
+        return (f(t - p[0]) if p[0] else f) % t**count
     coefficients = []
     for k in range(count):
-        coefficients.append(extension.element(f % p) if extension else f % p)
+        coefficients.append(extension.element(f % p))
         f = f.derivative() / (k + 1)
-    return (extension or p.field).poly(coefficients)
+    return extension.poly(coefficients)
