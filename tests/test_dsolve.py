@@ -893,6 +893,7 @@ def test_klein_solutions_join_at_ordinary_points(a: sympy.Expr, c: sympy.Expr, s
     assert has_values(a, sympy.Integer(0), c, sympy.sympify(start), stops)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("a", "b", "c", "start"),
     [
