@@ -19,6 +19,7 @@ import kovacic.errors
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.cli import main
+from kovacic.general_solution import in_special_functions
 from kovacic.general_solution.variation import special_wronskian as wronskian
 from kovacic.limits import Budget, Limits
 from kovacic.reading.read import read_input
@@ -26,6 +27,7 @@ from kovacic.special import confluent, gauss
 from kovacic.special.answer import find, special_functions
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 from kovacic.special.writer import Writer
+from kovacic.views.sentences import SCREEN
 from kovacic.views.text import solution_lines
 from tests.special_cases import KINDS, Case, pull_backs, standard
 from tests.transform import hypergeometric, pull_back
@@ -502,3 +504,11 @@ _MATHIEU = (sympy.mathieuc, sympy.mathieus, sympy.mathieucprime, sympy.mathieusp
 def test_other_waves_are_not_mathieus(coefficient: str) -> None:
     with pytest.raises(NotImplementedError, match="no special function was found"):
         kovacic.dsolve(f"y'' + ({coefficient})*y = 0")
+
+
+def test_a_long_answer_in_mathieus_functions_has_no_shorter_form() -> None:
+    """Formulas of more than a screen are looked for in other functions; these are such functions already."""
+    text = "y'' = (2 + cos(x))*y + sin(3*x) + cos(5*x)"
+    found = kovacic.dsolve(text)
+    assert len(str(found.rhs)) > SCREEN
+    assert in_special_functions(found, text) is None

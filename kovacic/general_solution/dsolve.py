@@ -141,11 +141,12 @@ def _solved(
         )
         if not pair and equation.change is not None:
             pair = mathieu(solution.S, solution.gauge, equation.change, equation.variable) or pair
-        if not pair or (special and not are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable))):
+        either: Any = pair or (None, None)
+        y1, y2 = either
+        if y1 is None or (special and not are_independent(y1, y2, sympy.Symbol(solution.variable))):
             raise NotImplementedError(f"{no_solution(solution, known)}; {pair}")
         if solution.status is Status.UNDECIDED and not solution.known:
             warn(f"whether there is a Liouvillian solution is {no_solution(solution)}", stacklevel=4)
-        y1, y2 = pair
     else:
         y1, y2 = form = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
         if given and isinstance(form.structure, KleinForm):
