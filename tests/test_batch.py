@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 from processes import started
 
 import kovacic
-from kovacic.batch.files import Answers, count_items, guess_format, item_from, opened, read_items, take_up
+from kovacic.batch.files import answers, count_items, guess_format, item_from, opened, read_items, take_up
 from kovacic.batch.pool import _START, GRACE_SECONDS, Pool
 from kovacic.batch.records import LABELS, Item, Job, Record, Summary
 from kovacic.batch.worker import solve_item
@@ -394,9 +394,9 @@ def records(numbers: list[int]) -> list[Record]:
 )
 def test_what_an_interruption_leaves_is_removed(tmp_path: Path, rest: bytes) -> None:
     path = tmp_path / "answers.jsonl"
-    with Answers(path) as answers:
+    with answers(path) as write:
         for record in records([1, 2, 5]):
-            answers.write(record)
+            write(record)
     whole = path.read_bytes()
     path.write_bytes(whole + rest)
     done = take_up(path)
@@ -460,10 +460,10 @@ def test_a_run_cut_anywhere_is_completed(tmp_path_factory: pytest.TempPathFactor
     whole = b"".join(record.json.encode() + b"\n" for record in records([1, 2, 3]))
     path.write_bytes(whole[: cut % (len(whole) + 1)])
     done = take_up(path)
-    with Answers(path) as answers:
+    with answers(path) as write:
         for record in records([1, 2, 3]):
             if Item(record.number, f"x + {record.number}") not in done:
-                answers.write(record)
+                write(record)
     assert [json.loads(line)["line"] for line in path.read_text(encoding="utf-8").splitlines()] == [1, 2, 3]
 
 

@@ -17,13 +17,12 @@ import json
 import os
 import sys
 import tempfile
-import time
 import zlib
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import IO, Any, BinaryIO
+from typing import Any, BinaryIO
 
 from kovacic.batch.records import Item, Record, label_of
 from kovacic.errors import InputError, LimitExceeded, ParseError
@@ -34,12 +33,6 @@ _EXPRESSION_KEYS = ("S", "input", "expression")
 
 # Bytes of a line for each character that an expression may have: UTF-8, and escapes of JSON.
 _BYTES_PER_CHARACTER = 6
-
-# Number and content of a line.
-_Line = tuple[int, bytes | LimitExceeded]
-
-# Answers are on the disk after so many seconds at most.
-_SYNC_SECONDS = 2.0
 
 
 def guess_format(name: str) -> str | None:
@@ -76,26 +69,20 @@ def read_items(
     that don't name one.  What begins like a gzip file is decompressed.  Raises `InputError` where that fails, after the
     items up to there.
     """
-    lines = _lines(stream, limits.text_length * _BYTES_PER_CHARACTER)
-    if form is None:
-        form, lines = _sniffed(lines)
+    lines = _lines(stream, limits.text_length * _BYTES_PER_CHARACTER, var)
+    seen = [*_to_first_with_content(lines)]
+    if form is None and seen and seen[-1].text.lstrip()[:1] in ("{", '"'):
+        form = "jsonl"
+    lines = itertools.chain(seen, lines)
     if form == "csv":
         yield from _csv_items(lines, var)
         return
-    for number, raw in lines:
-        if isinstance(raw, LimitExceeded):
-            yield Item(number, "", error=raw)
-            continue
-        try:
-            text = raw.decode("utf-8").strip()
-        except UnicodeDecodeError as error:
-            shown, why = raw.decode("utf-8", errors="backslashreplace").strip(), f"byte {error.start} is {error.reason}"
-            yield Item(number, shown, error=ParseError(f"the line isn't UTF-8 text: {why}"))
-            continue
-        if text and form == "jsonl":
-            yield _json_item(number, text, var)
-        elif text and not text.startswith("#"):
-            yield Item(number, text, var)
+    for line in lines:
+        text = line.text.strip()
+        if form == "jsonl" and text and line.error is None:
+            yield _json_item(line.number, text, var)
+        elif line.error is not None or (text and (form == "jsonl" or not text.startswith("#"))):
+            yield replace(line, text=text)
 
 
 def count_items(name: str, *, form: str | None = None) -> int:
@@ -119,34 +106,35 @@ def item_from(number: int, value: Any, *, var: str | None = None, limits: Limits
     return Item(number, parsed.S.to_str(parsed.variable), parsed.variable)
 
 
-def _lines(stream: BinaryIO, longest: int) -> Iterator[_Line]:
-    """The lines with their numbers; of a line that is too long, nothing but that is kept."""
+def _lines(stream: BinaryIO, longest: int, var: str | None) -> Iterator[Item]:
+    """The lines as items, with an error where one is too long, and then nothing of it is kept, or isn't text."""
     number = 0
     try:
         raw = stream if isinstance(stream, io.BufferedReader) else io.BufferedReader(stream)  # type: ignore[type-var]
         plain: Any = gzip.GzipFile(fileobj=raw) if raw.peek(2)[:2] == b"\x1f\x8b" else raw
         while line := plain.readline(longest + 1):
             number += 1
-            if len(line) <= longest:
-                yield number, line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line
-                continue
-            while line and not line.endswith(b"\n"):
-                line = plain.readline(longest)
-            yield number, LimitExceeded(f"the line has more than {longest} bytes, the limit", limit="text_length")
-    except (OSError, EOFError, zlib.error) as error:
-        raise InputError(f"the input can't be read beyond line {number}: {error}") from None
+            error: InputError | LimitExceeded | None = None
+            if len(line) > longest:
+                error = LimitExceeded(f"the line has more than {longest} bytes, the limit", limit="text_length")
+                while line and not line.endswith(b"\n"):
+                    line = plain.readline(longest)
+                line = b"\n"
+            try:
+                text = line.decode("utf-8-sig" if number == 1 else "utf-8")
+            except UnicodeDecodeError as wrong:
+                text = line.decode("utf-8", errors="backslashreplace")
+                error = ParseError(f"the line isn't UTF-8 text: byte {wrong.start} is {wrong.reason}")
+            yield Item(number, text, var, error=error)
+    except (OSError, EOFError, zlib.error) as broken:
+        raise InputError(f"the input can't be read beyond line {number}: {broken}") from None
 
 
-def _sniffed(lines: Iterator[_Line]) -> tuple[str, Iterator[_Line]]:
-    """The format that the first line with anything in it shows, and all the lines."""
-    seen = []
-    for _, raw in lines:
-        seen.append((_, raw))
-        if isinstance(raw, LimitExceeded) or raw.strip():
-            break
-    first = seen[-1][1] if seen else b""
-    form = "jsonl" if isinstance(first, bytes) and first.lstrip()[:1] in (b"{", b'"') else "lines"
-    return form, itertools.chain(seen, lines)
+def _to_first_with_content(lines: Iterator[Item]) -> Iterator[Item]:
+    for line in lines:
+        yield line
+        if line.error is not None or line.text.strip():
+            return
 
 
 def _json_item(number: int, text: str, var: str | None) -> Item:
@@ -174,71 +162,58 @@ def _plain_item(number: int, value: Any, text: str, var: str | None) -> Item:
     return Item(number, value[key], own, extra)
 
 
-def _csv_items(lines: Iterable[_Line], var: str | None) -> Iterator[Item]:
-    """Rows of a CSV file.  The reader sees undecodable bytes as surrogates, which the row's item then reports."""
+def _csv_items(lines: Iterable[Item], var: str | None) -> Iterator[Item]:
+    """The rows of a CSV file, which may have several lines."""
+    wrong: list[InputError | LimitExceeded] = []
 
     def texts() -> Iterator[str]:
-        for _, raw in lines:
-            yield str(raw) + "\n" if isinstance(raw, LimitExceeded) else raw.decode("utf-8", errors="surrogateescape")
+        for line in lines:
+            wrong.extend([line.error] if line.error else [])
+            yield line.text
 
-    reader = csv.reader(texts())
-    header: list[str] | None = None
-    first = True
+    reader, header, first = csv.reader(texts()), None, True
     while True:
-        number = reader.line_num + 1
+        number, row = reader.line_num + 1, [""]
+        wrong.clear()
         try:
             row = next(reader)
         except StopIteration:
             return
         except csv.Error as error:
-            yield Item(number, "", var, error=ParseError(f"the row isn't CSV: {error}"))
-            first = False
-            continue
-        if not any(cell.strip() for cell in row):
-            continue
-        if first and any(cell.strip() in _EXPRESSION_KEYS for cell in row):
-            header = [cell.strip() for cell in row]
-        else:
-            yield _csv_item(number, row, header, var)
-        first = False
+            wrong.append(ParseError(f"the row isn't CSV: {error}"))
+        cells = [cell.strip() for cell in row]
+        if wrong:
+            yield Item(number, ",".join(row), var, error=wrong[0])
+        elif first and any(cell in _EXPRESSION_KEYS for cell in cells):
+            header = cells
+        elif any(cells):
+            yield _csv_item(number, cells, header, var)
+        first = first and not (wrong or any(cells))
 
 
-def _csv_item(number: int, row: list[str], header: list[str] | None, var: str | None) -> Item:
-    shown = ",".join(row)
-    if any("\udc80" <= char <= "\udcff" for char in shown):
-        text = shown.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
-        return Item(number, text, var, error=ParseError("the row isn't UTF-8 text"))
+def _csv_item(number: int, cells: list[str], header: list[str] | None, var: str | None) -> Item:
+    shown = ",".join(cells)
     if header is None:
-        return Item(number, row[0].strip(), var)
-    if len(row) != len(header):
-        return Item(number, shown, var, error=ParseError(f"{len(row)} cells in a table of {len(header)} columns"))
-    return _plain_item(number, {key: cell.strip() for key, cell in zip(header, row, strict=True)}, shown, var)
+        return Item(number, cells[0], var)
+    if len(cells) != len(header):
+        return Item(number, shown, var, error=ParseError(f"{len(cells)} cells in a table of {len(header)} columns"))
+    return _plain_item(number, dict(zip(header, cells, strict=True)), shown, var)
 
 
-class Answers(AbstractContextManager["Answers"]):
-    """A file of records, one JSON object a line, or standard output; a context manager.
+@contextmanager
+def answers(path: Path | None) -> Iterator[Callable[[Record], None]]:
+    """What appends a record to this file, or to standard output: one JSON object a line, given to the system at once."""
 
-    Every line is flushed to the system at once, and to the disk every two seconds and at the end.
-    """
+    def write(record: Record) -> None:
+        stream.write(record.json + "\n")
+        stream.flush()
 
-    def __init__(self, path: Path | None) -> None:
-        self._own = path and path.open("a", encoding="utf-8", errors="backslashreplace", newline="\n")
-        self._stream: IO[str] = self._own or sys.stdout
-        self._on_disk = path is not None and path.is_file()  # and not a pipe or a device
-        self._synced = time.monotonic()
-
-    def write(self, record: Record) -> None:
-        self._stream.write(record.json + "\n")
-        self._stream.flush()
-        if self._on_disk and time.monotonic() - self._synced > _SYNC_SECONDS:
-            os.fsync(self._stream.fileno())
-            self._synced = time.monotonic()
-
-    def __exit__(self, *error: object) -> None:
-        with self._own or nullcontext():
-            self._stream.flush()
-            if self._on_disk:
-                os.fsync(self._stream.fileno())
+    with (
+        path.open("a", encoding="utf-8", errors="backslashreplace", newline="\n")
+        if path
+        else nullcontext(sys.stdout) as stream
+    ):
+        yield write
 
 
 @dataclass(frozen=True)

@@ -72,13 +72,13 @@ def batch(
     Exit status: 0 all decided, 3 some undecided, 2 some bad input, 4 a self-check or a process failed, 5 the output can't
     be written.
     """
-    from kovacic.batch.files import Answers, count_items, guess_format, opened, read_items
+    from kovacic.batch.files import answers, count_items, guess_format, opened, read_items
 
     done = _already_answered(output, resume)
     form = form or guess_format(file)
     with ExitStack() as stack:
         items = read_items(stack.enter_context(opened(file)), form=form, var=var, limits=limits)
-        write = stack.enter_context(Answers(output)).write
+        write = stack.enter_context(answers(output))
         count = None if file == "-" else partial(count_items, file, form=form)
         return _answer_all(items, write, count=count, done=done, limits=limits, stream=file == "-", **run)
 
@@ -115,7 +115,7 @@ def scan(
     Exit status: 0 all decided, 3 some undecided, 2 some points where S isn't defined, 4 a self-check or a process failed,
     5 the output can't be written.
     """
-    from kovacic.batch.files import Answers
+    from kovacic.batch.files import answers
     from kovacic.batch.scan import columns, draw_map, parse_grid, row, scan_items
 
     grids = [parse_grid(text) for text in ranges]
@@ -129,7 +129,7 @@ def scan(
     items = scan_items(expression, grids, var=var)
     with ExitStack() as stack:
         if form == "jsonl":
-            write = stack.enter_context(Answers(output)).write
+            write = stack.enter_context(answers(output))
         else:
             stream = stack.enter_context(output.open("w", encoding="utf-8", newline="")) if output else sys.stdout
             table = csv.writer(stream, lineterminator="\n")
