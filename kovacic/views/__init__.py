@@ -2,6 +2,6 @@
 
 `text`, `explain`, `json` and `plot` are the views, and none of them imports another.  They are made of
 `formula` (a function or place as text and as LaTeX: read this first), `sentences` (what several views say of an answer),
-`document` (headings, formulas, tables, and their four renderings), `steps` (Kovacic's steps, found by `families` in
-the fields of `numbers`), `products` (solutions without SymPy) and `bibliography`.
+`document` (headings, formulas, tables, and their four renderings), `steps` (Kovacic's steps, found by `families`),
+`products` (solutions without SymPy) and `bibliography`.
 """

@@ -13,9 +13,9 @@ so that every line of the paper can be compared.  With r = S, and m = 1, 2, 4, 6
   That is the paper's equation of second order for P (m = 1), its equation of third order (m = 2), and the recursion of
   section 5.1 with P_(m-k) = (-1)^(k+1) D^k L_k, D the product of the x - c.
 
-The coefficients of r may be algebraic numbers and parameters, which have generic values.  Poles of degree 1 or 2 over their
-field K are taken one by one, with exact square roots; where more are conjugate, only families in which these have equal
-exponents are tried.  No family is tried where its numbers have square roots of two different functions of parameters.
+Numbers lie in the field K of the coefficients of r (algebraic numbers, parameters with generic values), or in one that square
+roots are adjoined to.  Poles of degree 1 or 2 over K are taken one by one; where more are conjugate, only families in which
+these have equal exponents are tried.
 
 Reference: J. Kovacic, J. Symb. Comp. 2 (1986), sections 3.1, 4.1 and 5.1.
 """
@@ -26,39 +26,40 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import product
-from math import prod
+from math import factorial, prod
 from string import ascii_letters
 from typing import Any
 
-from sympy import Add, Dummy, Integer, Mul, Rational, Symbol, expand, oo, symbols
-from sympy.polys.domains import EX
-from sympy.polys.matrices import DomainMatrix
-from sympy.polys.rings import ring
+from sympy import Add, Integer, Symbol, expand, symbols, sympify
 
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.engine.places import Kind, Place
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Field, Poly
+from kovacic.engine.places import Kind, Place, Problem
+from kovacic.engine.riccati import numerators
+from kovacic.limits import check_time
 from kovacic.reading.given import parameters_of
-from kovacic.views.numbers import domain, number, root, settled
 
 _MOST_FAMILIES = 4096
 _FEW_FAMILIES = 8
 _MOST_POINTS = 24
 _HIGHEST_ORDER = 40
-_HIGHEST_DEGREE = 6
+#: Of the coefficients of r, and of all numbers.
+_HIGHEST_DEGREE, _MOST_ROOTS = 6, 256
 #: Multiplications of coefficients.
-_MOST_WORK = 200_000
+_MOST_WORK = 1_000_000
 #: d = scale * (value at infinity - sum of the values at the poles), and theta has the residues scale * value.
-SCALE = {1: Rational(1), 2: Rational(1, 2), 4: Rational(1, 3), 6: Rational(1, 2), 12: Rational(1)}
+SCALE = {1: Fraction(1), 2: Fraction(1, 2), 4: Fraction(1, 3), 6: Fraction(1, 2), 12: Fraction(1)}
+
+Number = int | Fraction | Poly
 
 
 @dataclass(frozen=True)
 class Point:
-    """A pole c (`at`), infinity, or `count` conjugate poles that are taken together (`at` is None)."""
+    """A pole c (`at`), infinity (`at` is None), or `count` conjugate poles that are taken together (None, too)."""
 
     place: Place
-    at: Any
+    at: Poly | None = None
     count: int = 1
 
 
@@ -66,21 +67,22 @@ class Point:
 class Choice:
     """alpha_c or e_c, and +-[sqrt r]_c as pairs (power of x - c, or of x at infinity; coefficient)."""
 
-    value: Any
-    singular: tuple[tuple[int, Any], ...] = ()
+    value: Number
+    singular: tuple[tuple[int, Poly], ...] = ()
 
 
 @dataclass(frozen=True)
 class Family:
     """One choice at every point, infinity first; if d is natural and the family was tried, theta and P, None without one.
 
-    `conditions` are expressions in the `unknowns` a_0, ..., a_(d-1) that would have to vanish for P = x^d + ... (d <= 3).
+    `theta` is a SymPy expression, and so are the `conditions` in the `unknowns` a_0, ..., a_(d-1) that would have to vanish
+    for P = x^d + ... (d <= 3).
     """
 
     choices: tuple[Choice, ...]
-    d: Any
+    d: Number
     theta: Any = None
-    P: Any = None
+    P: Poly | None = None
     conditions: tuple[Any, ...] = ()
     unknowns: tuple[Any, ...] = ()
 
@@ -107,92 +109,113 @@ class Search:
         return self.families is not None and all(point.count == 1 for point in self.points)
 
 
-def search(S: RatFunc, places: Sequence[Place], variable: str, m: int) -> Search | None:
+class _Roots:
+    """The field of all numbers that occur, to which square roots are adjoined when they are asked for."""
+
+    def __init__(self, field: Field) -> None:
+        self.field = field
+
+    def root(self, square: Poly) -> Poly | None:
+        """None where the field would become too large."""
+        found = self.field.sqrt(square.over(self.field))
+        if found is None and self.field.absolute_degree < _MOST_ROOTS:
+            outer, inner = square.square_part() if isinstance(square, FunctionPoly) else (1, square)
+            radicand = -inner.over(self.field)
+            self.field = AlgebraicField(self.field, self.field.poly([radicand, 0, 1]), f"sqrt({inner})")
+            found = self.field.generator * outer
+        return found
+
+
+def search(problem: Problem, variable: str, m: int) -> Search | None:
     """Steps 1 to 3 for omega of degree m; of many families they try those up to the first that succeeds.
 
-    `places` end with infinity.  None outside the domain: exponents that are no square roots of constants, constants of a
-    high degree, poles of a high order.
+    None outside the domain: exponents that are no square roots of constants, constants of a high degree, poles of a high
+    order.
     """
-    if max(place.order for place in places) > _HIGHEST_ORDER or S.field.absolute_degree > _HIGHEST_DEGREE:
+    places, roots = problem.places, _Roots(problem.field)
+    if max(place.order for place in places) > _HIGHEST_ORDER or problem.field.absolute_degree > _HIGHEST_DEGREE:
         return None
-    points = [Point(places[-1], oo), *(point for place in places[:-1] for point in _points(place))]
-    options = [_choices(point, m) for point in points]
+    points = [Point(places[-1]), *(point for place in places[:-1] for point in _points(place, roots))]
+    options = [_choices(point, m, roots) for point in points]
     choices = [chosen for chosen in options if chosen is not None]
     if len(choices) < len(points):
         return None
     total = prod(len(chosen) ** point.count for chosen, point in zip(choices, points, strict=True))
-    families = None
+    families, count, signs = None, None, [1, *(-point.count for point in points[1:])]
+    zero: Number = roots.field.poly([]) if m == 1 else 0
     if prod(map(len, choices)) <= _MOST_FAMILIES:
-        all_families = [Family(family, _degree(family, points, m)) for family in product(*choices)]
-        natural = [
-            family
-            for family in all_families
-            if is_natural(family.d) and not (m == 2 and all(choice.value % 2 == 0 for choice in family.choices))
-        ]
-        field = _field(S, points, choices) if natural else None
-        tried = {} if field is None else _Trial(S, points, m, variable, field).of(natural)
-        chosen = all_families if m == 1 and total <= _FEW_FAMILIES else natural
-        families = tuple(tried.get(id(family), family) for family in chosen)
-    return Search(m, tuple(points), tuple(choices), total, _naturals(choices, points, m), families)
+        sums: list[tuple[tuple[Choice, ...], Number]] = [((), zero)]
+        for sign, chosen in zip(signs, choices, strict=True):
+            check_time()
+            parts = [(choice, zero + SCALE[m] * sign * choice.value) for choice in chosen]
+            sums = [((*family, choice), d + part) for family, d in sums for choice, part in parts]
+        every = [Family(family, d) for family, d in sums]
+        natural = [f for f in every if is_natural(f.d) and (m != 2 or any(c.value % 2 for c in f.choices))]
+        tried = _tried(natural, points, m, problem, roots.field, Symbol(variable))
+        shown = every if m == 1 and total <= _FEW_FAMILIES else natural
+        families, count = tuple(tried.get(id(family), family) for family in shown), len(natural)
+    if count is None or any(point.count > 1 for point in points):
+        count = _naturals(choices, points, m)
+    return Search(m, tuple(points), tuple(choices), total, count, families)
 
 
-def is_natural(d: Any) -> bool:
+def is_natural(d: Number) -> bool:
     """Is it 0, 1, 2, ...?"""
-    return bool(d.is_Integer and d >= 0)
+    value = d.field.rational_value(d) if isinstance(d, Poly) else Fraction(d)
+    return value is not None and value >= 0 and value.denominator == 1
 
 
-def _points(place: Place) -> list[Point]:
-    if place.degree > 2 or (place.degree == 2 and place.order > 2):
-        return [Point(place, None, place.degree)]
+def in_sympy(value: Any, x: Any) -> Any:
+    """A number, or a polynomial in x, as a SymPy expression."""
+    return expand(value.to_sympy(x)) if isinstance(value, Poly) else sympify(value, strict=True)
+
+
+def _points(place: Place, roots: _Roots) -> list[Point]:
+    p = place.factor
     if place.degree == 1:
-        return [Point(place, -number(place.factor[0]))]
-    middle, half = place.factor[1] / -2, root(place.factor[1] * place.factor[1] / 4 - place.factor[0])
-    return [Point(place, number(middle) + sign * half) for sign in (-1, 1)]
-
-
-def _degree(choices: Sequence[Choice], points: Sequence[Point], m: int) -> Any:
-    finite = Add(*(point.count * choice.value for point, choice in zip(points[1:], choices[1:], strict=True)))
-    return settled(SCALE[m] * (choices[0].value - finite))
+        return [Point(place, -p[0])]
+    half = roots.root(p[1] * p[1] / 4 - p[0]) if place.degree == 2 and place.order <= 2 else None
+    return [Point(place, None, place.degree)] if half is None else [Point(place, s * half - p[1] / 2) for s in (-1, 1)]
 
 
 def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[Point], m: int) -> int | None:
     """How many families have a natural d, conjugate poles counted one by one; None for many poles."""
     if len(points) > _MOST_POINTS:
         return None
-    sums = Counter({(choice.value, m == 2 and choice.value % 2 == 0): 1 for choice in choices[0]})
-    for point, chosen in zip(points[1:], choices[1:], strict=True):
+    sums: Counter[tuple[Number, bool]] = Counter({(0, m == 2): 1})
+    for point, chosen in zip(points, choices, strict=True):
+        sign = SCALE[m] * (1 if point.place.at_infinity else -1)
+        parts = [(sign * choice.value, m == 2 and choice.value % 2 == 0) for choice in chosen]
         for _ in range(point.count):
-            following: Counter[tuple[Any, bool]] = Counter()
+            following: Counter[tuple[Number, bool]] = Counter()
             for (value, even), count in sums.items():
-                for choice in chosen:
-                    following[value - choice.value, even and choice.value % 2 == 0] += count
+                for part, also_even in parts:
+                    following[value + part, even and also_even] += count
             sums = following
             if len(sums) > _MOST_FAMILIES:
                 return None
-    return sum(count for (value, even), count in sums.items() if is_natural(settled(SCALE[m] * value)) and not even)
+    return sum(count for (value, even), count in sums.items() if is_natural(value) and not even)
 
 
-def _choices(point: Point, m: int) -> tuple[Choice, ...] | None:
+def _choices(point: Point, m: int, roots: _Roots) -> tuple[Choice, ...] | None:
     """Step 1; None where the exponents aren't square roots of constants."""
     place, centre = point.place, 2 if m == 2 else 6
     if place.kind is Kind.ORDINARY or (place.at_infinity and place.order == 1):
-        return tuple(Choice(Integer(e)) for e in ((0, 1) if m == 1 else (0, 2, 4) if m == 2 else range(13)))
+        return tuple(map(Choice, (0, 1) if m == 1 else (0, 2, 4) if m == 2 else range(13)))
     if place.order > 2:
         if m == 2:
-            return (Choice(Integer(4 - place.order if place.at_infinity else place.order)),)
-        return _irregular(place) if m == 1 and place.degree == 1 and place.order % 2 == 0 else None
+            return (Choice(4 - place.order if place.at_infinity else place.order),)
+        return _irregular(place, roots) if m == 1 and place.degree == 1 and place.order % 2 == 0 else None
     if place.order == 1:
-        return (Choice(Integer(1 if m == 1 else 2 * centre)),)
-    if m == 1 and place.delta_squared is not None:
-        delta = root(place.delta_squared)
-        return tuple(Choice((1 + sign * delta) / 2) for sign in ((1, -1) if delta else (1,)))
+        return (Choice(1 if m == 1 else 2 * centre),)
     if m == 1:
-        return None
+        delta = None if place.delta_squared is None else roots.root(place.delta_squared)
+        return None if delta is None else tuple(Choice((1 + s * delta) / 2) for s in ((1, -1) if delta else (1,)))
     values = {centre + Fraction(2 * centre * k, m) * (place.delta or 0) for k in range(-m // 2, m // 2 + 1)}
-    return tuple(Choice(Integer(int(value))) for value in sorted(values) if value.denominator == 1)
+    return tuple(Choice(int(value)) for value in sorted(values) if value.denominator == 1)
 
 
-def _irregular(place: Place) -> tuple[Choice, ...]:
+def _irregular(place: Place, roots: _Roots) -> tuple[Choice, ...] | None:
     """(c3) and (inf3) of section 3.1: r = s t^(-2 nu) w^2, w = 1 + ..., so [sqrt r] begins with a = sqrt s, and
     b/a = 2 a w_k for the first term w_k that isn't in [sqrt r].
     """
@@ -207,95 +230,66 @@ def _irregular(place: Place) -> tuple[Choice, ...]:
         u.append((top[k] - known) / bottom[place.order])
         if k:
             w.append((u[k] / u[0] - sum((w[i] * w[k - i] for i in range(1, k)), zero)) / 2)
-    a = root(u[0])
-    terms = tuple((sign * (k - nu), expand(a * number(w[k]))) for k in range(count - 1))
-    last = expand(2 * a * number(w[-1]))
+    if (a := roots.root(u[0])) is None:
+        return None
+    terms = tuple((sign * (k - nu), a * w[k]) for k in range(count - 1))
+    last = 2 * a * w[-1]
     return tuple(Choice((s * last + sign * nu) / 2, tuple((power, s * c) for power, c in terms if c)) for s in (1, -1))
 
 
-def _field(S: RatFunc, points: Sequence[Point], choices: Sequence[Sequence[Choice]]) -> Any:
-    """The field of all numbers that occur; None for numbers outside every `domain`."""
-    chosen = [choice for options in choices for choice in options]
-    numbers = [Integer(1), *(point.at for point in points if point.at not in (None, oo))]
-    numbers += [choice.value for choice in chosen] + [c for choice in chosen for _, c in choice.singular]
-    return domain(numbers + [number(part[k]) for part in (S.num, S.den) for k in range(part.degree + 1)])
-
-
-class _Trial:
-    """Step 3, in the ring K[x], K the field of all numbers that occur; everything over the common denominator D."""
-
-    def __init__(self, S: RatFunc, points: Sequence[Point], m: int, variable: str, field: Any) -> None:
-        self.m, self.x, self.field = m, Symbol(variable), field
-        self.parameters = parameters_of(S.field)
-        self.ring, X = ring(Dummy("x"), field)
-        self.factors = [
-            X - field.from_sympy(point.at) if point.at is not None else self._polynomial(point.place.factor)
-            for point in points[1:]
-        ]
-        self.weights = [point.place.weight for point in points[1:]]
-        self.D = self._product(self.weights)
-        rest = self._product([2 * point.place.weight - point.place.order for point in points[1:]])
-        self.D2r = rest * self._polynomial(S.num / S.den.lc)
-
-    def _product(self, powers: Sequence[int]) -> Any:
-        return prod((f**k for f, k in zip(self.factors, powers, strict=True)), start=self.ring.one)
-
-    def _polynomial(self, polynomial: Poly) -> Any:
-        return self.ring.from_list([self.field.from_sympy(number(c)) for c in reversed([*polynomial])])
-
-    def of(self, families: Sequence[Family]) -> dict[int, Family]:
-        """The families that were tried, by their ids: all of few, else those up to the first success."""
-        tried, work, degree = {}, 0, self.D.degree()
-        most = _MOST_WORK if self.field != EX else _MOST_WORK // 100
-        for family in families:
-            work += (family.d + 1) * self.m * (self.m * degree + family.d) * (degree + 1)
-            if work > most:
-                break
-            tried[id(family)] = result = self._tried(family)
-            if result.P is not None and len(families) > _FEW_FAMILIES:
-                break
-        return tried
-
-    def _tried(self, family: Family) -> Family:
-        D, scale, convert = self.D, SCALE[self.m], self.field.from_sympy
-        theta, Dtheta = [], self.ring.zero
-        for index, (choice, f) in enumerate(zip(family.choices[1:], self.factors, strict=True)):
-            others = self._product([k * (i != index) for i, k in enumerate(self.weights)])  # D = others f^weight
-            rest, slope = self.weights[index], f.diff(0)
-            Dtheta += others * f ** (rest - 1) * slope * convert(scale * choice.value)
-            theta.append(Mul(scale * choice.value, slope.as_expr(self.x) / f.as_expr(self.x)))
+def _tried(
+    families: Sequence[Family], points: Sequence[Point], m: int, problem: Problem, field: Field, x: Any
+) -> dict[int, Family]:
+    """Step 3: the families that were tried, by their ids: all of few, else those up to the first success."""
+    tried, work, degree = dict[int, Family](), 0, problem.D.degree
+    D, T, X = problem.D.over(field), problem.T.over(field), field.poly([0, 1])
+    factors = [X - point.at if point.at is not None else point.place.factor.over(field) for point in points[1:]]
+    for family in families:
+        d = int(in_sympy(family.d, x))
+        work += (d + 1) * m * (m * degree + d) * (degree + 1) * field.absolute_degree**2
+        if work > _MOST_WORK:
+            break
+        R, theta = field.poly([]), []
+        for choice, f in zip(family.choices[1:], factors, strict=True):
+            slope = f.derivative() * (SCALE[m] * choice.value)
+            R += D // f * slope
+            theta.append(in_sympy(slope, x) / in_sympy(f, x))
             for power, c in choice.singular:
-                Dtheta += others * f ** (rest + power) * convert(c)
-                theta.append(c * f.as_expr(self.x) ** power)
+                R += D // f**-power * c
+                theta.append(in_sympy(c, x) * in_sympy(f, x) ** power)
         for power, c in family.choices[0].singular:
-            Dtheta += D * self.ring.gens[0] ** power * convert(c)
-            theta.append(c * self.x**power)
-        d = int(family.d)
-        columns = [self._image(self.ring.gens[0] ** k, Dtheta) for k in range(d + 1)]
-        height = 1 + max([0, *(column.degree() for column in columns if column)])
-        rows = [[column.coeff(self.ring.gens[0] ** i) for column in columns] for i in range(height)]
-        kernel = DomainMatrix(rows, (height, d + 1), self.field).nullspace().to_list()
-        if kernel:
-            longest = max((self.ring.from_list(vector[::-1]) for vector in kernel), key=lambda P: P.degree())
-            return replace(family, theta=Add(*theta), P=longest.monic().as_expr(self.x))
-        return self._failed(replace(family, theta=Add(*theta)), rows)
+            R += D * X**power * c
+            theta.append(in_sympy(c, x) * x**power)
+        images = [numerators(D, T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)]  # D^(m+1) L_(m+1)
+        P = _null_vector(images)
+        unknowns, conditions = ((), ()) if P is not None or d > 3 else _conditions(images, parameters_of(field))
+        tried[id(family)] = replace(family, theta=Add(*theta), P=P, conditions=conditions, unknowns=unknowns)
+        if P is not None and len(families) > _FEW_FAMILIES:
+            break
+    return tried
 
-    def _image(self, P: Any, Dtheta: Any) -> Any:
-        """D^(m+1) L_(m+1)."""
-        before, current, slope = self.ring.zero, P, self.D.diff(0)
-        for k in range(self.m + 1):
-            after = self.D * current.diff(0) + (Dtheta - slope * k) * current
-            if k:
-                after -= self.D2r * before * (k * (self.m - k + 1))
-            before, current = current, after
-        return current
 
-    def _failed(self, family: Family, rows: Sequence[Sequence[Any]]) -> Family:
-        if family.d > 3:
-            return family
-        letter = next(c for c in ascii_letters if not any(name[0] == c for name in self.parameters))
-        unknowns = symbols(f"{letter}:{family.d}")
-        terms = (zip(row, (*unknowns, Integer(1)), strict=True) for row in rows)
-        found = [Add(*(self.field.to_sympy(c) * a for c, a in row)) for row in terms]
-        conditions = tuple(dict.fromkeys(e.primitive()[1] if e.is_Add else e for e in found if e))
-        return replace(family, conditions=conditions, unknowns=unknowns)
+def _null_vector(images: Sequence[Poly]) -> Poly | None:
+    """The monic polynomial P of the highest degree whose image is zero, those of 1, x, x^2, ... being given."""
+    found, reduced, x = None, dict[int, tuple[Poly, Poly]](), images[0].field.poly([0, 1])
+    for k, image in enumerate(images):
+        P = x**k
+        while image and image.degree in reduced:
+            other, Q = reduced[image.degree]
+            factor = image.lc / other.lc
+            image, P = image - other * factor, P - Q * factor
+        if image:
+            reduced[image.degree] = image, P
+        else:
+            found = P
+    return found
+
+
+def _conditions(images: Sequence[Poly], parameters: Sequence[str]) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+    """The lower coefficients of P, of a low degree, and what would have to vanish."""
+    letter = next(c for c in ascii_letters if not any(name[0] == c for name in parameters))
+    unknowns = symbols(f"{letter}:{len(images) - 1}")
+    x, rows = Symbol("x"), range(1 + max(image.degree for image in images))
+    terms = (zip((image[i] for image in images), (*unknowns, Integer(1)), strict=True) for i in rows)
+    found = [expand(Add(*(in_sympy(c, x) * a for c, a in row))) for row in terms]
+    return unknowns, tuple(dict.fromkeys(e.primitive()[1] if e.is_Add else e for e in found if e))

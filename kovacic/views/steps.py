@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from sympy import Add, Symbol
+
 from kovacic.decision import Status
 from kovacic.engine.places import Kind, Place, analyse
 from kovacic.limits import Budget
 from kovacic.reading.given import parameters_of
 from kovacic.views.document import Block, Formula, Heading, Sentence, Table, say
+from kovacic.views.families import Family, Point, Search, in_sympy, is_natural, search
 from kovacic.views.formula import Math, latex_text, of_sympy
 from kovacic.views.sentences import formulas_of
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
-    from kovacic.views.families import Family, Point, Search
 
 # d from the chosen exponents, and what P has to satisfy, by case [Kovacic 1986, sections 3.1, 4.1 and 5.1].
 DEGREE = {
@@ -55,7 +57,8 @@ class Steps:
 
     def __init__(self, solution: Solution) -> None:
         self.solution = solution
-        self.places = analyse(solution.S, Budget()).places
+        self.problem = analyse(solution.S, Budget())
+        self.places = self.problem.places
         self.formulas = formulas_of(solution)
 
     def local_data(self) -> Iterator[Block]:
@@ -102,8 +105,6 @@ class Steps:
 
     def search(self) -> Iterator[Block]:
         """The paper's steps 1 to 3, case by case, up to the one that succeeds."""
-        from kovacic.views.families import search
-
         solution = self.solution
         degree = 12 if solution.riccati is None else solution.riccati.degree
         for m in () if solution.status is Status.UNDECIDED else (1, 2, 4, 6, 12):
@@ -111,7 +112,7 @@ class Steps:
             if m > degree or not _allowed(case, self.places):
                 continue
             yield Heading(f"Case {case}{f', n = {m}' if case == 3 else ''}: Kovacic's steps")
-            found = search(solution.S, self.places, solution.variable, m)
+            found = search(self.problem, solution.variable, m)
             if found is None:
                 domain = "exponents that are square roots, constants of low degree, and poles of low order"
                 yield say(f"The steps are written out for {domain} only.")
@@ -153,14 +154,12 @@ class Steps:
 
     def _sets(self, search: Search, case: int) -> Table:
         """Step 1."""
-        from sympy import Add, Symbol
-
         rows: list[list[Sentence]] = []
         for point, choices in zip(search.points, search.choices, strict=True):
             values = [self._shown(choice.value) for choice in choices]
             if case == 1:
-                t = Symbol(self.solution.variable) - (0 if point.place.at_infinity or point.at is None else point.at)
-                singular = self._shown(Add(*(c * t**power for power, c in choices[0].singular)))
+                t = self.x if point.at is None else self.x - in_sympy(point.at, self.x)
+                singular = self._shown(Add(*(in_sympy(c, self.x) * t**power for power, c in choices[0].singular)))
                 rows.append([self._point(point), singular, values[0], values[-1]])
             else:
                 inside = ", ".join(value.text for value in values)
@@ -170,13 +169,15 @@ class Steps:
             ("place", Math("[sqrt S]", r"[\sqrt{S}]"), *alphas) if case == 1 else ("place", Math("E", "E")), rows
         )
 
-    def _shown(self, expression: Any) -> Math:
-        from kovacic.views.numbers import shown
+    @property
+    def x(self) -> Any:
+        return Symbol(self.solution.variable)
 
-        return of_sympy(shown(expression, self.formulas.field))
+    def _shown(self, value: Any) -> Math:
+        return of_sympy(in_sympy(value, self.x))
 
     def _point(self, point: Point) -> Math:
-        if point.at is None or point.place.at_infinity:
+        if point.at is None:
             return self.formulas.place(str(point.place))
         return Math(self.solution.variable, latex_text(self.solution.variable)).equals(self._shown(point.at))
 
@@ -185,10 +186,10 @@ class Steps:
             return self._shown(family.P)
         if family.theta is not None:
             return "none"
-        return "not tried" if family.d.is_Integer and family.d >= 0 else ""
+        return "not tried" if is_natural(family.d) else ""
 
     def _trial(self, family: Family) -> Iterator[Block]:
-        d = family.d
+        d = int(in_sympy(family.d, self.x))
         yield Formula(Math("theta", r"\theta").equals(self._shown(family.theta)))
         unknowns = set(family.unknowns)
         impossible = next((condition for condition in family.conditions if not unknowns & condition.free_symbols), None)
