@@ -28,6 +28,8 @@ from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 
 START: dict[str, Any] = {"y0": 1, "dy0": 0}
 BESSEL = "x^2*y'' + x*y' + (x^2 - ({})^2)*y = 0"
+DIHEDRAL = "x*(1-x)*y'' + (1/3 - 5/6*x)*y' + 1/18*y = 0"
+BALL = "(112 - 20*x - 5*x^2)/(36*(x^2 + 4*x + 10)^2)"  # R/R1 = 1/3: the differences 1/2, 1/2, 1/3
 LEGENDRE = "(1-x^2)*y'' - 2*x*y' + 3/7*y = 0"
 
 
@@ -54,6 +56,9 @@ def a_pullback(kind: str, rng: random.Random) -> Pullback:
     if kind == "Whittaker":
         return Pullback(Confluent(constant(few()), constant(few()), constant(M)), f)
     squares = [rng.choice([few(), mu * mu, Fraction(1, 9), Fraction(0), Fraction(4)]) for _ in range(3)]
+    if kind == "dihedral":
+        squares[1:] = [Fraction(1, 4)] * 2
+        rng.shuffle(squares)
     return Pullback(Gauss(*map(constant, squares)), f)
 
 
@@ -86,7 +91,7 @@ def agree_on(kind: str, seed: int, count: int) -> int:
     return served
 
 
-@pytest.mark.parametrize("kind", ["Airy", "Bessel", "Whittaker", "Gauss"])
+@pytest.mark.parametrize("kind", ["Airy", "Bessel", "Whittaker", "Gauss", "dihedral"])
 def test_both_routes_agree_on_random_legs(kind: str) -> None:
     assert agree_on(kind, 1, 60) > 15
 
@@ -105,7 +110,7 @@ def test_a_leg_from_to_and_through_an_ordinary_zero_of_the_function(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(10))
-@pytest.mark.parametrize("kind", ["Airy", "Bessel", "Whittaker", "Gauss"])
+@pytest.mark.parametrize("kind", ["Airy", "Bessel", "Whittaker", "Gauss", "dihedral"])
 def test_both_routes_agree_on_thousands_of_random_legs(kind: str, seed: int) -> None:
     assert agree_on(kind, 100 + seed, 250) > 60
 
@@ -123,6 +128,16 @@ FAULTS = [
     ),
     ("the slit", classical, "_avoids", lambda form, a, b, needed: None, "Gauss"),
     ("the slit", classical, "_avoids", lambda form, a, b, needed: None, "Bessel"),
+    ("the slit", classical, "_avoids", lambda form, a, b, needed: None, "dihedral"),
+    ("the root", classical_functions, "_root", lambda e, right=classical_functions._root: right(-e), "dihedral"),
+    ("the sine", classical_functions, "_sine", lambda e, right=classical_functions._sine: right(2 * e), "dihedral"),
+    (
+        "the cosine",
+        classical_functions,
+        "_cosine",
+        lambda e, right=classical_functions._cosine: right(e + 1),
+        "dihedral",
+    ),
 ]
 
 
@@ -151,6 +166,10 @@ def test_a_planted_fault_is_seen(fault: Any, monkeypatch: pytest.MonkeyPatch) ->
         (LEGENDRE, 2, 5),
         (LEGENDRE, -3, "-5 + I"),
         ("x*(1-x)*y'' + (5/4 - 11/6*x)*y' - 1/6*y = 0", "1/3", "9/10"),
+        (BALL, "-9/10", "9/10"),
+        (BALL, 1, "3 + I"),
+        ("x^2 - 201", 0, 8),  # two solutions that are nearly the same at 8
+        ("-1 + 160400/x^2", 402, 800),
     ],
 )
 @pytest.mark.parametrize("digits", [5, 15, 60, 300])
@@ -179,6 +198,9 @@ def test_the_rule_takes_flints_functions_and_both_agree(equation: str, x0: Any, 
         (LEGENDRE, 1, "1/3", (0, 1)),
         ("(x+2)^2*y'' + (x+2)*y' + ((x+2)^4 - 1/9)*y = 0", -2, 1, (1, 1)),
         ("x*y'' + (4/3 - x)*y' - 2/7*y = 0", 0, 3, (1, -1)),
+        (DIHEDRAL, 0, "1/3", (1, 2)),
+        (DIHEDRAL, 1, "1/3", (1, 2)),
+        (DIHEDRAL, 0, "-5 + I", (1, 2)),
     ],
 )
 def test_frobenius_solutions_by_flints_functions(equation: str, x0: Any, x: Any, start: Any) -> None:
@@ -199,6 +221,20 @@ def test_logarithms_are_left_to_the_series() -> None:
     assert found.run.method == "taylor"
     with pytest.raises(InputError, match="doesn't prove its values on this path"):
         evaluate(BESSEL.format(2), 3, x0=0, frobenius=(1, 0), method="closed form")
+
+
+@pytest.mark.parametrize(
+    "equation", ["(1-x^2)*y'' - 2*x*y' + 12*y = 0", "x*y'' + (1-x)*y' + 3*y = 0", "x*y'' + (3-x)*y' + 20*y = 0"]
+)
+def test_where_both_functions_are_the_same_polynomial_the_leg_is_left_to_taylor_steps(equation: str) -> None:
+    with pytest.raises(InputError, match=r"doesn't prove|for solutions of case 1"):
+        evaluate(equation, "1/3", x0="1/2", method="closed form", **START)
+    rational = as_problem(equation).S
+    assert rational is not None
+    found = classical_of(rational)
+    assert found is not None
+    with ctx.workprec(200), pytest.raises(NotServed):
+        found.leg(Point(Fraction(1, 2)), Point(Fraction(1, 3)))
 
 
 def test_a_leg_over_a_cut_is_left_to_taylor_steps_or_followed() -> None:

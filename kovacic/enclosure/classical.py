@@ -27,7 +27,7 @@ from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.enclosure.classical_functions import Form, choice_at, form_of, is_integer, rational, square_root, value_at
-from kovacic.enclosure.exponential import rational_log_derivative
+from kovacic.enclosure.exponential import log_derivative
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.problem import System, check_segment
@@ -39,9 +39,10 @@ from kovacic.special.pullback import Confluent, Gauss, Pullback
 
 _BITS = 64  # in which the course of a leg is proven
 _PIECES = 400  # into which a leg is cut for that, at most
-# Digits up to which FLINT's functions cost less than Taylor steps (measured): Airy's and Bessel's, others, with irrational
-# parameters
-_MOST = 20_000, 2_000, 500
+_TRIED = 1, 2, 4  # multiples of the working precision at which a matrix may become finite
+# Digits up to which the functions cost less than Taylor steps (measured): elementary ones, Airy's and Bessel's, others, with
+# irrational parameters
+_MOST = 10**9, 20_000, 2_000, 500
 _DEGREE = 24  # of S, up to which a pull-back is sought
 _LARGEST = 1_000  # parameters of special functions up to which a call of FLINT, which can't be stopped, is short
 
@@ -62,16 +63,17 @@ def classical_of(S: RatFunc) -> Classical | None:
     found = search.pullback
     if found is None or found.f.field != QQ:
         return None
-    equation, squares, kind = found.equation, [], 0
+    equation, squares, kind = found.equation, [], 1
     if isinstance(equation, Gauss):
-        squares, kind = [rational(v) for v in (equation.A, equation.B, equation.C)], 1
+        squares = [rational(v) for v in (equation.A, equation.B, equation.C)]
+        kind = 0 if squares.count(fmpq(1, 4)) > 1 else 2
     elif isinstance(equation, Confluent):
         q, r, M = (rational(v) for v in (equation.q, equation.r, equation.M))
-        squares, kind = [4 * M + 1, r * r / q if q != 0 else fmpq(0)], int(q != 0 and r != 0)
+        squares, kind = [4 * M + 1, r * r / q if q != 0 else fmpq(0)], 1 + int(q != 0 and r != 0)
     if any(abs(v) >= _LARGEST**2 for v in squares):
         return None
     exact = all(isinstance(square_root(v), fmpq) for v in squares)
-    return Classical(found, _MOST[kind if exact else 2])
+    return Classical(found, _MOST[kind if exact or kind == 0 else 3])
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,13 +85,34 @@ class Classical:
 
     def leg(self, a: Point, b: Point) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment; raises NotServed."""
-        with working_precision(_sharper(ctx.prec)):
-            start = _start(self, a, False, ctx.prec)
-            zero = _ordinary_zero(start.form, a, b)
-            if zero is None:
-                return _finite(multiply(start.at(b), start.coordinates))
-            basis = _start(self, zero, True, ctx.prec)
-            return _finite(multiply(basis.at(b), basis.coordinates if a == zero else inverse(basis.at(a))))
+        return _settled(lambda: self._leg(a, b), _sharper(ctx.prec))
+
+    def frobenius(self, point: Singular, gauge: RatFunc | None, needed: tuple[bool, bool], x: Point) -> Matrix:
+        """The Frobenius basis of the user's equation at a rational zero of f, or its solutions that are needed, at x.
+
+        Raises NotServed at other points, and where a solution is needed that may have a logarithm.
+        """
+        return _settled(lambda: _frobenius(self, point, gauge, needed, ctx.prec).at(x), ctx.prec)
+
+    def _leg(self, a: Point, b: Point) -> Matrix:
+        start = _start(self, a, False, ctx.prec)
+        if not start.form.independent:
+            raise NotServed
+        zero = _ordinary_zero(start.form, a, b)
+        if zero is None:
+            return multiply(start.at(b), start.coordinates)
+        basis = _start(self, zero, True, ctx.prec)
+        return multiply(basis.at(b), basis.coordinates if a == zero else inverse(basis.at(a)))
+
+
+def _settled(compute: Callable[[], Matrix], bits: int) -> Matrix:
+    """A finite matrix, computed with so many bits, or a few times as many: two solutions may be nearly dependent."""
+    for more in _TRIED:
+        with working_precision(more * bits):
+            matrix = compute()
+        if all(entry.is_finite() for entry in matrix):
+            return matrix
+    raise NotServed
 
 
 @lru_cache(maxsize=64)
@@ -105,13 +128,9 @@ def _form(classical: Classical, choice: int, prec: int) -> Form:
 
 
 @lru_cache(maxsize=64)
-def frobenius(
+def _frobenius(
     classical: Classical, point: Singular, gauge: RatFunc | None, needed: tuple[bool, bool], prec: int
 ) -> Solutions:
-    """The Frobenius basis of the user's equation at a rational zero of f, or its solutions that are needed, at this precision.
-
-    Raises NotServed at other points, and where a solution is needed that may have a logarithm.
-    """
     if not point.is_rational or point.inverted:
         raise NotServed
     with working_precision(_sharper(prec)):
@@ -182,13 +201,14 @@ class Solutions:
         return inverse(self.at(self.point))
 
     def at(self, x: Point) -> Matrix:
-        """The values and slopes at x (the columns: the two solutions; zero where one isn't needed); raises NotServed."""
+        """The values and slopes at x (the columns: the two solutions; zero where one isn't needed), perhaps not finite; raises
+        NotServed."""
         if self.exponents is not None:
             if self.point == x:  # an ordinary point, where the second solution in the form's order is 1
                 rate = sum((powers[1] * acb(slope(x.x) / poly(x.x)) for poly, slope, powers in self.factors), acb(0))
                 return acb(1), acb(0), rate, acb(1)
             with working_precision(_sharper(ctx.prec)):
-                return _finite(fundamental(*self._frobenius(x, self.exponents)))
+                return fundamental(*self._frobenius(x, self.exponents))
         return fundamental(*self._states(x, (True, True)))
 
     def _states(self, x: Point, needed: tuple[bool, bool]) -> list[State]:
@@ -216,7 +236,7 @@ class Solutions:
         t, growth, rate, columns = to_acb(x - self.point), acb(1), acb(0), []
         if self.gauge is not None:
             check_segment(System.of(self.gauge), self.point, x)
-            theta = rational_log_derivative(self.gauge, ctx.prec)
+            theta = log_derivative(self.gauge, ctx.prec)
             growth, rate = theta.growth(to_acb(self.point), to_acb(x)), theta.value(to_acb(x))
         first, second = self._states(x, self.needed[::-1])
         for (y, dy), exponent in zip((second, first), exponents, strict=True):
@@ -231,12 +251,6 @@ class Solutions:
 def _sharper(bits: int) -> int:
     """FLINT's series with parameters that aren't dyadic lose some sqrt(bits)/2 bits, as measured."""
     return bits + math.isqrt(bits)
-
-
-def _finite(matrix: Matrix) -> Matrix:
-    if not all(entry.is_finite() for entry in matrix):
-        raise NotServed
-    return matrix
 
 
 def _followed(poly: fmpq_poly, a: Point, b: Point) -> acb:

@@ -9,9 +9,13 @@ where the form has the power z^alpha of its exponent at 0.  With (1/2 +- mu) for
     Whittaker          e^(-rho z) 1F1(1/2 +- mu - kappa; 1 +- 2 mu; 2 rho z),      else e^(-rho z) U(..., 2 rho z)
     Gauss              2F1(a, b; 1 +- e0; z),             else 2F1(a, b; 1 + e1; 1 - z),    a, b = (1 +- e0 + e1 +- einf)/2
 
-with the second kind ("else") for the lower sign where the exponents differ by an integer.
+with the second kind ("else") for the lower sign where the exponents differ by an integer.  Where two of the differences are
+1/2 (the dihedral case) Gauss' solutions are elementary:
 
-References: DLMF 9.2, 10.2, 10.25, 10.39, 13.2, 13.14, 15.10.
+    e1 = einf = 1/2    ((1 + sqrt(1 - z))/2)^(-+e0)
+    e0 = e1 = 1/2      sin(einf theta)/(einf sqrt(z)), cos(einf theta),    sin(theta)^2 = z
+
+References: DLMF 9.2, 10.2, 10.25, 10.39, 13.2, 13.14, 15.4.11-18, 15.10.
 """
 
 from __future__ import annotations
@@ -40,6 +44,7 @@ class Form:
     """Two solutions at the working precision in force, as functions of z = n(x)/d(x), the powers (alpha, beta) and the slits.
 
     The numbers z or 1 - z mustn't reach the negative axis (or 0) where their place in `slits` has a factor c, nor c times them.
+    Unless `independent` both are multiples of one polynomial times powers and exp.
     """
 
     n: fmpq_poly
@@ -47,6 +52,7 @@ class Form:
     powers: tuple[tuple[Any, Any], tuple[Any, Any]]
     values: Solutions
     slits: tuple[Any, Any] = (None, None)
+    independent: bool = True
 
     @cached_property
     def derivatives(self) -> tuple[fmpq_poly, fmpq_poly]:
@@ -138,11 +144,13 @@ def _confluent(equation: Confluent, n: fmpq_poly, d: fmpq_poly, sign: int) -> Fo
     mu = square_root(M + fmpq(1, 4))
     if q != 0 and r != 0:
         solutions, slit = _whittaker(q, r, mu)
+        independent = slit is None or not _ends(_HALF + mu - r / (2 * slit))
     else:
         solutions, slit = _bessel(q, r, mu if q != 0 else 2 * mu)
+        independent = True
     upper = (_HALF + mu, 0)
     lower = (_HALF - mu, 0) if slit is None else (_HALF, 0) if r == 0 or q == 0 else upper
-    return Form(n, d, (upper, lower), _each(*solutions), (slit, None))
+    return Form(n, d, (upper, lower), _each(*solutions), (slit, None), independent)
 
 
 def _bessel(q: Any, r: Any, order: Any) -> tuple[tuple[Solution, Solution], Any]:
@@ -213,12 +221,57 @@ def _gauss(equation: Gauss, n: fmpq_poly, d: fmpq_poly, choice: int) -> Form:
     """About the point 0 of one of the coordinates."""
     differences = (square_root(rational(v)) for v in (equation.A, equation.B, equation.C))
     n, d, e0, e1, e2 = _maps(n, d, *differences)[choice]
+    if e0 == _HALF == e2:  # in z/(z - 1)
+        n, d, e0, e1, e2 = _maps(n, d, e0, e1, e2)[3]
     upper, right = ((1 + e0) / 2, (1 + e1) / 2)
+    if e1 == _HALF and _HALF in (e0, e2) and e0 != 0:
+        pair = (_root(e0), _root(-e0)) if e2 == _HALF else (_sine(e2), _cosine(e2))
+        return Form(n, d, ((upper, _HALF / 2), ((1 - e0) / 2, _HALF / 2)), _each(*pair), (None, 1))
     if not is_integer(e0):
         pair = (_hypergeometric(e0, e1, e2, False), _hypergeometric(-e0, e1, e2, False))
         return Form(n, d, ((upper, right), ((1 - e0) / 2, right)), _each(*pair), (None, 1))
     pair = (_hypergeometric(e0, e1, e2, False), _hypergeometric(e1, e0, e2, True))
-    return Form(n, d, ((upper, right), (upper, right)), _each(*pair), (1, 1))
+    independent = not any(_ends((1 + e0 + e1 + e) / 2) for e in (e2, -e2))
+    return Form(n, d, ((upper, right), (upper, right)), _each(*pair), (1, 1), independent)
+
+
+def _ends(a: Any) -> bool:
+    """Is a hypergeometric series with this upper parameter a polynomial?"""
+    return is_integer(a) and a <= 0
+
+
+def _root(e: Any) -> Solution:
+    """((1 + w)/2)^(-e), w = sqrt(1 - z)."""
+
+    def values(z: acb) -> State:
+        w = (1 - z).sqrt()
+        value = (-(e * ((1 + w) / 2).log())).exp()
+        return value, value * e / (2 * w * (1 + w))
+
+    return values
+
+
+def _sine(e: Any) -> Solution:
+    """sin(e theta)/(e sqrt(z)), theta/sqrt(z) for e = 0."""
+
+    def values(z: acb) -> State:
+        root = z.sqrt()
+        theta = root.asin()
+        sine, slope = (theta, acb(1)) if e == 0 else ((e * theta).sin() / e, (e * theta).cos())
+        return sine / root, (slope / (1 - z).sqrt() - sine / root) / (2 * z)
+
+    return values
+
+
+def _cosine(e: Any) -> Solution:
+    """cos(e theta)."""
+
+    def values(z: acb) -> State:
+        root = z.sqrt()
+        angle = e * root.asin()
+        return angle.cos(), -angle.sin() * e / (2 * root * (1 - z).sqrt())
+
+    return values
 
 
 def _hypergeometric(e0: Any, e1: Any, e2: Any, mirrored: bool) -> Solution:

@@ -29,13 +29,13 @@ from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision
-from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, rational_log_derivative, sharp_roots
+from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, log_derivative, sharp_roots
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem, check_segment
 from kovacic.errors import InputError
 
-_CHEAP_DEGREE = 60  # degree of P up to which its evaluation costs less than the Taylor steps
+_CHEAP = 400  # degree of P up to which the values of two exponentials cost less than the Taylor steps
 _LARGEST_SQUARE = 1_000  # degree up to which y1^2 is written out; it may be x^1000000
 _HIGHEST = 40_000  # bits up to which a logarithmic derivative is computed: the polynomial may cancel as many
 _SMALL = 60  # degree up to which a second rational omega is sought by integration
@@ -65,9 +65,8 @@ class Exponential:
 
     def embedded(self, a: acb, b: acb) -> tuple[LogDerivative, acb_poly, acb]:
         """theta, P, and E at b over E at a."""
-        c = self.constant()
-        theta = LogDerivative.make(self.theta, c) if c is not None else rational_log_derivative(self.theta, ctx.prec)
-        return theta, embed(self.P, c), theta.growth(a, b)
+        theta = log_derivative(self.theta, ctx.prec, self.embedding)
+        return theta, embed(self.P, self.constant()), theta.growth(a, b)
 
     def states(self, a: acb, b: acb) -> list[State]:
         """y and y' at a and b, where E is 1 at a."""
@@ -139,11 +138,12 @@ class ClosedForm:
             total = total * RatFunc(factor) ** e
         return total
 
-    @property
-    def is_cheap(self) -> bool:
-        """Does a leg cost less than Taylor steps (measured): elementary, and no polynomial of a high degree?"""
-        small = len(self.branches) == 2 or (self.square_size is not None and self.square_size <= 2 * _CHEAP_DEGREE)
-        return small and self.first.P.degree <= _CHEAP_DEGREE
+    def is_cheap(self, digits: int) -> bool:
+        """Does the first leg cost less than Taylor steps (measured): two exponentials, or a small integral of 1/y1^2?"""
+        if len(self.branches) == 2:
+            return self.first.P.degree <= _CHEAP
+        poles = sum(factor.degree * e * e for factor, e in self._square or () if e > 0)
+        return self.is_elementary and self.first.P.degree**2 + poles / 4 <= 4_000 + 70 * digits
 
     @cached_property
     def companion(self) -> Exponential | None:
@@ -177,13 +177,18 @@ class ClosedForm:
         exact_A, exact_B = self.reduction
         assert self.rational_square is not None
         A, first, second = embed(exact_A, None), self.first.states(a, b), []
-        area = LogDerivative.make(exact_B / self.rational_square, None).exponent(a, b) * value(
-            self.rational_square, None, a
-        )
+        area = _integrand(self, ctx.prec).exponent(a, b) * value(self.rational_square, None, a)
         for x, growth, I, (y, dy) in zip((a, b), (acb(1), E), (acb(0), area), first, strict=True):  # noqa: E741
             slope = A.derivative()(x) - theta.value(x) * A(x) + value(exact_B, None, x) * P(x)
             second.append((A(x) / growth + y * I, slope / growth + dy * I))
         return first, second
+
+
+@lru_cache(maxsize=32)
+def _integrand(closed: ClosedForm, _prec: int) -> LogDerivative:
+    """The rational function B/E^2 of equation (1), at the precision in force."""
+    assert closed.rational_square is not None
+    return LogDerivative.make(closed.reduction[1] / closed.rational_square, None)
 
 
 def certified(problem: NumericProblem) -> Decision:

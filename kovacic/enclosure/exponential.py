@@ -32,8 +32,11 @@ _NODES = 3e-11  # seconds that the nodes of a quadrature take, over bits^2.7 (me
 
 def conjugates(field: Field) -> list[acb | None]:
     """The embeddings of K(c) over K = Q as values of c at the working precision in force; [None] for Q itself."""
-    if not isinstance(field, AlgebraicField):
-        return [None]
+    return _conjugates(field, ctx.prec) if isinstance(field, AlgebraicField) else [None]
+
+
+@lru_cache(maxsize=32)
+def _conjugates(field: AlgebraicField, _prec: int) -> list[acb | None]:
     return [root for root, _ in _roots(field.modulus)]
 
 
@@ -137,10 +140,14 @@ class LogDerivative:
 
 
 @lru_cache(maxsize=32)
-def rational_log_derivative(theta: RatFunc, prec: int) -> LogDerivative:
-    """Partial fractions over Q at this precision, which is in force: the gauge of one problem in many calls."""
+def log_derivative(theta: RatFunc, prec: int, embedding: int = 0) -> LogDerivative:
+    """Partial fractions at this precision, which is in force, kept: the certificate and the gauge of one problem in many calls.
+
+    Constants are embedded by the conjugate number `embedding`, rational ones by any.
+    """
     assert prec == ctx.prec
-    return LogDerivative.make(theta, None)
+    values = conjugates(theta.field)
+    return LogDerivative.make(theta, values[embedding % len(values)])
 
 
 def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[acb, ...]:

@@ -19,10 +19,10 @@ from typing import Any
 
 from flint import acb, ctx
 
-from kovacic.enclosure.classical import Classical, classical_of, frobenius
+from kovacic.enclosure.classical import Classical, classical_of
 from kovacic.enclosure.closed_form import ClosedForm
 from kovacic.enclosure.constants import Number
-from kovacic.enclosure.exponential import LogDerivative, rational_log_derivative
+from kovacic.enclosure.exponential import LogDerivative, log_derivative
 from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.frobenius import basis, junction, limit
 from kovacic.enclosure.matrices import Matrix, Product, State, apply, real_part
@@ -127,7 +127,7 @@ class Traveller:
         """At the start of a journey."""
         gauge = None if problem.embedded is None else problem.embedded.log_derivative()
         if problem.gauge is not None:
-            gauge = rational_log_derivative(problem.gauge, ctx.prec)
+            gauge = log_derivative(problem.gauge, ctx.prec)
         found = cls(problem, closed, gauge, prec, x0, Product(), acb(1), forcing_of(problem))
         if isinstance(x0, Point):
             found._begin(x0)
@@ -213,7 +213,7 @@ class Traveller:
         if isinstance(self.here, Singular):
             assert isinstance(closed, Classical)
             needed = not start[0].is_zero(), not start[1].is_zero()
-            return frobenius(closed, self.here, self.problem.gauge, needed, ctx.prec).at(stop)
+            return closed.frobenius(self.here, self.problem.gauge, needed, stop)
         self._check_gauge(self.here, stop)
         matrix = closed.leg(self.here, stop)
         return real_part(matrix) if self.here.is_real() and stop.is_real() else matrix

@@ -125,7 +125,7 @@ def _closed_form(
     case_1 = problem.decision is not None and problem.decision.case == 1
     if case_1 and few and not isinstance(journey.start.place, Singular):
         closed = closed_form_of(problem)
-        if closed is not None and (closed.is_elementary if method else closed.is_cheap):
+        if closed is not None and (closed.is_elementary if method else closed.is_cheap(digits)):
             return closed
     if few or not all(isinstance(target, Point) and target.is_real() for target in targets):
         classical = journey.classical
