@@ -196,6 +196,34 @@ def against_arb() -> list[dict[str, Any]]:
     return rows
 
 
+def the_ball() -> list[dict[str, Any]]:
+    """The rolling ball's closed forms at one point, from -9/10 to 9/10, against DOP853 and the Taylor route."""
+    import numpy as np
+    from scipy.integrate import solve_ivp
+
+    rows = []
+    for ratio in ("1/2", "3/2", "1/3", "10", "577/408"):
+        w, D = 2 * Fraction(ratio) ** 2, "(5 + 2*x + x^2/2)"
+        answer = kovacic.solve(f"({w + 1})/(4*{D}) - 3*(x + 2)^2/(16*{D}^2)")
+        num, den = ([float(c) for c in reversed(part.coefficients())] for part in (answer.S.num, answer.S.den))
+
+        def field(t: float, y: Any, num: Any = num, den: Any = den) -> Any:
+            return [y[1], np.polyval(num, t) / np.polyval(den, t) * y[0]]
+
+        options = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-15}
+        row = {"R/R1": ratio, "case": answer.case}
+        row["DOP853, ms"] = 1e3 * best(partial(solve_ivp, field, (-0.9, 0.9), [1.0, 0.0], **options))[0]
+        call, begin = partial(evaluate_states, answer, ["9/10"], x0="-9/10", y0=1, dy0=0), time.process_time()
+        call(digits=12)
+        row["first call, ms"] = 1e3 * (time.process_time() - begin)
+        row["NumPy function, ms"] = 1e3 * best(partial(answer.lambdify(interval=(-0.9, 0.9)), 0.9))[0]
+        for digits in (12, 1000):
+            row[f"{digits} digits, ms"] = 1e3 * best(partial(call, digits=digits))[0]
+        row["1,000 digits by Taylor, ms"] = 1e3 * best(partial(call, digits=1000, method="taylor"))[0]
+        rows.append({**row, "DOP853 over 12 digits": row["DOP853, ms"] / row["12 digits, ms"]})
+    return rows
+
+
 COUNTED = {
     "Taylor expansions": (transport, "expand"),
     "evaluations of one": (transport, "states_at"),
@@ -289,6 +317,9 @@ def markdown(data: dict[str, list[dict[str, Any]]]) -> str:
         f"{len(data['against Arb'])}.",
         "",
         *table(data["against Arb"]),
+        "## The ball's closed forms at one point",
+        "",
+        *table(data["the ball"]),
         "## Many points: Airy's equation on [-20, 0], 12 digits",
         "",
         *table(data["many values"]),
@@ -347,6 +378,7 @@ def main() -> None:
         "one value": one_value(),
         "many values": many_values(),
         "against Arb": against_arb(),
+        "the ball": the_ball(),
         "costs": costs(),
         "crossover": crossover(),
     }

@@ -40,9 +40,9 @@ from kovacic.special.pullback import Confluent, Gauss, Pullback
 _BITS = 64  # in which the course of a leg is proven
 _PIECES = 400  # into which a leg is cut for that, at most
 _TRIED = 1, 2, 4  # multiples of the working precision at which a matrix may become finite
-# Digits up to which the functions cost less than Taylor steps (measured): elementary ones, Airy's and Bessel's, others, with
-# irrational parameters
-_MOST = 10**9, 20_000, 2_000, 500
+# Digits up to which the functions cost less than Taylor steps (measured): elementary ones, Airy's and Bessel's of rational
+# order, other confluent ones, Gauss'; and less than the series at a singular point
+_MOST, _MOST_FROM_ZERO = (10**9, 20_000, 2_000, 300), 2_000
 _DEGREE = 24  # of S, up to which a pull-back is sought
 _LARGEST = 1_000  # parameters of special functions up to which a call of FLINT, which can't be stopped, is short
 
@@ -66,22 +66,29 @@ def classical_of(S: RatFunc) -> Classical | None:
     equation, squares, kind = found.equation, [], 1
     if isinstance(equation, Gauss):
         squares = [rational(v) for v in (equation.A, equation.B, equation.C)]
-        kind = 0 if squares.count(fmpq(1, 4)) > 1 else 2
+        kind = 0 if squares.count(fmpq(1, 4)) > 1 else 3
     elif isinstance(equation, Confluent):
         q, r, M = (rational(v) for v in (equation.q, equation.r, equation.M))
-        squares, kind = [4 * M + 1, r * r / q if q != 0 else fmpq(0)], 1 + int(q != 0 and r != 0)
+        squares = [4 * M + 1, r * r / q if q != 0 else fmpq(0)]
+        kind = 1 if (q == 0 or r == 0) and isinstance(square_root(squares[0]), fmpq) else 2
     if any(abs(v) >= _LARGEST**2 for v in squares):
         return None
-    exact = all(isinstance(square_root(v), fmpq) for v in squares)
-    return Classical(found, _MOST[kind if exact or kind == 0 else 3])
+    return Classical(found, _MOST[kind])
 
 
 @dataclass(frozen=True, eq=False)
 class Classical:
-    """A pull-back, and the transition matrices and Frobenius solutions that follow from it; worth while to `most` digits."""
+    """A pull-back, and the transition matrices and Frobenius solutions that follow from it.
+
+    `most` are the digits up to which the former are worth while.
+    """
 
     pullback: Pullback
     most: int = 0
+
+    def is_cheap(self, digits: int, *, from_zero: bool) -> bool:
+        """Do they cost less than the Taylor route, for a start at a zero of f or another?"""
+        return digits <= (max(self.most, _MOST_FROM_ZERO) if from_zero else self.most)
 
     def leg(self, a: Point, b: Point) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment; raises NotServed."""

@@ -123,13 +123,14 @@ def _closed_form(
         raise InputError("the method 'closed form' is for equations without a right-hand side", hint="method='taylor'")
     few = method is not None or len(targets) <= _FEW
     case_1 = problem.decision is not None and problem.decision.case == 1
-    if case_1 and few and not isinstance(journey.start.place, Singular):
+    from_zero = isinstance(journey.start.place, Singular)
+    if case_1 and few and not from_zero:
         closed = closed_form_of(problem)
         if closed is not None and (closed.is_elementary if method else closed.is_cheap(digits)):
             return closed
     if few or not all(isinstance(target, Point) and target.is_real() for target in targets):
         classical = journey.classical
-        if classical is not None and (method or digits <= classical.most):
+        if classical is not None and (method or classical.is_cheap(digits, from_zero=from_zero)):
             return classical
     if method is not None:
         raise InputError(_NO_CLOSED_FORM, hint=_TAYLOR)
