@@ -584,3 +584,38 @@ def test_zeros_beyond_the_range_of_doubles_are_no_error() -> None:
     f = lambdify(kovacic.solve("x*y'' + (1-x)*y' + 200*y = 0"), interval=(0, 800))
     assert f.measured is not None
     assert f.measured.keeps_the_promise
+
+
+@pytest.mark.parametrize(
+    ("equation", "interval", "start"),
+    [
+        ("x", (-100, 10), {"x0": 0, "which": "decaying", "y0": 1}),
+        ("-1", (0, 300), {"x0": 0, "y0": 1, "dy0": "I"}),
+        ("1", (-60, 60), {"x0": 0, "y0": 1, "dy0": 0}),
+        ("y'' + sin(x)*y' + 4*cos(x)*y = 0", (0, 40), {"x0": 0, "y0": 1, "dy0": 0}),
+    ],
+)
+def test_states_carried_by_the_series_are_those_of_enclosures(
+    equation: str, interval: Any, start: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def table(stride: int, lost: float = kovacic_tables._LOST) -> Any:
+        monkeypatch.setattr(kovacic_tables, "_STRIDE", stride)
+        monkeypatch.setattr(kovacic_tables, "_LOST", lost)
+        return tabulate(equation, *interval, careful=False, **start).coefficients[:, 0]
+
+    enclosed = table(1)
+    sizes = 2.0**-52 * np.max(np.abs(enclosed), axis=(0, 1))
+    assert np.all(np.abs(table(24) - enclosed) <= sizes)
+    assert np.all(np.abs(table(10**6) - enclosed) <= sizes)  # from both ends only, and where that loses too much
+    if equation == "1":  # cosh is as good as lost on the way to its minimum
+        assert not np.all(np.abs(table(10**6, np.inf) - enclosed) <= 1000 * sizes)
+
+
+def test_few_enclosures_make_a_table_of_many_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Here no state is lost: the solution oscillates."""
+    asked, states = [], Chart.states
+    monkeypatch.setattr(
+        Chart, "states", lambda self, points, *rest: asked.extend(points) or states(self, points, *rest)
+    )
+    table = tabulate("x", -300, 0, x0=0, y0=1, dy0=0, careful=False)
+    assert len(asked) < len(table.centres) / 20

@@ -17,6 +17,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -63,7 +64,7 @@ def _exponential(
 ) -> ProductForm | None:
     c, degree, table = branch.constant(), branch.P.degree, None
     if degree > _FEW_ZEROS and region.is_real and any(region.singular):
-        table = polynomial_table(lambda: _normalised(branch, base), degree, region, careful)
+        table = polynomial_table(_with_equation(problem, branch, base), degree, region, careful)
     elif degree > _FEW_ZEROS and region.is_real:
         ends = (as_point(end.real, "an end") for end in (region.low, region.high))
         if degree > _MAX_ZEROS or least_growth(problem.system, *ends) < _SHORT:
@@ -80,10 +81,20 @@ def _exponential(
     return ProductForm(region, base, factors, _exponent(theta), is_real, polynomial=table, careful=careful)
 
 
-def _normalised(branch: Exponential, base: Point) -> acb_poly:
-    """P/P(base), at the working precision in force."""
-    P = embed(branch.P, branch.constant())
-    return P * (1 / P(to_acb(base)))
+def _with_equation(problem: NumericProblem, branch: Exponential, base: Point) -> Callable[[], list[acb_poly]]:
+    """P/P(base), and a, b, c with a P'' + b P' + c P = 0, at the working precision in force."""
+    assert problem.S is not None
+    phi = branch.theta if problem.gauge is None else branch.theta - problem.gauge
+    rest = phi.derivative() + phi * phi - problem.S  # P'' + 2 phi P' + rest P = 0
+    a = phi.den * (rest.den // phi.den.gcd(rest.den))
+    exact = a, (2 * phi * a).num, (rest * a).num
+
+    def balls() -> list[acb_poly]:
+        c = branch.constant()
+        P = embed(branch.P, c)
+        return [P * (1 / P(to_acb(base))), *(embed(part, c) for part in exact)]
+
+    return balls
 
 
 def _all_real(values: list[acb]) -> bool:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
+import numpy as np
 from flint import acb, acb_series, arb, arb_poly, ctx, fmpq_poly
 
 from kovacic.doubles.double_double import horner
@@ -22,7 +23,7 @@ from kovacic.enclosure.constants import in_balls
 from kovacic.enclosure.exponential import LogDerivative, embed
 from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import Point, as_point, midpoint, power_of_two, to_acb, working_precision
+from kovacic.enclosure.points import Point, as_point, midpoint, power_of_two, to_acb, to_double, working_precision
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.states import evaluate_states
@@ -33,6 +34,9 @@ from kovacic.reading.read import read_input
 _SLOPE_BITS = 4000
 """Precision of an initial slope, for Taylor steps: its error, times the growth of the dominant solution, contaminates a
 recessive one."""
+
+_NOISE = 2.0**-40
+"""Errors of the value of a polynomial in plain doubles, over the sum of the sizes of its terms."""
 
 
 @dataclass(frozen=True)
@@ -102,6 +106,24 @@ class Chart:
     @cached_property
     def _singular(self) -> list[Point]:
         return self.singular_points()
+
+    def steepness(self, x: Any, h: Any) -> Any:
+        """Lower bounds of the larger characteristic root |r|, a r^2 + h b r + h^2 c = 0, at points x: by |r1 r2| and
+        |r1 + r2|, in plain doubles with room for their errors; infinite where a singular point is nearer than 4 h."""
+        with np.errstate(all="ignore"):
+            sizes = [(np.abs(np.polyval(p, x)), _NOISE * np.polyval(np.abs(p), np.abs(x))) for p in self._doubles]
+            (a, b, c), (p, q, r) = zip(*sizes, strict=True)
+            found = np.fmax(np.sqrt(np.fmax(c - r, 0.0) / (a + p)) * h, (b - q) / (a + p) * h / 2)
+            for point in self._singular:
+                found[np.abs(x - to_double(point)) + _NOISE * np.abs(x) < 4 * h] = np.inf
+            return found
+
+    @cached_property
+    def _doubles(self) -> list[Any]:
+        """The polynomials a, b, c over a common factor, coefficients high to low."""
+        parts = [[arb(v) for v in part.coeffs()] for part in self._equation]
+        largest = max(abs(v).mid() for part in parts for v in part)
+        return [np.array([float(v / largest) for v in reversed(part)]) for part in parts]
 
     def local(self, centre: Point, e: int, terms: int) -> list[list[arb]] | None:
         """a, H b and H^2 c over a(c), so many terms in u; None where a singular point is nearer than 4 H."""
@@ -177,6 +199,10 @@ class Changed(Chart):
     def singular_points(self) -> list[Point]:
         """None: values beyond one are refused."""
         return []
+
+    def steepness(self, x: Any, h: Any) -> Any:
+        """Nothing is known."""
+        return 0.0 * x
 
     def local(self, centre: Point, e: int, terms: int) -> list[list[arb]] | None:
         """Equation (1); None where a(c) or t'(c) is zero.  Raises InputError where it isn't real."""

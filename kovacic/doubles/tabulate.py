@@ -7,24 +7,27 @@ little on them and their Taylor series
     y(c + H u) = y(c) y1(u) + H y'(c) y2(u) + y3(u),    |u| <= 1,
 
 end within a fixed number of terms; y1 and y2 solve the homogeneous equation, y3 begins with 0, 0 (a right-hand side is
-interpolated at Chebyshev's points).  The states (y, y')(c) are enclosures; the series come from the recurrence of the equation,
-in double-doubles for all pieces at once.  Chebyshev's polynomials bring the highest terms down [L. N. Trefethen, Approximation
-Theory and Approximation Practice, SIAM 2013, chapter 3].  In the careful variant Horner's scheme is done in double-doubles,
-too, so that the error is some 2^-95 of the largest value on the piece: the value itself keeps its digits near zeros, and where
-it is far smaller than its neighbours.  In plain doubles the error is some 2^-52 of the largest value there.
+interpolated at Chebyshev's points).  The series come from the recurrence of the equation, in double-doubles for all pieces at
+once; the states (y, y')(c) are enclosures, or carried on from those by the series.  Polynomials are expanded in balls.
+
+Chebyshev's polynomials bring the highest terms down [L. N. Trefethen, Approximation Theory and Approximation Practice, SIAM
+2013, chapter 3].  In the careful variant Horner's scheme is done in double-doubles, too, so that the error is some 2^-95 of the
+largest value on the piece: the value itself keeps its digits near zeros, and where it is far smaller than its neighbours.  In
+plain doubles the error is some 2^-52 of the largest value there.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from flint import acb, acb_poly, arb, arb_mat, arb_poly
+from flint import acb, acb_poly, arb, arb_mat, arb_poly, fmpq
 from numpy.polynomial import chebyshev
 
 from kovacic.algebra.rationals import to_fmpq
@@ -33,31 +36,38 @@ from kovacic.doubles.double_double import Pair, double, folded, horner, scaled, 
 from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import Point, working_precision
+from kovacic.enclosure.points import Point, power_of_two, working_precision
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_time
 
 _PREC = 300
 _GROWTH = 12.0
 """The sums of the coefficients of y1 and y2 are at most so large."""
+_STEEP = 4.0
+"""Characteristic roots above this make the sums larger."""
 _MAX_PIECES, _SMALLEST = 5000, -1000
-_DEPTH = 40
-"""How often the interval is halved for a polynomial."""
+_HIGHEST = 1 << 15
+"""Working precision for a polynomial."""
+_STRIDE, _ROUGH, _LOST = 24, 2.0**-88, 2.0**-58
+"""Of so many states one is an enclosure; relative errors of a transfer, and of a state, at most."""
+_SIGNS = np.array([[[1.0], [-1.0]], [[-1.0], [1.0]]])
 _ROOM = 900
 """Binary exponents up to here stay in the coefficients."""
 
 
 class _Variant(NamedTuple):
-    """Terms of the series, those that are kept, digits of the states, the bits below the largest coefficient that count."""
+    """Terms of the series, those after which they must have ended, those that are kept, digits of the states, the bits below
+    the largest coefficient that count."""
 
     terms: int
+    tested: int
     kept: int
     digits: int
     bits: int
 
 
-_CAREFUL, _PLAIN = _Variant(48, 34, 60, 96), _Variant(32, 22, 32, 60)
-Cell = tuple[Fraction, int]  # c, and e where H = 2^e
+_CAREFUL, _PLAIN = _Variant(48, 48, 34, 60, 96), _Variant(48, 32, 22, 32, 60)
+Cell = tuple[fmpq, int]  # c, and e where H = 2^e
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,82 +149,86 @@ def table_of(chart: Chart, interval: tuple[object, object], careful: bool, limit
             "an end of the interval is a singular point", hint="a table ends beside it; choose an end at some distance"
         )
     variant = _CAREFUL if careful else _PLAIN
-    with working_precision(_PREC):
-        cells, series = _pieces(chart, region, variant, budget)
-    states = chart.states([Point(centre) for centre, _ in cells], variant.digits, budget.share(1).limits)
-    with working_precision(_PREC):
-        parts, powers = _combined(cells, series, states, variant)
+    with budget.watched(), working_precision(_PREC):
+        cells, found = _pieces(
+            region, lambda some: _series(chart, some, variant), lambda x, h: chart.steepness(x, h) > _STEEP
+        )
+    series = Pair(*np.stack(found, axis=-1))
+    states, powers = _states(chart, cells, series, variant, budget.share(1).limits)
+    coefficients = series[:, 0, None] * states[0] + series[:, 1, None] * states[1]
+    if chart.forcing is not None:
+        coefficients += scaled(series[:, 2, None], -powers)
     x0 = chart.given.get("x0")
-    return _assembled(region, x0 if isinstance(x0, Point) else None, cells, parts, powers, variant)
+    return _assembled(region, x0 if isinstance(x0, Point) else None, cells, coefficients, powers, variant)
 
 
-def polynomial_table(P: Callable[[], acb_poly], degree: int, region: Region, careful: bool) -> TabulatedFunction | None:
-    """A polynomial on an interval, from its balls; None where it can't be done, as beside a zero of high multiplicity."""
-    variant, prec = _CAREFUL if careful else _PLAIN, _PREC + 3 * degree
-    while True:
+def polynomial_table(
+    balls: Callable[[], Sequence[acb_poly]], degree: int, region: Region, careful: bool
+) -> TabulatedFunction | None:
+    """A polynomial P with a P'' + b P' + c P = 0, from `balls`, which has P, a, b, c at the working precision in force, on an
+    interval that may end in zeros of a; None where it can't be done, as beside a zero of P of high multiplicity."""
+    variant = _CAREFUL if careful else _PLAIN
+
+    @lru_cache
+    def at(prec: int) -> list[Any]:
+        P, *equation = balls()
+        found = [P, P.derivative(), *equation]
+        is_real = all(v.imag.is_zero() for poly in found for v in poly.coeffs())
+        return [arb_poly([v.real for v in poly.coeffs()]) for poly in found] if is_real else found
+
+    def expand(cells: list[Cell]) -> list[Any]:
+        return [_expanded(at, _PREC + 3 * degree, cell, variant) for cell in cells]
+
+    try:
+        cells, found = _pieces(region, expand, lambda x, h: x > math.inf)
+    except LimitExceeded as reason:
+        if reason.limit == "seconds":
+            raise
+        return None
+    with working_precision(_PREC):
+        powers = np.array([int(log2(max(abs(v).mid() for v in row))) for row in found])
+        rows = [[v * arb((1, -int(k))) for v in row] for row, k in zip(found, powers, strict=True)]
+        names = ("real", "imag") if isinstance(rows[0][0], acb) else ("real",)
+        halves = [_halves([getattr(v, name) for row in rows for v in row]) for name in names]
+    table = np.array(halves).reshape(len(names), 2, len(rows), -1).transpose(1, 3, 0, 2)
+    return _assembled(region, None, cells, Pair(*table), powers, variant)
+
+
+def _expanded(at: Callable[[int], list[Any]], prec: int, cell: Cell, variant: _Variant) -> list[Any] | None:
+    """The Taylor series of P on a piece by its equation, which loses digits beside singular points; None if it won't do."""
+    x, h = arb(cell[0]), arb((1, cell[1]))
+    while prec <= _HIGHEST:
+        check_time()
         with working_precision(prec):
-            found = _shifted(P(), region, variant)
-            if found is None:
-                return None
-            peaks = {cell: max(abs(v).mid() for v in row) for cell, row in found.items()}
-            if all(
-                v.rad() < peaks[cell] * arb((1, -variant.bits)) for cell, row in found.items() for v in map(abs, row)
-            ):
-                break
+            P, slope, *equation = at(prec)
+            row = [P(x), slope(x) * h]
+        with working_precision(200 + prec // 4):
+            a, b, c = ([v * h**k for v in part(type(P)([x, h])).coeffs()] for k, part in enumerate(equation))
+            _, *columns = itertools.zip_longest(a, [0, *b], [0, 0, *c], fillvalue=0)
+            most = _GROWTH * max(abs(v).upper() for v in row)
+            for n in range(2, variant.tested):
+                used = zip(columns, range(n - 1, -1, -1), strict=False)
+                total = sum((p * (m * (m - 1)) + q * m + r) * row[m] for (p, q, r), m in used)
+                row.append(total / (-a[0] * (n * (n - 1))))
+                if abs(row[-1]) > most:
+                    return None
+            sizes = [abs(v) for v in row]
+            small = max(v.mid() for v in sizes) * arb((1, -variant.bits))
+            if all(v.rad() <= small for v in sizes):
+                return row if sum(sizes, arb(0)) <= most and max(v.mid() for v in sizes[-2:]) <= small else None
         prec *= 2
-    cells = sorted(found)
-    powers = np.array([int(log2(peaks[cell])) for cell in cells])
-    rows = [[v * arb((1, -int(k))) for v in found[cell]] for cell, k in zip(cells, powers, strict=True)]
-    names = ("real",) if all(v.imag.is_zero() for row in rows for v in row) else ("real", "imag")
-    parts = [Pair(*np.stack([_halves([getattr(v, name) for v in row]) for row in rows], axis=-1)) for name in names]
-    return _assembled(region, None, cells, parts, powers, variant)
-
-
-def _shifted(P: acb_poly, region: Region, variant: _Variant) -> dict[Cell, list[acb]] | None:
-    """The Taylor series on the pieces: that of a half is that of the whole, without the terms that don't count there."""
-    low, high, (centre, e) = Fraction(region.low.real), Fraction(region.high.real), _root(region)
-    done, least, open_ = dict[Cell, list[acb]](), e - _DEPTH, list[tuple[Cell, acb_poly]]()
-    open_.append(((centre, e), P(acb_poly([arb(to_fmpq(centre)), arb((1, e))]))))
-    while open_:
-        (c, e), here = open_.pop()
-        coefficients: list[Any] = here.coeffs()
-        sizes = [abs(v).mid() for v in coefficients]
-        peak = max(sizes)
-        slow = variant is _CAREFUL or sum(sizes, arb(0)) <= _GROWTH * max(sizes[:2])
-        if slow and max(sizes[variant.terms :], default=arb(0)) <= peak * arb((1, -variant.bits)):
-            done[c, e] = coefficients[: variant.terms] + [acb(0)] * (variant.terms - len(coefficients))
-            continue
-        if e <= least or len(done) > _MAX_PIECES:
-            return None
-        h, floor = Fraction(2) ** e, peak * arb((1, -2 * variant.bits))
-        if len(sizes) > 2 * variant.terms:  # the polynomial may be far smaller somewhere on the piece
-            us = np.linspace(float((max(low, c - h) - c) / h), float((min(high, c + h) - c) / h), 9)
-            slope, share = here.derivative(), arb((1, -2 * len(sizes).bit_length()))
-            least_peak = min(max(abs(here(u)).mid(), abs(slope(u)).mid() * share) for u in map(acb, us.tolist()))
-            floor = least_peak * arb((1, -variant.bits - 40))
-        while sizes[-1] < floor:
-            sizes.pop()
-        kept = acb_poly(coefficients[: len(sizes)])
-        halves = [(sign, c + sign * h / 2) for sign in (-1, 1)]
-        open_ += [
-            ((middle, e - 1), kept(acb_poly([arb(sign) / 2, arb(1) / 2])))
-            for sign, middle in halves
-            if middle + h / 2 > low and middle - h / 2 < high
-        ]
-    return done
+    return None
 
 
 def _assembled(
-    region: Region, base: Point | None, cells: list[Cell], parts: list[Pair], powers: Any, variant: _Variant
+    region: Region, base: Point | None, cells: list[Cell], coefficients: Pair, powers: Any, variant: _Variant
 ) -> TabulatedFunction:
-    """The table with the highest terms lowered."""
-    table = []
-    for part in parts:
-        lowered = np.tensordot(_lowering(*variant[:2]), part.hi[variant.kept :], 1)
-        part = part[: variant.kept] + Pair(lowered)
-        table.append([part.hi, part.lo])
-    edges, exponents = np.array([float(c + Fraction(2) ** e) for c, e in cells[:-1]]), np.array([e for _, e in cells])
-    arrays = edges, np.array([float(c) for c, _ in cells]), exponents, powers, np.array(table)
+    """The table with the highest terms lowered, from an array of terms, parts and pieces."""
+    lowered = np.tensordot(_lowering(len(coefficients.hi), variant.kept), coefficients.hi[variant.kept :], 1)
+    coefficients = coefficients[: variant.kept] + Pair(lowered)
+    edges, exponents = np.array([float(c + power_of_two(e)) for c, e in cells[:-1]]), np.array([e for _, e in cells])
+    table = np.array([coefficients.hi, coefficients.lo]).transpose(2, 0, 1, 3)
+    arrays = edges, np.array([float(c) for c, _ in cells]), exponents, powers, table
     for array in arrays:
         array.flags.writeable = False
     return TabulatedFunction(region, base, *arrays, careful=variant is _CAREFUL)
@@ -226,57 +240,75 @@ def _root(region: Region) -> Cell:
     e = math.frexp(float(high - low))[1]
     # Off the round numbers, at which solutions may be zero: that couldn't be told from other small values.
     grain = max(Fraction(2) ** (e - 24), Fraction(math.ulp(max(-low, high))))
-    return (low // grain - Fraction(2) ** e * Fraction(53, 128) // grain) * grain + Fraction(2) ** e, e
+    return to_fmpq((low // grain - Fraction(2) ** e * Fraction(53, 128) // grain) * grain + Fraction(2) ** e), e
 
 
-def _pieces(chart: Chart, region: Region, variant: _Variant, budget: Budget) -> tuple[list[Cell], Pair]:
-    """The pieces from left to right, and y1, y2 and y3 on them: an array of terms, series and pieces."""
-    low, high = Fraction(region.low.real), Fraction(region.high.real)
-    open_, done = [_root(region)], dict[Cell, Any]()
-    while open_:
-        e = open_[0][1]
-        if len(open_) + len(done) > _MAX_PIECES:
+def _pieces(
+    region: Region, expand: Callable[[list[Cell]], list[Any]], refused: Callable[[Any, Any], Any]
+) -> tuple[list[Cell], list[Any]]:
+    """The pieces from left to right, and what `expand` makes of them: None where a piece won't do.
+
+    `refused` says of arrays of centres and scales, at once, where that is known beforehand.
+    """
+    low, high = (fmpq(*end.as_integer_ratio()) for end in (region.low.real, region.high.real))
+    open_, waiting, done = [_root(region)], list[Cell](), list[tuple[Cell, Any]]()
+    while open_ or waiting:
+        if len(open_) + len(waiting) + len(done) > _MAX_PIECES:
             raise LimitExceeded(f"the table needs more than {_MAX_PIECES} pieces", limit="unknown_degree")
-        if e < _SMALLEST:
+        check_time()
+        if open_:
+            no = refused(np.array([float(c) for c, _ in open_]), np.array([math.ldexp(1.0, e) for _, e in open_]))
+            no = [out or not low <= c <= high for out, (c, _) in zip(no, open_, strict=True)]  # values are inside only
+            waiting += [cell for cell, out in zip(open_, no, strict=True) if not out]
+        else:
+            open_, waiting, found = waiting, [], expand(waiting)
+            no = [item is None for item in found]
+            done += [(cell, item) for cell, item in zip(open_, found, strict=True) if item is not None]
+        halved = [(c, power_of_two(e - 1), e - 1) for (c, e), out in zip(open_, no, strict=True) if out]
+        if any(e < _SMALLEST for _, _, e in halved):
             raise LimitExceeded("no piece of positive size was found for the table", limit="unknown_degree")
-        budget.check()
-        good, series = _series(chart, open_, variant)
-        good &= np.array([low <= centre <= high for centre, _ in open_])  # there are values in the interval only
-        done |= {cell: (series.hi[..., k], series.lo[..., k]) for k, cell in enumerate(open_) if good[k]}
-        half = Fraction(2) ** (e - 1)
-        halves = (c + sign * half for k, (c, _) in enumerate(open_) if not good[k] for sign in (-1, 1))
-        open_ = [(c, e - 1) for c in halves if c + half > low and c - half < high]
-    cells = sorted(done)
-    hi, lo = (np.stack([done[cell][i] for cell in cells], axis=-1) for i in (0, 1))
-    return cells, Pair(hi, lo)
+        halves = ((c + sign * half, half, e) for c, half, e in halved for sign in (-1, 1))
+        open_ = [(c, e) for c, half, e in halves if c + half > low and c - half < high]
+    done.sort(key=lambda item: item[0])
+    return [cell for cell, _ in done], [item for _, item in done]
 
 
-def _series(chart: Chart, cells: list[Cell], variant: _Variant) -> tuple[Any, Pair]:
-    """Which of these pieces will do, and y1, y2 and y3 on all of them."""
-    terms, found = variant.terms, [chart.local(Point(centre), e, variant.terms) for centre, e in cells]
-    length = max(2, *(len(part) + i for local in found if local for i, part in enumerate(local)), 0)
-    numbers, source = np.zeros((2, 3, length, len(cells))), np.zeros((2, terms, 3, len(cells)))
-    for k, (local, (centre, e)) in enumerate(zip(found, cells, strict=True)):
-        for i, part in enumerate(local or ()):
-            numbers[:, i, i : i + len(part), k] = _halves(part)
-        if local and chart.forcing is not None:
+def _series(chart: Chart, cells: list[Cell], variant: _Variant) -> list[Any]:
+    """y1, y2, and beside a right-hand side y3, on each of these pieces that will do: high and low halves, terms, series."""
+    result, terms, count = list[Any]([None] * len(cells)), variant.terms, 2 if chart.forcing is None else 3
+    found = [(k, chart.local(Point(centre), e, terms)) for k, (centre, e) in enumerate(cells)]
+    usable = [(k, local) for k, local in found if local is not None]
+    length = max(2, *(len(part) + i for _, local in usable for i, part in enumerate(local)), 0)
+    numbers, source = np.zeros((2, 3, length, len(usable))), np.zeros((2, terms, count, len(usable)))
+    for column, (k, local) in enumerate(usable):
+        for i, part in enumerate(local):
+            numbers[:, i, i : i + len(part), column] = _halves(part)
+        if chart.forcing is not None:
             nodes, inverse = _interpolation(terms)
-            values = [[chart.source(Point(centre), e, u) * arb_poly(local[0])(u)] for u in nodes]
-            source[:, :, 2, k] = _halves((inverse * arb_mat(values)).entries())
+            values = [[chart.source(Point(cells[k][0]), cells[k][1], u) * arb_poly(local[0])(u)] for u in nodes]
+            source[:, :, 2, column] = _halves((inverse * arb_mat(values)).entries())
     a, b, c = (Pair(*numbers[:, i]) for i in range(3))
-    z = Pair(*np.zeros((2, terms, 3, len(cells))))
-    z.hi[0, 0] = z.hi[1, 1] = 1.0
+    z = np.zeros((2, terms, count, len(usable)))
+    z[0, 0, 0] = z[0, 1, 1] = 1.0
     with np.errstate(all="ignore"):
         for n in range(2, terms):
             j = np.arange(1, min(length, n + 1))
-            m = (n - j)[:, None] + 0.0
-            weights = a[j] * Pair(m * (m - 1)) + b[j] * Pair(m) + c[j]
-            term = (Pair(*source[:, n - 2]) - folded(weights[:, None] * z[n - j])) / Pair(n * (n - 1.0))
-            z.hi[n], z.lo[n] = term.hi, term.lo
-        sizes = np.abs(z.hi)
+            m, weights = (n - j)[:, None] + 0.0, c[j]
+            for function, factor in ((b, m), (a, m * (m - 1))):
+                if function.hi[1:].any():
+                    weights += function[j] * Pair(factor)
+            if n < variant.tested:
+                rest = Pair(*source[:, n - 2]) - folded(weights[:, None] * Pair(*z[:, n - j]))
+                term = rest * Pair.of(1 / arb(n * (n - 1)))
+                z[:, n] = term.hi, term.lo
+            else:  # as small as the last half of the digits
+                z[0, n] = (source[0, n - 2] - (weights.hi[:, None] * z[0, n - j]).sum(0)) / (n * (n - 1))
+        sizes = np.abs(z[0, : variant.tested])
         good = (sizes[-4:].max(0) <= sizes.max(0) * 2.0**-variant.bits).all(0)
         good &= (sizes[:, :2].sum(0) <= _GROWTH).all(0)
-    return good & np.array([local is not None for local in found]), z
+    for column in np.flatnonzero(good).tolist():
+        result[usable[column][0]] = z[..., column]
+    return result
 
 
 def _halves(numbers: list[arb]) -> Any:
@@ -298,23 +330,69 @@ def _lowering(terms: int, kept: int) -> Any:
     return np.array([np.pad(row, (0, kept - len(row))) for row in rows]).T
 
 
-def _combined(cells: list[Cell], series: Pair, states: list[State], variant: _Variant) -> tuple[list[Pair], Any]:
-    """The coefficients of the solution, and the powers of two that they are to be multiplied by."""
-    data, powers = [], []
-    for (y, dy), (_, e) in zip(states, cells, strict=True):
-        both = y, dy * arb((1, e))
-        size = max(abs(v).mid() for v in both)
-        if max(r for v in both for r in (v.real.rad(), v.imag.rad())) > size * arb((1, -variant.bits)):
-            raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
-        power = int(log2(size)) if size > 0 else 0
-        powers.append(power if abs(power) > _ROOM else 0)
-        data.append([v * arb((1, -powers[-1])) for v in both])
-    is_real = all(v.imag.is_zero() for both in data for v in both)
-    parts = []
-    for part in ("real",) if is_real else ("real", "imag"):
-        y, dy = (Pair(*_halves([getattr(both[i], part) for both in data])) for i in (0, 1))
-        found = series[:, 0] * y + series[:, 1] * dy
-        if part == "real":
-            found += scaled(series[:, 2], -np.array(powers))
-        parts.append(found)
-    return parts, np.array(powers)
+def _states(chart: Chart, cells: list[Cell], series: Pair, variant: _Variant, limits: Limits) -> tuple[Pair, Any]:
+    """(y, H y') at the centres over powers of two, an array of both, parts and pieces; and these powers.
+
+    Enclosures, rounded; in the plain variant, without a right-hand side, of every 32nd centre: the series carry the state on to
+    the next ones, from the side on which less is lost by an estimate, and where too much is, enclosures serve again.
+    """
+    size, exponents = len(cells), np.array([e for _, e in cells])
+    v, powers, lost = np.zeros((2, 2, 2, size)), np.zeros(size, dtype=int), np.full(size, np.inf)
+
+    def enclose(which: Any) -> None:
+        balls = chart.states([Point(cells[k][0]) for k in which], variant.digits, limits)
+        with working_precision(_PREC):
+            for k, state in zip(which, balls, strict=True):
+                v[..., k], powers[k] = _rounded(state, cells[k][1], variant)
+        lost[which] = 0.0
+
+    sparse = variant is _PLAIN and chart.forcing is None
+    enclose(known := np.unique(np.append(np.arange(0, size, _STRIDE if sparse else 1), size - 1)))
+    for sign, matrices in zip((1, -1), _transfers(series, exponents) if len(known) < size else (), strict=False):
+        k = known
+        while k.size:
+            k = k[(k + sign >= 0) & (k + sign < size)]
+            carry = matrices[:, :, None, np.minimum(k, k + sign)]
+            new = folded(carry * Pair(*v[..., k])[:, None])
+            length = np.linalg.norm(new.hi, axis=(0, 1))
+            with np.errstate(all="ignore"):
+                less = (lost[k] + _ROUGH) * np.linalg.norm(carry.hi, axis=(0, 1))[0] / length
+            better = less < lost[k + sign]
+            shift, k, new = np.frexp(length[better])[1], k[better] + sign, new[..., better]
+            v[..., k], powers[k], lost[k] = np.ldexp([new.hi, new.lo], -shift), powers[k - sign] + shift, less[better]
+    enclose(np.flatnonzero(~(lost <= _LOST)))
+    kept = np.where(np.abs(powers) > _ROOM, powers, 0)
+    return scaled(Pair(*v[:, :, : 1 + v[:, :, 1].any()]), powers - kept), kept
+
+
+def _rounded(state: State, e: int, variant: _Variant) -> tuple[Any, int]:
+    """(y, H y') over a power of two, without an imaginary part that may be 0."""
+    both = state[0], state[1] * arb((1, e))
+    numbers = [part for v in both for part in (v.real, v.imag * 0 if v.imag.contains(0) else v.imag)]
+    size = max(abs(v).mid() for v in both)
+    if max(r for v in both for r in (v.real.rad(), v.imag.rad())) > size * arb((1, -variant.bits)):
+        raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
+    power = int(log2(size)) if size > 0 else 0
+    return _halves([v * arb((1, -power)) for v in numbers]).reshape(2, 2, 2), power
+
+
+def _transfers(series: Pair, exponents: Any) -> tuple[Pair, Pair]:
+    """The matrices (columns, rows, pieces but one) that carry (y, H y') from a centre to the next one, and back."""
+    n = np.arange(len(series.hi)) + 0.0
+    right, left = (
+        folded(series[:, :2, None] * Pair(np.stack([u**n, n * u ** (n + 1)], axis=1)[:, None, :, None]))
+        for u in (1.0, -1.0)
+    )
+    steps = np.diff(exponents)
+    right = scaled(right[..., :-1], np.array([0 * steps, steps]))
+    columns = Pair(right.hi.swapaxes(0, 1), right.lo.swapaxes(0, 1))
+    forth = folded(_inverse(left[..., 1:])[:, None] * columns[:, :, None])
+    return forth, _inverse(forth)
+
+
+def _inverse(m: Pair) -> Pair:
+    """Of 2x2 matrices."""
+    adjugate = Pair(*(_SIGNS * half.swapaxes(0, 1)[::-1, ::-1] for half in (m.hi, m.lo)))
+    determinant = m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]
+    found: Pair = adjugate / determinant
+    return found
