@@ -41,7 +41,7 @@ _MANY = 50
 _FEWER_BITS = 12.0
 _MAX_DISCS = 200_000
 _ROUNDED = 1e-15  # more than the relative errors of doubles
-_TRIED = 16  # steps after which the time of the others is known well enough
+_TRIED, _WORTH = 16, 0.2  # steps and seconds after which the time of the others is known well enough to be foreseen
 
 
 @dataclass(frozen=True)
@@ -113,26 +113,27 @@ class Leg:
 def walk(system: System, a: Point, b: Point, prec: int, targets: int = 0) -> Iterator[Leg]:
     """The discs of the straight way from a to b; with so many `targets` beside it none of them is split."""
     begun, split = watched_seconds(math.inf), is_split(system, prec) and not targets
-    growth = max(_FEWER_BITS, prec * _GROWTH) if targets >= _MANY else None
+    growth, foreseen = max(_FEWER_BITS, prec * _GROWTH) if targets >= _MANY else None, False
     for number, disc in enumerate(cover(system, a, b, prec, growth), 1):
         if split:
             start, stop = map(product, legs(system, disc.frame, disc.enter, disc.leave, prec))
             yield Leg(disc, None, multiply(stop, adjugate(start)))
         else:
             yield Leg(disc, expand(disc.frame, prec))
-        if number == _TRIED:
-            _refuse(system, a, b, prec, begun - watched_seconds(math.inf))
+        if not foreseen and number >= _TRIED and not (used := begun - watched_seconds(math.inf)) < _WORTH:
+            _refuse(system, a, b, prec, used / number)
+            foreseen = True
         if number > _MAX_DISCS:
             raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
 
 
-def _refuse(system: System, a: Point, b: Point, prec: int, used: float) -> None:
-    """Raise as soon as it is clear that the limits don't allow all steps from a to b; the first few took `used` seconds.
+def _refuse(system: System, a: Point, b: Point, prec: int, each: float) -> None:
+    """Raise as soon as it is clear that the limits don't allow all steps from a to b, of so many seconds each.
 
     A disc of growth g bits, on either side of its centre, has int |S|^(1/2) below 2 (g + 10) log 2: that gives the least
     number of steps.
     """
-    growth, each = least_growth(system, a, b), used / _TRIED
+    growth = least_growth(system, a, b)
     least = growth / (2 * (_allowed_growth(prec) + 10) * math.log(2))
     reason = f"the solutions grow or oscillate by exp({growth:.2g}) on the way from {a} to {b}, which takes {least:.2g} steps"
     if least > _MAX_DISCS:
