@@ -12,6 +12,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, reduce
+from itertools import count
+from random import Random
 from typing import Any
 
 from flint import Ordering, fmpz_mpoly_ctx
@@ -104,22 +106,16 @@ class FunctionField(Field):
         """Random points, most of them modulo the first prime, which is enough for functions with small coefficients."""
         usable = (p for p in primes() if allowed is None or allowed(p))
         first, other = next(usable), next(usable)
-        left, quota, state = _QUOTA, _QUOTA, 0x9E3779B97F4A7C15
-        index = 0
-        while True:
+        left, quota, random = _QUOTA, _QUOTA, Random(20240229)
+        for index in count(1):
             check_time()
             p = first
-            if index % (_FIRST_PRIME_RUN + 1) == _FIRST_PRIME_RUN:
+            if index % (_FIRST_PRIME_RUN + 1) == 0:
                 p, left = other, left - 1
                 if not left:
                     quota += quota // 4
                     left, other = quota, next(usable)
-            point = []
-            for _ in self.names:
-                state = (state * 6364136223846793005 + 1442695040888963407) % (1 << 64)
-                point.append((state >> 3) % p)
-            yield (Evaluation(p, tuple(point)),)
-            index += 1
+            yield (Evaluation(p, tuple(random.randrange(p) for _ in self.names)),)
 
     def collector(self, shape: tuple[int, ...]) -> Collector:
         return Samples(len(self.names), shape)

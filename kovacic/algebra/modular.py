@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import accumulate, islice
+from itertools import islice
 from operator import mul
 from typing import Any
 
@@ -85,28 +85,17 @@ def ordinary_point(den: Any) -> int:
     return point
 
 
-#: Terms of a fundamental system up to which Picard's iteration is faster than Newton's.
-_PICARD_TERMS = 8
-
-
 def fundamental_system(num: Any, den: Any, order: int) -> tuple[Any, Any]:
     """y1 = 1 + O(t^2) and y2 = t + O(t^2) with `y'' = (num/den) y`, to `order` terms; den(0) must not vanish.
 
-    Picard's iteration, which gives two terms a step, for the first ones; then Newton's: with residuals r_i = S y_i - y_i''
-    the corrections are those of the variation of constants, y2 int(y1 r_i) - y1 int(y2 r_i), for the Wronskian
-    y1 y2' - y1' y2 is 1.  From k right terms the Wronskian is 1 + O(t^(k-1)), so that a step gives 2k - 1 terms.
+    Newton's iteration: with residuals r_i = S y_i - y_i'' the corrections are those of the variation of constants,
+    y2 int(y1 r_i) - y1 int(y2 r_i), for the Wronskian y1 y2' - y1' y2 is 1.  From k right terms the Wronskian is
+    1 + O(t^(k-1)), so that a step gives 2k - 1 terms.
     """
     p = num.modulus()
     order = max(order, 2)
     coefficient = num.truncate(order).mul_low(den.truncate(order).inverse_series_trunc(order), order)
-    start1, start2 = y1, y2 = nmod_poly([1], p), nmod_poly([0, 1], p)
-    known = 2
-    while known < min(order, _PICARD_TERMS):
-        y1 = start1 + coefficient.mul_low(y1, known).integral().integral()
-        y2 = start2 + coefficient.mul_low(y2, known).integral().integral()
-        known += 2
-    if known > order:
-        return y1.truncate(order), y2.truncate(order)
+    y1, y2, known = nmod_poly([1], p), nmod_poly([0, 1], p), 2
     while known < order:
         known = min(2 * known - 1, order)
         corrections = []
@@ -170,9 +159,6 @@ def rational_function_from_series(series: Any, order: int, top: int) -> tuple[An
     return (A, B) if B.degree() <= size and A.degree() <= top else None
 
 
-#: So few residues are inverted one by one.
-_FEW = 12
-
 #: Terms of a solution that are computed one by one before their share of all later ones is added.
 _BLOCK = 64
 
@@ -185,16 +171,30 @@ def series_solution(second: Any, first: Any, zeroth: Any, order: int) -> Any:
     determine the second half comes from products of polynomials [van der Hoeven, J. Symb. Comp. 34 (2002)].
     Raises `BadPrimeError` if the indicial factor vanishes modulo p for some j below `order`.
     """
-    p = second.modulus()
-    indicial = int(second[1]), int(first[0])
+    p, second_1, first_0 = second.modulus(), int(second[1]), int(first[0])
     operators = [second.right_shift(2), first.right_shift(1), zeroth]
-    tails = [[int(v) for v in f.coeffs()[:_BLOCK]] for f in operators]
-    terms = [0, 0], [0, 0], [0, 1]  # k (k - 1) u_k, k u_k and u_k, from place 1 on
-    shares = [0] * order
+    a, b, c = ([int(v) for v in f.coeffs()[:_BLOCK]] for f in operators)
+    terms = twice_weighted, weighted, u = [0, 0], [0, 0], [0, 1]  # k (k - 1) u_k, k u_k and u_k, from place 1 on
+    shares, reach = [0] * order, max(map(len, (a, b, c)))
+
+    def extend_one_by_one(start: int, end: int) -> None:
+        for j in range(start or 1, end):
+            indicial = j * (second_1 * (j - 1) + first_0) % p
+            if not indicial:
+                raise BadPrimeError(f"{p} divides an indicial factor")
+            # Scalar products of the coefficients with the last terms, backwards.
+            back = start if j < start + reach else j - reach
+            total = sum(map(mul, c, u[:back:-1]), shares[j])
+            total = sum(map(mul, b, weighted[:back:-1]), total)
+            total = sum(map(mul, a, twice_weighted[:back:-1]), total)
+            value = -total * pow(indicial, -1, p) % p
+            u.append(value)
+            weighted.append(j * value % p)
+            twice_weighted.append(j * (j - 1) * value % p)
 
     def extend(start: int, end: int) -> None:
         if end - start <= _BLOCK:
-            _extend_one_by_one(p, start, end, indicial, tails, shares, terms)
+            extend_one_by_one(start, end)
             return
         middle, width = (start + end + 1) // 2, end - start - 1
         extend(start, middle)
@@ -205,46 +205,7 @@ def series_solution(second: Any, first: Any, zeroth: Any, order: int) -> Any:
         extend(middle, end)
 
     extend(0, order)
-    return nmod_poly(terms[2][1:], p)
-
-
-def _extend_one_by_one(
-    p: int,
-    start: int,
-    end: int,
-    indicial: tuple[int, int],
-    tails: Sequence[list[int]],
-    shares: list[int],
-    terms: Sequence[list[int]],
-) -> None:
-    """Append the terms from number `start` on, `shares` having what the terms before contribute."""
-    (a1, b0), (a, b, c), (twice_weighted, weighted, u) = indicial, tails, terms
-    reach, first = max(map(len, tails)), start or 1
-    inverses = inverses_modulo([j * (a1 * (j - 1) + b0) % p for j in range(first, end)], p)
-    for j, inverse in enumerate(inverses, first):
-        # Scalar products of the coefficients with the last terms, backwards.
-        back = start if j < start + reach else j - reach
-        total = sum(map(mul, c, u[:back:-1]), shares[j])
-        total = sum(map(mul, b, weighted[:back:-1]), total)
-        total = sum(map(mul, a, twice_weighted[:back:-1]), total)
-        value = -total * inverse % p
-        u.append(value)
-        weighted.append(j * value % p)
-        twice_weighted.append(j * (j - 1) * value % p)
-
-
-def inverses_modulo(values: Sequence[int], p: int) -> list[int]:
-    """The inverses of residues, of many by one of their product [Montgomery].  Raises `BadPrimeError` for a zero."""
-    if not all(values):
-        raise BadPrimeError(f"{p} divides a value that is to be inverted")
-    if len(values) <= _FEW:
-        return [pow(value, -1, p) for value in values]
-    products = list(accumulate(values, lambda product, value: product * value % p, initial=1))
-    inverse, inverses = pow(products.pop(), -1, p), []
-    for value, product in zip(reversed(values), reversed(products), strict=True):
-        inverses.append(inverse * product % p)
-        inverse = inverse * value % p
-    return inverses[::-1]
+    return nmod_poly(u[1:], p)
 
 
 def square_root(value: int, p: int) -> int | None:
