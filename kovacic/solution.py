@@ -144,8 +144,7 @@ class Solution:
 
         if self.case is None:
             return None
-        form = solutions(self.S, self.decision, self.gauge, self.variable)
-        return self._in_given_variable(replace(form, limits=self.limits))  # type: ignore[no-any-return]
+        return self._in_given_variable(solutions(self.S, self.decision, self.gauge, self.variable))  # type: ignore[no-any-return]
 
     def _in_given_variable(self, found: Any) -> Any:
         """The same with y1 and y2 in the user's variable."""

@@ -178,20 +178,6 @@ def test_every_place_looks_at_the_clock() -> None:
             _ = place.logarithm
 
 
-def test_the_polynomial_of_a_power_keeps_the_limits_of_its_answer() -> None:
-    equation = "-3/(16*x^2) - 2/(9*(x-1)^2) + 3/(16*x*(x-1))"
-    form = solved(equation).closed_form
-    assert form is not None
-    hurried = replace(form, structure=replace(form.structure), limits=Limits(seconds=0))  # nothing computed before
-    with pytest.raises(LimitExceeded, match="the time limit of 0 s"):
-        _ = hurried.power_polynomial
-    assert form.power_polynomial is not None
-    limits = Limits(seconds=100)
-    hundred = answer(equation, limits).closed_form
-    assert hundred is not None
-    assert hundred.limits == limits
-
-
 def test_the_parts_of_a_call_share_its_clock() -> None:
     """A budget that is made within another one ends with it; one that ends before keeps its own time."""
     outer = Budget(Limits(seconds=5))

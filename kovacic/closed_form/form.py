@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from sympy import Add, Mul, Symbol, exp
@@ -18,7 +18,7 @@ from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pa
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular, build
 from kovacic.decision import Decision
 from kovacic.errors import VerificationFailed
-from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, limited
+from kovacic.limits import check_time
 
 EXACT = "exact"
 NUMERICAL = "numerical, 50 digits"
@@ -39,25 +39,9 @@ class ClosedForm:
     gauge: RatFunc
     checked: str
     notes: tuple[str, ...] = ()
-    limits: Limits = field(default=DEFAULT_LIMITS, compare=False, repr=False)
 
     def __iter__(self) -> Iterator[Any]:
         return iter((self.y1, self.y2))
-
-    @property
-    @limited
-    def power_polynomial(self) -> tuple[int, Any] | None:
-        """(k, P) for case 3: P, an expression in x and Z, vanishes at Z = c y1^k and Z = c' y2^k for some constants.
-
-        All its roots are k-th powers of solutions.  None in the other cases, with a gauge factor, and where P is too long to
-        be written out.  Raises `LimitExceeded` where that takes longer than `limits` allow.
-        """
-        if not isinstance(self.structure, KleinForm) or self.structure.polynomial is None:
-            return None
-        polynomial, atoms, Z = self.structure.polynomial, Atoms(self.variable), Symbol("Z")
-        n = len(polynomial.coefficients)
-        terms = (atoms.factored(c) * Z ** (n - 1 - k) for k, c in enumerate(polynomial.coefficients) if c)
-        return polynomial.power, Add(Z**n, *terms)
 
 
 def solutions(S: RatFunc, decision: Decision, gauge: RatFunc, variable: str = "x") -> ClosedForm:
@@ -102,7 +86,7 @@ def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[
         return triangular(form, atoms)
     if isinstance(form, OnCurve):
         return exponentials(form, atoms)
-    return *_hypergeometric((form.first, form.second), form.J, atoms), ()
+    return *_hypergeometric(form.at_vertices, form.J, atoms), ()
 
 
 def one_exponential(y: Expr) -> Expr:

@@ -27,10 +27,10 @@ from fractions import Fraction
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, Unit
-from kovacic.closed_form.klein import singular_part
 from kovacic.decision import NoInvariant, SemiInvariant
 from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Problem, analyse, rational_square_root
+from kovacic.engine.riccati import residue
 from kovacic.errors import LimitExceeded
 from kovacic.galois.group import Kind
 from kovacic.galois.imprimitive import imprimitive_group
@@ -91,10 +91,10 @@ def _decide(integral: CurveIntegral) -> Unit | str:
 def _common_tau(integral: CurveIntegral, at_infinity: Poly) -> Poly | None:
     """tau^2 if every residue is a rational multiple of 1/tau, else None."""
     values = []
-    for residue in integral.residues:
-        p, rho = residue.factor, residue.value
+    for pole in integral.residues:
+        p, rho = pole.factor, pole.value
         inverse = rho.inverse_modulo(p)
-        square = integral.radicand(residue) * inverse * inverse % p
+        square = integral.radicand(pole) * inverse * inverse % p
         if square.degree > 0:
             return None
         values.append(square[0])
@@ -112,7 +112,7 @@ def _unit(problem: Problem, integral: CurveIntegral, phi: RatFunc, n: int, kappa
         return UNDECIDED
     g, r = integral.g, integral.integrand
     for form in space:
-        G = singular_part(problem, form.R) * form.P
+        G = _singular_part(problem, form.R) * form.P
         difference = G.derivative() - G * phi * n
         if difference:
             break
@@ -130,3 +130,11 @@ def _unit(problem: Problem, integral: CurveIntegral, phi: RatFunc, n: int, kappa
         return UNDECIDED
     found = Unit(A, B, root, kappa_squared, Fraction(1, 2 * n))
     return found if found.integrand(g) == r else UNDECIDED
+
+
+def _singular_part(problem: Problem, R: Poly) -> RatFunc:
+    """Q = prod p^(v_p) with Q'/Q = R/D."""
+    result = RatFunc(problem.field.poly([1]))
+    for place in problem.finite_places:
+        result = result * RatFunc(place.factor) ** residue(problem, R, place)
+    return result
