@@ -12,7 +12,7 @@ import kovacic
 from kovacic.algebra.factors import combination
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.exponential import integrate_composite
+from kovacic.closed_form.exponential import integrate_exponential
 
 X = RatFunc(QQ.poly([0, 1]))
 x = sympy.Symbol("x")
@@ -31,7 +31,7 @@ def test_derivatives_are_integrated(E: RatFunc, W: RatFunc, levels: list[tuple[i
     r = W.derivative() + W * slope
     for c, e in levels:
         r = r + slope / (E - e) * c
-    done = integrate_composite(r, E)
+    done = integrate_exponential(r, E)
     assert not isinstance(done, str)
     assert done.integrand == r
 
@@ -42,16 +42,16 @@ def test_error_functions(q: RatFunc, W: RatFunc, b: int, e: int, c: int) -> None
     E = q * q * b + e
     assume(bool(q.derivative()))
     r = W.derivative() + W * E.derivative() + q.derivative() * c
-    done = integrate_composite(r, E)
+    done = integrate_exponential(r, E)
     assert not isinstance(done, str)
     assert done.integrand == r
 
 
 def test_what_is_left_and_why() -> None:
     """int x exp(x + 1/x), and a residue at a pole that E - E(a) has no zeros to go with."""
-    assert "isn't a rational function times the exponential" in str(integrate_composite(X, X + 1 / X))
-    assert "residue" in str(integrate_composite(1 / (X - 1), X * X))
-    assert not isinstance(integrate_composite(1 / (X - 1) + 1 / (X + 1), X * X), str)
+    assert "isn't a rational function times the exponential" in str(integrate_exponential(X, X + 1 / X))
+    assert "residue" in str(integrate_exponential(1 / (X - 1), X * X))
+    assert not isinstance(integrate_exponential(1 / (X - 1) + 1 / (X + 1), X * X), str)
 
 
 @pytest.mark.parametrize(

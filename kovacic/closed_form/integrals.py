@@ -15,7 +15,7 @@ from kovacic.closed_form.atoms import Atoms, Expr, display, factors, rational
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.curve_display import curve_integral
 from kovacic.closed_form.elliptic import elliptic
-from kovacic.closed_form.exponential import ExponentialPrimitive, monomial
+from kovacic.closed_form.exponential import ExponentialPrimitive
 from kovacic.closed_form.primitive import (
     OpenPrimitive,
     Primitive,
@@ -118,20 +118,16 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
 
 def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
     """first * (W k + the terms with Ei, error and gamma functions, and logarithms of t^(1/n) - z)."""
-    terms, (scale, parts), t, alpha, shape = [], first, primitive.t, primitive.alpha, monomial(primitive.E)
-    E, W = primitive.E(t), primitive.W(t)
-    if W:
+    terms, (scale, parts), t, alpha, E = [], first, primitive.t, primitive.alpha, primitive.E(primitive.t)
+    if primitive.W:
         more = (Power(p, y.field.poly([e])) for p, e in ((t.num, alpha), (t.den, -alpha)) if p.degree > 0)
         powers = gathered((*y.powers, *more))
-        terms.append(_scaled(*factors(Product(powers, y.roots, y.exponential + E), atoms, W, like=y)))
-    for c, e in primitive.logarithmic:
-        value = [exp(atoms.constant(e)), Ei(atoms.sum(E - e))]
-        terms.append(_scaled(scale * atoms.constant(c), [*parts, *value]))
-    for error in primitive.errors:
-        grows = not atoms.is_negative(error.b)
-        root = atoms.sqrt(error.b if grows else -error.b)
-        value = [exp(atoms.constant(error.e)), sqrt(pi) * (erfi if grows else erf)(root * atoms.sum(error.q))]
-        terms.append(_scaled(scale * atoms.constant(error.coefficient) / (2 * root), [*parts, *value]))
+        shown = factors(Product(powers, y.roots, y.exponential + E), atoms, primitive.W(t), like=y)
+        terms.append(_scaled(*shown))
+    for term in primitive.terms:
+        c, function = _gamma(term.b, term.n, atoms.sum(term.q(t)), alpha + term.power, atoms)
+        shift = exp(atoms.constant(term.e))
+        terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, function]))
     n, a = alpha.denominator, atoms.root
     v = Mul(*(atoms.poly(p) ** rational(Fraction(k, n)) for p, k in ((t.num, 1), (t.den, -1))))
     for residue in primitive.poles:
@@ -141,17 +137,11 @@ def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, at
         else:
             body *= a ** int(alpha * n) * sympy.log(v - a)
         terms.append(_scaled(scale, [*parts, atoms.root_sum(atoms.poly(residue.factor, a**n), body)]))
-    for term in primitive.terms:
-        assert shape is not None
-        beta, degree, constant = shape
-        c, function = _gamma(beta, degree, atoms.poly(t.num), alpha + term.power, atoms)
-        shift = exp(atoms.constant(constant))
-        terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, function]))
     return terms
 
 
 def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scaled:
-    """int t^power exp(beta t^n) dt by equation (1) of `kovacic.closed_form.primitive`."""
+    """int t^power exp(beta t^n) dt: equation (1) of `kovacic.closed_form.exponential`."""
     beta = atoms.constant(factor)
     s = (power + 1) / n
     if s == 0:

@@ -1,27 +1,20 @@
 """int y^-2 dx for a product y: the second solution y int y^-2 of a reducible equation.
 
 With h = y^-2 = r k, r rational and k the part that isn't, the integral is W k plus what no W k can express: logarithms for
-k = 1, the integrals (2) of `kovacic.closed_form.curve` for k = 1/sqrt(g), and for k = x^alpha exp(beta x^n), n any
-integer but 0, combinations of (1) (for exp(E) with another rational function E see `kovacic.closed_form.exponential`):
-
-    G_m = int x^(m + alpha) exp(beta x^n) dx,      s = (m + alpha + 1)/n,  0 <= s < 1,                                     (1)
-
-that is Ei(beta x^n)/n for s = 0, erf or erfi of sqrt(-+beta) x^(n/2) for s = 1/2, else x^(ns) z^(-s) gamma(s, z)/n with
-z = -beta x^n and the lower incomplete gamma function.
-The reduction subtracts L(W) = W' + W k'/k, the derivative of W k over k [Hermite's reduction for hyperexponential
-functions: Bostan, Chen, Chyzak, Li & Xin, ISSAC 2013]; L(x^j) = (j + alpha) x^(j-1) + n beta x^(j+n-1).
+k = 1, the integrals (2) of `kovacic.closed_form.curve` for k = 1/sqrt(g), and those of `kovacic.closed_form.exponential` for
+k = t^alpha exp(E).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from kovacic.algebra.partial_fractions import Decomposition, Residue, decompose, reduce_poles
+from kovacic.algebra.partial_fractions import Decomposition, decompose
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
-from kovacic.closed_form.exponential import ExponentialPrimitive, GammaTerm, integrate_composite, monomial
+from kovacic.closed_form.exponential import ExponentialPrimitive, integrate_exponential, monomial
 from kovacic.closed_form.product import Product
 from kovacic.closed_form.torsion import completed
 
@@ -68,8 +61,8 @@ def integrate(h: Product) -> Primitive:
     >>> x = RatFunc(QQ.poly([0, 1]))
     >>> y = product(-x / 2, QQ.poly([0, -3, 0, 1]))  # (x^3 - 3 x) exp(-x^2/4)
     >>> done = integrate(y.to_power(-2))
-    >>> print(done.W, [(str(term.coefficient), term.power) for term in done.terms])
-    (-x**2 + 2)/(6*x**3 - 18*x) [('1/6', 0)]
+    >>> print(done.W, [(str(term.coefficient), term.n, term.power) for term in done.terms])
+    (-x**2 + 2)/(6*x**3 - 18*x) [('1/6', 2, 0)]
     """
     found = _integrated(h)
     return OpenPrimitive(found) if isinstance(found, str) else found
@@ -122,18 +115,11 @@ def _without_exponential(rational: RatFunc, fractional: list[tuple[Poly, Fractio
     return "it is an incomplete beta integral, with fractional powers of several factors"
 
 
-def _with_power(r: RatFunc, alpha: Fraction, t: RatFunc) -> ExponentialPrimitive:
+def _with_power(r: RatFunc, alpha: Fraction, t: RatFunc) -> Primitive | str:
     """int r(t) t^alpha dt."""
-    field = r.field
     shift = alpha.numerator // alpha.denominator + 1
-    x = RatFunc(field.poly([0, 1]))
-    alpha, r = alpha - shift, r * x**shift
-    W, laurent, poles = _reduce(r, alpha, field.poly([]), 1)
-    lowest = -laurent.den.degree
-    for i in range(laurent.num.degree + 1):
-        if laurent.num[i]:
-            W = W + x ** (lowest + i + 1) * laurent.num[i] * (1 / (lowest + i + 1 + alpha))
-    return ExponentialPrimitive(t, W * 0, W, alpha=alpha, poles=poles)
+    found = integrate_exponential(r * RatFunc(r.field.poly([0, 1])) ** shift, r * 0, alpha - shift)
+    return found if isinstance(found, str) else replace(found, t=t)
 
 
 def _with_exponential(r: RatFunc, fractional: list[tuple[Poly, Fraction]], E: RatFunc) -> Primitive | str:
@@ -143,59 +129,11 @@ def _with_exponential(r: RatFunc, fractional: list[tuple[Poly, Fraction]], E: Ra
     below = fractional[0][0] if fractional else E.num if E.is_polynomial else E.den
     n = below.degree
     centre = -below[n - 1] / (below.lc * n) if fractional or n > 1 or not E.is_polynomial else below * 0
-    field, given = r.field, (r, E)
-    t = RatFunc(field.poly([-centre, 1]))
-    if centre:
-        r, E = (f(field.poly([centre, 1])) for f in given)
-    shape = monomial(E)
-    if shape is None:
-        left = "the exponent in the integrand isn't a multiple of a power of x - c, up to a constant"
-        return left if fractional else integrate_composite(*given)
-    beta, n, _ = shape
-    W, laurent, poles = _reduce(r, alpha, beta, n)
-    if poles and (n != 1 or alpha):
-        return "a pole with a residue remains beside the exponential" if alpha else integrate_composite(*given)
-    W, terms = _reduce_laurent(W, laurent, alpha, beta, n)
-    linear = tuple((residue.value, E.num(-residue.factor[0])) for residue in poles if residue.factor.degree == 1)
-    conjugate = tuple(residue for residue in poles if residue.factor.degree > 1)
-    return ExponentialPrimitive(t, E, W, linear, (), alpha, terms, conjugate)
-
-
-def _reduce(r: RatFunc, alpha: Fraction, beta: Poly, n: int) -> tuple[RatFunc, RatFunc, tuple[Residue, ...]]:
-    """W, a Laurent polynomial and simple poles with r = L(W) + Laurent + poles."""
-    x = RatFunc(r.field.poly([0, 1]))
-    W, r, poles = reduce_poles(r, alpha / x + x ** (n - 1) * (beta * n), x.num)
-    return W, sum((-residue.logarithmic for residue in poles), r), poles
-
-
-def _reduce_laurent(
-    W: RatFunc, laurent: RatFunc, alpha: Fraction, beta: Poly, n: int
-) -> tuple[RatFunc, tuple[GammaTerm, ...]]:
-    """W and the terms of (1) for the Laurent polynomial; W is in the shifted coordinate."""
-    field = laurent.field
-    x, inverse = RatFunc(field.poly([0, 1])), (beta * n).inverse()
-    lowest = -laurent.den.degree
-    coefficients = {lowest + i: laurent.num[i] for i in range(laurent.num.degree + 1) if laurent.num[i]}
-    # From the largest |s - 1/2| inwards, with all powers in between.
-    powers = range(min(coefficients, default=0) - abs(n), max(coefficients, default=0) + abs(n) + 1)
-    powers = range(min(powers[0], -abs(n) - 1), max(powers[-1], abs(n) + 1))
-    for m in sorted(powers, key=lambda m: -abs((m + alpha + 1) / n - Fraction(1, 2))):
-        s = (m + alpha + 1) / n
-        if 0 <= s < 1 or not coefficients.get(m):
-            continue
-        value = coefficients.pop(m)
-        if s >= 1:
-            j, target = m - n + 1, m - n
-            part = value * inverse
-            change = -(part * (j + alpha))
-        else:
-            j, target = m + 1, m + n
-            part = value * (1 / (j + alpha))
-            change = -(part * beta * n)
-        W = W + x**j * part
-        if change:
-            coefficients[target] = coefficients.get(target, field.poly([])) + change
-    return W, tuple(GammaTerm(value, m) for m, value in sorted(coefficients.items()) if value)
+    moved = RatFunc(r.field.poly([centre[0], 1]))
+    if not fractional and monomial(E(moved)) is None:
+        return integrate_exponential(r, E)
+    found = integrate_exponential(r(moved), E(moved), alpha)
+    return found if isinstance(found, str) else replace(found, t=RatFunc(r.field.poly([-centre[0], 1])))
 
 
 def normalised_constant(exact: RatFunc) -> RatFunc:
