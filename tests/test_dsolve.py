@@ -422,6 +422,13 @@ def test_normal_forms_with_constant_coefficients(text: str, values: dict) -> Non
     checked(text, solution, **values)
 
 
+def test_the_right_hand_side_may_have_parameters_of_its_own() -> None:
+    """The logarithmic derivative of x^(m - n) has both, that of the other factors none."""
+    n, m = sympy.symbols("n m")
+    found = dsolve("x^2*y'' + x*y' - n^2*y = x^m/(x + 1)").rhs.subs({n: 2, m: 3}).doit()
+    assert sympy.simplify(x**2 * found.diff(x, 2) + x * found.diff(x) - 4 * found - x**3 / (x + 1)) == 0
+
+
 JUMPS = [
     "DiracDelta(x-1)",
     "x*DiracDelta(2*x-2)",

@@ -11,7 +11,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import Any
 
 import sympy
@@ -148,7 +147,7 @@ def _in_waves(term: Expr, x: Expr) -> Expr | None:
 
 
 def _of_product(term: Expr, x: Expr) -> Expr | None:
-    rate = None if term.has(sin, cos, log) else _rate(term, x)
+    rate = None if term.has(sin, cos, log) else ratfunc(_rate(term, x), x)
     if rate is None:
         return None
     atoms, h = Atoms(x), product(rate)
@@ -224,32 +223,24 @@ def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
     return None if found is None else found + sympy.Integral(rest / c, x)
 
 
-def _rate(g: Expr, x: Expr) -> RatFunc | None:
-    """The logarithmic derivative, where it is rational; that of t (1 + u/t + ...) for a sum t + u + ..."""
+def _rate(g: Expr, x: Expr) -> Expr:
+    """The logarithmic derivative, by factors; that of t (1 + u/t + ...) for a sum t + u + ..."""
     parts = []
     for term in sympy.Add.make_args(g):
         powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(term)]
         exponent = sympy.Add(*(e for base, e in powers if base is sympy.E))
         parts.append(([(base, e) for base, e in powers if base is not sympy.E], exponent))
     (first, E), *rest = parts
-    rates = [ratfunc(E.diff(x), x)]
+    found, others = E.diff(x), sympy.Integer(1)
     for base, e in first:
         if base.has(exp) and e.is_Rational:  # SymPy expands exp(-x)/(x + 1) so that this is a sum in the denominator
-            inner = _rate(base, x)
-            rates.append(inner and inner * Fraction(e.p, e.q))
+            found += e * _rate(base, x)
         else:
-            rates.append(ratfunc(e * base.diff(x) / base if base.has(x) else e.diff(x) * log(base), x))
-    known = [rate for rate in rates if rate is not None]
-    if len(known) < len(rates):
-        return None
-    found, others = sum(known[1:], known[0]), sympy.Integer(1)
-    if not rest:
-        return found
+            found += e * base.diff(x) / base if base.has(x) else e.diff(x) * log(base)
     for powers, exponent in rest:
         quotient = sympy.Mul(*(base**e for base, e in powers), *(base**-e for base, e in first))
         others += quotient * exp(sympy.cancel(exponent - E))
-    ratio = ratfunc(others, x)
-    return None if ratio is None else found + ratio.derivative() / ratio
+    return found + others.diff(x) / others
 
 
 def _rational(g: Expr, x: Expr) -> Expr | None:
