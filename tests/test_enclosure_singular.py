@@ -319,7 +319,7 @@ def test_parameters_take_values() -> None:
     for params, words in [
         ({}, "values are needed"),
         ({"n": 1, "m": 2}, "values are needed"),
-        ({"n": 1j}, "isn't real"),
+        ({"n": 1j}, "regular point"),
         (None, "are needed"),
     ]:
         with pytest.raises(InputError, match=words):

@@ -247,13 +247,20 @@ def chart_of(
     answer: Any = equation
     if getattr(equation, "change", None) is None:
         try:
-            return Chart(as_problem(equation, params, forced=constants, constants=constants), given)
+            return Chart(_real_problem(equation, params, constants), given)
         except NotRational as reason:
             answer = read_input(equation, exponentials=True)
             if answer.equation is None or answer.equation.change is None:
                 raise reason from None
     plain = replace(answer.equation, change=None)
     inner = replace(answer, equation=plain) if hasattr(answer, "decision") else plain
-    return Changed(
-        as_problem(inner, params, forced=constants, constants=constants), given, answer=answer, params=params
-    )
+    return Changed(_real_problem(inner, params, constants), given, answer=answer, params=params)
+
+
+def _real_problem(equation: object, params: Mapping[str, object] | None, constants: bool) -> NumericProblem:
+    problem = as_problem(equation, params, forced=constants, constants=constants)
+    if not problem.is_real:
+        raise InputError(
+            "functions of real numbers need an equation with real coefficients", hint="evaluate takes others"
+        )
+    return problem

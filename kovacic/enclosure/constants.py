@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from flint import acb, arb, fmpq
+from flint import acb, arb, ctx, fmpq, fmpz_poly
 
-from kovacic.enclosure.points import Point, as_point, midpoint, to_acb
+from kovacic.enclosure.points import Point, as_point, midpoint, to_acb, working_precision
 from kovacic.errors import InputError
 
 _FUNCTIONS = """
@@ -100,6 +100,13 @@ def to_ball(number: Number) -> acb:
     return to_acb(number) if isinstance(number, Point) else number.value()
 
 
+def root_near(polynomial: fmpz_poly, target: acb) -> acb:
+    """The zero nearest to an approximation, at the working precision in force."""
+    with working_precision(max(ctx.prec, 128)):
+        roots = [root for root, _ in polynomial.complex_roots()]
+    return min(roots, key=lambda root: float(abs(root - target).mid()))
+
+
 def in_balls(expression: Any, values: Mapping[Any, acb], *, analytic: bool = False) -> acb:
     """A SymPy expression at these values of its symbols, at the working precision in force.
 
@@ -133,6 +140,8 @@ def in_balls(expression: Any, values: Mapping[Any, acb], *, analytic: bool = Fal
         if node.is_Pow:
             logarithm = acb(1) if node.base is sympy.E else of(node.base).log(analytic=analytic)
             return (of(node.exp) * logarithm).exp()
+        if isinstance(node, sympy.CRootOf):
+            return root_near(fmpz_poly([int(c) for c in reversed(node.poly.all_coeffs())]), acb(complex(node)))
         name = type(node).__name__
         if name == "log" and len(node.args) == 1:
             return of(node.args[0]).log(analytic=analytic)

@@ -1,20 +1,20 @@
 """Equations whose constants are known by balls: algebraic constants such as sqrt(2), and parameters with irrational values.
 
-The guarantee: `Embedded.system` returns a system with integer coefficients and a `radius`, such that every coefficient of the
-exact equation, scaled by the same power of two, differs from the integer by at most that radius.  What this means for the
-solutions is bounded disc by disc (`kovacic.enclosure.frame`), so the exact solution of the exact equation lies in the balls.
+The guarantee: `Embedded.coefficients` are (Gaussian) integers and a radius, such that every coefficient of the exact equation,
+scaled by the same power of two, differs from its integer by at most that radius.  What this means for the solutions is bounded
+disc by disc (`kovacic.enclosure.frame`), so the exact solution of the exact equation lies in the balls.
 
-A constant of an extension Q(c) is the root of the modulus that the text named (sqrt(2) is positive).  The coefficients
-must be real.
+A constant of an extension Q(c) is the root of the modulus that the text named (sqrt(2) is positive).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import Any
 
-from flint import acb, acb_poly, arb, arb_poly, ctx
+from flint import acb, acb_poly, arb, arb_poly
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.factors import squarefree_factors
@@ -22,13 +22,15 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
-from kovacic.enclosure.constants import Number, to_ball
+from kovacic.enclosure.constants import Number, root_near, to_ball
 from kovacic.enclosure.exponential import LogDerivative, sharp_roots
 from kovacic.enclosure.points import floor, working_precision
 from kovacic.errors import InputError, LimitExceeded
 
 # Bits beyond twice the precision to which the constants are known: the solutions grow in a disc, and poles may be near
 _EXTRA = 256
+_REAL, _IMAGINARY = attrgetter("real"), attrgetter("imag")
+Integers = tuple[int, ...]
 _UNDEFINED = "the equation isn't defined at these values of the parameters, as far as they are known"
 
 
@@ -45,18 +47,28 @@ class Embedded:
         """True if every precision can be had."""
         return not any(getattr(value, "fixed", False) for value in self.values.values())
 
-    def coefficients(self, prec: int) -> tuple[tuple[int, ...], tuple[int, ...], int]:
-        """Numerator and denominator of S times the same power of two, rounded to integers, and the radius."""
+    def coefficients(self, prec: int) -> tuple[Integers, Integers, int, tuple[Integers, Integers] | None]:
+        """Numerator and denominator of S times the same power of two, rounded to integers, the radius, and the imaginary parts
+        where there are any."""
         bits = 2 * prec + _EXTRA
         with working_precision(2 * bits):
-            parts = [_real(self._embed(part)) for part in (self.S.num, self.S.den)]
-            scaled = [[c * arb((1, bits)) for c in part] for part in parts]
-            if not scaled[1][-1] != 0:
+            scaled = [[c * arb((1, bits)) for c in part.coeffs()] for part in self.polynomials()]
+            if not all(c.is_finite() for part in scaled for c in part) or not scaled[1][-1].real != 0:
                 raise InputError(_UNDEFINED)
-            whole = [[floor(c.mid()) for c in part[:-1]] + [floor(c.mid()) or 1 for c in part[-1:]] for part in scaled]
-            pairs = (pair for part, ints in zip(scaled, whole, strict=True) for pair in zip(part, ints, strict=True))
-            radius = max((floor(abs(c - n).upper()) + 1 for c, n in pairs), default=0)
-            return tuple(whole[0]), tuple(whole[1]), radius
+            re, im = ([[floor(of(c).mid()) for c in part] for part in scaled] for of in (_REAL, _IMAGINARY))
+            re[1][-1] = re[1][-1] or 1
+            triples = (zip(*parts, strict=True) for parts in zip(scaled, re, im, strict=True))
+            errors = (abs(c - acb(x, y)).upper() for triple in triples for c, x, y in triple)
+            radius = max((floor(error) + 1 for error in errors), default=0)
+            real = all(c.imag.is_zero() for part in scaled for c in part)
+            num, den, *others = (tuple(part) for part in (*re, *im))
+            return num, den, radius, None if real else (others[0], others[1])
+
+    def is_real(self, others: Iterable[RatFunc] = ()) -> bool:
+        """Are the coefficients of S, of the gauge and of other functions real?"""
+        functions = (self.S, *([self.gauge] if self.gauge is not None else []), *others)
+        parts = (self._embed(part) for function in functions for part in (function.num, function.den))
+        return all(c.imag.is_zero() for part in parts for c in part.coeffs())
 
     def polynomials(self) -> tuple[acb_poly, acb_poly]:
         """Numerator and denominator of S, at the working precision in force."""
@@ -77,27 +89,25 @@ class Embedded:
         """The gauge at the working precision in force."""
         if self.gauge is None:
             return None
-        for part in (self.gauge.num, self.gauge.den):
-            _real(self._embed(part))
         return LogDerivative.of(self.gauge, self._embed, self.poles(self.gauge))
 
     def equation(self) -> tuple[arb_poly, arb_poly, arb_poly]:
-        """a, b and c of the user's equation, at the working precision in force."""
+        """a, b and c of the user's equation, whose constants are real, at the working precision in force."""
         functions = (self.S, self.gauge or self.S * 0)
-        p, q, n, d = (
-            arb_poly(_real(self._embed(part))) for function in functions for part in (function.num, function.den)
-        )
+        parts = [self._embed(part).coeffs() for function in functions for part in (function.num, function.den)]
+        p, q, n, d = (arb_poly([c.real for c in part]) for part in parts)
         return d * d * q, -2 * n * d * q, (n * n - n.derivative() * d + n * d.derivative()) * q - p * d * d
 
     def bound(self, ball: acb) -> arb:
         """Of |b/a| + |c/a| on the ball, for a z'' + b z' + c z = 0, z = g y."""
-        total = self._value(self.S, ball)
+        total = self.value(self.S, ball)
         if self.gauge is None:
             return arb(abs(total).upper())
-        gamma, slope = (self._value(f, ball) for f in (self.gauge, self.gauge.derivative()))
+        gamma, slope = (self.value(f, ball) for f in (self.gauge, self.gauge.derivative()))
         return arb((2 * abs(gamma) + abs(gamma * gamma - slope - total)).upper())
 
-    def _value(self, function: RatFunc, x: acb) -> acb:
+    def value(self, function: RatFunc, x: acb) -> acb:
+        """Another function over the same field, on a ball."""
         value: acb = self._embed(function.num)(x) / self._embed(function.den)(x)
         return value
 
@@ -113,13 +123,14 @@ class Embedded:
         return _at(poly.num, balls) * (1 / _at(poly.den, balls)[0])
 
 
-def _real(poly: acb_poly) -> list[arb]:
-    coefficients = poly.coeffs()
-    if not all(c.is_finite() for c in coefficients):
-        raise InputError(_UNDEFINED)
-    if not all(c.imag.is_zero() for c in coefficients):
-        raise InputError("numerical evaluation needs an equation with real coefficients")
-    return [c.real for c in coefficients]
+def check_apart(points: Iterable[acb], a: acb, b: acb) -> None:
+    """Raise InputError unless it is certain that none of these singular points lies on the straight segment."""
+    ratios = ((b - point) / (a - point) for point in points)
+    if not all(ratio.real > 0 or not ratio.imag.contains(0) for ratio in ratios):
+        raise InputError(
+            "the path runs through a singular point of the equation, or so near that its constants don't tell",
+            hint="go around it: path=[...] with a vertex off the axis",
+        )
 
 
 def _at(polynomial: Any, values: list[acb]) -> acb_poly:
@@ -140,6 +151,4 @@ def _root(field: AlgebraicField) -> acb:
     if field.approximation is None or None in modulus:
         raise InputError(f"which root of {field.modulus} the constant {field.name} is isn't known")
     rep = QQ.poly([c for c in modulus if c is not None]).rep
-    target = acb(*(arb(to_fmpq(part)) for part in field.approximation))
-    with working_precision(max(ctx.prec, 128)):
-        return min((root for root, _ in rep.numer().complex_roots()), key=lambda root: float(abs(root - target).mid()))
+    return root_near(rep.numer(), acb(*(arb(to_fmpq(part)) for part in field.approximation)))

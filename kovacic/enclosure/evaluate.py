@@ -76,8 +76,8 @@ def evaluate(equation: object, x: object, *, derivative: bool = False, **options
       at the other's;
     - `which="regular"`: frobenius=(0, 1), the solution that is smaller than all others at x0;
     - `which="decaying"` and `y0`: y(x0), and y is the solution that becomes smaller than all others as x goes to +infinity.
-    S or the equation may have real algebraic constants, and parameters, which get real values: `params={"n": "sqrt(2)"}`.
-    Then no bound is lost, but the start is at a regular point.
+    S or the equation may have algebraic constants, and parameters, which get values: `params={"n": "sqrt(2)"}`.  Then no bound
+    is lost, but the start is at a regular point.
 
     Numbers are exact: int, Fraction, float and complex (their binary values), Decimal and decimal text, mpmath and SymPy
     numbers; or constants such as "sqrt(2)" and "1 + 2*I"; or balls (ours, python-flint's, mpmath's), and then the result

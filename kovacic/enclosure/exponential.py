@@ -113,11 +113,6 @@ class LogDerivative:
         parts = tuple(Pole(zeta, _principal_part(num, den, zeta, k)) for zeta, k in poles)
         return cls(embed(quotient).integral(), parts, embed(theta.num), den)
 
-    def avoids(self, a: acb, b: acb) -> bool:
-        """Is it certain that no pole lies on the straight segment?"""
-        ratios = ((b - pole.zeta) / (a - pole.zeta) for pole in self.poles)
-        return all(ratio.real > 0 or not ratio.imag.contains(0) for ratio in ratios)
-
     def value(self, x: acb) -> acb:
         """theta(x)."""
         return self.num(x) / self.den(x)

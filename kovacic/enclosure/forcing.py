@@ -21,7 +21,8 @@ from flint import acb, acb_poly, arb, fmpq
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.enclosure.closed_form import value
-from kovacic.enclosure.constants import in_balls
+from kovacic.enclosure.constants import in_balls, to_ball
+from kovacic.enclosure.embedded import Embedded, check_apart
 from kovacic.enclosure.exponential import integral
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import Point, to_acb
@@ -36,25 +37,37 @@ _LEAST = fmpq(1, 2**40)  # the part of a way that is looked at for a singularity
 
 @dataclass(frozen=True)
 class Forcing:
-    """(f + h)/a of the user's equation: `rational` is f/a, `function` h, a SymPy expression in `symbol` or None, `over` 1/a."""
+    """(f + h)/a of the user's equation: `rational` is f/a, `function` h, a SymPy expression in `symbol` or None, `over` 1/a.
+
+    `real` says that these and the equation are.
+    """
 
     rational: RatFunc
     function: Any
     over: RatFunc
     symbol: str
+    embedded: Embedded | None
+    real: bool
 
     def value(self, x: acb, analytic: bool = False) -> acb:
         """f/a + h/a on a ball; not finite where h isn't analytic, with `analytic`."""
-        total = value(self.rational, None, x)
+        total = self._at(self.rational, x)
         if self.function is None:
             return total
-        values = {s: x for s in self.function.free_symbols if s.name == self.symbol}
-        return total + in_balls(self.function, values, analytic=analytic) * value(self.over, None, x)
+        numbers = {} if self.embedded is None else {name: to_ball(v) for name, v in self.embedded.values.items()}
+        values = {s: (numbers | {self.symbol: x})[s.name] for s in self.function.free_symbols}
+        return total + in_balls(self.function, values, analytic=analytic) * self._at(self.over, x)
+
+    def _at(self, function: RatFunc, x: acb) -> acb:
+        return value(function, None, x) if self.embedded is None else self.embedded.value(function, x)
 
     def check(self, a: Point, b: Point) -> None:
         """Raise InputError where a part has a pole or a branch point on the way, but for its ends."""
         for function in (self.rational, self.over):
-            check_segment(System.of(function), a, b)
+            if self.embedded is None:
+                check_segment(System.of(function), a, b)
+            else:
+                check_apart((root for root, _ in self.embedded.poles(function)), to_acb(a), to_acb(b))
         pieces = [(fmpq(0), fmpq(1))] if self.function is not None else []
         while pieces:
             low, high = pieces.pop()
@@ -77,7 +90,7 @@ class Forcing:
             acb_poly(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im) for re, im in expansion.columns
         ]
         start, stop = to_acb(leg.disc.enter), to_acb(leg.disc.leave)
-        real = start.imag.is_zero() and stop.imag.is_zero()
+        real = self.real and start.imag.is_zero() and stop.imag.is_zero()
 
         def source(x: acb, analytic: bool) -> acb:
             return self.value(x, analytic) * growth(x, analytic)
@@ -106,4 +119,4 @@ def forcing_of(problem: NumericProblem) -> Forcing | None:
     given = problem.right
     if given is None:
         return None
-    return Forcing(given.f / given.a, given.h, 1 / given.a, given.variable)
+    return Forcing(given.f / given.a, given.h, 1 / given.a, given.variable, problem.embedded, problem.is_real)

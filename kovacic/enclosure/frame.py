@@ -21,7 +21,7 @@ from typing import Any
 from flint import acb_poly, arb, arb_poly, fmpq_poly
 
 from kovacic.enclosure.points import Point, power_of_two, to_acb, working_precision
-from kovacic.enclosure.problem import System, along, distance_lower, offsets
+from kovacic.enclosure.problem import System, distance_lower, offsets
 from kovacic.errors import InputError
 
 # Real and imaginary parts of the coefficients; None where all of the latter are zero
@@ -35,7 +35,7 @@ _LARGEST = 900  # growth of the majorant in a disc, in bits
 
 def shift(system: System, centre: Point, scale: Point) -> tuple[Parts, Parts]:
     """p and q of the exact equation q y'' = p y in the variable (x - centre)/scale, with q_0 > 0, without a common factor."""
-    q, p = along(system.den, centre, scale), along(system.num, centre, scale)
+    q, p = system.along("den", centre, scale), system.along("num", centre, scale)
     re, im = q[0][0], q[1][0]
     turn = Point(re, -im) if im != 0 else Point(1 if re > 0 else -1)  # makes q_0 positive
     parts = [*_times(p, scale * scale * turn), *_times(q, turn)]
@@ -43,7 +43,8 @@ def shift(system: System, centre: Point, scale: Point) -> tuple[Parts, Parts]:
     whole = [(part * common).numer() for part in parts]
     content = math.gcd(*(int(part.content()) for part in whole))
     p_re, p_im, q_re, q_im = ([int(c) for c in (part // content).coeffs()] for part in whole)
-    return _paired(p_re, p_im), _paired(q_re, q_im)
+    real = system.imaginary is None
+    return _paired(p_re, p_im, real), _paired(q_re, q_im, real)
 
 
 def _times(part: tuple[fmpq_poly, fmpq_poly], factor: Point) -> tuple[fmpq_poly, fmpq_poly]:
@@ -52,9 +53,9 @@ def _times(part: tuple[fmpq_poly, fmpq_poly], factor: Point) -> tuple[fmpq_poly,
     return part[0] * factor.x - part[1] * factor.y, part[0] * factor.y + part[1] * factor.x
 
 
-def _paired(re: list[int], im: list[int]) -> Parts:
+def _paired(re: list[int], im: list[int], real: bool) -> Parts:
     size = max(len(re), len(im))
-    return re + [0] * (size - len(re)), im + [0] * (size - len(im)) if im else None
+    return re + [0] * (size - len(re)), None if real and not im else im + [0] * (size - len(im))
 
 
 def norm(parts: Parts) -> int:
@@ -157,10 +158,11 @@ def _blur(system: System, centre: Point, e: int, poles: list[tuple[arb, int]]) -
     Raises InputError where D may vanish there.
     """
     unit = arb((1, e))
-    reach, least = abs(to_acb(centre)).upper() + unit, arb(abs(system.den[-1]))
+    reach, least = abs(to_acb(centre)).upper() + unit, abs(system.polynomial("den")(to_acb(centre))).lower()
     for size, k in poles:
-        least *= ((size - 1) * unit) ** k
-    size = sum((abs(c) * reach**k for k, c in enumerate(system.num)), arb(0))
+        least *= (1 - 1 / size) ** k
+    numerator = system.polynomial("num").coeffs()
+    size = sum((abs(c) * reach**k for k, c in enumerate(numerator)), arb(0))
     n, d = (system.radius * sum((reach**k for k in range(len(c))), arb(0)) for c in (system.num, system.den))
     if not least > d:
         raise InputError(
@@ -188,21 +190,20 @@ def least_growth(system: System, a: Point, b: Point) -> float:
     On pieces that get shorter towards both ends; where the bound |p_0| - sum |p_j| r^j of the numerator around the middle of a
     piece is of no use for the whole piece, its middle counts alone.
     """
-    poles, total = offsets(system, a), 0.0
+    total = 0.0
     towards = [i / 64 * 2.0**-k for k in range(60) for i in range(32, 16, -1 if k == 0 else -4)]  # 1/2, 31/64, ...
     with working_precision(_BITS + 4 * len(system.num)):
-        start, step, numerator = to_acb(a), to_acb(b - a), acb_poly(list(system.num))
+        start, step, both = to_acb(a), to_acb(b - a), [system.polynomial("num"), system.polynomial("den")]
         length = abs(step).upper()
         marks = [arb(0), *map(arb, reversed(towards)), *(1 - arb(t) for t in towards[1:]), arb(1)]
         for first, last in itertools.pairwise(marks):
             middle, half = step * (first + last) / 2, length * (last - first) / 2
-            p = [abs(c) for c in numerator(acb_poly([start + middle, 1])).coeffs()]
+            p, q = ([abs(c) for c in part(acb_poly([start + middle, 1])).coeffs()] for part in both)
             for r in (half, half / 4, half / 16) if p else ():
                 size = p[0].lower() - sum((c.upper() * r**j for j, c in enumerate(p) if j), arb(0))
                 if size > 0:
-                    for zeta, n in poles:
-                        size /= (abs(zeta - middle) + r) ** n
-                    total += float(((size / system.den[-1]).sqrt() * 2 * r).lower())
+                    size /= sum((c.upper() * r**j for j, c in enumerate(q)), arb(0))
+                    total += float((size.sqrt() * 2 * r).lower())
                     break
     return total
 

@@ -22,6 +22,7 @@ from flint import acb, ctx
 from kovacic.enclosure.classical import Classical, classical_of
 from kovacic.enclosure.closed_form import ClosedForm
 from kovacic.enclosure.constants import Number
+from kovacic.enclosure.embedded import check_apart
 from kovacic.enclosure.exponential import LogDerivative, log_derivative
 from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.frobenius import basis, junction, limit
@@ -222,11 +223,8 @@ class Traveller:
         """Raise InputError where the gauge has a pole on the way, at a point where S is regular."""
         if self.problem.gauge is not None and len(self.problem.gauge_poles.den) > 1:
             check_segment(self.problem.gauge_poles, here, stop)
-        if self.problem.embedded and self.gauge and not self.gauge.avoids(to_acb(here), to_acb(stop)):
-            raise InputError(
-                "the path runs through a singular point of the equation, or so near that its constants don't tell",
-                hint="go around it: path=[...] with a vertex off the axis",
-            )
+        if self.problem.embedded and self.gauge:
+            check_apart((pole.zeta for pole in self.gauge.poles), to_acb(here), to_acb(stop))
 
     def _inverse_growth(self, x: acb, analytic: bool) -> acb:
         """1/g on a ball."""
@@ -308,7 +306,8 @@ class Traveller:
         if self.gauge is None or x == self.here:
             return acb(1)
         factor = self.gauge.growth(to_acb(self.here), to_acb(x))
-        return acb(factor.real) if self.here.is_real() and x.is_real() else factor
+        real = self.problem.is_real and self.here.is_real() and x.is_real()
+        return acb(factor.real) if real else factor
 
     def _given(self, state: State, x: Point) -> State:
         """The user's (z, z') at x."""

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import combinations
+from typing import Literal
 
 from flint import acb, acb_poly, arb, fmpq_poly, fmpz_poly
 
@@ -23,7 +24,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fraction
 from kovacic.decision import Decision
-from kovacic.enclosure.constants import Number, as_number, to_ball
+from kovacic.enclosure.constants import Number, as_number
 from kovacic.enclosure.embedded import Embedded
 from kovacic.enclosure.points import Point, midpoint, to_acb, working_precision
 from kovacic.errors import InputError
@@ -35,21 +36,24 @@ _SHARP = 40  # relative bits to which the distances of singular points are known
 _SHORT = 10**9  # the largest denominator of a singular point that messages name exactly
 _EXACT = 400  # bits from which on it is worth while to decide exactly whether a point is singular
 Zeros = tuple[tuple[acb, int], ...]  # zeros with their multiplicities
+Which = Literal["num", "den"]
 
 
 @dataclass(frozen=True)
 class System:
     """den y'' = num y: integer coefficients, low to high, without a common factor, den not zero.
 
-    With a `radius` these are approximations, and the coefficients of the exact equation differ by at most so much from them.
+    With a `radius` these are approximations, and the coefficients of the exact equation differ by at most so much from them;
+    `imaginary` are the imaginary parts of both then, where there are any.
 
     >>> System.make((2, 0), (0, 0, 4))   # S = 2/(4 x^2)
-    System(num=(1,), den=(0, 0, 2), radius=0)
+    System(num=(1,), den=(0, 0, 2), radius=0, imaginary=None)
     """
 
     num: tuple[int, ...]
     den: tuple[int, ...]
     radius: int = 0
+    imaginary: tuple[tuple[int, ...], tuple[int, ...]] | None = None
 
     @classmethod
     def make(cls, num: tuple[int, ...], den: tuple[int, ...]) -> System:
@@ -73,9 +77,31 @@ class System:
         whole = (p.numer() * q.denom(), q.numer() * p.denom())
         return cls.make(*(tuple(int(c) for c in part.coeffs()) for part in whole))
 
-    def roots(self, which: str, prec: int) -> Zeros:
-        """Enclosures of the zeros of "num" or "den" at about `prec` bits, with multiplicities."""
-        return _isolated(getattr(self, which), max(64, 1 << (prec - 1).bit_length()))
+    def polynomial(self, which: Which) -> acb_poly:
+        """Numerator or denominator, at the working precision in force."""
+        re = acb_poly(list(getattr(self, which)))
+        return re if self.imaginary is None else re + acb_poly(list(self.imaginary[which == "den"])) * acb(0, 1)
+
+    def along(self, which: Which, a: Point, step: Point) -> tuple[fmpq_poly, fmpq_poly]:
+        """Real and imaginary part of numerator or denominator at a + t step, as polynomials in t over Q."""
+        real, imag = _along(getattr(self, which), a, step)
+        if self.imaginary is None:
+            return real, imag
+        first, second = _along(self.imaginary[which == "den"], a, step)
+        return real - second, imag + first
+
+    def roots(self, which: Which, prec: int) -> Zeros:
+        """Enclosures of the zeros of numerator or denominator at about `prec` bits, with multiplicities.
+
+        Where coefficients aren't real, multiplicities may be too large, and zeros of the conjugate polynomial among them.
+        """
+        prec = max(64, 1 << (prec - 1).bit_length())
+        if self.imaginary is None:
+            return _isolated(getattr(self, which), prec)
+        re, im = fmpz_poly(list(getattr(self, which))), fmpz_poly(list(self.imaginary[which == "den"]))
+        found = _isolated(tuple(int(c) for c in (re * re + im * im).coeffs()), prec)
+        with working_precision(prec):
+            return tuple((z, k) for z, k in found if self.polynomial(which)(z).contains(0))
 
     def singular_points(self, prec: int) -> list[Point]:
         """The midpoints of the enclosures of the singular points; on the real axis exactly where the singular point is."""
@@ -83,9 +109,9 @@ class System:
 
     def is_singular(self, point: Point) -> bool:
         """True if the point is a zero of the denominator, decided exactly."""
-        if point.is_real():
+        if point.is_real() and self.imaginary is None:
             return bool(fmpz_poly(list(self.den))(point.x) == 0)
-        return all(part == 0 for part in along(self.den, point, Point(0)))
+        return all(part == 0 for part in self.along("den", point, Point(0)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,6 +129,17 @@ class NumericProblem:
     gauge: RatFunc | None = None
     right: Equation | None = None
     embedded: Embedded | None = None
+
+    @cached_property
+    def is_real(self) -> bool:
+        """Are the coefficients real, and the right-hand side at real points where it is analytic?"""
+        given = self.right
+        if given is not None and given.h is not None and any(node.is_imaginary for node in given.h.atoms()):
+            return False
+        if self.embedded is None:
+            return True
+        with working_precision(_SHARP):
+            return self.embedded.is_real(() if given is None else (given.f / given.a, 1 / given.a))
 
     @property
     def is_exact(self) -> bool:
@@ -137,9 +174,7 @@ class NumericProblem:
         """With the constants to this precision."""
         if self.embedded is None:
             return self
-        num, den, radius = self.embedded.coefficients(prec)
-        sign = -1 if den[-1] < 0 else 1
-        return replace(self, system=System(tuple(sign * c for c in num), tuple(sign * c for c in den), radius))
+        return replace(self, system=System(*self.embedded.coefficients(prec)))
 
     def poles(self, prec: int) -> Zeros:
         """Enclosures of the poles of S at about `prec` bits, with their multiplicities."""
@@ -152,7 +187,7 @@ class NumericProblem:
         """Numerator and denominator of S, at the working precision in force."""
         if self.embedded is not None:
             return self.embedded.polynomials()
-        return acb_poly(list(self.system.num)), acb_poly(list(self.system.den))
+        return self.system.polynomial("num"), self.system.polynomial("den")
 
     def singular_points(self, prec: int) -> list[Point]:
         """Those of the system and the poles of the gauge, as `System.singular_points` gives them."""
@@ -200,25 +235,25 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     if given is not None and given.change is not None:
         raise InputError(f"numerical evaluation needs coefficients that are rational in {given.change.variable}")
     right = None if given is None or given.is_homogeneous else given
-    extended = [f for f in (S, gauge, right and right.f) if f is not None and isinstance(f.field, AlgebraicField)]
-    if right is not None and (names or extended):
-        raise InputError(
-            "a right-hand side is evaluated beside rational coefficients only: without parameters, I, sqrt(2), ...",
-            hint="dsolve has formulas; values need y'' = S y, or numbers in place of the parameters",
-        )
+    if right is not None and right.h is not None:
+        names = tuple(sorted({*names, *(symbol.name for symbol in right.h.free_symbols)} - {right.variable}))
     numbers = _values(names, params or {}) if params is not None or names else {}
-    values = {name: value.re for name, value in numbers.items() if isinstance(value, Point)}
-    if right is None and (extended or len(values) < len(numbers)):
-        embedded = Embedded(S, gauge, numbers)
-        return NumericProblem(System((), (1,)), embedded=embedded).at(_SHARP)
+    values = {name: value.re for name, value in numbers.items() if isinstance(value, Point) and value.is_real()}
+    extended = [f for f in (S, gauge, right and right.f) if f is not None and isinstance(f.field, AlgebraicField)]
+    if extended or len(values) < len(numbers):
+        return NumericProblem(System((), (1,)), right=right, embedded=Embedded(S, gauge, numbers)).at(_SHARP)
     if numbers:
         decision, S = None, _specialised(S, values)  # the decision is that for generic values
         gauge = gauge and _specialised(gauge, values)
+        if right is not None:
+            parts = {name: _specialised(getattr(right, name), values) for name in "abcf"}
+            at = {name: str(value) for name, value in values.items()}
+            right = replace(right, **parts, h=right.h and right.h.subs(at))
     return NumericProblem(System.of(S), S, decision, gauge, right)
 
 
 def _values(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, Number]:
-    """The values of the parameters; raises InputError unless there is a real one for each.  pi and e have theirs."""
+    """The values of the parameters; raises InputError unless there is one for each.  pi and e have theirs."""
     own = {name: text for name, text in ((PI, "pi"), (EULER, "exp(1)")) if name in names}
     given = {str(name): as_number(value, f"the parameter {name}") for name, value in (own | dict(params)).items()}
     if set(given) != set(names):
@@ -227,9 +262,6 @@ def _values(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, N
             f"values are needed for {wanted}; given are {', '.join(given) or 'none'}",
             hint="params={'n': 3}, for instance",
         )
-    for name, value in given.items():
-        if not to_ball(value).imag.is_zero():
-            raise InputError(f"the parameter {name} = {value} isn't real")
     return given
 
 
@@ -254,8 +286,7 @@ def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
         return tuple((root, int(k)) for root, k in poly.complex_roots()) if poly.degree() > 0 else ()
 
 
-def along(coefficients: tuple[int, ...], a: Point, step: Point) -> tuple[fmpq_poly, fmpq_poly]:
-    """Real and imaginary part of the polynomial at a + t step, as polynomials in t over Q."""
+def _along(coefficients: tuple[int, ...], a: Point, step: Point) -> tuple[fmpq_poly, fmpq_poly]:
     lines = fmpq_poly([a.x, step.x]), fmpq_poly([a.y, step.y])
     if lines[1] == 0:
         return fmpq_poly(list(coefficients))(lines[0]), fmpq_poly([])
@@ -317,7 +348,7 @@ def check_segment(system: System, a: Point, b: Point) -> None:
     step = b - a
     first, length = (a.x, step.x) if step.x != 0 else (a.y, step.y)
     unit = step.scaled(1 / length)
-    real, imaginary = along(system.den, a - unit.scaled(first), unit)
+    real, imaginary = system.along("den", a - unit.scaled(first), unit)
     poly, prec = real.gcd(imaginary).numer(), 128
     while poly.degree() > 0:
         roots = _isolated(tuple(int(c) for c in poly.coeffs()), prec)

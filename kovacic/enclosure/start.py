@@ -23,6 +23,7 @@ from flint import acb, acb_poly, arb
 
 from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
+from kovacic.enclosure.forcing import forcing_of
 from kovacic.enclosure.matrices import State, product
 from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem, System
@@ -56,18 +57,19 @@ def middle(number: Number) -> Point:
 
 
 def spread(problem: NumericProblem, number: Number | Singular, state: State) -> State:
-    """The state at a number in a ball from that at its midpoint: with r the radius and K >= max(1, |b/a| + |c/a|) on the
-    ball, (y, y') changes by at most (exp(K r) - 1) max(|y|, |y'|)."""
+    """The state at a number in a ball from that at its midpoint: with r the radius and, on the ball, K >= max(1, |b/a| + |c/a|)
+    and F >= |f/a|, (y, y') changes by at most (exp(K r) - 1) (max(|y|, |y'|) + F)."""
     if not isinstance(number, Constant):
         return state
-    ball = number.value()
+    ball, forcing = number.value(), forcing_of(problem)
     if problem.embedded is not None:
         size = max(arb(1), problem.embedded.bound(ball))
     else:
         a, b, c = (acb_poly(poly)(ball) for poly in problem.equation)
         size = max(arb(1), (abs(b / a) + abs(c / a)).upper())
-    change = (size * abs(ball - to_acb(middle(number))).upper()).expm1() * max(abs(v).upper() for v in state)
-    real = all(v.imag.is_zero() for v in (ball, *state))
+    largest = max(abs(v).upper() for v in state) + (0 if forcing is None else abs(forcing.value(ball)).upper())
+    change = (size * abs(ball - to_acb(middle(number))).upper()).expm1() * largest
+    real = all(v.imag.is_zero() for v in (ball, *state)) and problem.is_real
     error = acb(arb(0, change.upper()), arb(0, 0 if real else change.upper()))
     return state[0] + error, state[1] + error
 

@@ -54,7 +54,7 @@ def evaluate_states(
     given = problem, x0, y0, dy0, frobenius, which, path
     try:
         hash(given)
-    except TypeError:  # lists, FLINT's balls
+    except (TypeError, ValueError):  # lists, FLINT's balls
         journey = journey_of.__wrapped__(*given)
     else:
         journey = journey_of(*given)

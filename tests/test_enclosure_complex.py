@@ -1,0 +1,202 @@
+"""Complex constants, and right-hand sides beside constants and parameters: solutions that were chosen first."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from typing import Any
+
+import flint
+import pytest
+import sympy
+from flint import acb, arb, fmpq
+
+import kovacic
+from kovacic.enclosure import forcing, frame, problem, start
+from kovacic.enclosure.ball import ball_to_flint
+from kovacic.enclosure.constants import in_balls
+from kovacic.enclosure.evaluate import evaluate
+from kovacic.enclosure.monodromy import monodromy
+from kovacic.errors import InputError
+
+X = sympy.Symbol("x")
+CONSTANTS = ["I", "1 + I", "2 - I*sqrt(2)", "sqrt(3)*I", "sqrt(2)", "-1/2 + sqrt(3)*I/2", "1/3 - 2*I"]
+SOLUTIONS = [
+    "(x + 3)^2 - {c}*x",
+    "cos({c}*x) + x",
+    "exp({c}*x/2)",
+    "x^3 - {c}",
+    "1/(x - {c}*I - 4)",
+    "sin(x) + {c}*exp(-x)",
+]
+COEFFICIENTS = [
+    ("0", "-{c}*x"),
+    ("{c}", "x^2"),
+    ("1/(x + 4 + {c})", "{c}/(x + 5)"),
+    ("x - {c}", "2"),
+    ("0", "{c}/(x - 5 + {c})^2"),
+]
+
+
+def sympified(text: str, **names: Any) -> sympy.Expr:
+    return sympy.sympify(text.replace("^", "**"), locals=names)
+
+
+def holds(ball: Any, value: sympy.Expr, at: Any) -> bool:
+    with flint.ctx.workprec(800):
+        return bool(ball_to_flint(ball).contains(in_balls(value, {X: acb(*at) if isinstance(at, tuple) else acb(at)})))
+
+
+def forced(seed: int) -> None:
+    """y'' + b y' + c y = f with a chosen y: f is what is left."""
+    rng = random.Random(seed)
+    constant, y = rng.choice(CONSTANTS), rng.choice(SOLUTIONS)
+    b, c = rng.choice(COEFFICIENTS)
+    texts = [text.format(c=f"({constant})") for text in (y, b, c)]
+    solution, first, zeroth = map(sympified, texts)
+    right = sympy.expand(solution.diff(X, 2) + first * solution.diff(X) + zeroth * solution)
+    equation = f"y'' + ({texts[1]})*y' + ({texts[2]})*y = {str(right).replace('**', '^')}"
+    x0, x = Fraction(rng.randint(-3, 3), 2), Fraction(rng.randint(-6, 6), 4)
+    values = [str(part.subs(X, sympy.Rational(x0))) for part in (solution, solution.diff(X))]
+    digits = rng.choice([6, 15, 40])
+    found = evaluate(equation, x, x0=x0, y0=values[0], dy0=values[1], digits=digits, derivative=True)
+    for ball, value in zip(found, (solution, solution.diff(X)), strict=True):
+        assert holds(ball, value, fmpq(x.numerator, x.denominator)), (equation, x0, x)
+    assert found[0].digits >= digits or found[0].contains_zero()
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_chosen_solution_of_an_equation_with_constants_and_a_right_hand_side(seed: int) -> None:
+    forced(seed)
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("digits", [5, 30, 200])
+def test_airy_with_complex_constants(seed: int, digits: int) -> None:
+    rng = random.Random(seed)
+    slope, shift = (complex(rng.randint(-3, 3), rng.randint(1, 3)) / 2 for _ in "ab")  # y'' = (p x + q) y
+    x0, x = rng.randint(-3, 0), rng.choice([2, Fraction(5, 4), 1 + 2j, -2.5j])
+    text = "({})*x + ({})".format(*(f"{z.real} + ({z.imag})*I" for z in (slope, shift)))
+    given = evaluate(
+        "p*x + q", x, x0=x0, y0=1, dy0="I", params={"p": slope, "q": shift}, digits=digits, derivative=True
+    )
+    for found in (evaluate(text, x, x0=x0, y0=1, dy0="I", digits=digits, derivative=True), given):
+        assert found[0].digits >= digits
+        with flint.ctx.workprec(1500):
+            root = acb(slope.real, slope.imag) ** (acb(1) / 3)
+
+            def basis(x: acb) -> list[acb]:
+                z = root * (x + acb(shift.real, shift.imag) / acb(slope.real, slope.imag))  # noqa: B023
+                ai, dai, bi, dbi = z.airy()
+                return [ai, bi, root * dai, root * dbi]  # noqa: B023
+
+            place = acb(fmpq(x.numerator, x.denominator)) if isinstance(x, int | Fraction) else acb(x.real, x.imag)
+            (ai, bi, dai, dbi), (a, b, da, db) = basis(acb(x0)), basis(place)
+            c, d = dbi - acb(0, 1) * bi, acb(0, 1) * ai - dai
+            over = ai * dbi - bi * dai
+            for ball, value in zip(found, (c * a + d * b, c * da + d * db), strict=True):
+                assert ball_to_flint(ball).contains(value / over)
+
+
+@pytest.mark.parametrize(("c", "m"), [("I", 2), ("sqrt(3)*I", -1), ("1 + I", 3), ("-sqrt(2) + I", -3)])
+def test_complex_poles(c: str, m: int) -> None:
+    # y = (x - c)^m; the conjugate of c is an ordinary point
+    solution = (X - sympified(c)) ** m
+    for x in ((2, 0), (0, -3), (-2, 5)):
+        y0, dy0 = (str(part.subs(X, -1)) for part in (solution, solution.diff(X)))
+        point = f"{x[0]} + ({x[1]})*I"
+        for equation in (f"{m * (m - 1)}/(x - ({c}))^2", f"(x - ({c}))*y'' = {m - 1}*y'"):
+            ball = evaluate(equation, point, x0=-1, y0=y0, dy0=dy0, digits=30)
+            assert holds(ball, solution, x)
+            assert ball.digits >= 30
+    conjugate = str(sympy.conjugate(sympified(c)))
+    over = evaluate(f"{m * (m - 1)}/(x - ({c}))^2", conjugate, x0="-7/10", y0=1, dy0=0)
+    assert over.digits >= 14
+    with pytest.raises(InputError, match="singular point"):
+        evaluate(f"{m * (m - 1)}/(x - ({c}))^2", c, x0=-1, y0=1, dy0=0)
+
+
+def test_the_path_through_a_complex_pole_is_refused() -> None:
+    with pytest.raises(InputError, match=r"runs through the singular point 0 \+ 1i"):
+        evaluate("2/(x - I)^2", "2*I", x0=0, y0=1, dy0=0)
+    assert evaluate("2/(x - I)^2", "-2*I", x0=0, y0=-1, dy0="-2*I").contains(-9)
+    with pytest.raises(InputError, match="so near that its constants don't tell"):
+        evaluate("y'' = y + 1/(x - sqrt(2))", 2, x0=0, y0=1, dy0=0)
+
+
+def test_an_imaginary_part_below_the_precision_isnt_lost() -> None:
+    ball = evaluate("x + I/10^200", 2, x0=0, y0=1, dy0=0)
+    assert not ball.real
+    sharp = evaluate("x + I/10^200", 2, x0=0, y0=1, dy0=0, digits=300)
+    assert sharp.im[0] != 0
+    assert ball.overlaps(sharp)
+
+
+def test_monodromy_around_a_complex_pole() -> None:
+    (place,) = monodromy("-2/(9*(x - 1 - I)^2)")
+    assert place.point.contains(1 + 1j)
+    assert place.consistent
+    assert place.is_identity_to_the_power(3)
+
+
+@pytest.mark.parametrize("x0", ["1", "3/2"])
+@pytest.mark.parametrize("right", ["1", "10^6*x", "exp(x)", "1/x"])
+@pytest.mark.filterwarnings("ignore::kovacic.enclosure.evaluate.AccuracyWarning")
+def test_a_ball_as_a_point_of_an_equation_with_a_right_hand_side(right: str, x0: str) -> None:
+    equation = f"y'' = {right}"
+    low, middle, high = (str(Fraction(x0) + k * Fraction(1, 8)) for k in (-1, 0, 1))
+    ball = arb(float(Fraction(middle)), 0.125)
+    begin = evaluate(equation, 2, x0=ball, y0=0, dy0=0, derivative=True)
+    end = evaluate(equation, ball, x0=2, y0=0, dy0=0, derivative=True)
+    for place in (low, middle, high):
+        for found, exact in (
+            (begin, evaluate(equation, 2, x0=place, y0=0, dy0=0, derivative=True)),
+            (end, evaluate(equation, place, x0=2, y0=0, dy0=0, derivative=True)),
+        ):
+            assert all(one.contains(other.midpoint[0]) for one, other in zip(found, exact, strict=True))
+
+
+def test_functions_of_real_numbers_refuse_complex_equations() -> None:
+    for equation in ("x + I", "y'' + 2*I*y' = 0", "y'' = x*y + I", "y'' = x*y + exp(I*x)"):
+        with pytest.raises(InputError, match=r"real coefficients"):
+            kovacic.tabulate(equation, 0, 1, x0=0, y0=1, dy0=0)
+
+
+def test_constants_beside_functions_of_x() -> None:
+    found = evaluate("y'' + I*exp(x)*y = 0", 1, x0="1/2", y0=1, dy0=0)
+    with flint.ctx.workprec(200):  # J0 and Y0 of 2 sqrt(I) exp(x/2)
+        root = 2 * acb(0, 1).sqrt()
+        a, z = (root * arb(t).exp() for t in (0.25, 0.5))
+        exact = (a.bessel_y(1) * z.bessel_j(0) - a.bessel_j(1) * z.bessel_y(0)) / (
+            a.bessel_y(1) * a.bessel_j(0) - a.bessel_j(1) * a.bessel_y(0)
+        )
+        assert ball_to_flint(found).overlaps(exact)
+    with pytest.raises(InputError, match="constants in the equation in t"):
+        evaluate("y'' + I*cos(x)*y = 1", 1, x0=0, y0=1, dy0=0)
+
+
+#: What is wrong, where.
+FAULTS: dict[str, tuple[Any, str, Any]] = {
+    "complex equations taken for real ones": (problem.NumericProblem, "is_real", True),
+    "the right-hand side beside a ball": (start, "forcing_of", lambda problem: None),
+    "the imaginary parts of the coefficients": (frame, "_paired", lambda re, im, real: (re, None)),
+    "the constants of the right-hand side": (
+        forcing.Forcing,
+        "_at",
+        lambda self, f, x: self.embedded.value(f, x) * (1 + acb(2) ** -20),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_planted_fault_is_seen(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    owner, attribute, wrong = FAULTS[name]
+    monkeypatch.setattr(owner, attribute, wrong)
+    with pytest.raises(AssertionError):
+        everything()
+
+
+def everything() -> None:
+    for seed in range(12):
+        forced(seed)
+    test_a_ball_as_a_point_of_an_equation_with_a_right_hand_side("10^6*x", "1")
