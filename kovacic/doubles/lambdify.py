@@ -43,9 +43,11 @@ _PREC = 240
 _BITS = 166
 """The bits of 50 digits."""
 
-_SAMPLES = 24
-_ZEROS = 3
-"""Points at which a function is measured, and zeros that are looked at from both sides."""
+_SAMPLES, _ZEROS, _WORST = 24, 3, 4
+"""Points at which a function is measured, zeros that are looked at from both sides, and points that are suspected."""
+
+_MANY, _EACH, _BESIDE = 400, 8, 0.01
+"""Parts of a region, points of each that suspects are chosen from, and the distance from a zero over that to the next one."""
 
 Function = ProductForm | TabulatedFunction
 
@@ -76,10 +78,11 @@ def lambdify(
     Real solutions give doubles, others complex doubles.  With `check` the error is measured, in units in the last place of
     |y|, and stands in `measured`: at 24 points, which are the ends of the interval (if they are singular, a thousandth of its
     length beside them), a point on either side of up to three zeros of a real solution, at a hundredth of the distance to
-    the next zero, and others in between.  The arithmetic is that of plain doubles, unless this error is above 8 (median) or
-    1,000 (worst): then it is that of double-doubles, 20 times slower; `careful` True or False chooses.  An AccuracyWarning
-    says where the error is above these bounds after all, or couldn't be measured within 20 s.  A function keeps no state:
-    threads may share it.  Making one sets python-flint's precision, under the package's lock.
+    the next zero, and others in between; and at four of thousands, no nearer to zeros, where plain doubles differ most from
+    double-doubles.  The arithmetic is that of plain doubles, unless this error is above 8 (median) or 1,000 (worst): then it
+    is that of double-doubles, 20 times slower; `careful` True or False chooses.  An AccuracyWarning says where the error is
+    above these bounds after all, or couldn't be measured within 20 s.  A function keeps no state: threads may share it.
+    Making one sets python-flint's precision, under the package's lock.
 
     Raises InputError without a Liouvillian solution and without initial values, for an interval that is empty or has a
     singular point inside, for complex arguments in cases 2 and 3, and for a table up to a singular point.
@@ -162,49 +165,91 @@ def measure(
 
 def _errors(function: Function, chart: Chart, which: int | None, points: Any, limits: Limits | None) -> Measured:
     """As `measure`; the solution number `which`, up to a factor, if it isn't None."""
-    given = samples(function) if points is None else np.atleast_1d(points)
+    given, extra = np.atleast_1d([] if points is None else points), np.empty(0)
+    if points is None:
+        zeros = _zeros(function)
+        given, extra = samples(function, zeros), _suspects(function, *zeros)
+    given = np.append(given, extra)
     exact = [as_point(complex(x), "x") for x in given]
     found = [complex(v) for v in function(given)]
     reference = [y for y, _ in chart.states(exact, _DIGITS, limits, method="taylor")]
     if not all(y.contains(0) or y.rel_accuracy_bits() >= _BITS for y in reference):
         raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
     with working_precision(_PREC):
-        pairs = [(v, y) for v, y in zip(found, reference, strict=True) if not y.contains(0)]
-        quotients = [(acb(v) / y).mid() for v, y in pairs if TINY < abs(v) < math.inf]
+        pairs = list(zip(found, reference, strict=True))
+        quotients = [(acb(v) / y).mid() for v, y in pairs if TINY < abs(v) < math.inf and not y.contains(0)]
         if not quotients:
             return Measured(math.inf, math.inf, 0)
         by_real = abs(quotients[0].real) >= abs(quotients[0].imag)
         quotients.sort(key=lambda q: q.real if by_real else q.imag)
         factor = acb(1) if which is None else quotients[len(quotients) // 2]
-        errors = [error for v, y in pairs if (error := _units(v, (y * factor).mid())) is not None]
-    return Measured(float(np.median(errors)), max(errors), len(errors))
+        errors = [None if y.contains(0) else _units(v, (y * factor).mid()) for v, y in pairs]
+    typical, counted = ([e for e in some if e is not None] for some in (errors[: len(errors) - extra.size], errors))
+    return Measured(float(np.median(typical or [math.inf])), max(counted, default=math.inf), len(counted))
 
 
-def samples(function: Function) -> Any:
-    """The points at which a function is measured: see `lambdify`."""
+def samples(function: Function, near: tuple[Any, Any] | None = None) -> Any:
+    """The points at which a function is measured, wherever its errors are: see `lambdify`."""
     region: Region = function.region
-    low, width = region.low.real, region.high.real - region.low.real
-    share = (np.arange(_SAMPLES) + 0.5) / (_SAMPLES + 0.13)
+    low, size = region.low, region.high - region.low
     if not region.is_real:
-        return low + width * share + 1j * (region.low.imag + (region.high.imag - region.low.imag) * ((share * 7.3) % 1))
-    inward = (width / 1000, -width / 1000)
-    ends = [
-        z.real + way * sing for z, way, sing in zip((region.low, region.high), inward, region.singular, strict=True)
-    ]
-    x = low + width * (np.arange(200) + 0.5) / 200.13
-    y, beside = function(x), np.empty(0)
-    if not np.iscomplexobj(y):
-        k = np.flatnonzero(np.sign(y[1:]) * np.sign(y[:-1]) < 0)
+        share = (np.arange(_SAMPLES) + 0.5) / (_SAMPLES + 0.13)
+        return low + size.real * share + 1j * size.imag * ((share * 7.3) % 1)
+    left, right = (size.real / 1000 * singular for singular in region.singular)
+    zeros, gaps = near or _zeros(function)
+    chosen = np.unique(np.linspace(0, len(zeros) - 1, _ZEROS if len(zeros) else 0).astype(int))
+    beside = [zeros[chosen] + way * gaps[chosen] for way in (-_BESIDE, _BESIDE)]
+    count = _SAMPLES - 2 - 2 * len(chosen)
+    between = low.real + size.real * (np.arange(count) + 0.5) / (count + 0.13)
+    return np.concatenate([[low.real + left, region.high.real - right], *beside, between])
+
+
+def _suspects(function: Function, zeros: Any, gaps: Any) -> Any:
+    """The points where plain arithmetic differs most from double-doubles, a constant factor apart, out of thousands: none is
+    nearer to a zero than a hundredth of the distance to the next one."""
+    if not isinstance(function, Function) or function.careful:
+        return np.empty(0)
+    exact, points = replace(function, careful=True), _grid(function)
+    if isinstance(exact, ProductForm) and exact.polynomial is not None:
+        exact = replace(exact, polynomial=replace(exact.polynomial, careful=True))
+    if len(zeros):
+        starts, stops = (np.searchsorted(zeros + way * gaps, points) for way in (-_BESIDE, _BESIDE))
+        beside = [zeros + way * _BESIDE * gaps for way in (-2.0, -1.5, -1.2, -1.0, 1.0, 1.2, 1.5, 2.0)]
+        points = np.concatenate([points[starts == stops], *beside])
+    with np.errstate(all="ignore"):
+        sizes, quotients = np.abs(y := exact(points)), function(points) / y
+        within = np.flatnonzero((sizes > TINY) & (sizes < HUGE) & np.isfinite(quotients))
+        sizes, quotients = sizes[within], quotients[within]
+        errors = np.abs(quotients - (np.median(quotients) if within.size else 1)) * sizes / np.spacing(sizes)
+    return points[within[np.argsort(errors)[-_WORST:]]]
+
+
+def _grid(function: Function) -> Any:
+    """Thousands of points all over the region, and on each piece of a table."""
+    region, table = function.region, getattr(function, "polynomial", function)
+    low, size = region.low.real, region.high - region.low
+    knots = np.append(getattr(table, "edges", ()), low + size.real * np.linspace(0, 1, _MANY + 1))
+    knots = np.unique(np.clip(knots, low, region.high.real))
+    x = (knots[:-1, None] + np.diff(knots)[:, None] * (np.arange(_EACH) + 0.53) / (_EACH + 0.07)).reshape(-1)
+    return x if region.is_real else x + 1j * (region.low.imag + size.imag * (np.arange(x.size) * 0.618 % 1))
+
+
+def _zeros(function: Function) -> tuple[Any, Any]:
+    """Changes of sign of a real function on an interval, and the distances to the next ones or the ends; none of others."""
+    x = _grid(function)
+    y = function(x)
+    if np.iscomplexobj(y):
+        return np.empty(0), np.empty(0)
+    k = np.flatnonzero(np.sign(y[1:]) * np.sign(y[:-1]) < 0)
+    (a, b), (p, q) = x[[k, k + 1]], y[[k, k + 1]]
+    for _ in range(4):
         with np.errstate(all="ignore"):
-            quotient = np.abs(y[k + 1] / y[k])
-        zeros = x[k] + (x[k + 1] - x[k]) / (1 + np.where(np.isfinite(quotient), quotient, 1.0))
-        gaps = np.diff([low, *zeros, region.high.real])
-        chosen = np.unique(np.linspace(0, len(zeros) - 1, _ZEROS if len(zeros) else 0).astype(int))
-        beside = np.concatenate(
-            [zeros[chosen] + way * np.minimum(gaps[:-1], gaps[1:])[chosen] for way in (-0.01, 0.01)]
-        )
-    count = _SAMPLES - len(ends) - len(beside)
-    return np.array([*ends, *beside, *(low + width * (np.arange(count) + 0.5) / (count + 0.13))])
+            quotient = np.abs(q / p)
+        zeros = a + (b - a) / (1 + np.where(np.isfinite(quotient), quotient, 1.0))
+        left = np.sign(values := function(zeros)) == np.sign(p)
+        (a, p), (b, q) = np.where(left, (zeros, values), (a, p)), np.where(left, (b, q), (zeros, values))
+    gaps = np.diff([function.region.low.real, *zeros, function.region.high.real])
+    return zeros, np.minimum(gaps[:-1], gaps[1:])
 
 
 def _units(value: complex, exact: acb) -> float | None:

@@ -157,8 +157,7 @@ class ProductForm:
 
     def __call__(self, x: Any) -> Any:
         """y(x) as doubles, or complex doubles (inf or 0 where the value is beyond their range)."""
-        with np.errstate(all="ignore"):
-            return in_blocks(self._values, self.region.points(x))
+        return in_blocks(self._values, self.region.points(x))
 
     def log(self, x: Any) -> tuple[Any, Any]:
         """(sign, log |y(x)|), or for complex functions (y/|y|, log |y|)."""

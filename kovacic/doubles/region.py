@@ -82,15 +82,14 @@ class Region:
 def in_blocks(function: Callable[[Any], Any], points: Any, block: int = BLOCK) -> Any:
     """The function of the points, so many at a time: what is formed on the way stays in the processor's cache."""
     flat = points.reshape(-1)
-    first = function(flat[:block])
-    if flat.size <= block:
-        return first.reshape(points.shape)[()]
-    result = np.empty(
-        flat.shape, first.dtype
-    )  # once: a list of parts has the memory cleared and given back at each call
-    result[:block] = first
-    for start in range(block, flat.size, block):
-        result[start : start + block] = function(flat[start : start + block])
+    with np.errstate(all="ignore"):  # inf or 0 where a value is beyond the range of doubles
+        first = function(flat[:block])
+        if flat.size <= block:
+            return first.reshape(points.shape)[()]
+        result = np.empty(flat.shape, first.dtype)  # once: for a list of parts memory is cleared and given back
+        result[:block] = first
+        for start in range(block, flat.size, block):
+            result[start : start + block] = function(flat[start : start + block])
     return result.reshape(points.shape)
 
 

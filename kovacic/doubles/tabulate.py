@@ -51,8 +51,8 @@ _HIGHEST = 1 << 15
 _STRIDE, _ROUGH, _LOST = 24, 2.0**-88, 2.0**-58
 """Of so many states one is an enclosure; relative errors of a transfer, and of a state, at most."""
 _SIGNS = np.array([[[1.0], [-1.0]], [[-1.0], [1.0]]])
-_ROOM = 900
-"""Binary exponents up to here stay in the coefficients."""
+_ROOM, _CROWD = 900, 1000
+"""Binary exponents up to here stay in the coefficients; fewer points to a piece are treated together (measured)."""
 
 
 class _Variant(NamedTuple):
@@ -89,8 +89,9 @@ class TabulatedFunction:
     measured: Measured | None = None
 
     def __call__(self, x: Any) -> Any:
-        """y(x) as doubles, or complex doubles; raises InputError outside of the interval."""
-        return in_blocks(self._values, self.region.points(x), 4 * BLOCK)
+        """y(x) as doubles, or complex doubles (inf or 0 beyond their range); raises InputError outside of the interval."""
+        points = self.region.points(x)
+        return in_blocks(self._values, points, 4 * BLOCK if points.size > _CROWD * self.centres.size else BLOCK // 2)
 
     def _values(self, flat: Any) -> Any:
         parts, powers = self.parts(flat)
@@ -100,19 +101,22 @@ class TabulatedFunction:
     def parts(self, flat: Any) -> tuple[list[Any], Any]:
         """Real and imaginary part as double-doubles or arrays, and the powers of two, None where all are 0.
 
-        Piece by piece, so that the coefficients are numbers.
+        Piece by piece, so that the coefficients are numbers, where many points lie on each.
         """
-        index = np.searchsorted(self.edges, flat, side="right")
-        order = np.argsort(index, kind="stable")
-        sorted_, ends = flat[order], np.searchsorted(index[order], np.arange(self.centres.size + 1))
+        index, runs = np.searchsorted(self.edges, flat, side="right"), list[Any]()
+        if flat.size < _CROWD * self.centres.size:
+            runs.append((slice(None), index))
+        else:
+            order = np.argsort(index, kind="stable")
+            ends = np.searchsorted(index[order], np.arange(self.centres.size + 1))
+            runs += [(order[ends[k] : ends[k + 1]], k) for k in np.flatnonzero(np.diff(ends))]
         found = np.zeros((len(self.coefficients), 1 + self.careful, flat.size))
-        for k in np.flatnonzero(np.diff(ends)):
-            run = slice(ends[k], ends[k + 1])
-            u = scaled(two_sum(sorted_[run], -self.centres[k]), -self.exponents[k])
+        for where, k in runs:
+            u = scaled(two_sum(flat[where], -self.centres[k]), -self.exponents[k])
             for row, halves in zip(found, self.coefficients[:, :, ::-1, k], strict=True):
                 value = horner(map(Pair, *halves), u) if self.careful else Pair(horner(halves[0], u.hi))
                 for half, numbers in zip(row, (value.hi, value.lo), strict=False):
-                    half[order[run]] = numbers
+                    half[where] = numbers
         numbers = [Pair(*row) if self.careful else row[0] for row in found]
         return numbers, self.powers[index] if self.powers.any() else None
 
