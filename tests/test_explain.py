@@ -112,7 +112,7 @@ def test_kovacic_s_second_example_line_by_line() -> None:
     assert [(values(family), family.d, family.P) for family in found.families or ()] == [([1, 1], 0, 1)]
     invariant = answer.decision.invariant
     assert invariant is not None
-    assert str(rational_form(invariant, analyse(answer.S, Budget()).places)) == "x"
+    assert str(rational_form(invariant, analyse(answer.S, Budget()))) == "x"
 
 
 def test_kovacic_s_third_example_line_by_line() -> None:
@@ -165,6 +165,13 @@ def test_many_poles_are_counted() -> None:
     found = searched(kovacic.solve(S), 1)
     assert (found.total, found.families) == (2**14, None)
     assert "16384 families of exponents, d is" in kovacic.solve(S).explain(solutions=False)
+
+
+def test_families_with_the_same_exponent_at_infinity_are_two() -> None:
+    """exp(x) and exp(-x): alpha = 0 with [sqrt r] = 1 and with -1."""
+    found = searched(kovacic.solve("1"), 1)
+    assert (found.total, found.natural) == (2, 2)
+    assert all(family.P == 1 for family in found.families or ())
 
 
 def test_a_no_names_what_excludes_every_case() -> None:

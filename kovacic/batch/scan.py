@@ -5,21 +5,17 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from math import lcm
 from typing import Any
 
-from kovacic.algebra.rationals import QQ
 from kovacic.batch.records import Item, Record
 from kovacic.errors import InputError, LimitExceeded, needs
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import Template, number_text
 
-_NUMBER = re.compile(r"[+-]?(\d+(/\d+)?|\d*\.\d+|\d+\.)")
-_NUMBER_LENGTH = 1000
 _LARGEST_GRID = 10**9
 
 # Okabe and Ito's palette, which colour-blind readers can tell apart; "none" is light, so that the solvable values stand out.
@@ -68,13 +64,12 @@ def parse_grid(text: str) -> Grid:
     name = name.strip()
     if not separator or not name.isidentifier():
         raise InputError(f"{text!r} isn't a grid", hint="NAME=START:STOP:STEP or NAME=VALUE,VALUE: n=0:10:1/4")
-    parts = re.split("[:,]" if ":" in rest else ",", rest)
+    values = [_value(part, text) for part in re.split("[:,]" if ":" in rest else ",", rest)]
     if ":" not in rest:
-        return Grid(name, tuple(_value(part, text) for part in parts))
-    values = [_number(part, text) for part in parts]
-    if "," in rest or len(values) > 3:
-        raise InputError(f"{text!r} has more than START:STOP:STEP", hint="n=0:10:1/4")
-    start, stop, step = (*values, Fraction(1))[:3]
+        return Grid(name, values)
+    if "," in rest or len(values) > 3 or not all(isinstance(value, Fraction) for value in values):
+        raise InputError(f"{text!r} isn't START:STOP:STEP with rational numbers", hint="n=0:10:1/4")
+    start, stop, step = (Fraction(value) for value in (*values, 1)[:3])
     if not step or (stop - start) / step < 0:
         raise InputError(f"{text!r}: no value lies between {start} and {stop} in steps of {step}")
     count = int((stop - start) / step) + 1
@@ -86,23 +81,15 @@ def parse_grid(text: str) -> Grid:
 
 
 def _value(part: str, text: str) -> Fraction | str:
-    with suppress(InputError):
-        return _number(part, text)
-    with suppress(InputError):
-        if read_input(number := number_text(part), var="x_").S.field != QQ:
-            return number
-    hint = "integers, fractions, decimals, algebraic numbers: n=0:10:1/4, n=sqrt(2)"
-    raise InputError(f"{text!r}: {part.strip()[:40]!r} isn't a number", hint=hint)
-
-
-def _number(part: str, text: str) -> Fraction:
-    part = part.strip()
-    if len(part) > _NUMBER_LENGTH or _NUMBER.fullmatch(part) is None:
-        raise InputError(f"{text!r}: {part[:40]!r} isn't a number", hint="integers, fractions, decimals: n=0:10:1/4")
+    """A number: as it is written where it isn't rational."""
     try:
-        return Fraction(part)
-    except ZeroDivisionError:
-        raise InputError(f"{text!r}: {part!r} has the denominator 0") from None
+        number = number_text(part)
+    except InputError as error:
+        hint = "integers, fractions, decimals, algebraic numbers: n=0:10:1/4, n=sqrt(2)"
+        raise InputError(f"{text!r}: {part.strip()[:40]!r} isn't a number", hint=hint) from error
+    constant = read_input(number, var="x_").S.num
+    rational = constant.field.rational_value(constant)
+    return number if rational is None else rational
 
 
 def points(grids: Sequence[Grid]) -> Iterator[dict[str, Fraction | str]]:

@@ -5,7 +5,7 @@ First the paper's own steps, line by line (`steps`), then what this package clai
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from html import escape
 from io import StringIO
@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Exclusion, NecessaryCondition, SemiInvariant, Status, Structure
-from kovacic.engine.places import Place
+from kovacic.engine.places import Problem
+from kovacic.engine.riccati import residue
 from kovacic.errors import KovacicError, LimitExceeded
 from kovacic.views.bibliography import references
 from kovacic.views.document import FORMATS, Block, Formula, Heading, Paragraph, Table, say
@@ -137,18 +138,12 @@ class _Writer:
             yield say("Nothing is left but SL2(C): the equation has no Liouvillian solution, and this is a proof.")
         elif decision.invariant is not None:
             yield say(f"There is {_BY_INVARIANT[decision.structure]}. So it is {_CASES[decision.structure]}:")
-            yield Formula(self._invariant(decision.invariant))
+            yield Formula(self.formulas.named("F", "F", rational_form(decision.invariant, self.steps.problem)))
         else:
             yield say(
                 "There is no invariant of degree 2, so at most one omega is rational; its expansion at one place "
                 f"determines it, and it exists. So it is {_CASES[decision.structure]}."
             )
-
-    def _invariant(self, invariant: SemiInvariant) -> Math:
-        F = rational_form(invariant, self.steps.places)
-        if F is None:
-            return self.formulas.named("F'/F", "F'/F", invariant.logarithmic_derivative)
-        return self.formulas.named("F", "F", F)
 
     def _exclusion(self, exclusion: Exclusion) -> Paragraph:
         sentence: list[str | Math] = [f"Not {_CASES[exclusion.structure]}: "]
@@ -228,21 +223,12 @@ class _Writer:
         yield from (say(reference.text()) for reference in references(self.solution))
 
 
-def rational_form(form: SemiInvariant, places: Sequence[Place]) -> RatFunc | None:
-    """P times powers of the factors of the poles, where these powers, the residues of theta, are integers; else None."""
-    result, field = RatFunc(form.P), form.theta.num.field
-    for place in places[:-1]:
-        factor = place.factor.over(field)
-        cofactor, order = form.theta.den.remove(factor)
-        if order > 1 or (order == 0 and factor.gcd(form.theta.den).degree > 0):
-            return None
-        if order:
-            residue = form.theta.num * (cofactor * factor.derivative()).inverse_modulo(factor) % factor
-            value = field.rational_value(residue) if residue.degree <= 0 else None
-            if value is None or value.denominator != 1:
-                return None
-            result = result * RatFunc(place.factor) ** value.numerator
-    return result
+def rational_form(form: SemiInvariant, problem: Problem) -> RatFunc:
+    """P times powers of the factors of the poles, the residues of theta: the rational function F."""
+    R, F = (form.theta * problem.D).num, RatFunc(form.P)
+    for place in problem.finite_places:
+        F = F * RatFunc(place.factor) ** residue(problem, R, place)
+    return F
 
 
 _PAGE = """<!doctype html>

@@ -251,9 +251,9 @@ def _tried(
             break
         R, theta = field.poly([]), []
         for choice, f in zip(family.choices[1:], factors, strict=True):
-            slope = f.derivative() * (SCALE[m] * choice.value)
-            R += D // f * slope
-            theta.append(in_sympy(slope, x) / in_sympy(f, x))
+            value = SCALE[m] * choice.value
+            R += D // f * f.derivative() * value
+            theta.append(in_sympy(value, x) * (in_sympy(f.derivative(), x) / in_sympy(f, x)))
             for power, c in choice.singular:
                 R += D // f**-power * c
                 theta.append(in_sympy(c, x) * in_sympy(f, x) ** power)

@@ -9,17 +9,12 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
-from flint import fmpz
-
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.rationals import QQ, square_part
 from kovacic.closed_form.primitive import OpenPrimitive, RationalPrimitive, normalised_constant
 from kovacic.closed_form.product import Factor, Product, grouped, merged
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, Triangular
-
-_LARGEST_ROOT = 10**30
-"""Numbers below are factored, to take squares out of a root."""
 
 
 def written(structure: ClosedStructure, variable: str) -> tuple[str, str] | None:
@@ -143,13 +138,8 @@ def _conjugate(form: Conjugate, variable: str) -> tuple[str, str] | None:
     delta = form.delta.field.rational_value(form.delta)
     if delta is None or form.delta.field != QQ or form.phase.residues or not _is_plain(form.common):
         return None
-    square = abs(delta.numerator) * delta.denominator
-    if square > _LARGEST_ROOT:
-        return None
-    outer, inner = 1, 1
-    for p, k in fmpz(square).factor():
-        outer, inner = outer * int(p) ** (k // 2), inner * int(p) ** (k % 2)
-    scale, radical = Fraction(outer, delta.denominator), "" if inner == 1 else f"sqrt({inner})"  # |s| = scale * radical
+    scale, inner = square_part(abs(delta))
+    radical = "" if inner == 1 else f"sqrt({inner})"  # |s| = scale * radical
     V = form.phase.exact * scale
     top, bottom = (form.A or form.B).content()
     A, B = (RatFunc(p * Fraction(bottom, top)) for p in (form.A, form.B * scale))
