@@ -10,11 +10,11 @@ and neither the backend nor the state of pyplot is touched.
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from io import BytesIO
+from itertools import chain, islice, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -63,7 +63,7 @@ def sample(
     cuts = sorted({z.re for z in singular if z.is_real() and a.re <= z.re <= b.re})
     wild = {float(midpoint(root).re) for root, order in chart.problem.system.roots("den", 128) if order > 2}
     grids, longest = [], (a.re, a.re)
-    for left, right in itertools.pairwise([a.re, *cuts, b.re]):
+    for left, right in pairwise([a.re, *cuts, b.re]):
         # Beside an irregular singular point, solutions are as large as exp(1/distance).
         shares = [0 if end not in cuts else _IRREGULAR_SHARE if float(end) in wild else _SHARE for end in (left, right)]
         first, last = left + (right - left) * shares[0], right - (right - left) * shares[1]
@@ -73,10 +73,10 @@ def sample(
     initial = {"y0": 1, "dy0": 0} if options.get("which") is options.get("frobenius") is None else {}
     options = {"limits": None, **initial, **(options if initial else options | {"y0": None, "dy0": None})}
     chart = replace(chart, given={"x0": sum(longest) / 2 if x0 is None else x0})
-    places = [Point(x) for x in itertools.chain(*grids)]
+    places = [Point(x) for x in chain(*grids)]
     values = map(finite_ball, (y for y, _ in chart.states(places, path="above", **{"digits": 8, **options})))
     samples = map(Sample, places, values)
-    runs = (tuple(itertools.islice(samples, len(grid))) for grid in grids if grid)
+    runs = (tuple(islice(samples, len(grid))) for grid in grids if grid)
     return Samples(tuple(runs), tuple(map(complex, singular)))
 
 
@@ -89,19 +89,29 @@ def plot(
     `options` are those of `sample`.  The file type follows the suffix of `output` (png, svg, pdf).  Returns the matplotlib
     figure.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    import numpy as np
     from matplotlib.figure import Figure as NewFigure
 
     samples = sample(equation, start, stop, **options)
     figure = NewFigure(figsize=(8, 4.8), layout="constrained")
-    FigureCanvasAgg(figure)
     axes = figure.add_subplot()
-    _curves(axes, samples)
+    rows = [[*((float(x.re), y.mid, y.radius) for x, y in run), (np.nan,) * 3] for run in samples.runs]
+    x, y, radius = map(np.array, zip(*[*chain(*rows)][:-1], strict=True))  # nothing is drawn from one run to the next
+    parts = {"y": y.real} if np.nanmax(np.abs(y.imag) - radius) <= 0 else {"Re y": y.real, "Im y": y.imag}
+    sizes = np.abs([y.real, y.imag])
+    for k, (label, part) in enumerate(parts.items()):
+        axes.plot(x, part, linewidth=1.5, label=label)
+        if np.nanmax(radius) > 2e-3 * np.nanmax(sizes):
+            band = "_" * k + "error band"  # once in the legend
+            axes.fill_between(x, part - radius, part + radius, color=f"C{k}", alpha=0.25, linewidth=0, label=band)
     low, high = float(as_point(start, "from").re), float(as_point(stop, "to").re)
     marked = [z.real for z in samples.singular if z.imag == 0 and low <= z.real <= high]
     for k, z in enumerate(marked):
         axes.axvline(z, color="C3", linestyle="--", linewidth=1, label=None if k else "singular point")
-    _limit_height(axes, samples)
+    usual = 4 * np.nanquantile(sizes, 0.9)
+    if 0 < 3 * usual < np.nanmax(sizes):  # a solution runs to infinity, and the rest is to be seen
+        bottom, top = axes.get_ylim()
+        axes.set_ylim(max(bottom, -usual), min(top, usual))
     axes.set(xlim=(low, high), xlabel="x", ylabel="y", title=title)
     axes.axhline(0, color="0.8", linewidth=0.8, zorder=0)
     if axes.get_legend_handles_labels()[0]:
@@ -115,32 +125,3 @@ def plot(
 def _png(figure: Figure) -> bytes:
     figure.savefig(file := BytesIO(), format="png")
     return file.getvalue()
-
-
-def _curves(axes: Any, samples: Samples) -> None:
-    values = [result.y for run in samples.runs for result in run]
-    parts = [("y", "C0", "real")]
-    if any(abs(y.mid.imag) > y.radius for y in values):
-        parts = [("Re y", "C0", "real"), ("Im y", "C1", "imag")]
-    span = max(max(abs(y.mid.real), abs(y.mid.imag)) for y in values)
-    band: str | None = "error band"
-    for label, colour, part in parts:
-        for number, run in enumerate(samples.runs):
-            xs = [float(result.x.re) for result in run]
-            ys, radii = [getattr(result.y.mid, part) for result in run], [result.y.radius for result in run]
-            axes.plot(xs, ys, color=colour, linewidth=1.5, label=None if number else label)
-            if any(radius > 2e-3 * span for radius in radii):
-                below, above = ([y + sign * r for y, r in zip(ys, radii, strict=True)] for sign in (-1, 1))
-                axes.fill_between(xs, below, above, color=colour, alpha=0.25, linewidth=0, label=band)
-                band = None
-
-
-def _limit_height(axes: Any, samples: Samples) -> None:
-    """Cut the picture where a solution runs to infinity at a singular point, so that the rest can be seen."""
-    sizes = sorted(
-        abs(part) for run in samples.runs for result in run for part in (result.y.mid.real, result.y.mid.imag)
-    )
-    usual, largest = sizes[int(0.9 * (len(sizes) - 1))], sizes[-1]
-    if usual > 0 and largest > 12 * usual:
-        low, high = axes.get_ylim()
-        axes.set_ylim(max(low, -4 * usual), min(high, 4 * usual))
