@@ -54,10 +54,6 @@ class InputError(KovacicError, ValueError):
             parts.append(f"  hint: {self.hint}")
         return "\n".join(parts)
 
-    def __reduce__(self) -> tuple[object, ...]:
-        details = {"text": self.text, "position": self.position, "length": self.length, "hint": self.hint}
-        return partial(type(self), **details), (self.message,)  # type: ignore[arg-type]
-
 
 class ParseError(InputError):
     """The text isn't an expression of the grammar."""

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from contextvars import ContextVar, Token
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from functools import wraps
 from typing import ParamSpec, TypeVar
@@ -47,13 +48,12 @@ class Budget:
     One that is made while another one is `watched` ends with that at the latest: the parts of a call share its time.
     """
 
-    __slots__ = ("_deadline", "_seconds", "_tokens", "limits")
+    __slots__ = ("_deadline", "_seconds", "limits")
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
         self.limits = limits
         self._seconds = DEFAULT_SECONDS if limits.seconds is None else limits.seconds
         self._deadline = time.monotonic() + self._seconds
-        self._tokens: list[Token[Budget | None]] = []
         outer = _WATCHED.get()
         if outer is not None and outer._deadline < self._deadline:
             self._seconds, self._deadline = outer._seconds, outer._deadline
@@ -71,15 +71,14 @@ class Budget:
         """A clock for a part of the time that is left."""
         return Budget(replace(self.limits, seconds=part * self.seconds_left))
 
-    def watched(self) -> Budget:
+    @contextmanager
+    def watched(self) -> Iterator[None]:
         """Inside `with`, `check_time` raises once the time is over: for long computations in fields that know of no budget."""
-        return self
-
-    def __enter__(self) -> None:
-        self._tokens.append(_WATCHED.set(self))
-
-    def __exit__(self, *raised: object) -> None:
-        _WATCHED.reset(self._tokens.pop())
+        token = _WATCHED.set(self)
+        try:
+            yield
+        finally:
+            _WATCHED.reset(token)
 
     def check_degree(self, degree: int, what: str) -> None:
         if degree > self.limits.unknown_degree:

@@ -40,8 +40,8 @@ _SHOWN_ERROR_BYTES = 20_000
 GRACE_SECONDS = 0.25
 _START_SECONDS = 120.0
 
-# A process may be killed while it starts; if as many as this in a row end so, something is wrong with all of them.
-_START_ATTEMPTS = 4
+# A signal may come from somebody else: so many starts in a row, or processes of one item, may end by one.
+_ATTEMPTS = 4
 
 # In order of the input, at most so many items are read beyond the first one that has no answer.
 ORDERED_WINDOW = 10_000
@@ -261,7 +261,7 @@ class Pool(AbstractContextManager["Pool"]):
         status, words = child.last_words()
         if not child.ready:
             self._failed_starts += 1
-            if self._failed_starts >= _START_ATTEMPTS:
+            if self._failed_starts >= _ATTEMPTS:
                 raise KovacicError(f"worker processes can't be started: {_cause(status, words)}\n{words}")
         item = child.items.popleft() if child.items else None
         self._replace(child)
@@ -270,7 +270,7 @@ class Pool(AbstractContextManager["Pool"]):
             self._losses[item.number] += 1
             if limit is not None:
                 yield stopped(item, limit, seconds)
-            elif self._losses[item.number] >= _processes_for(status):
+            elif self._losses[item.number] >= (_ATTEMPTS if status < 0 else 1):  # an exception repeats itself
                 yield refused(item, ProcessLost(_cause(status, words)), seconds)
             else:
                 self._again.appendleft(item)
@@ -318,13 +318,6 @@ def _read_ahead(items: Iterable[Item], events: SimpleQueue[Event]) -> Iterator[I
         if item is None:
             return
         yield item
-
-
-def _processes_for(status: int) -> int:
-    """How many processes an item may lose in this way: an exception repeats itself, a kill came from somebody else."""
-    if status >= 0:
-        return 1
-    return 4 if _signal_name(status) in ("SIGKILL", "SIGTERM") else 2
 
 
 def _cause(status: int, words: str) -> str:
