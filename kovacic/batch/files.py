@@ -20,7 +20,7 @@ import tempfile
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -82,7 +82,7 @@ def read_items(
         if form == "jsonl" and text and line.error is None:
             yield _json_item(line.number, text, var)
         elif line.error is not None or (text and (form == "jsonl" or not text.startswith("#"))):
-            yield replace(line, text=text)
+            yield Item(line.number, text, var, error=line.error)
 
 
 def count_items(name: str, *, form: str | None = None) -> int:

@@ -155,8 +155,8 @@ class _Writer:
 
     def certificate(self) -> Iterator[Block]:
         form, case = self.solution.semi_invariant, self.solution.case
-        if form is None or case is None:
-            return
+        assert form is not None
+        assert case is not None
         yield Heading("theta and P of the answer")
         yield say(DEGREE[case], f" = {form.P.degree}, and with theta and P:")
         yield Formula(self.formulas.named("theta", r"\theta", form.theta))
