@@ -1,9 +1,9 @@
 """General solutions as SymPy gives them: an equation goes in, `Eq(y(x), ...)` with constants comes out, or all w(x).
 
 `dsolve.dsolve` is the entry, and the module to read first.  `particular` finds a solution with the right-hand side by the
-cheapest way: `undetermined` coefficients, `variation` of parameters with known `antiderivatives`, or with SymPy's integrals in
-a process of their own.  `initial_values` determine the constants, for solutions that `real_basis` has made real there.
-`riccati` has the solutions of Riccati equations.
+cheapest way: `undetermined` coefficients, or `variation` of parameters with the integrals of `antiderivatives`.
+`initial_values` determine the constants, for solutions that `real_basis` has made real there.  `riccati` has the solutions
+of Riccati equations.
 """
 
 from kovacic.general_solution.dsolve import dsolve, in_special_functions

@@ -3,7 +3,8 @@
 - Products of powers and exponentials of rational functions (Ei, erf, gamma functions): `kovacic.closed_form.primitive`.
 - Logarithms and inverse tangents times these, by parts; waves times rational functions (sine and cosine integrals).
 - Tangents, cotangents, secants, ... times functions whose residues aren't constant: the rest, and an `Integral` that stays.
-- Polynomials times exponentials and waves in x, log(x) or exp(k x): Y' for Y'' = g, by undetermined coefficients.
+- Polynomials times exponentials and waves in x or exp(k x): Y' for Y'' = g, by undetermined coefficients.
+- All of these in log(x), a root of x, or an argument u of a function beside u'.
 - Rational functions of exp(k x), or of s = sin(theta) and c = cos(theta), theta = w x + phi, by partial fractions in
 
       c if g is odd in s,    s if g is odd in c,    tan(theta) if g(-s, -c) = g(s, c),    tan(theta/2) otherwise.
@@ -11,6 +12,7 @@
 
 from __future__ import annotations
 
+from math import lcm
 from typing import Any
 
 import sympy
@@ -25,6 +27,7 @@ from kovacic.closed_form.product import product
 from kovacic.errors import InputError
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import size
+from kovacic.limits import check_time
 from kovacic.reading.given import EULER, PI
 from kovacic.reading.read import read_input
 
@@ -49,6 +52,8 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
     rules = (
         _by_coefficients,
         _in_logarithms,
+        _in_roots,
+        _in_an_argument,
         _in_exponentials,
         _in_waves,
         _of_product,
@@ -60,6 +65,7 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
         inverse = [factor for factor in sympy.Mul.make_args(term) if factor.as_base_exp()[0].func in (log, atan)]
         groups.setdefault(sympy.Mul(*inverse), []).append(term)
     for inverse, terms in groups.items():
+        check_time()
         found = [next((part for rule in rules if (part := rule(term, x)) is not None), None) for term in terms]
         if None in found:
             found = [_by_parts(inverse, sympy.Add(*(term / inverse for term in terms)), x)]
@@ -89,11 +95,32 @@ def _by_coefficients(term: Expr, x: Expr) -> Expr | None:
 
 
 def _in_logarithms(term: Expr, x: Expr) -> Expr | None:
-    if not term.has(log):
-        return None
+    """In t = log(x)."""
     t = sympy.Dummy(real=True)
-    found = _by_coefficients(term.subs(x, exp(t)) * exp(t), t)
+    inner = prepared(term.subs(x, exp(t)) * exp(t)) if term.has(log(x)) else term
+    found = None if inner.has(log) or inner.has(x) else antiderivative(inner, t)
     return None if found is None else in_powers(found, t, x)
+
+
+def _in_roots(term: Expr, x: Expr) -> Expr | None:
+    """In the root of x that stands within functions."""
+    arguments = [f.args[0] for f in term.atoms(sympy.Function)]
+    q = lcm(*(int(p.exp.q) for u in arguments for p in u.atoms(sympy.Pow) if p.base == x and p.exp.is_Rational))
+    t = sympy.Dummy(positive=True)
+    found = None if q == 1 else antiderivative(term.subs(x, t**q) * q * t ** (q - 1), t)
+    return None if found is None else found.subs(t, sympy.root(x, q))
+
+
+def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
+    """In an argument u of a function, beside whose slope the term is one of u."""
+    u = sympy.Dummy()
+    for argument in sorted(
+        {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}, key=str
+    ):
+        inner = (term / argument.diff(x)).subs(argument, u)
+        if not inner.has(x) and (found := antiderivative(inner, u)) is not None:
+            return found.subs(u, argument)
+    return None
 
 
 def _in_exponentials(term: Expr, x: Expr) -> Expr | None:

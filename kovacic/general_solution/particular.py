@@ -48,7 +48,7 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
     if change is not None:  # in x, where y'' = (dt/dx)^2 Y'' + ...
         right = in_terms_of(change, right / Atoms(x).ratio(equation.a).xreplace(NUMBERS), x.name)
         slope = in_terms_of(change, x, x.name).diff(basis.x)
-        return basis.with_integrals(sympy.powsimp(sympy.expand(right * slope**2)), start, budget.seconds_left)
+        return basis.with_integrals(sympy.powsimp(sympy.expand(right * slope**2)), start)
 
     def at_once(right: Expr) -> Expr:
         f, field = ratfunc(right, x), equation.a.field
@@ -71,7 +71,7 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
         parts = {term: at_once(term) for term in terms} if 1 < len(terms) <= _LARGEST_SUM else {}
         known = {term: part for term, part in parts.items() if part is not None}
         rest = sympy.Add(*(term for term in terms if term not in known)) if known else right
-        integrals = basis.with_integrals(rest, start, budget.seconds_left) if rest != 0 else 0
+        integrals = basis.with_integrals(rest, start) if rest != 0 else 0
         return sympy.Add(integrals, *known.values())
 
     right = right / Atoms(x).ratio(equation.a).xreplace(NUMBERS)

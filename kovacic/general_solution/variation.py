@@ -1,12 +1,11 @@
 """Variation of parameters: y = -y1 int y2 f/(a W) dx + y2 int y1 f/(a W) dx,  W = y1 y2' - y1' y2.
 
-Where the integrals aren't known at once, SymPy's simplification and integration work in a process that can be interrupted.
+Integrals that aren't known stay as they are: SymPy's rules know hardly any others, and take seconds to find that out.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -17,12 +16,12 @@ from flint import acb, arb, ctx, fmpq
 from sympy import cos, expand, powsimp, sin
 from sympy.simplify.fu import TR8
 
-from kovacic.algebra.apart import last_of
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import one_exponential
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
+from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
 from kovacic.general_solution.values import size, wronskian_at
 from kovacic.reading.given import Equation
@@ -30,10 +29,6 @@ from kovacic.reading.given import Equation
 Expr = Any  # SymPy publishes no types
 #: Points x/101 + i y/89 in each quadrant and on the axis, where a solution is substituted: wrong branches of roots don't pass.
 _POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79), (23, 0), (67, 0), (173, 0), (431, 0), (-41, 0), (-257, 0)]
-#: The largest expression (in subexpressions) that is handed to SymPy's general simplification.
-_SIMPLIFIED = 350
-#: Seconds for an integral in SymPy's rules, at most: these end in one, or hardly ever.
-SECONDS = 2.0
 #: Functions whose values at points aren't known in closed form.
 _UNKNOWN = (sympy.RootSum, sympy.Integral)
 #: C1 with C2 and C1 C2' - C1' C2.
@@ -136,45 +131,24 @@ class Basis:
         found = one_exponential(min(candidates, key=size))
         return found if is_solution(found, coefficients, right, self.x) else None
 
-    def with_integrals(self, right: Expr, start: Expr | None, seconds: float) -> Expr:
-        """A solution of y'' + ... = right; integrals that aren't done in time stay, and begin at `start` unless it is None."""
+    def with_integrals(self, right: Expr, start: Expr | None) -> Expr:
+        """A solution of y'' + ... = right; integrals that aren't known stay, and begin at `start` unless it is None."""
         coefficients = rates(self.equation, self.x)  # while there is time
         integrands = [powsimp(y * right / self.wronskian) for y in (self.y2, self.y1)]
-        known = [antiderivative(integrand, self.x) for integrand in integrands]
-        plain, own = list(integrands), list(known)
-        asked, limit = [k for k in (0, 1) if known[k] is None], min(seconds / 2, SECONDS)
-        with ThreadPoolExecutor() as pool:  # two processes
-            found = pool.map(lambda k: last_of(_stages, integrands[k], self.x, seconds=limit), asked)
-            for k, stages in zip(asked, found, strict=True):
-                integrands[k], known[k] = stages or (integrands[k], None)
+        known: list[Any] = [None, None]
+        with suppress(LimitExceeded):
+            known = [antiderivative(integrand, self.x) for integrand in integrands]
         if None not in known and self.equation.change is None:
             whole = self._checked(known, right, coefficients)
             if whole is not None:
                 return whole.replace(lambda e: e.func is sympy.Integral, lambda e: _open(e.function, self.x, start))
         direct = [y * right / self._by_definition for y in (self.y2, self.y1)]
-        tried = ((integrands, known), (plain, own), (direct, (None, None)))  # SymPy's forms may have other branches
-        for forms, done in tried:
+        for forms, done in ((integrands, known), (direct, (None, None))):  # known integrals may have other branches
             first, second = (_open(g, self.x, start) if G is None else G for g, G in zip(forms, done, strict=True))
             found = self.y2 * second - self.y1 * first
             if forms is direct or self.equation.change is not None or is_solution(found, coefficients, right, self.x):
                 break
         return found
-
-
-def _stages(integrand: Expr, x: Expr) -> Iterator[tuple[Expr, Expr | None]]:
-    """The integrand in a shorter form, then its integral as well, if SymPy's rules for hand calculation give it."""
-    shorter = simplified(integrand)
-    yield shorter, None
-    parts = []
-    for term in sympy.Add.make_args(prepared(shorter)):
-        done = antiderivative(term, x)
-        forms = (expand(powsimp(term), power_exp=False), term)  # exp(x^2) exp(x) as exp(x^2 + x)
-        tried = (sympy.Integral(form, x).doit(manual=True) for form in forms if done is None)
-        done = next((e for e in tried if not e.has(sympy.Integral)), done)
-        if done is None:
-            return
-        parts.append(done)
-    yield shorter, sympy.Add(*parts)
 
 
 def special_wronskian(y1: Expr, y2: Expr, x: Expr) -> Expr | None:
@@ -214,11 +188,6 @@ def _gathered(form: Expr, x: Expr) -> Expr:
         groups.setdefault(rest, []).append(term / rest)
     fractions = {rest: sympy.Add(*parts) for rest, parts in groups.items()}
     return sympy.Add(*(rest * (f if f.is_polynomial(x) else sympy.factor(f)) for rest, f in fractions.items()))
-
-
-def simplified(expression: Expr) -> Expr:
-    """Simplified, if it isn't long: only in a process that can be interrupted."""
-    return sympy.simplify(expression) if size(expression) < _SIMPLIFIED else expression
 
 
 def starting_at(y: Expr, x: Expr, start: Expr) -> Expr:
