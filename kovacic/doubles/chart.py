@@ -41,34 +41,73 @@ _NOISE = 2.0**-40
 
 @dataclass(frozen=True)
 class Chart:
-    """The equation a y'' + b y' + c y = f, and which solution: the options of `evaluate`."""
+    """The equation a y'' + b y' + c y = f, and which solution: the options of `evaluate`.
+
+    Where `answer`, the equation or solution in x, has a change of variable, the problem is that in t; else t = x.
+    """
 
     problem: NumericProblem
     given: dict[str, Any]
     branch: Exponential | None = None
+    answer: Any = None
+    params: Mapping[str, object] | None = None
+
+    @cached_property
+    def _functions(self) -> tuple[Any, Callable[[Any, acb], acb]]:
+        """t, a SymPy expression, and expressions as functions of x in balls."""
+        import sympy
+
+        from kovacic.enclosure.change import function_of_x
+
+        change = self.answer.equation.change
+        x = sympy.Symbol(change.variable)
+        return function_of_x(change, self.params), lambda f, at: in_balls(f, {x: at})
+
+    def _values(self, x: acb) -> tuple[acb, acb]:
+        """t and dt/dx."""
+        if self.answer is None:
+            return x, acb(1)
+        t, at = self._functions
+        return at(t, x), at(t.diff(), x)
 
     def region(self, interval: tuple[object, object]) -> tuple[Region, list[Point]]:
-        """See `region_of`."""
-        return region_of(self.problem, interval)
+        """See `region_of`; raises InputError, with the reason, where t isn't known to be real and monotone."""
+        found = region_of(self.problem if self.answer is None else None, interval)
+        if self.answer is not None and self.given:
+            self.states([as_point(end.real, "x") for end in (found[0].low, found[0].high)], 3, None)
+        return found
+
+    def _in_t(self, x: Point) -> Point:
+        with working_precision(_SLOPE_BITS + 200):
+            return x if self.answer is None else midpoint(self._values(acb(x.x))[0])
 
     def base(self, which: int, candidates: list[Point]) -> Point:
         """The first of the points where the logarithmic derivative number `which` is finite."""
-        return finite_base(self.problem, which, candidates)
+        points = [self._in_t(x) for x in candidates]
+        return candidates[points.index(finite_base(self.problem, which, points))]
 
     def beginning(self, which: int, base: Point) -> Chart:
         """The solution with this logarithmic derivative, 1 at the base."""
-        branches = exponentials(self.problem)
+        branches = exponentials(self.problem) if self.answer is None else []
         if branches:
             return replace(self, given={"x0": base}, branch=branches[which])
-        slope = ball_from_flint(omega(self.problem, which, base, _SLOPE_BITS))
-        return replace(self, given={"x0": base, "y0": 1, "dy0": slope})
+        slope = omega(self.problem, which, self._in_t(base), _SLOPE_BITS)
+        with working_precision(_SLOPE_BITS + 200):
+            slope *= self._values(to_acb(base))[1]
+        return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope)})
 
     def states(self, points: Sequence[Point], digits: int, limits: Limits | None, **options: Any) -> list[State]:
-        """y and y', to so many digits where they can be had."""
+        """y and dy/dx, to so many digits where they can be had."""
         if self.branch is not None:
             return self._closed(self.branch, points, digits, Budget(limits or DEFAULT_LIMITS))
         options |= {"digits": digits, "limits": limits, **self.given}
-        return [s.state for s in evaluate_states(self.problem, points, **options)]
+        if self.answer is None:
+            return [s.state for s in evaluate_states(self.problem, points, **options)]
+        from kovacic.enclosure.change import evaluate_in_x
+
+        options |= {"params": self.params, "derivative": True, "path": self.given.get("path")}  # along the real axis
+        found = evaluate_in_x(self.answer, self.answer.equation.change, [*points], **options)
+        return [(ball_to_flint(y), ball_to_flint(dy)) for y, dy in found]
 
     def _closed(self, branch: Exponential, points: Sequence[Point], digits: int, budget: Budget) -> list[State]:
         """y = exp(int theta) P/P(base) and y' from the certificate: without the zeros of P, and without an integration of the
@@ -90,10 +129,6 @@ class Chart:
                 return [found[point] for point in points]
             prec *= 2
 
-    def singular_points(self) -> list[Point]:
-        """The midpoints of enclosures."""
-        return self.problem.singular_points(128)
-
     @cached_property
     def forcing(self) -> Forcing | None:
         """f/a, None where it is zero."""
@@ -104,30 +139,31 @@ class Chart:
         return self.problem.equation if self.problem.embedded is None else self.problem.embedded.equation()
 
     @cached_property
-    def _singular(self) -> list[Point]:
-        return self.singular_points()
+    def singular(self) -> list[Point]:
+        """The midpoints of enclosures; values beyond one are refused where there is a change of variable."""
+        return self.problem.singular_points(128) if self.answer is None else []
 
     def steepness(self, x: Any, h: Any) -> Any:
         """Lower bounds of the larger characteristic root |r|, a r^2 + h b r + h^2 c = 0, at points x: by |r1 r2| and
         |r1 + r2|, in plain doubles with room for their errors; infinite where a singular point is nearer than 4 h."""
+        if self.answer is not None:
+            return 0.0 * x
+        parts = [[arb(v) for v in reversed(part.coeffs())] for part in self._equation]
+        largest = max(abs(v).mid() for part in parts for v in part)
+        doubles = [np.array([float(v / largest) for v in part]) for part in parts]
         with np.errstate(all="ignore"):
-            sizes = [(np.abs(np.polyval(p, x)), _NOISE * np.polyval(np.abs(p), np.abs(x))) for p in self._doubles]
+            sizes = [(np.abs(np.polyval(p, x)), _NOISE * np.polyval(np.abs(p), np.abs(x))) for p in doubles]
             (a, b, c), (p, q, r) = zip(*sizes, strict=True)
             found = np.fmax(np.sqrt(np.fmax(c - r, 0.0) / (a + p)) * h, (b - q) / (a + p) * h / 2)
-            for point in self._singular:
+            for point in self.singular:
                 found[np.abs(x - to_double(point)) + _NOISE * np.abs(x) < 4 * h] = np.inf
             return found
 
-    @cached_property
-    def _doubles(self) -> list[Any]:
-        """The polynomials a, b, c over a common factor, coefficients high to low."""
-        parts = [[arb(v) for v in part.coeffs()] for part in self._equation]
-        largest = max(abs(v).mid() for part in parts for v in part)
-        return [np.array([float(v / largest) for v in reversed(part)]) for part in parts]
-
     def local(self, centre: Point, e: int, terms: int) -> list[list[arb]] | None:
         """a, H b and H^2 c over a(c), so many terms in u; None where a singular point is nearer than 4 H."""
-        if any((centre - point).norm_squared() < power_of_two(2 * e + 4) for point in self._singular):
+        if self.answer is not None:
+            return self._changed(centre, e, terms)
+        if any((centre - point).norm_squared() < power_of_two(2 * e + 4) for point in self.singular):
             return None
         line: Any = fmpq_poly([centre.x, power_of_two(e)])
         line = line if self.problem.embedded is None else arb_poly(line)
@@ -137,74 +173,7 @@ class Chart:
         factors = [arb((1, k * e)) / found[0][0] for k in range(3)]
         return [[v * factor for v in part] for part, factor in zip(found, factors, strict=True)]
 
-    def source(self, centre: Point, e: int, u: arb) -> arb:
-        """H^2 f/a at u."""
-        assert self.forcing is not None
-        return self.forcing.value(acb(centre.x) + acb(u) * acb(arb((1, e)))).real * arb((1, 2 * e))
-
-
-@dataclass(frozen=True)
-class Changed(Chart):
-    """The problem is that in t; `answer` has the equation with its change of variable."""
-
-    answer: Any = None
-    params: Mapping[str, object] | None = None
-
-    @cached_property
-    def _functions(self) -> tuple[Any, Callable[[Any, acb], acb]]:
-        """t, a SymPy expression, and expressions as functions of x in balls."""
-        import sympy
-
-        from kovacic.enclosure.change import function_of_x
-
-        change = self.answer.equation.change
-        x = sympy.Symbol(change.variable)
-        return function_of_x(change, self.params), lambda f, at: in_balls(f, {x: at})
-
-    def _values(self, x: acb) -> tuple[acb, acb]:
-        t, at = self._functions
-        return at(t, x), at(t.diff(), x)
-
-    def region(self, interval: tuple[object, object]) -> tuple[Region, list[Point]]:
-        """Raises InputError, with the reason, where there are no values at its ends."""
-        found = region_of(None, interval)
-        if self.given:
-            self.states([as_point(end.real, "x") for end in (found[0].low, found[0].high)], 3, None)
-        return found
-
-    def _in_t(self, x: Point) -> Point:
-        with working_precision(_SLOPE_BITS + 200):
-            return midpoint(self._values(acb(x.x))[0])
-
-    def base(self, which: int, candidates: list[Point]) -> Point:
-        """In x."""
-        points = [self._in_t(x) for x in candidates]
-        return candidates[points.index(finite_base(self.problem, which, points))]
-
-    def beginning(self, which: int, base: Point) -> Chart:
-        """In x."""
-        slope = omega(self.problem, which, self._in_t(base), _SLOPE_BITS)
-        with working_precision(_SLOPE_BITS + 200):
-            slope *= self._values(acb(base.x))[1]
-        return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope)})
-
-    def states(self, points: Sequence[Point], digits: int, limits: Limits | None, **options: Any) -> list[State]:
-        """y and dy/dx; along the real axis."""
-        from kovacic.enclosure.change import evaluate_in_x
-
-        options |= {"digits": digits, "limits": limits, "path": None, "params": self.params, **self.given}
-        found = evaluate_in_x(self.answer, self.answer.equation.change, [*points], derivative=True, **options)
-        return [(ball_to_flint(y), ball_to_flint(dy)) for y, dy in found]
-
-    def singular_points(self) -> list[Point]:
-        """None: values beyond one are refused."""
-        return []
-
-    def steepness(self, x: Any, h: Any) -> Any:
-        """Nothing is known."""
-        return 0.0 * x
-
-    def local(self, centre: Point, e: int, terms: int) -> list[list[arb]] | None:
+    def _changed(self, centre: Point, e: int, terms: int) -> list[list[arb]] | None:
         """Equation (1); None where a(c) or t'(c) is zero.  Raises InputError where it isn't real."""
         (t, at), cap = self._functions, ctx.cap
         argument = t.args[0]
@@ -254,7 +223,7 @@ def chart_of(
                 raise reason from None
     plain = replace(answer.equation, change=None)
     inner = replace(answer, equation=plain) if hasattr(answer, "decision") else plain
-    return Changed(_real_problem(inner, params, constants), given, answer=answer, params=params)
+    return Chart(_real_problem(inner, params, constants), given, None, answer, params)
 
 
 def _real_problem(equation: object, params: Mapping[str, object] | None, constants: bool) -> NumericProblem:

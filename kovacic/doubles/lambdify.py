@@ -116,7 +116,7 @@ def lambdify(
             chart = chart.beginning(which, base)
         form: ProductForm | None = None
         for variant in variants:
-            if base is not None and type(chart) is Chart and (form is None or form.polynomial is not None):
+            if base is not None and chart.answer is None and (form is None or form.polynomial is not None):
                 with working_precision(_PREC):
                     form = product_form(problem, which, region, base, variant)
             if form is None and not region.is_real:
@@ -236,6 +236,8 @@ def _grid(function: Function) -> Any:
 
 def _zeros(function: Function) -> tuple[Any, Any]:
     """Changes of sign of a real function on an interval, and the distances to the next ones or the ends; none of others."""
+    if isinstance(function, Function):
+        function = replace(function, careful=False)
     x = _grid(function)
     y = function(x)
     if np.iscomplexobj(y):

@@ -59,7 +59,7 @@ def sample(
     if points < 2:
         raise InputError("at least 2 points are needed")
     chart = chart_of(equation, {}, options.pop("params", None))
-    singular = chart.singular_points()
+    singular = chart.singular
     cuts = sorted({z.re for z in singular if z.is_real() and a.re <= z.re <= b.re})
     wild = {float(midpoint(root).re) for root, order in chart.problem.system.roots("den", 128) if order > 2}
     grids, longest = [], (a.re, a.re)
