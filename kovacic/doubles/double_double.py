@@ -151,10 +151,9 @@ def scaled(a: Any, e: Any) -> Any:
 
 
 def split(z: Complex) -> tuple[Complex, Any]:
-    """(z 2^-e, e), where 4 divides e and 2^e is about |z|."""
+    """(z 2^-e, e), where 2^e is about |z|."""
     size = np.abs(double(z.re)) if z.im is None else np.maximum(np.abs(double(z.re)), np.abs(double(z.im)))
     e = np.frexp(size)[1]
-    e -= e % 4
     return Complex(scaled(z.re, -e), None if z.im is None else scaled(z.im, -e)), e
 
 

@@ -11,7 +11,7 @@ interval.  With X = x + g'(0)/2 and g = X^2 + m for deg g = 2 (g is monic):
 
 - Polynomial factors stay products over their zeros z_k, which are double-doubles: t - z_k keeps its digits near a zero.
   Those with many zeros are tabulated (`kovacic.doubles.tabulate`).
-- Powers that are small multiples of 1/4 are multiplied out, with the binary exponent apart; all others are one logarithm.
+- Powers that are small integers are multiplied out, with the binary exponent apart; all others are one logarithm.
 - E and F are kept as partial fractions.
 - |turn_j| = 1, and (t - zeta_j)/turn_j > 0 at the middle of the interval, so that the principal power is the continuous
   one along the straight line from there: a quotient of points on a line that misses 0 never meets the negative real axis.
@@ -49,7 +49,7 @@ from kovacic.doubles.tabulate import TabulatedFunction
 from kovacic.enclosure.points import Point
 
 _MULTIPLIED_OUT = 8
-"""Powers up to here are multiplied out, if they are multiples of 1/4."""
+"""Powers up to here are multiplied out, if they are integers."""
 
 _ROOM = 900.0
 """Bits that a plain product may grow by before its binary exponent is taken out."""
@@ -109,10 +109,10 @@ class Factor:
         return math.hypot(self.zeta.re.hi, 0.0 if self.zeta.im is None else self.zeta.im.hi)
 
     @property
-    def quarters(self) -> int | None:
-        """Four times the power, where that is a small integer."""
-        k = 4 * self.power.re.hi
-        return round(k) if self.power.im is None and abs(k) <= 4 * _MULTIPLIED_OUT and k == round(k) else None
+    def whole(self) -> int | None:
+        """The power, where that is a small integer."""
+        k = self.power.re.hi
+        return round(k) if self.power.im is None and abs(k) <= _MULTIPLIED_OUT and k == round(k) else None
 
 
 @dataclass(frozen=True)
@@ -226,19 +226,18 @@ class _Product:
 
     def multiply(self, f: Factor, growth: list[Complex | None]) -> None:
         """One factor more."""
-        d, power, quarters = self.t - f.zeta, f.power, f.quarters
+        d, power, whole = self.t - f.zeta, f.power, f.whole
         d, e = split(d) if self.careful else (d, 0)
         if f.paired:
             if power.im is not None:
                 growth.append(Complex(angle(d * f.turn.conjugate()) * (power.im * Pair(-2.0))))
             d, e, power = Complex(d.re * d.re + d.im * d.im), 2 * e, Complex(power.re)
-        natural = quarters is not None and quarters > 0 and quarters % 4 == 0
-        if d.im is None and not natural:
+        if d.im is None and (whole is None or whole < 0):
             d = Complex(absolute(d.re))
-        if quarters is None and d.im is None and power.im is None and not self.careful:
+        if whole is None and d.im is None and power.im is None and not self.careful:
             self._times(Complex(np.power(d.re, power.re.hi)), 0)  # exact but for one rounding, unlike a logarithm
             return
-        if quarters is None or (d.im is not None and not natural):
+        if whole is None or (d.im is not None and whole < 0):
             if d.im is None:
                 logarithm = Complex(log(d.re))
             else:
@@ -247,14 +246,10 @@ class _Product:
                 logarithm += Complex(LOG_2 * Pair(0.0 + e))
             growth.append(power * logarithm)
             return
-        self.binary = self.binary + e * quarters // 4
-        whole, rest = divmod(abs(quarters), 4)
-        pieces = [d] * whole
-        if rest:
-            root = square_root(d.re)
-            pieces += [Complex(root)] * (rest // 2) + [Complex(square_root(root))] * (rest % 2)
-        if quarters < 0:
-            pieces = [math.prod(pieces[1:], start=pieces[0]).reciprocal()]
+        self.binary = self.binary + e * whole
+        pieces = [d] * abs(whole)
+        if whole < 0:
+            pieces = [math.prod(pieces[1:], start=d).reciprocal()]
         for piece in pieces:
             self._times(piece, 2 if f.paired else 1)
 
