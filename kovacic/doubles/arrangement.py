@@ -18,12 +18,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 from flint import acb, acb_poly, arb
 
-from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.structure import OnCurve, build
 from kovacic.doubles.double_double import Complex, Pair
@@ -138,11 +137,6 @@ def _parameters(conic: Conic, a: acb) -> tuple[acb, tuple[acb, acb] | None]:
     return s, None if right.contains(0) else (s / right, -s / right)
 
 
-def _rounded(conic: Conic) -> Conic:
-    vertex, m, *ends = (Pair.of(v) for v in (conic.vertex, conic.m, *conic.ends))
-    return replace(conic, vertex=vertex, m=m, ends=tuple(ends))
-
-
 def conic_of(g: acb_poly, middle: arb) -> Conic | None:
     """The curve whose s is real near `middle`; None for another degree, or coefficients that aren't real."""
     coefficients: list[Any] = g.coeffs()
@@ -161,22 +155,13 @@ def conic_of(g: acb_poly, middle: arb) -> Conic | None:
     return Conic(Shape.HYPERBOLA if sigma > 0 else Shape.ELLIPSE, sigma, vertex, m, ends)
 
 
-@dataclass(frozen=True)
-class _Place:
-    """A point a of the x-line with its residues: mu of phi/2, and rho of r."""
-
-    a: acb
-    mu: acb
-    rho: acb
-
-
 def _on_curve(problem: NumericProblem, which: int, region: Region, base: Point) -> ProductForm | None:
     """Equation (1), or None."""
     decision, S = certified(problem), problem.S
     assert decision.semi_invariant is not None
     assert S is not None
     theta, P = decision.semi_invariant.theta, decision.semi_invariant.P
-    if decision.case != 2 or P.degree > _MAX_ZEROS or _branch_points(theta) > 2:
+    if decision.case != 2 or P.degree > _MAX_ZEROS:
         return None
     form = build(S, decision, S * 0)
     assert isinstance(form, OnCurve)
@@ -204,49 +189,37 @@ def _on_curve(problem: NumericProblem, which: int, region: Region, base: Point) 
     is_real = _all_real([kappa]) and _all_real([*embed(P, c).coeffs(), *smooth.num.coeffs()])
     factors = _factors(_powers(places, conic, kappa, rest), parameters[0], is_real)
     sheet = _sheet(form.integral.exact, kappa * conic.sigma, c)
-    return ProductForm(region, base, factors, _exponent(smooth), is_real, sheet, _rounded(conic))
+    vertex, m, *ends = (Pair.of(v) for v in (conic.vertex, conic.m, *conic.ends))
+    conic = replace(conic, vertex=vertex, m=m, ends=tuple(ends))
+    return ProductForm(region, base, factors, _exponent(smooth), is_real, sheet, conic)
 
 
-def _branch_points(theta: RatFunc) -> int:
-    """The degree of g: the number of points where y1 y2 has a half-integer exponent."""
-    return sum(
-        residue.factor.degree
-        for residue in decompose(theta * 2).residues
-        if residue.is_constant
-        and (exponent := residue.value.field.rational_value(residue.value)) is not None
-        and exponent.numerator % 2
-    )
-
-
-def _places(smooth: LogDerivative, P: Any, residues: tuple[Any, ...], c: acb | None) -> list[_Place]:
+def _places(smooth: LogDerivative, P: Any, residues: tuple[Any, ...], c: acb | None) -> list[list[acb]]:
+    """Points a of the x-line with their residues: mu of phi/2, and rho of r."""
     zero = acb(0)
-    found = [_Place(pole.zeta, pole.coefficients[0], zero) for pole in smooth.poles]
-    found += [_Place(a, acb(k) / 2, zero) for a, k in zeros(P, c)]
-    for residue in residues:
-        for a, _ in zeros(residue.factor, c):
-            found.append(_Place(a, zero, embed(residue.value, c)(a)))
-    merged: list[_Place] = []
-    for place in found:
-        same = [k for k, other in enumerate(merged) if (other.a - place.a).abs_upper() < _SAME * (1 + abs(place.a))]
-        if same:
-            other = merged[same[0]]
-            merged[same[0]] = _Place(other.a, other.mu + place.mu, other.rho + place.rho)
+    found = [[pole.zeta, pole.coefficients[0], zero] for pole in smooth.poles]
+    found += [[a, acb(k) / 2, zero] for a, k in zeros(P, c)]
+    found += [[a, zero, embed(part.value, c)(a)] for part in residues for a, _ in zeros(part.factor, c)]
+    merged: list[list[acb]] = []
+    for a, mu, rho in found:
+        for other in merged:
+            if (other[0] - a).abs_upper() < _SAME * (1 + abs(a)):
+                other[1:] = other[1] + mu, other[2] + rho
+                break
         else:
-            merged.append(place)
+            merged.append([a, mu, rho])
     return merged
 
 
-def _powers(places: list[_Place], conic: Conic, kappa: acb, rest: acb) -> Powers:
+def _powers(places: list[list[acb]], conic: Conic, kappa: acb, rest: acb) -> Powers:
     """The exponents in t of (1)."""
-    total, i = acb(0), acb(0, 1)
+    total, i = sum((mu for _, mu, _ in places), acb(0)), acb(0, 1)
     found: Powers = []
-    for place in places:
-        s, parameters = _parameters(conic, place.a)
-        total += place.mu
-        if parameters is None:
-            continue
-        epsilon = acb(0) if place.rho.is_zero() else kappa * place.rho / s
-        found += [(parameters[0], place.mu + epsilon), (parameters[1], place.mu - epsilon)]
+    for a, mu, rho in places:
+        s, parameters = _parameters(conic, a)
+        if parameters is not None:
+            epsilon = acb(0) if rho.is_zero() else kappa * rho / s
+            found += [(parameters[0], mu + epsilon), (parameters[1], mu - epsilon)]
     if conic.shape is Shape.HYPERBOLA:
         found.append((acb(0), kappa * rest - total))
     elif conic.shape is Shape.ELLIPSE:
