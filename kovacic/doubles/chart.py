@@ -53,15 +53,16 @@ class Chart:
     params: Mapping[str, object] | None = None
 
     @cached_property
-    def _functions(self) -> tuple[Any, Callable[[Any, acb], acb]]:
-        """t, a SymPy expression, and expressions as functions of x in balls."""
+    def _functions(self) -> tuple[Any, Callable[[Any, Any], Any]]:
+        """t, a SymPy expression, and expressions as functions of x in balls or series."""
         import sympy
 
         from kovacic.enclosure.change import function_of_x
 
         change = self.answer.equation.change
         x = sympy.Symbol(change.variable)
-        return function_of_x(change, self.params), lambda f, at: in_balls(f, {x: at})
+        t = function_of_x(change, self.params).rewrite([sympy.sinh, sympy.cosh], sympy.exp)
+        return t, lambda f, at: in_balls(f, {x: at})
 
     def _values(self, x: acb) -> tuple[acb, acb]:
         """t and dt/dx."""
@@ -176,11 +177,9 @@ class Chart:
     def _changed(self, centre: Point, e: int, terms: int) -> list[list[arb]] | None:
         """Equation (1); None where a(c) or t'(c) is zero.  Raises InputError where it isn't real."""
         (t, at), cap = self._functions, ctx.cap
-        argument = t.args[0]
         ctx.cap = terms + 2  # FLINT's series end there
         try:
-            line = acb_series([at(argument, acb(centre.x)), at(argument.diff(), acb(0)) * arb((1, e))])
-            s = _FUNCTIONS[type(t).__name__](line)
+            s = at(t, acb_series([centre.x, arb((1, e))]))
             a, b, c = (horner(reversed(p.coeffs()), s) if p else acb_series([]) for p in self._equation)
             d = s.derivative()
             found = [(b * d / a - d.derivative() / d).coeffs()[:terms], (c * d * d / a).coeffs()[:terms]]
@@ -197,16 +196,6 @@ class Chart:
         assert self.forcing is not None
         t, slope = self._values(acb(centre.x) + acb(u) * acb(arb((1, e))))
         return (self.forcing.value(t) * slope**2).real * arb((1, 2 * e))
-
-
-_FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
-    "exp": lambda w: w.exp(),
-    "sin": lambda w: w.sin(),
-    "cos": lambda w: w.cos(),
-    "tan": lambda w: w.tan(),
-    "sinh": lambda w: (w.exp() - (-w).exp()) / 2,
-    "cosh": lambda w: (w.exp() + (-w).exp()) / 2,
-}
 
 
 def chart_of(

@@ -128,11 +128,6 @@ class Complex:
             return Complex(self.re * other.re, self.re * other.im)
         return Complex(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
 
-    @property
-    def is_zero(self) -> bool:
-        """Is this the constant 0?"""
-        return self.im is None and isinstance(self.re, Pair) and np.ndim(self.re.hi) == 0 and self.re == Pair(0.0)
-
     def conjugate(self) -> Complex:
         """re - i im."""
         return Complex(self.re, None if self.im is None else -self.im)
@@ -186,9 +181,7 @@ def horner(coefficients: Iterable[Any], x: Any) -> Any:
     """A polynomial (coefficients high to low) at x, of numbers of any kind here."""
     first, *rest = coefficients
     for c in rest:
-        first = first * x
-        if not (isinstance(c, Complex) and c.is_zero):
-            first = first + c
+        first = first * x + c
     return first
 
 
@@ -202,19 +195,19 @@ def folded(a: Pair) -> Pair:
     return a[0]
 
 
-def _table(values: list[arb]) -> Pair:
-    """Numbers as a pair of arrays."""
+def halves(values: list[arb]) -> Any:
+    """The high and low halves of the numbers next to the midpoints."""
     pairs = [Pair.of(v) for v in values]
-    return Pair(np.array([p.hi for p in pairs]), np.array([p.lo for p in pairs]))
+    return np.array([[p.hi for p in pairs], [p.lo for p in pairs]])
 
 
 with working_precision(160):
     LOG_2 = Pair.of(arb(2).log())
     _RECIPROCALS = tuple(Pair.of(arb(1) / (2 * k + 1)) for k in reversed(range(7)))
     _ALTERNATING = tuple(Pair.of(arb((-1) ** k) / (2 * k + 1)) for k in reversed(range(7)))
-    _LOGARITHMS = _table([(arb(max(k, 1)) / 64).log() for k in range(93)])  # log(k/64), and 0 in place of log 0
-    _COSINES = _table([(arb(k) / 64).cos() for k in range(-202, 203)])
-    _SINES = _table([(arb(k) / 64).sin() for k in range(-202, 203)])
+    _LOGARITHMS = Pair(*halves([(arb(max(k, 1)) / 64).log() for k in range(93)]))  # log(k/64), and 0 in place of log 0
+    _COSINES = Pair(*halves([(arb(k) / 64).cos() for k in range(-202, 203)]))
+    _SINES = Pair(*halves([(arb(k) / 64).sin() for k in range(-202, 203)]))
 
 
 def log(a: Any) -> Any:

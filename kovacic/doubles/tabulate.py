@@ -32,7 +32,7 @@ from numpy.polynomial import chebyshev
 
 from kovacic.algebra.rationals import to_fmpq
 from kovacic.doubles.chart import Chart, chart_of
-from kovacic.doubles.double_double import Pair, double, folded, horner, scaled, two_sum
+from kovacic.doubles.double_double import Pair, double, folded, halves, horner, scaled, two_sum
 from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import State
@@ -113,8 +113,8 @@ class TabulatedFunction:
         found = np.zeros((len(self.coefficients), 1 + self.careful, flat.size))
         for where, k in runs:
             u = scaled(two_sum(flat[where], -self.centres[k]), -self.exponents[k])
-            for row, halves in zip(found, self.coefficients[:, :, ::-1, k], strict=True):
-                value = horner(map(Pair, *halves), u) if self.careful else Pair(horner(halves[0], u.hi))
+            for row, table in zip(found, self.coefficients[:, :, ::-1, k], strict=True):
+                value = horner(map(Pair, *table), u) if self.careful else Pair(horner(table[0], u.hi))
                 for half, numbers in zip(row, (value.hi, value.lo), strict=False):
                     half[where] = numbers
         numbers = [Pair(*row) if self.careful else row[0] for row in found]
@@ -193,8 +193,8 @@ def polynomial_table(
         powers = np.array([int(log2(max(abs(v).mid() for v in row))) for row in found])
         rows = [[v * arb((1, -int(k))) for v in row] for row, k in zip(found, powers, strict=True)]
         names = ("real", "imag") if isinstance(rows[0][0], acb) else ("real",)
-        halves = [_halves([getattr(v, name) for row in rows for v in row]) for name in names]
-    table = np.array(halves).reshape(len(names), 2, len(rows), -1).transpose(1, 3, 0, 2)
+        parts = [halves([getattr(v, name) for row in rows for v in row]) for name in names]
+    table = np.array(parts).reshape(len(names), 2, len(rows), -1).transpose(1, 3, 0, 2)
     return _assembled(region, None, cells, Pair(*table), powers, variant)
 
 
@@ -271,8 +271,8 @@ def _pieces(
         halved = [(c, power_of_two(e - 1), e - 1) for (c, e), out in zip(open_, no, strict=True) if out]
         if any(e < _SMALLEST for _, _, e in halved):
             raise LimitExceeded("no piece of positive size was found for the table", limit="unknown_degree")
-        halves = ((c + sign * half, half, e) for c, half, e in halved for sign in (-1, 1))
-        open_ = [(c, e) for c, half, e in halves if c + half > low and c - half < high]
+        both = ((c + sign * half, half, e) for c, half, e in halved for sign in (-1, 1))
+        open_ = [(c, e) for c, half, e in both if c + half > low and c - half < high]
     done.sort(key=lambda item: item[0])
     return [cell for cell, _ in done], [item for _, item in done]
 
@@ -286,11 +286,11 @@ def _series(chart: Chart, cells: list[Cell], variant: _Variant) -> list[Any]:
     numbers, source = np.zeros((2, 3, length, len(usable))), np.zeros((2, terms, count, len(usable)))
     for column, (k, local) in enumerate(usable):
         for i, part in enumerate(local):
-            numbers[:, i, i : i + len(part), column] = _halves(part)
+            numbers[:, i, i : i + len(part), column] = halves(part)
         if chart.forcing is not None:
             nodes, inverse = _interpolation(terms)
             values = [[chart.source(Point(cells[k][0]), cells[k][1], u) * arb_poly(local[0])(u)] for u in nodes]
-            source[:, :, 2, column] = _halves((inverse * arb_mat(values)).entries())
+            source[:, :, 2, column] = halves((inverse * arb_mat(values)).entries())
     a, b, c = (Pair(*numbers[:, i]) for i in range(3))
     z = np.zeros((2, terms, count, len(usable)))
     z[0, 0, 0] = z[0, 1, 1] = 1.0
@@ -313,11 +313,6 @@ def _series(chart: Chart, cells: list[Cell], variant: _Variant) -> list[Any]:
     for column in np.flatnonzero(good).tolist():
         result[usable[column][0]] = z[..., column]
     return result
-
-
-def _halves(numbers: list[arb]) -> Any:
-    pairs = [Pair.of(v) for v in numbers]
-    return np.array([[p.hi for p in pairs], [p.lo for p in pairs]])
 
 
 @lru_cache
@@ -377,7 +372,7 @@ def _rounded(state: State, e: int, variant: _Variant) -> tuple[Any, int]:
     if max(r for v in both for r in (v.real.rad(), v.imag.rad())) > size * arb((1, -variant.bits)):
         raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
     power = int(log2(size)) if size > 0 else 0
-    return _halves([v * arb((1, -power)) for v in numbers]).reshape(2, 2, 2), power
+    return halves([v * arb((1, -power)) for v in numbers]).reshape(2, 2, 2), power
 
 
 def _transfers(series: Pair, exponents: Any) -> tuple[Pair, Pair]:
