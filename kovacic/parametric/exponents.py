@@ -190,10 +190,9 @@ def solution_of_degree(
     return PolynomialSolution(y, sympy.Integer(d), where)
 
 
-def possible(found: list[PolynomialSolution]) -> tuple[PolynomialSolution, ...]:
-    """Without those whose degree is a number but no natural one, and without repetitions."""
-    possible = (s for s in found if s.degree.free_symbols or (s.degree.is_Integer and s.degree >= 0))
-    return tuple(dict.fromkeys(possible))
+def may_be_natural(degree: Any) -> bool:
+    """Is it a natural number, or can it be one for some values of the parameters?"""
+    return bool(degree.free_symbols or (degree.is_Integer and degree >= 0))
 
 
 def root(square: Poly) -> Any:

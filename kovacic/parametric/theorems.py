@@ -60,7 +60,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.parametric import restriction, riemann
-from kovacic.parametric.exponents import PolynomialSolution, possible, root
+from kovacic.parametric.exponents import PolynomialSolution, may_be_natural, root
 from kovacic.parametric.formulas import root_written, shifted
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
@@ -178,10 +178,11 @@ def jacobi_solutions(
     found = []
     for f, g, h in product((1, -1), repeat=3):
         degree = sympy.expand((-1 - f * first - g * second - h * third) / 2)
-        powers = w ** sympy.expand((1 + f * first) / 2) * (1 - w) ** sympy.expand((1 + g * second) / 2)
-        polynomial = sympy.jacobi(degree, f * first, g * second, 1 - 2 * w)
-        found.append(PolynomialSolution(jacobian * powers * polynomial, degree))
-    return possible(found)
+        if may_be_natural(degree):
+            powers = w ** sympy.expand((1 + f * first) / 2) * (1 - w) ** sympy.expand((1 + g * second) / 2)
+            polynomial = sympy.jacobi(degree, f * first, g * second, 1 - 2 * w)
+            found.append(PolynomialSolution(jacobian * powers * polynomial, degree))
+    return tuple(dict.fromkeys(found))
 
 
 def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> Statement:
@@ -240,10 +241,11 @@ def laguerre_solutions(form: Confluent, variable: str, _: int | None = None) -> 
     found = []
     for e, f in product((1, -1), repeat=2):
         degree = sympy.expand((e * beta - f * delta - n) / (2 * n))
-        u = sympy.expand(-2 * e * rate / n) * s**n
-        y = s ** sympy.expand((1 + f * delta) / 2) * sympy.exp(-u / 2) * sympy.assoc_laguerre(degree, f * delta / n, u)
-        found.append(PolynomialSolution(weight * y, degree))
-    return possible(found)
+        if may_be_natural(degree):
+            u, power = sympy.expand(-2 * e * rate / n) * s**n, sympy.expand((1 + f * delta) / 2)
+            y = s**power * sympy.exp(-u / 2) * sympy.assoc_laguerre(degree, f * delta / n, u)
+            found.append(PolynomialSolution(weight * y, degree))
+    return tuple(dict.fromkeys(found))
 
 
 def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
