@@ -206,19 +206,10 @@ class ExtensionPoly(Poly):
     def _divmod(self, other: ExtensionPoly) -> tuple[ExtensionPoly, ExtensionPoly]:
         if self.degree < other.degree:
             return self.field.poly([]), self
-        inverse = other.lc.inverse()
-        if other.degree == 0:
-            return self._mul(inverse), self.field.poly([])
         if not any(other.parts[1:]):
             pairs = [divmod(part, other.parts[0]) for part in self.parts]
             return tuple(ExtensionPoly(self.field, parts) for parts in zip(*pairs, strict=True))  # type: ignore[return-value]
-        remainder, quotient = self, [self.field.poly([])] * max(self.degree - other.degree + 1, 0)
-        x = self.field.poly([0, 1])
-        while remainder.degree >= other.degree:
-            shift = remainder.degree - other.degree
-            quotient[shift] = remainder.lc._mul(inverse)
-            remainder = remainder - quotient[shift]._mul(x**shift)._mul(other)
-        return self.field.poly(quotient), remainder
+        return super()._divmod(other)
 
     def _gcd(self, other: ExtensionPoly) -> ExtensionPoly:
         """Through its images modulo primes, checked by division."""
@@ -274,9 +265,6 @@ class ExtensionPoly(Poly):
                 coordinates = part[power].rational_coefficients()
                 result += [*coordinates, *[fmpq(0)] * (width - len(coordinates))]
         return tuple(result)
-
-    def height_bits(self) -> int:
-        return max(part.height_bits() for part in self.parts)
 
     def coefficient_strings(self) -> list[str]:
         base, name = self.field.base, self.field.name

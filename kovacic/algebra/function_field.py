@@ -219,21 +219,12 @@ class FunctionPoly(Poly):
         return self.field.make(self.num * other.num, self.den * other.den)
 
     def _divmod(self, other: FunctionPoly) -> tuple[FunctionPoly, FunctionPoly]:
-        """By flint's division where there is no remainder, else by pseudo-division: scale * a = quotient * b + remainder."""
-        field, context, content = self.field, self.field.context, other.numerator_content()
+        """By flint's division where there is no remainder."""
+        content = other.numerator_content()
         quotient, remainder = divmod(self.num, other.num // content)
-        if not remainder:
-            return field.make(quotient * other.den, self.den * content), field.poly([])
-        x, lead, n = context.gen(0), other._columns()[-1], other.degree
-        scale, quotient, remainder = context.constant(1), context.constant(0), self.num
-        while not remainder.is_zero() and (degree := int(remainder.degrees()[0])) >= n:
-            top = FunctionPoly(field, remainder, scale)._columns()[-1]
-            common = top.gcd(lead)
-            factor, step = lead // common, (top // common) * x ** (degree - n)
-            remainder = remainder * factor - other.num * step
-            quotient, scale = quotient * factor + step, scale * factor
-        below = scale * self.den
-        return field.make(quotient * other.den, below), field.make(remainder, below)
+        if remainder:
+            return super()._divmod(other)
+        return self.field.make(quotient * other.den, self.den * content), self.field.poly([])
 
     def _gcd(self, other: FunctionPoly) -> FunctionPoly:
         return FunctionPoly(self.field, self.num.gcd(other.num), self.field.context.constant(1)).monic()

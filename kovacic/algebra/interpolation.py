@@ -78,7 +78,7 @@ class Samples(Collector):
         if p == next(iter(self._points)):
             for index, unknown in enumerate(self._unknowns):
                 while not unknown.terms and unknown.needed <= len(points):
-                    unknown.search(p, points, [row[index] for row in values])
+                    unknown.solve(p, points[: unknown.needed], [row[index] for row in values])
                 if not unknown.terms:
                     return None
         return self._proposal() if all(u.terms for u in self._unknowns) else None
@@ -87,7 +87,7 @@ class Samples(Collector):
         for p, points in self._points.items():
             for index, unknown in enumerate(self._unknowns):
                 if p not in unknown.primes and len(points) >= unknown.size + _MARGIN:
-                    unknown.refine(p, points, [row[index] for row in self._values[p]])
+                    unknown.solve(p, points, [row[index] for row in self._values[p]])
         functions = []
         for unknown in self._unknowns:
             parts = unknown.reconstruct()
@@ -117,33 +117,23 @@ class _Unknown:
     def size(self) -> int:
         return sum(map(len, self.terms)) if self.terms else 0
 
-    def search(self, p: int, points: list[_Exponents], values: list[int]) -> None:
-        monomials = list(_monomials(self.parameters, self.degree))
+    def solve(self, p: int, points: list[_Exponents], values: list[int]) -> None:
+        """Add what the samples modulo a prime say: with the known terms, or with all up to the next degree."""
+        monomials = [] if self.terms else list(_monomials(self.parameters, self.degree))
         if 2 * len(monomials) > _LARGEST:
             raise LimitExceeded(
                 f"the answer has coefficients of degree above {self.degree - 1} in the parameters", limit="parameters"
             )
-        solution = _solve(p, points[: self.needed], values, monomials, monomials)
-        self.degree += 1
+        above, below = self.terms or (monomials, monomials)
+        solution = _solve(p, points, values, above, below)
+        self.degree += not self.terms
         if solution is None:
             return
-        above, below = solution[: len(monomials)], solution[len(monomials) :]
-        self.terms = (
-            [m for m, c in zip(monomials, above, strict=True) if c],
-            [m for m, c in zip(monomials, below, strict=True) if c],
-        )
-        self._append(p, [c for c in (*above, *below) if c])
-
-    def refine(self, p: int, points: list[_Exponents], values: list[int]) -> None:
-        assert self.terms is not None
-        solution = _solve(p, points, values, *self.terms)
-        if solution is not None:
-            self._append(p, solution)
-
-    def _append(self, p: int, solution: list[int]) -> None:
-        assert self.terms is not None
-        lead = pow(solution[len(self.terms[0])], -1, p)
-        residues = [c * lead % p for c in solution]
+        occurring = [(m, c) for m, c in zip((*above, *below), solution, strict=True) if c or self.terms]
+        split = len(above) if self.terms else sum(map(bool, solution[: len(above)]))
+        self.terms = [m for m, _ in occurring[:split]], [m for m, _ in occurring[split:]]
+        lead = pow(occurring[split][1], -1, p)
+        residues = [c * lead % p for _, c in occurring]
         self.residues = chinese_remainders(self.residues or [0] * len(residues), self.modulus, residues, p)
         self.modulus *= p
         self.primes.add(p)

@@ -63,8 +63,14 @@ class Poly(Immutable, ABC):
     @abstractmethod
     def _mul(self, other: Self) -> Self: ...
 
-    @abstractmethod
-    def _divmod(self, other: Self) -> tuple[Self, Self]: ...
+    def _divmod(self, other: Self) -> tuple[Self, Self]:
+        inverse, x, remainder = other.lc.inverse(), self.field.poly([0, 1]), self
+        quotient = [self.field.poly([])] * max(self.degree - other.degree + 1, 0)
+        while remainder.degree >= other.degree:
+            shift = remainder.degree - other.degree
+            quotient[shift] = remainder.lc * inverse
+            remainder = remainder - quotient[shift] * x**shift * other
+        return self.field.poly(quotient), remainder  # type: ignore[return-value]
 
     @abstractmethod
     def _gcd(self, other: Self) -> Self: ...
@@ -249,7 +255,7 @@ class Poly(Immutable, ABC):
 
     def height_bits(self) -> int:
         """The size of the largest numerator or denominator among the coordinates, in bits."""
-        return max((max(int(c.p).bit_length(), int(c.q).bit_length()) for c in self.rational_coefficients()), default=0)
+        return max(leaf.height_bits() for leaf in self.leaves())
 
     @abstractmethod
     def to_sympy(self, variable: Any) -> Any:

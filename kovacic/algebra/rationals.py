@@ -152,9 +152,6 @@ class RationalPoly(Poly):
     def is_monic(self) -> bool:
         return bool(self.rep.leading_coefficient() == 1)
 
-    def monic(self) -> RationalPoly:
-        return RationalPoly(self.rep / self.rep.leading_coefficient()) if self.rep else self
-
     def _gcd(self, other: RationalPoly) -> RationalPoly:
         if self.degree > _LONG_DEGREE and other.degree > _LONG_DEGREE:
             degree, least = sorted((self.degree, other.degree), reverse=True)
@@ -191,10 +188,6 @@ class RationalPoly(Poly):
         if self.degree > 0:
             raise ValueError("only constants have an inverse")
         return RationalPoly(fmpq_poly([1 / self.rep[0]]))
-
-    @property
-    def lc(self) -> RationalPoly:
-        return RationalPoly(fmpq_poly([self.rep.leading_coefficient()]))
 
     def coefficients(self) -> tuple[Fraction, ...]:
         """The coefficients from low to high."""
