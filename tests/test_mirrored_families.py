@@ -8,6 +8,7 @@ import pytest
 
 import kovacic
 from kovacic.algebra.function_field import FunctionField
+from kovacic.parametric.formulas import text_of
 from kovacic.parametric.functions import over_parameters
 from kovacic.parametric.spectra import Notation, alternatives
 
@@ -41,7 +42,7 @@ def values(text: str, n: Fraction, largest: int = 40) -> bool:
 def test_symmetric_families_are_written_once(functions: list, total: int, expected: str) -> None:  # type: ignore[type-arg]
     families = [*functions, *(total - f for f in functions)]
     equations = [over_parameters((d * 0 + n - f).monic()) for f in families]
-    text = alternatives(equations, Notation(letter="d")).text
+    text = text_of(alternatives(equations, Notation(letter="d")))
     assert text.startswith(expected)
     assert text.count("d") == (2 if len(functions) == 1 else len(functions))
     constants = [[Fraction(int(v.numerator), int(v.denominator)) for v in f.rational_coefficients()] for f in families]
@@ -53,7 +54,7 @@ def test_symmetric_families_are_written_once(functions: list, total: int, expect
 
 def test_a_family_without_its_mirror_image_is_not_merged() -> None:
     equations = [over_parameters((n - f).monic()) for f in (2 * d, -2 * d - 1, 2 * d + 2, 3 * d + 5)]
-    assert alternatives(equations, Notation(letter="d")).text.startswith("n = ")
+    assert text_of(alternatives(equations, Notation(letter="d"))).startswith("n = ")
 
 
 def test_lame_in_n_and_its_accessory_parameter() -> None:

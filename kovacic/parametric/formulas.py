@@ -1,13 +1,14 @@
-"""How functions of the parameters are written, for reading and in LaTeX: in the shortest of their usual forms.
+"""How functions of the parameters are written, in the shortest of their usual forms, and statements about them in LaTeX.
 
 A quotient f/g is one of polynomials, a product of irreducible factors, a sum of terms over a monomial
-(-n^2 - b^2/(4*n^2)), or a polynomial in one parameter with coefficients in factors (n + k*n*(n - 1)/2).
+(-n^2 - b^2/(4*n^2)), or a polynomial in one parameter with coefficients in factors (n + k*n*(n - 1)/2).  Everything is text;
+among words, formulas are marked by backquotes, from which `latex_of` makes LaTeX.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
@@ -19,47 +20,48 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import square_part
 from kovacic.algebra.sparse import by_power, factorisation
 from kovacic.parametric.functions import over_parameters
-from kovacic.views.formula import Math, caret, latex_text, symbol
+from kovacic.views.formula import caret, latex_text
 
 #: Terms up to which a quotient is written as a sum.
 _TERMS = 4
 #: A power of a polynomial in the parameters, flint's.
 Power = tuple[Any, int]
+#: Around formulas among words.
+_MARK = "`"
+#: What stands in formulas beside functions, in LaTeX: that something is a natural number, a congruence, Delta_d, signs.
+_SIGNS = {
+    r"\\mathrm{in} ([ZN])$": r"\\in \\mathbb{\1}",
+    r" = (.*) \\mathrm{mod} (.*)$": r" \\equiv \1 \\pmod{\2}",
+    r"\\mathrm{Delta}": r"\\Delta",
+    r"\+- ?": r"\\pm ",
+}
 
 
-def said(*parts: Math | str) -> Math:
-    """The parts in a row; plain strings are words."""
-    known = [part if isinstance(part, Math) else words(part) for part in parts if part]
-    return Math("".join(part.text for part in known), "".join(part.latex for part in known))
+def text_of(said: str) -> str:
+    """What is said, without the marks of its formulas."""
+    return said.replace(_MARK, "")
 
 
-def words(text: str) -> Math:
-    return Math(text, " " * text.startswith(" ") + rf"\text{{{text}}}" + " " * text.endswith(" "))
+def latex_of(said: str) -> str:
+    r"""The same in LaTeX.
+
+    >>> print(latex_of("`E = -n^2 - b^2/(4*n^2)` for an integer n"))
+    E = -n^{2} - \frac{b^{2}}{4 n^{2}} \text{ for an integer n}
+    """
+    pieces = enumerate(said.split(_MARK))
+    return "".join(_formula(piece) if k % 2 else _words(piece) for k, piece in pieces if piece)
 
 
-def plain(text: str) -> Math:
-    """What is written in the same way in LaTeX."""
-    return Math(text, text)
+def _words(text: str) -> str:
+    said = text.replace("^", r"\^{}")
+    return " " * text.startswith(" ") + rf"\text{{{said}}}" + " " * text.endswith(" ")
 
 
-def joined(parts: Sequence[Math], between: Math | str = " or ") -> Math:
-    """The parts with something between them."""
-    return said(*[piece for part in parts for piece in (between, part)][1:])
-
-
-def unless_long(first: Math, second: Math, most: Callable[[str], int]) -> Math:
-    """Text and LaTeX of the first, where it has at most so many characters for the second, else of the second."""
-    pairs = (first.text, second.text), (first.latex, second.latex)
-    return Math(*(a if len(a) <= most(b) else b for a, b in pairs))
-
-
-def member(numbers: str) -> Math:
-    """That what stands before is an integer (Z), or a natural number (N)."""
-    return Math(f" in {numbers}", rf" \in \mathbb{{{numbers}}}")
-
-
-def name_written(name: str) -> Math:
-    return Math(name, symbol(name))
+def _formula(text: str) -> str:
+    latex = latex_text(text)
+    for pattern, replacement in _SIGNS.items():
+        latex = re.sub(pattern, replacement, latex)
+    return latex
 
 
 def shown(function: FunctionPoly | RatFunc, variable: str = "x") -> str:
@@ -75,34 +77,34 @@ def shifted(text: str, value: Poly) -> str:
     return text if not value else f"{text} + {amount[1:]}" if amount.startswith("-") else f"{text} - {amount}"
 
 
-def written(function: FunctionPoly | RatFunc, letter: str = "x") -> Math:
+def written(function: FunctionPoly | RatFunc, letter: str = "x") -> str:
     """The shortest of the usual forms; `letter` is the name of the polynomial variable."""
     above, below, names = _cleared(function, letter)
-    return min((_sum(form, names) for form in _forms(above, below)), key=lambda form: len(form.text))
+    return min((_sum(form, names) for form in _forms(above, below)), key=len)
 
 
-def equation_written(function: FunctionPoly) -> Math:
+def equation_written(function: FunctionPoly) -> str:
     """`function = 0`; a linear form is solved for a parameter, and two terms stand on two sides."""
     above, _, names = _cleared(function, "x")
-    terms, context, left, right = above.to_dict(), above.context(), above, plain("0")
+    terms, context, left, right = above.to_dict(), above.context(), above, "0"
     linear = {next(i for i, k in enumerate(e) if k): e for e in terms if sum(map(int, e)) == 1}
     if linear and len(terms) - len(linear) == sum(1 for e in terms if not any(e)):
         i = next((i for i, e in linear.items() if abs(int(terms[e])) == 1), next(iter(linear)))
         left, coefficient = context.gen(i), int(terms[linear[i]])
-        values = [_sum(form, names) for form in _forms(left * coefficient - above, context.constant(coefficient))]
-        right = Math(min((m.text for m in values), key=len), min((m.latex for m in values), key=len))
+        values = _forms(left * coefficient - above, context.constant(coefficient))
+        right = min((_sum(form, names) for form in values), key=len)
     elif len(terms) == 2 and sum(1 for c in terms.values() if int(c) < 0) == 1:
         left, other = (
             context.from_dict({e: abs(int(c))}) for e, c in sorted(terms.items(), key=lambda t: int(t[1]) < 0)
         )
         right = _polynomial(other, names)
-    return said(_polynomial(left, names), plain(" = "), right)
+    return f"{_polynomial(left, names)} = {right}"
 
 
-def root_written(square: Poly) -> Math:
+def root_written(square: Poly) -> str:
     """The square root of an element of Q(t), up to its sign; squares are taken out: (4*a*c - b^2)/(4*a*sqrt(a))."""
     if not square:
-        return plain("0")
+        return "0"
     above, below, names = _cleared(over_parameters(square), "x")
     (number, top, odd), (other, bottom, under) = _without_squares(above), _without_squares(below)
     if int(odd.leading_coefficient()) < 0 and not under.is_constant():
@@ -159,51 +161,35 @@ def _without_squares(polynomial: Any) -> tuple[int, tuple[Power, ...], Any]:
     return int(number), tuple((factor, k // 2) for factor, k in factors if k > 1), odd
 
 
-def _sum(terms: Sequence[_Term], names: Sequence[str]) -> Math:
-    known = [_term(term, names) for term in terms]
-    text, latex = (
-        " + ".join(parts).replace("+ -", "- ") for parts in ([m.text for m in known], [m.latex for m in known])
-    )
-    return Math(text or "0", latex or "0")
+def _sum(terms: Sequence[_Term], names: Sequence[str]) -> str:
+    return " + ".join(_term(term, names) for term in terms).replace("+ -", "- ") or "0"
 
 
-def _polynomial(polynomial: Any, names: Sequence[str]) -> Math:
+def _polynomial(polynomial: Any, names: Sequence[str]) -> str:
     """The expanded polynomial, in the order of its terms."""
-    text = re.sub(r"x|t(\d+)", lambda match: names[1 + int(match[1] or -1)], str(polynomial))
-    return Math(text, latex_text(text.replace("^", "**")))
+    return re.sub(r"x|t(\d+)", lambda match: names[1 + int(match[1] or -1)], str(polynomial))
 
 
-def _term(term: _Term, names: Sequence[str]) -> Math:
+def _term(term: _Term, names: Sequence[str]) -> str:
     top = _pieces(abs(term.number.numerator), term.top, term.root, names)
     bottom = _pieces(term.number.denominator, term.bottom, term.under, names)
-    sign = "-" if term.number < 0 else ""
+    sign, above, below = "-" if term.number < 0 else "", "*".join(top) or "1", "*".join(bottom)
     if not bottom:
-        return said(plain(sign), _product(top, bare=not sign))
-    below = _product(bottom).text
-    text = f"{sign}{_product(top).text}/{f'({below})' if '*' in re.sub(r'[(].*[)]', '', below) else below}"
-    return Math(text, rf"{sign}\frac{{{_product(top, bare=True).latex}}}{{{_product(bottom, bare=True).latex}}}")
+        single = len(top) == 1 and not sign and above.startswith("(") and above.endswith(")")
+        return above[1:-1] if single else sign + above
+    return f"{sign}{above}/{f'({below})' if '*' in re.sub(r'[(].*[)]', '', below) else below}"
 
 
-def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[str]) -> list[tuple[Math, Math]]:
-    """The factors, none for 1, as they are written alone and in a product."""
-    pieces = [(plain(str(number)),) * 2] if number != 1 else []
+def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[str]) -> list[str]:
+    """The factors of a product, none for 1; sums are in parentheses."""
+    pieces = [str(number)] if number != 1 else []
     for factor, k in factors:
         if not (factor.is_constant() and factor.is_one()):
-            alone = inside = _polynomial(factor, names)
-            text = alone.text
+            text = _polynomial(factor, names)
             if " + " in text or " - " in text or text.startswith("-") or ("*" in text and k > 1):
-                inside = Math(f"({text})", rf"\left({alone.latex}\right)")
-            power = Math(f"{inside.text}^{k}", f"{inside.latex}^{{{k}}}")
-            pieces.append((alone, inside) if k == 1 else (power, power))
+                text = f"({text})"
+            pieces.append(text if k == 1 else f"{text}^{k}")
     if root != 1:
         inside = _polynomial(root, names)
-        radical = Math(f"sqrt({inside.text})", rf"\sqrt{{{inside.latex}}}")
-        pieces.append((name_written("I") if inside.text == "-1" else radical,) * 2)
+        pieces.append("I" if inside == "-1" else f"sqrt({inside})")
     return pieces
-
-
-def _product(pieces: Sequence[tuple[Math, Math]], *, bare: bool = False) -> Math:
-    """A product; a single factor that is a sum is in parentheses unless it is `bare`."""
-    if bare and len(pieces) == 1:
-        return pieces[0][0]
-    return Math("*".join(m.text for _, m in pieces) or "1", " ".join(m.latex for _, m in pieces) or "1")

@@ -18,11 +18,9 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.formulas import member, plain, said
 from kovacic.parametric.functions import Coset, Point, common_multiple, degrees, normal_form, over_parameters
 from kovacic.parametric.spectra import Notation, families, integer_condition, kind
 from kovacic.parametric.statements import ALWAYS, Statement, either
-from kovacic.views.formula import Math
 
 #: What integers are called, the first that isn't a parameter.
 LETTERS = "nNmMkKjJ"
@@ -128,22 +126,21 @@ class Congruence(Statement):
         return replace(self, letter=free_letter(names), fixed=tuple(fixed))
 
     @cached_property
-    def written(self) -> Math:
+    def written(self) -> str:
         n, form, (first, *others), modulus = Notation(self.letter, self.fixed), self.form, self.residues, self.modulus
         if form is None:
             return integer_condition(self.equation, [*map(int, self.residues)], int(modulus), n)
         if not others and modulus == 1:
-            return said(n.function(form), plain(f" - {first}" if first else ""), member("Z"))
+            return f"`{n.function(form)}{f' - {first}' if first else ''} in Z`"
         if not others and not first and modulus.numerator == 1:
-            return said(n.function(form * modulus.denominator), member("Z"))
+            return f"`{n.function(form * modulus.denominator)} in Z`"
         if not others and modulus == 2 and first.denominator == 1:
-            return said(n.function(form), f" is {kind(self.residues, modulus)}")
+            return f"`{n.function(form)}` is {kind(self.residues, modulus)}"
         scale = lcm(first.denominator, modulus.denominator)
         equation = over_parameters(form * scale - form.field.poly([0, 1]))
         if not others and sum(map(bool, degrees(equation))) > 1 and families(equation):
             return integer_condition(equation, [int(first * scale)], int(modulus * scale), Notation(self.letter))
-        classes = ", ".join(map(str, self.residues))
-        return said(n.function(form), Math(f" = {classes} mod {modulus}", rf" \equiv {classes} \pmod{{{modulus}}}"))
+        return f"`{n.function(form)} = {', '.join(map(str, self.residues))} mod {modulus}`"
 
 
 def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:

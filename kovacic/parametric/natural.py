@@ -28,7 +28,7 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.exponents import PolynomialSolution, form_conditions, solution_of_degree, with_degree
-from kovacic.parametric.formulas import equation_written, said, shown, unless_long, words, written
+from kovacic.parametric.formulas import equation_written, shown, text_of, written
 from kovacic.parametric.functions import (
     Coset,
     Point,
@@ -42,7 +42,6 @@ from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.spectra import Notation, alternatives
 from kovacic.parametric.statements import Statement
-from kovacic.views.formula import Math
 
 #: The largest number that is tried for an example.
 _EXAMPLES = 3
@@ -154,7 +153,7 @@ class Natural(Statement):
                 conditions = [*map(shown, c.system)] if c.system and not c.complete else [one_of] if one_of else []
                 if c.deficient or conditions:
                     zero = [] if c.deficient else [f"{condition} = 0" for condition in conditions]
-                    where = ", ".join([equation_written(exponents).text, *zero])
+                    where = ", ".join([equation_written(exponents), *zero])
                     found.append(solution_of_degree(problem, choice, number, variable, where))
         return tuple(solution for solution in found if solution is not None)
 
@@ -162,7 +161,7 @@ class Natural(Statement):
         """In one line: one polynomial where it is the same for all exponents that give the number."""
         found, places = defaultdict[str, dict[str, None]](dict), defaultdict[str, list[str]](list)
         for determinant in self.determinants(number):
-            found[equation_written(determinant.exponents).text][str(determinant)] = None
+            found[equation_written(determinant.exponents)][str(determinant)] = None
         for where, texts in found.items():
             places[" or ".join(texts)].append(where)
         values = [f"{value} where {' or '.join(where)}" for value, where in places.items()]
@@ -200,16 +199,16 @@ class Natural(Statement):
         )
 
     @cached_property
-    def written(self) -> Math:
+    def written(self) -> str:
         m, factors, d = self.m, self.factors, self.letter
         if not any(k for factor in factors for k in degrees(factor)):
-            numbers = " or ".join(written(-f[0] / f[1]).text for f in factors)
+            numbers = " or ".join(written(-f[0] / f[1]) for f in factors)
             what = "a solution" if m == 1 else f"an invariant of degree {m}"
-            return words(f"{what} with {numbers} zero{'s' * (numbers != '1')} exists")
-        short = words(f"the exponents allow a natural number {d} of zeros")
-        which = unless_long(alternatives(factors, Notation(d, self.fixed)), short, lambda _: _WRITTEN_OUT)
-        exists = Math(f", {d} in N, and Delta_{d} = 0", rf",\ {d} \in \mathbb{{N}},\ \Delta_{{{d}}} = 0")
-        return said(which, exists, "" if m == 1 else f" for an invariant of degree {m}")
+            return f"{what} with {numbers} zero{'s' * (numbers != '1')} exists"
+        which = alternatives(factors, Notation(d, self.fixed))
+        if len(text_of(which)) > _WRITTEN_OUT:
+            which = f"the exponents allow a natural number `{d}` of zeros"
+        return f"{which}, `{d} in N`, and `Delta_{d} = 0`{'' if m == 1 else f' for an invariant of degree {m}'}"
 
 
 @lru_cache(maxsize=64)

@@ -35,7 +35,6 @@ from kovacic.parametric.formulas import root_written, shown
 from kovacic.parametric.functions import Point, common_multiple, normal_form, over_parameters, roots
 from kovacic.parametric.integers import Congruence, integer_roots
 from kovacic.parametric.statements import ALWAYS, Statement, either
-from kovacic.views.formula import Math
 
 _F = Fraction
 #: Schwarz's rows: the structure, the exponent differences modulo 1, and whether l + m + q must be even.
@@ -108,14 +107,13 @@ class Schwarz(Statement):
         return [root - value for root, value in zip(known, values, strict=True)] if len(known) == 3 else []
 
     @cached_property
-    def written(self) -> Math:
+    def written(self) -> str:
         names = _differences(self.cubic)
         rows = [k for k, row in _SCHWARZ.items() if row[0] in self.structures]
         which = f"rows {rows[0]}-{rows[-1]}" if rows else "row 1 (two half-integers)"
-        text = f"the exponent differences {', '.join(names)} are in Schwarz's {which}"
         if self.structures == (Structure.IMPRIMITIVE,) and len(names) == 3:
-            text = _two_half_integers(names)
-        return Math(text, rf"\text{{{text.replace('^', chr(92) + '^{}')}}}")
+            return _two_half_integers(names)
+        return f"the exponent differences {', '.join(names)} are in Schwarz's {which}"
 
     def merged(self, other: Statement) -> Schwarz | None:
         if isinstance(other, Schwarz) and other.cubic == self.cubic:
@@ -140,7 +138,7 @@ def _differences(cubic: FunctionPoly) -> list[str]:
     factors = cubic.field.factor(cubic)
     if any(factor.degree > 1 for factor, _ in factors):
         return [f"(the square roots of the roots of {shown(cubic, 'Z')})"]
-    return [root_written(-factor[0]).text for factor, k in factors for _ in range(k)]
+    return [root_written(-factor[0]) for factor, k in factors for _ in range(k)]
 
 
 def is_fuchsian(problem: Problem) -> bool:
@@ -205,7 +203,7 @@ def group(problem: Problem, structure: Structure) -> str | None:
     if len(constants) >= 2 and rest:
         return "the infinite dihedral group" if rest[0] is None else "dicyclic"
     if len(constants) == 2 and variable is not None:
-        return f"dicyclic where {root_written(variable).text} is rational, else the infinite dihedral group"
+        return f"dicyclic where {root_written(variable)} is rational, else the infinite dihedral group"
     return "dicyclic where the third exponent difference is rational, else the infinite dihedral group"
 
 

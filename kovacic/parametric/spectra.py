@@ -17,17 +17,7 @@ from math import floor
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.parametric.formulas import (
-    joined,
-    member,
-    name_written,
-    plain,
-    root_written,
-    said,
-    unless_long,
-    words,
-    written,
-)
+from kovacic.parametric.formulas import root_written, text_of, written
 from kovacic.parametric.functions import (
     constant_term,
     degrees,
@@ -37,7 +27,6 @@ from kovacic.parametric.functions import (
     powers_of,
 )
 from kovacic.reading.given import ENERGY
-from kovacic.views.formula import Math
 
 #: Characters of a spectrum that is given beside two square roots; and by how many it may be longer than one square root.
 _BESIDE, _LONGER = 90, 40
@@ -54,12 +43,12 @@ class Notation:
     letter: str = "n"
     fixed: tuple[str, ...] = ()
 
-    def function(self, function: Poly | RatFunc) -> Math:
+    def function(self, function: Poly | RatFunc) -> str:
         """The shortest form of a function of the parameters and the integer."""
         return written(function if isinstance(function, RatFunc) else over_parameters(function), self.letter)
 
-    def equals(self, name: str, function: Poly | RatFunc) -> Math:
-        return said(name_written(name), plain(" = "), self.function(function))
+    def equals(self, name: str, function: Poly | RatFunc) -> str:
+        return f"`{name} = {self.function(function)}`"
 
 
 def families(equation: FunctionPoly, fixed: Sequence[str] = ()) -> list[tuple[str, RatFunc]]:
@@ -71,19 +60,19 @@ def families(equation: FunctionPoly, fixed: Sequence[str] = ()) -> list[tuple[st
     return [(name, -RatFunc(part.get(0, 0 * part[1]), part[1])) for name, part in parts]
 
 
-def equation_text(equation: FunctionPoly, n: Notation) -> Math:
+def equation_text(equation: FunctionPoly, n: Notation) -> str:
     """`equation = 0`, solved for a parameter where one occurs linearly."""
     if not any(degrees(equation)) and equation.degree == 1:
         return n.equals(n.letter, -equation[0] / equation[1])
     for name, f in families(equation, n.fixed):
         return n.equals(name, f)
-    return said(n.function(numerator(equation)), plain(" = 0"))
+    return f"`{n.function(numerator(equation))} = 0`"
 
 
-def alternatives(equations: Sequence[FunctionPoly], n: Notation) -> Math:
+def alternatives(equations: Sequence[FunctionPoly], n: Notation) -> str:
     """That one of the equations holds: `b = +-2*(d + 1)`, `n = 2*d, 2*d + 1 or -2*d - 3`, `n or -n - 1 = 2*d or 2*d + 1`."""
     functions: dict[str, list[RatFunc]] = {}
-    others: list[Math] = []
+    others: list[str] = []
     for equation in equations:
         family = families(equation, n.fixed) if any(degrees(equation)) else []
         if family:
@@ -91,15 +80,15 @@ def alternatives(equations: Sequence[FunctionPoly], n: Notation) -> Math:
         else:
             others.append(equation_text(equation, n))
     for name, known in functions.items():
-        what, total = [name_written(name)], _sum_in_pairs(known)
+        what, total = name, _sum_in_pairs(known)
         if total:
-            what.append(n.function(over_parameters(total - total.field.generator(name))))
+            what += f"` or `{n.function(over_parameters(total - total.field.generator(name)))}"
             pairs = [sorted((f, RatFunc(total) - f), key=str) for f in known]
             known = [*dict.fromkeys(min(pair, key=lambda f: _is_negative(n, f)) for pair in pairs)]
         texts = _with_signs(known, n)
-        listed = texts if len(texts) < 3 else [joined(texts[:-1], plain(", ")), texts[-1]]
-        others.append(said(joined(what), plain(" = "), joined(listed)))
-    return joined(others)
+        listed = texts if len(texts) < 3 else [", ".join(texts[:-1]), texts[-1]]
+        others.append(f"`{what} = {'` or `'.join(listed)}`")
+    return " or ".join(others)
 
 
 def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
@@ -112,24 +101,21 @@ def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
     return None
 
 
-def _with_signs(functions: Sequence[RatFunc], n: Notation) -> list[Math]:
+def _with_signs(functions: Sequence[RatFunc], n: Notation) -> list[str]:
     """How the functions are written, with one text for f and -f."""
-    texts: dict[RatFunc, Math] = {}
+    texts: dict[RatFunc, str] = {}
     for f in functions:
         if -f in texts:
             value = n.function(min((-f, f), key=lambda g: _is_negative(n, g)))
-            text, latex = (
-                f"({t})" if any(sign in re.sub(r"[({][^()]*[)}]", "", t) for sign in (" + ", " - ")) else t
-                for t in (value.text, value.latex)
-            )
-            texts[-f] = Math(f"+-{text}", rf"\pm {latex}")
+            inside = re.sub(r"[({][^()]*[)}]", "", value)
+            texts[-f] = f"+-({value})" if " + " in inside or " - " in inside else f"+-{value}"
         else:
             texts[f] = n.function(f)
     return [*texts.values()]
 
 
 def _is_negative(n: Notation, f: RatFunc) -> bool:
-    return n.function(f).text.lstrip("(").startswith("-")
+    return n.function(f).lstrip("(").startswith("-")
 
 
 def kind(residues: Sequence[Fraction | int], modulus: Fraction | int, letter: str = "") -> str:
@@ -144,50 +130,50 @@ def kind(residues: Sequence[Fraction | int], modulus: Fraction | int, letter: st
     return f"an integer{name} = {', '.join(map(str, residues))} mod {modulus}"
 
 
-def integer_condition(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> Math:
+def integer_condition(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> str:
     """That a polynomial in N over Q(t) has an integer root in these classes."""
     best, roots = _spectrum(equation, residues, modulus, n), _roots(equation)
     if roots is None:
-        return best or said(equation_text(equation, n), words(f" for {kind(residues, modulus, n.letter)}"))
+        return best or f"{equation_text(equation, n)} for {kind(residues, modulus, n.letter)}"
     mean, squares = roots
     constant = floor(constant_term(mean) / modulus) * modulus
     terms = [n.function(mean - constant)] if mean != constant else []
-    signed = joined([*terms, *map(root_written, squares)], Math(" +- ", r" \pm "))
-    sum_of_roots = said(signed, f" is {kind(residues, modulus)}")
+    sum_of_roots = f"`{' +- '.join([*terms, *map(root_written, squares)])}` is {kind(residues, modulus)}"
     if best is None:
         return sum_of_roots
+    length = len(text_of(best))
     if len(squares) > 1:
-        return said(sum_of_roots, ", that is ", best) if len(best.text) <= _BESIDE else sum_of_roots
-    return unless_long(best, sum_of_roots, lambda other: len(other) + _LONGER)
+        return f"{sum_of_roots}, that is {best}" if length <= _BESIDE else sum_of_roots
+    return best if length <= len(text_of(sum_of_roots)) + _LONGER else sum_of_roots
 
 
-def _spectrum(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> Math | None:
+def _spectrum(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> str | None:
     """`name = f(n)` and what is said of n, by the shortest of the ways to choose n; None where no parameter is linear."""
     known = families(equation, n.fixed)
-    choices: list[tuple[int, str, RatFunc, Math, Possible]] = []
+    choices: list[tuple[int, str, RatFunc, str, Possible]] = []
     for k, (name, f) in enumerate([pair for pair in known if pair[0] == ENERGY] or known):
         for g, what, possible in _choices(equation, f, residues, modulus, n):
-            length = _LATER * k + _WEIGHT * len(n.function(g).text) + len(what.text)
+            length = _LATER * k + _WEIGHT * len(n.function(g)) + len(text_of(what))
             choices.append((length, name, g, what, possible))
     if not choices:
         return None
     _, name, f, what, possible = min(choices, key=lambda choice: choice[0])
     # What the statement says for a possible n at which f isn't defined: that its numerator vanishes there.
-    notes: list[Math] = []
+    notes: list[str] = []
     for factor, _ in f.field.factor(f.den) if f.den.degree else ():
         root = f.field.rational_value(-factor[0]) if factor.degree == 1 else None
         value = None if root is None or not possible(root) else over_parameters(f.num(root))
         if value is not None and value.field.rational_value(value) is None:
             zeros = [n.function(zero) for zero in irreducible_factors(value)]
-            zero = zeros[0] if len(zeros) == 1 else said(plain("("), joined(zeros, plain(")*(")), plain(")"))
-            notes.append(said(zero, plain(" = 0"), " where ", plain(f"{n.letter} = {root}")))
-    note = [plain(" ("), joined(notes, plain(", ")), plain(")")] if notes else []
-    return said(n.equals(name, f), *note, what)
+            zero = zeros[0] if len(zeros) == 1 else f"({')*('.join(zeros)})"
+            notes.append(f"`{zero} = 0` where `{n.letter} = {root}`")
+    note = f" ({', '.join(notes)})" if notes else ""
+    return f"{n.equals(name, f)}{note}{what}"
 
 
 def _choices(
     equation: FunctionPoly, f: RatFunc, residues: Sequence[int], modulus: int, n: Notation
-) -> Iterator[tuple[RatFunc, Math, Possible]]:
+) -> Iterator[tuple[RatFunc, str, Possible]]:
     """f(N) with N = n; with N = s n + r, n an integer; with N = s n + c, n shifted by a function of the parameters.
 
     Each with what is said of n, and for which rational numbers n that is possible.
@@ -196,28 +182,31 @@ def _choices(
     mirrored = equation(-N) == (-1) ** equation.degree * equation
     single = len(residues) == 1 or (mirrored and {*residues} == {residues[0], -residues[0] % modulus})
     if equation.degree > 1 or not single:
-        in_classes = words(f" for {kind(residues, modulus, n.letter)}")
-        yield f, in_classes, lambda n: n.denominator == 1 and int(n) % modulus in residues
+        yield (
+            f,
+            f" for {kind(residues, modulus, n.letter)}",
+            lambda n: n.denominator == 1 and int(n) % modulus in residues,
+        )
     if single and (modulus < 3 or not mirrored):
         signs, shifts = ((1, -1), (0, -1, 1)) if modulus == 1 else ((1,), (0, -1))
         for sign, shift in product(signs, shifts):
             chosen = RatFunc(N * (sign * modulus) + residues[0] + modulus * shift)
-            yield f(chosen), words(f" for an integer {n.letter}"), lambda n: n.denominator == 1
+            yield f(chosen), f" for an integer {n.letter}", lambda n: n.denominator == 1
     center = _center(equation, f)
     if center is None:
         return
-    u, comma = over_parameters((center - residues[0]) / modulus), Math(", ", r",\ ")
+    u = over_parameters((center - residues[0]) / modulus)
     if single:
         # n + u is an integer; where only n^2 matters: n + u or n - u - 1 is a natural number
         centered, constant = f(RatFunc(N * modulus + center)), constant_term(u)
         forms = [n.function(N + u - constant), n.function(N - u + constant - 1)]
-        integers = [forms[0], plain(f" - {-constant % 1}" if constant.denominator > 1 else ""), member("Z")]
+        integers = f"`{forms[0]}{f' - {-constant % 1}' if constant.denominator > 1 else ''} in Z`"
         if constant.denominator == 1 and centered(RatFunc(-N)) == centered:
-            integers = [joined(forms), member("N")]
-        yield centered, said(comma, *integers), lambda n: True
+            integers = f"`{'` or `'.join(forms)} in N`"
+        yield centered, f", {integers}", lambda n: True
     if not single or constant_term(center).denominator > 1 or int(u.den.content()) > 1:
-        form, what = over_parameters(N + center), f" is {kind(residues, modulus)}"
-        yield f(RatFunc(form)), said(comma, n.function(form), what), lambda n: True
+        form = over_parameters(N + center)
+        yield f(RatFunc(form)), f", `{n.function(form)}` is {kind(residues, modulus)}", lambda n: True
 
 
 def _center(equation: FunctionPoly, f: RatFunc) -> Poly | None:

@@ -15,9 +15,8 @@ from typing import ClassVar
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.formulas import equation_written, joined, said
+from kovacic.parametric.formulas import equation_written, latex_of, text_of
 from kovacic.parametric.functions import Point, numerator
-from kovacic.views.formula import Math
 
 
 class Statement(ABC):
@@ -35,15 +34,15 @@ class Statement(ABC):
 
     @cached_property
     @abstractmethod
-    def written(self) -> Math:
-        """In words and formulas."""
+    def written(self) -> str:
+        """In words, and formulas between backquotes."""
 
     def text(self) -> str:
-        return self.written.text
+        return text_of(self.written)
 
     def latex(self) -> str:
         """Without dollar signs."""
-        return self.written.latex
+        return latex_of(self.written)
 
     def merged(self, other: Statement) -> Statement | None:
         """Both statements in one (either holds), where they are about the same function; else None."""
@@ -92,8 +91,8 @@ class Vanishes(Statement):
         return assumptions.vanishes(self.function)
 
     @cached_property
-    def written(self) -> Math:
-        return equation_written(self.function)
+    def written(self) -> str:
+        return f"`{equation_written(self.function)}`"
 
 
 @dataclass(frozen=True)
@@ -131,23 +130,19 @@ class Either(_Several):
         return random.choice(self.parts).sample(random)
 
     @cached_property
-    def written(self) -> Math:
+    def written(self) -> str:
+        """A common start "n = " or "E = f(n), ", and a common end, from "for" on, are written once."""
         parts = [part.written for part in self.parts]
-        text = self._joined([part.text for part in parts], " or ", " for ")
-        return Math(text, self._joined([part.latex for part in parts], r" \text{ or } ", r" \text{ for "))
-
-    def _joined(self, texts: list[str], word: str, before: str) -> str:
-        """A common start "n = " or "E = f(n), ", and a common end, from `before` on, are written once."""
         if self.is_about_one_value:
-            head, values = texts[0].partition(" = ")[0], [text.partition(" = ")[2] for text in texts]
-            return f"{head} = {', '.join(values[:-1])}{word}{values[-1]}"
-        heads, separators, ends = zip(*(text.rpartition(before) for text in texts), strict=True)
+            head, values = parts[0].partition(" = ")[0], [part.partition(" = ")[2].rstrip("`") for part in parts]
+            return f"{head} = {', '.join(values[:-1])}` or `{values[-1]}`"
+        heads, separators, ends = zip(*(part.rpartition(" for ") for part in parts), strict=True)
         if len(set(ends)) == 1 and all(separators):
-            return f"{word.join(heads)}{before}{ends[0]}"
-        starts = {text.partition(", ")[0] for text in texts}
-        if len(starts) == 1 and all(", " in text for text in texts):
-            return f"{starts.pop()}, {word.join(text.partition(', ')[2] for text in texts)}"
-        return word.join(texts)
+            return f"{' or '.join(heads)} for {ends[0]}"
+        heads, separators, ends = zip(*(part.partition("`, ") for part in parts), strict=True)
+        if len(set(heads)) == 1 and all(separators):
+            return f"{heads[0]}`, {' or '.join(ends)}"
+        return " or ".join(parts)
 
     @property
     def is_about_one_value(self) -> bool:
@@ -171,12 +166,12 @@ class Both(_Several):
         return [function for part in self.parts for function in part.sample(random)]
 
     @cached_property
-    def written(self) -> Math:
+    def written(self) -> str:
         parts = [part.written for part in self.parts]
         for k, part in enumerate(self.parts):
             if len(parts) > 1 and isinstance(part, Either) and not part.is_about_one_value:
-                parts[k] = said(Math("(", r"\left("), parts[k], Math(")", r"\right)"))
-        return joined(parts, Math(", and ", r" \text{ and } "))
+                parts[k] = f"({parts[k]})"
+        return ", and ".join(parts)
 
 
 def both(*statements: Statement) -> Both:

@@ -219,7 +219,7 @@ class Confluent:
             return f"omega of degree 2, rational in {z} and sqrt({z}){where}"
         power = "" if n == 1 else f" {z}" if n == 2 else f" {z}^{n - 1}"
         squares = self.q, self.r * self.r / self.q, 1 + 4 * self.b
-        rate, beta, difference = (riemann.with_sign(root_written(f).text) if f else "" for f in squares)
+        rate, beta, difference = (riemann.with_sign(root_written(f)) if f else "" for f in squares)
         natural = "a natural number" if n == 1 else f"a natural multiple of {n}"
         return (
             f"omega ={rate}{power} + (1{difference})/(2 {z}) + P'/P{where}, with signs for which "

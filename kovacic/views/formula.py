@@ -19,13 +19,14 @@ from kovacic.reading.given import parameters_of
 _GREEK = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega"
 # What has another form in LaTeX, in the order in which it is replaced.
 _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
-    (re.compile(r"sqrt\(([^()]*)\)"), r"\\sqrt{\1}"),
-    (re.compile(r"cbrt\(([^()]*)\)"), r"\\sqrt[3]{\1}"),
-    (re.compile(r"root\(([^(),]*), (\d+)\)"), r"\\sqrt[\2]{\1}"),
-    (re.compile(r"\*\*(\d+)"), r"^{\1}"),
+    (re.compile(r"(?:\*\*|\^)(\d+)"), r"^{\1}"),
     (re.compile(r"(?<![\\\w])[^\W\d]\w*"), lambda match: symbol(match[0])),
     (re.compile(r"\*"), " "),
 ]
+_INNERMOST = re.compile(r"(\b(?:sqrt|cbrt|root))?\(([^()]*)\)")
+_QUOTIENT = re.compile(r"([^\s/,-][^\s/,]*)/([^\s/,]+)")
+# The first of the characters that stand for parts of a formula which are ready.
+_PART = 0xE000
 
 
 #: Solutions with polynomials of a higher degree aren't written out, nor are dense polynomials of a higher degree in `Math`.
@@ -99,8 +100,8 @@ class Formulas:
         function = RatFunc(function) if isinstance(function, Poly) else function
         if _is_long(function):
             return Math(_degrees(function), rf"\text{{{_degrees(function)}}}")
-        renamed = self._renamed(function)
-        return Math(caret(renamed.to_str(self.variable)), latex_ratfunc(renamed, self.variable))
+        text = self._renamed(function).to_str(self.variable)
+        return Math(caret(text), latex_text(text))
 
     def factor(self, function: RatFunc | Poly) -> Math:
         """The first factor of a product: sums are in parentheses, in text quotients too."""
@@ -166,9 +167,36 @@ def caret(text: str) -> str:
 
 
 def latex_text(text: str) -> str:
-    """An expression in Python syntax without quotients: powers, products, square roots, Greek names."""
-    for pattern, replacement in _REPLACEMENTS:
-        text = pattern.sub(replacement, text)
+    r"""An expression in Python syntax, or with ^: sums of quotients of products, powers, roots, Greek names.
+
+    >>> print(latex_text("-n*(n + 3)/(2*sqrt(mu)) - b**2"))
+    -\frac{n (n + 3)}{2 \sqrt{\mu}} - b^{2}
+    """
+    parts: list[tuple[str, bool]] = []  # from the inside: LaTeX, and does it stand in parentheses?
+
+    def ready(latex: str, around: bool = False) -> str:
+        parts.append((latex, around))
+        return chr(_PART + len(parts) - 1)
+
+    def alone(product: str) -> str:
+        return ready(parts[ord(product) - _PART][0]) if len(product) == 1 and ord(product) >= _PART else product
+
+    def flat(text: str) -> str:
+        text = _QUOTIENT.sub(lambda match: rf"\frac{{{alone(match[1])}}}{{{alone(match[2])}}}", text)
+        for pattern, replacement in _REPLACEMENTS:
+            text = pattern.sub(replacement, text)
+        return text
+
+    while match := _INNERMOST.search(text):
+        root, (inside, _, n) = match[1], match[2].partition(", ")
+        degree = f"[{'3' if root == 'cbrt' else n}]" if root in ("cbrt", "root") else ""
+        part = ready(rf"\sqrt{degree}{{{flat(inside)}}}") if root else ready(flat(match[2]), True)
+        text = text[: match.start()] + part + text[match.end() :]
+    text = flat(text)
+    for k, (latex, around) in reversed([*enumerate(parts)]):
+        if around:
+            latex = rf"\left({latex}\right)" if r"\frac" in latex else f"({latex})"
+        text = text.replace(chr(_PART + k), latex)
     return text
 
 
@@ -181,20 +209,3 @@ def symbol(name: str) -> str:
     base, index = (match[1], match[2].replace("_", r"\_")) if match else (name, "")
     letter = rf"\{base}" if base in _GREEK.split() else base if len(base) == 1 else rf"\mathrm{{{base}}}"
     return f"{letter}_{{{index}}}" if index else letter
-
-
-def latex_ratfunc(function: RatFunc, variable: str = "x") -> str:
-    """A rational function as one fraction with integer coefficients.
-
-    >>> from kovacic.algebra.rationals import QQ
-    >>> latex_ratfunc(RatFunc(QQ.poly([1, 0, 1]), QQ.poly([0, 2])))
-    '\\\\frac{x^{2} + 1}{2 x}'
-    """
-    num, den = function.cleared()
-    above = latex_text(num.integer_str(variable))
-    if den == 1:
-        return above
-    sign = ""
-    if above.startswith("-") and " + " not in above and " - " not in above:
-        sign, above = "-", above[1:]
-    return rf"{sign}\frac{{{above}}}{{{latex_text(den.integer_str(variable))}}}"
