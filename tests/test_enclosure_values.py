@@ -767,3 +767,10 @@ def test_singular_points_of_the_right_hand_side_are_refused(right: str) -> None:
     with pytest.raises(InputError, match="on the way"):
         evaluate(f"y'' + y' + 2*y = {right}", "11/5", x0="1/2", y0=0, dy0=0)
     assert evaluate(f"y'' + y' + 2*y = {right}", "1", x0="1/2", y0=0, dy0=0).digits >= 15
+
+
+def test_an_exact_zero_beside_a_value_that_needs_more_bits() -> None:
+    zero, small = evaluate("-251 + 7/3/(x+7)^2", ["9/2", "4.301757"], x0="9/2", y0=0, dy0=2, digits=25)
+    assert zero.is_exact()
+    assert zero.contains_zero()
+    assert small.digits >= 25

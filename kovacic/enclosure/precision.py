@@ -138,7 +138,8 @@ def _missing_bits(y: acb, digits: int, prec: int) -> int:
 
 def _lost(y: acb, prec: int) -> int:
     """By how many bits other solutions grow, seen by an enclosure that contains zero."""
-    return max(0, math.ceil(log2(y.abs_upper())) + prec)
+    largest = y.abs_upper()
+    return 0 if largest == 0 else max(0, math.ceil(log2(largest)) + prec)
 
 
 def _growth(result: Evaluation) -> int:
