@@ -140,6 +140,8 @@ class AlgebraicField(Field):
                 square = self.modulus[1] * self.modulus[1] / 4 - self.modulus[0]
                 root = self.base.sqrt(value.parts[0] / square)
                 return None if root is None else middle * root
+        if self.base.sqrt(norm(value)) is None:  # that of a square is one
+            return None
         for factor, _ in self.factor(self.poly([-constant, 0, 1])):
             if factor.degree == 1:
                 return -factor[0]
