@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 from processes import started
 
 import kovacic
-from kovacic.batch.files import answers, count_items, guess_format, item_from, opened, read_items, take_up
+from kovacic.batch.files import answers, count_items, guess_format, item_from, read_items, take_up
 from kovacic.batch.pool import _START, GRACE_SECONDS, Pool
 from kovacic.batch.records import LABELS, Item, Job, Record, Summary
 from kovacic.batch.worker import solve_item
@@ -99,7 +99,7 @@ def test_a_line_above_the_limit_is_not_kept() -> None:
 def test_gzip_is_recognised_by_its_first_bytes(tmp_path: Path) -> None:
     path = tmp_path / "data"
     path.write_bytes(gzip.compress(b"x\nx^2\n"))
-    with opened(str(path)) as stream:
+    with path.open("rb") as stream:
         assert [item.text for item in read_items(stream)] == ["x", "x^2"]
     assert count_items(str(path)) == 2
 
@@ -181,7 +181,7 @@ def test_answers_validate_against_the_schema(pool: Pool) -> None:
 
 def test_published_equations_have_their_answers(pool: Pool) -> None:
     expected = [json.loads(line)["case"] for line in CASES.read_text(encoding="utf-8").splitlines()][:60]
-    with opened(str(CASES)) as stream:
+    with CASES.open("rb") as stream:
         some = [item for item in read_items(stream, form="jsonl") if item.number <= 60]
     finished = list(pool.run(some, ordered=False))
     assert sorted(record.number for record in finished) == list(range(1, 61))

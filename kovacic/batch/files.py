@@ -45,20 +45,6 @@ def guess_format(name: str) -> str | None:
     return {".jsonl": "jsonl", ".ndjson": "jsonl", ".csv": "csv"}.get(suffix)
 
 
-@contextmanager
-def opened(name: str) -> Iterator[BinaryIO]:
-    """The bytes of a file; "-" is standard input.  Raises `InputError` for a file that can't be opened."""
-    if name == "-":
-        yield sys.stdin.buffer
-        return
-    try:
-        stream = open(name, "rb")  # noqa: SIM115 - closed below; errors of the body aren't errors of opening
-    except OSError as error:
-        raise InputError(f"{name}: {error.strerror}") from None
-    with stream:
-        yield stream
-
-
 def read_items(
     stream: BinaryIO, *, form: str | None = None, var: str | None = None, limits: Limits = DEFAULT_LIMITS
 ) -> Iterator[Item]:
@@ -87,7 +73,7 @@ def read_items(
 
 def count_items(name: str, *, form: str | None = None) -> int:
     """How many items a file has, for the progress bar."""
-    with opened(name) as stream:
+    with open(name, "rb") as stream:
         return sum(1 for _ in read_items(stream, form=form or guess_format(name)))
 
 

@@ -54,8 +54,6 @@ def solve_item(item: Item, job: Job, limits: Limits) -> Record:
     """The record of one item, computed in this process; the limits are those of the job."""
     start = time.perf_counter()
     try:
-        if item.error is not None:
-            raise item.error
         return solved(item, kovacic.solve(item.text, var=item.var, limits=limits), job)
     except KovacicError as error:
         return refused(item, error, time.perf_counter() - start)

@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from functools import partial
 from math import prod
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 import click
 
@@ -47,7 +47,7 @@ def _batch_options(command: Command) -> Command:
 
 
 @click.command()
-@click.argument("file", metavar="FILE")
+@click.argument("file", metavar="FILE", type=click.File("rb"))
 @click.option("-o", "--output", type=options.OutputFile(), help="Append the answers to this file.")
 @click.option("--resume", is_flag=True, help="Take an interrupted run up again: answer what the output file lacks.")
 @click.option("--format", "form", type=click.Choice(["lines", "jsonl", "csv"]), help="By default by the file's name.")
@@ -56,7 +56,7 @@ def _batch_options(command: Command) -> Command:
 @options.VAR
 @_batch_options
 def batch(
-    file: str, output: Path | None, resume: bool, form: str | None, var: str | None, limits: Limits, **run: Any
+    file: BinaryIO, output: Path | None, resume: bool, form: str | None, var: str | None, limits: Limits, **run: Any
 ) -> int:
     """Decide every equation of FILE; "-" is standard input.
 
@@ -72,15 +72,15 @@ def batch(
     Exit status: 0 all decided, 3 some undecided, 2 some bad input, 4 a self-check or a process failed, 5 the output can't
     be written.
     """
-    from kovacic.batch.files import answers, count_items, guess_format, opened, read_items
+    from kovacic.batch.files import answers, count_items, guess_format, read_items
 
     done = _already_answered(output, resume)
-    form = form or guess_format(file)
-    with ExitStack() as stack:
-        items = read_items(stack.enter_context(opened(file)), form=form, var=var, limits=limits)
-        write = stack.enter_context(answers(output))
-        count = None if file == "-" else partial(count_items, file, form=form)
-        return _answer_all(items, write, count=count, done=done, limits=limits, stream=file == "-", **run)
+    stream = file is sys.stdin.buffer
+    form = form or (None if stream else guess_format(file.name))
+    items = read_items(file, form=form, var=var, limits=limits)
+    count = None if stream else partial(count_items, file.name, form=form)
+    with answers(output) as write:
+        return _answer_all(items, write, count=count, done=done, limits=limits, stream=stream, **run)
 
 
 @options.equation_command()
