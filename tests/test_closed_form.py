@@ -20,10 +20,20 @@ import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution, residual
+from kovacic.closed_form.curve import integrate_on_curve
 from kovacic.closed_form.form import solutions
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.klein import KleinForm
-from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve, Triangular, build
+from kovacic.closed_form.product import product
+from kovacic.closed_form.structure import (
+    Conjugate,
+    Diagonal,
+    OnCurve,
+    Triangular,
+    build,
+    curve_of,
+    logarithmic_derivative,
+)
 from kovacic.limits import Limits
 
 X = RatFunc(QQ.poly([0, 1]))
@@ -448,8 +458,11 @@ def test_gathered_zeros_are_the_spread_ones() -> None:
     form = build(answer.S, answer.decision, answer.gauge)
     assert isinstance(form, OnCurve)
     assert form.zeros is not None
-    assert form.spread.zeros is None
-    for curve in (form, form.spread):
+    assert answer.decision.semi_invariant is not None
+    g, r, kappa_squared = curve_of(answer.S, answer.decision.semi_invariant)
+    norm = logarithmic_derivative(form.zeros.norm(g))
+    spread = OnCurve(product(form.common.logarithmic_derivative + norm / 2), kappa_squared, integrate_on_curve(r, g))
+    for curve in (form, spread):
         assert is_exact_solution(curve, answer.S, answer.gauge)
     changed = replace(form, zeros=replace(form.zeros, A=form.zeros.A * 2))
     assert not is_exact_solution(changed, answer.S, answer.gauge)

@@ -64,18 +64,6 @@ class OnCurve:
     integral: CurveIntegral
     zeros: Unit | None = None
 
-    @property
-    def spread(self) -> OnCurve:
-        """The same with A +- B kappa s as a square root of its norm, in `common`, and logarithms at the zeros."""
-        if self.zeros is None:
-            return self
-        g = self.integral.g
-        common = product(
-            self.common.logarithmic_derivative + logarithmic_derivative(self.zeros.norm(g)) * Fraction(1, 2)
-        )
-        r = self.integral.integrand + self.zeros.integrand(g)
-        return OnCurve(common, self.kappa_squared, completed(integrate_on_curve(r, g)))
-
 
 ClosedStructure = Diagonal | Conjugate | Triangular | OnCurve | KleinForm
 
@@ -128,7 +116,19 @@ def _conjugate(semi: SemiInvariant, gauge: RatFunc) -> Conjugate:
 
 
 def _imprimitive(S: RatFunc, semi: SemiInvariant, gauge: RatFunc) -> OnCurve:
-    """kappa^2 r^2/g = (4 S - 2 phi' - phi^2)/4 for phi = (y1 y2)'/(y1 y2)."""
+    g, r, kappa_squared = curve_of(S, semi)
+    common = (semi.theta + gauge * 2) * Fraction(1, 2)
+    zeros = gathered_zeros(g, r, kappa_squared, semi.P)
+    if zeros is None:
+        common = common + logarithmic_derivative(semi.P) * Fraction(1, 2)
+    else:
+        common = common - logarithmic_derivative(zeros.p // semi.P) * Fraction(1, 2)
+        r = r - zeros.integrand(g)
+    return OnCurve(product(common), kappa_squared, completed(integrate_on_curve(r, g)), zeros)
+
+
+def curve_of(S: RatFunc, semi: SemiInvariant) -> tuple[Poly, RatFunc, Poly]:
+    """g, r, and kappa^2 with kappa^2 r^2/g = (4 S - 2 phi' - phi^2)/4 for phi = (y1 y2)'/(y1 y2)."""
     phi = semi.logarithmic_derivative
     field = phi.field
     square = (4 * S - 2 * phi.derivative() - phi * phi) * Fraction(1, 4)
@@ -141,20 +141,11 @@ def _imprimitive(S: RatFunc, semi: SemiInvariant, gauge: RatFunc) -> OnCurve:
         h = h * RatFunc(residue.factor) ** (int(exponent) // 2)
         if int(exponent) % 2:
             g = g * residue.factor
-    r = 1 / h
     constant = square * RatFunc(g) * h * h
     # r = 1/h has h' numerator and denominator monic, so that kappa alone carries the constant.
     if not constant.is_polynomial or constant.num.degree > 0:
         raise AssertionError("the squared Wronskian is a constant")
-    kappa_squared = constant.num
-    common = (semi.theta + gauge * 2) * Fraction(1, 2)
-    zeros = gathered_zeros(g, r, kappa_squared, semi.P)
-    if zeros is None:
-        common = common + logarithmic_derivative(semi.P) * Fraction(1, 2)
-    else:
-        common = common - logarithmic_derivative(zeros.p // semi.P) * Fraction(1, 2)
-        r = r - zeros.integrand(g)
-    return OnCurve(product(common), kappa_squared, completed(integrate_on_curve(r, g)), zeros)
+    return g, 1 / h, constant.num
 
 
 def logarithmic_derivative(polynomial: Poly) -> RatFunc:

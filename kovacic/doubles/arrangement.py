@@ -24,7 +24,8 @@ from typing import Any
 from flint import acb, acb_poly, arb
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.structure import OnCurve, build
+from kovacic.closed_form.curve import integrate_on_curve
+from kovacic.closed_form.structure import curve_of
 from kovacic.doubles.double_double import Complex, Pair
 from kovacic.doubles.product_form import Conic, Factor, ProductForm, RationalFunction, Shape
 from kovacic.doubles.region import Region
@@ -163,32 +164,31 @@ def _on_curve(problem: NumericProblem, which: int, region: Region, base: Point) 
     theta, P = decision.semi_invariant.theta, decision.semi_invariant.P
     if decision.case != 2 or P.degree > _MAX_ZEROS:
         return None
-    form = build(S, decision, S * 0)
-    assert isinstance(form, OnCurve)
-    form = form.spread
+    g, r, kappa_squared = curve_of(S, decision.semi_invariant)
     c = conjugates(P.field)[0]
     z = to_acb(base)
-    conic = conic_of(embed(form.integral.g, c), z.real)
-    if conic is None or not form.integral.is_elementary:
+    conic = conic_of(embed(g, c), z.real)
+    if conic is None:
         return None
-    kappa = (embed(form.kappa_squared, c)(0) * conic.sigma).sqrt()
+    integral = integrate_on_curve(r, g)
+    kappa = (embed(kappa_squared, c)(0) * conic.sigma).sqrt()
     even = theta / 2 if problem.gauge is None else theta / 2 + problem.gauge
     # Which sign is the solution number `which`?  y'/y = (even part) + kappa r/s for the sign of kappa found here.
     average = value(even, c, z) + value(RatFunc(P.derivative(), P), c, z) / 2
     root, parameters = _parameters(conic, z)
     assert parameters is not None
-    odd = kappa * value(form.integral.integrand, c, z) / root
+    odd = kappa * value(integral.integrand, c, z) / root
     target = omega(problem, which, base, 200)
     if not (average + odd).overlaps(target):
         kappa, odd = -kappa, -odd
     if not (average + odd).overlaps(target) or (average - odd).overlaps(target):
         raise ArithmeticError("the closed form doesn't belong to the polynomial of omega")
     smooth = LogDerivative.make(even, c)
-    places = _places(smooth, P, form.integral.residues, c)
-    rest = embed(form.integral.rest, c)(0) if form.integral.rest else z * 0
+    places = _places(smooth, P, integral.residues, c)
+    rest = embed(integral.rest, c)(0) if integral.rest else z * 0
     is_real = _all_real([kappa]) and _all_real([*embed(P, c).coeffs(), *smooth.num.coeffs()])
     factors = _factors(_powers(places, conic, kappa, rest), parameters[0], is_real)
-    sheet = _sheet(form.integral.exact, kappa * conic.sigma, c)
+    sheet = _sheet(integral.exact, kappa * conic.sigma, c)
     vertex, m, *ends = (Pair.of(v) for v in (conic.vertex, conic.m, *conic.ends))
     conic = replace(conic, vertex=vertex, m=m, ends=tuple(ends))
     return ProductForm(region, base, factors, _exponent(smooth), is_real, sheet, conic)
