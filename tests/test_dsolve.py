@@ -582,6 +582,7 @@ def test_roots_of_parameters_and_common_factors() -> None:
     assert dsolve(left).rhs.has(sympy.Integral, sympy.erf)
     left = exp(x) * (y(x).diff(x, 2) - y(x)) - exp(2 * x)
     assert residual(left, dsolve(left)) < 1e-20
+    assert kovacic.solve(exp(x) * D2 - exp(x) * x * D0).text == "y'' - x*y = 0"
 
 
 def problems_of_sympy() -> list[str]:

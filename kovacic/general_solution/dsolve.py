@@ -17,7 +17,7 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.form import at_edges, solutions
 from kovacic.closed_form.klein import KleinForm
 from kovacic.decision import Status
-from kovacic.errors import InputError, LimitExceeded, NotRational
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS
 from kovacic.general_solution.initial_values import as_mapping, constants, read_values
 from kovacic.general_solution.particular import particular_solution, place_of
@@ -33,9 +33,9 @@ from kovacic.general_solution.variation import Basis, starting_at
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
-from kovacic.reading.exponential import in_exponentials, solution_in_terms_of
+from kovacic.reading.exponential import solution_in_terms_of
 from kovacic.reading.given import EULER, PI, Equation, Parsed, parameters_of
-from kovacic.reading.source import read_source, source_of
+from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import function_of
 from kovacic.solution import Solution
 from kovacic.special.answer import special_functions
@@ -241,39 +241,10 @@ def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple
             if applied is None:
                 raise InputError(f"{func} isn't a function in the equation")
         unknown = applied = function_of(eq) if applied is None else applied
-    equation = _read(eq, var, unknown, limits)
+    equation = read_input(eq, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True).equation
+    assert equation is not None
     x = sympy.Symbol(equation.variable if equation.change is None else equation.change.variable)
     return equation, applied or (name or sympy.Function(equation.unknown))(x)
-
-
-def _read(eq: Any, var: str | None, unknown: Any, limits: Limits) -> Equation:
-    """Rational as it is, or divided by a coefficient, or in an exponential function."""
-    source = source_of(eq, var, limits, unknown=unknown, equation=True)
-    try:
-        try:
-            parsed = read_source(source, limits)
-        except NotRational:
-            divided = None if isinstance(eq, str) else _divided(eq)
-            if divided is None:
-                raise
-            parsed = read_source(source_of(divided, var, limits, unknown=unknown, equation=True), limits)
-    except NotRational:
-        found = in_exponentials(source, limits)
-        if found is None or found.equation is None or found.equation.change is None:
-            raise
-        parsed = found
-    assert parsed.equation is not None
-    return parsed.equation
-
-
-def _divided(eq: Any) -> Any:
-    """An equation divided by the coefficient of its second derivative, where a common factor isn't rational; None without."""
-    expression = eq.lhs - eq.rhs if isinstance(eq, sympy.Equality) else eq
-    second = [d for d in expression.atoms(sympy.Derivative) if d.derivative_count == 2]
-    leading = sympy.expand(expression).coeff(second[0]) if second else sympy.Integer(0)
-    if not leading.has(sympy.Function):
-        return None
-    return sympy.Add(*(sympy.cancel(term / leading) for term in sympy.Add.make_args(sympy.expand(expression))))
 
 
 def _changes_of(eq: Any) -> list[tuple[dict[Any, Any], dict[Any, Any]]]:

@@ -19,7 +19,15 @@ from kovacic.reading.parser import shown
 from kovacic.reading.source import read_source, source_of
 
 
-def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, exponentials: bool = False) -> Parsed:
+def read_input(
+    S: Any,
+    *,
+    var: Any = None,
+    limits: Limits = DEFAULT_LIMITS,
+    exponentials: bool = False,
+    unknown: Any = None,
+    equation: bool = False,
+) -> Parsed:
     """S as a rational function with the name of its variable, from whatever the user has.
 
     S is a string, a SymPy expression, a pair (numerator, denominator) of coefficient sequences from low to high powers (of
@@ -28,6 +36,7 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, expo
     SymPy `Eq` or expression with a function y(x), or as an `Equation`, and then the result has it.  `var` is a name or a
     SymPy symbol; by default it is the only symbol, else x.  SymPy isn't imported unless S comes from it.  With `exponentials`,
     coefficients may be rational in exp(k x), or sines, ... of multiples of k x: the equation then has a `change` of variable.
+    `equation` says that it is one, and `unknown` is the name of its function, or y(x), where more than one occurs.
     Raises `InputError` and `LimitExceeded`.
 
     >>> str(read_input("x^2 + 3").S), str(read_input(([3, 0, 1], [1])).S)
@@ -35,7 +44,7 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, expo
     """
     variable = _variable_name(var)
     if isinstance(S, str) or _is_sympy(S):
-        source = source_of(S, variable, limits)
+        source = source_of(S, variable, limits, unknown=unknown, equation=equation)
         try:
             return read_source(source, limits)
         except NotRational as error:
@@ -45,7 +54,11 @@ def read_input(S: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS, expo
             if not exponentials:
                 raise
             from kovacic.reading.exponential import in_exponentials
+            from kovacic.reading.symbolic import divided
 
+            if not isinstance(S, str) and (quotient := divided(S)) is not None:
+                with suppress(NotRational):
+                    return read_source(source_of(quotient, variable, limits, unknown=unknown, equation=True), limits)
             try:
                 found = in_exponentials(source, limits)
             except NotRational as other:

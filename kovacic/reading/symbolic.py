@@ -119,6 +119,16 @@ def function_of(expression: Any) -> Any:
     return candidates.pop()
 
 
+def divided(eq: Any) -> Any:
+    """An equation divided by the coefficient of its second derivative, where a common factor isn't rational; None without."""
+    expression = eq.lhs - eq.rhs if isinstance(eq, sympy.Equality) else eq
+    second = [d for d in expression.atoms(sympy.Derivative) if d.derivative_count == 2]
+    leading = sympy.expand(expression).coeff(second[0]) if second else sympy.Integer(0)
+    if not leading.has(sympy.Function):
+        return None
+    return sympy.Add(*(sympy.cancel(term / leading) for term in sympy.Add.make_args(sympy.expand(expression))))
+
+
 def read_expression(
     text: str, *, names: Mapping[str, Any] | None = None, what: str = "the expression", limits: Limits = LIMITS
 ) -> Any:
