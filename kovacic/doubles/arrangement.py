@@ -21,7 +21,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from flint import acb, acb_poly, arb
+from flint import acb, acb_poly, arb, arb_poly
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import integrate_on_curve
@@ -81,18 +81,21 @@ def _exponential(
     return ProductForm(region, base, factors, _exponent(theta), is_real, polynomial=table, careful=careful)
 
 
-def _with_equation(problem: NumericProblem, branch: Exponential, base: Point) -> Callable[[], list[acb_poly]]:
-    """P/P(base), and a, b, c with a P'' + b P' + c P = 0, at the working precision in force."""
+def _with_equation(problem: NumericProblem, branch: Exponential, base: Point) -> Callable[[], list[Any]]:
+    """P/P(base), its derivative, and a, b, c with a P'' + b P' + c P = 0, at the working precision in force."""
     assert problem.S is not None
     phi = branch.theta if problem.gauge is None else branch.theta - problem.gauge
     rest = phi.derivative() + phi * phi - problem.S  # P'' + 2 phi P' + rest P = 0
     a = phi.den * (rest.den // phi.den.gcd(rest.den))
     exact = a, (2 * phi * a).num, (rest * a).num
 
-    def balls() -> list[acb_poly]:
+    def balls() -> list[Any]:
         c = branch.constant()
-        P = embed(branch.P, c)
-        return [P * (1 / P(to_acb(base))), *(embed(part, c) for part in exact)]
+        P, *equation = (embed(part, c) for part in (branch.P, *exact))
+        P *= 1 / P(to_acb(base))
+        found = [P, P.derivative(), *equation]
+        is_real = all(v.imag.is_zero() for poly in found for v in poly.coeffs())
+        return [arb_poly([v.real for v in poly.coeffs()]) for poly in found] if is_real else found
 
     return balls
 

@@ -77,10 +77,7 @@ class Pair:
         return (self.hi - other) + self.lo if isinstance(other, np.ndarray) else self + -other
 
     def __rsub__(self, other: Any) -> Any:
-        difference = other - self.hi
-        if self.lo:
-            difference -= self.lo
-        return difference
+        return (other - self.hi) - self.lo
 
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, np.ndarray):

@@ -128,7 +128,7 @@ def lambdify(
                 if form is None
                 else replace(form, careful=variant)
             )
-            found = _measured(function, chart, None if start else which, budget) if check else None
+            found = _measured(function, chart, start, budget) if check else None
             if not isinstance(found, Measured) or found.keeps_the_promise:
                 break
     if found is None:
@@ -156,20 +156,13 @@ def measure(
     Points where the solution is 0 or beyond the range of doubles don't count; a wrong 0, inf or NaN does.  Raises
     LimitExceeded where the reference isn't found within the limits.
     """
-    chart = chart_of(equation, dict(start or {}), None)
-    if not start:
+    chart = equation if isinstance(equation, Chart) else chart_of(equation, dict(start or {}), None)
+    if not chart.given:
         assert function.base is not None
         chart = chart.beginning(which, function.base)
-    return _errors(function, chart, None if start else which, points, limits)
-
-
-def _errors(function: Function, chart: Chart, which: int | None, points: Any, limits: Limits | None) -> Measured:
-    """As `measure`; the solution number `which`, up to a factor, if it isn't None."""
-    given, extra = np.atleast_1d([] if points is None else points), np.empty(0)
-    if points is None:
-        zeros = _zeros(function)
-        given, extra = samples(function, zeros), _suspects(function, *zeros)
-    given = np.append(given, extra)
+    near = _zeros(function) if points is None else ()
+    extra = _suspects(function, *near) if near else np.empty(0)
+    given = np.append(samples(function, near) if near else np.atleast_1d(points), extra)
     exact = [as_point(complex(x), "x") for x in given]
     found = [complex(v) for v in function(given)]
     reference = [y for y, _ in chart.states(exact, _DIGITS, limits, method="taylor")]
@@ -182,7 +175,7 @@ def _errors(function: Function, chart: Chart, which: int | None, points: Any, li
             return Measured(math.inf, math.inf, 0)
         by_real = abs(quotients[0].real) >= abs(quotients[0].imag)
         quotients.sort(key=lambda q: q.real if by_real else q.imag)
-        factor = acb(1) if which is None else quotients[len(quotients) // 2]
+        factor = acb(1) if start else quotients[len(quotients) // 2]
         errors = [None if y.contains(0) else _units(v, (y * factor).mid()) for v, y in pairs]
     typical, counted = ([e for e in some if e is not None] for some in (errors[: len(errors) - extra.size], errors))
     return Measured(float(np.median(typical or [math.inf])), max(counted, default=math.inf), len(counted))
@@ -264,10 +257,9 @@ def _units(value: complex, exact: acb) -> float | None:
     return float(abs(value - exact) / float(np.spacing(float(size))))
 
 
-def _measured(function: Function, chart: Chart, which: int | None, budget: Budget) -> Measured | str:
+def _measured(function: Function, chart: Chart, start: Mapping[str, Any], budget: Budget) -> Measured | str:
     """The error on the default points, or why it couldn't be measured."""
     try:
-        limits = Limits(seconds=min(20.0, budget.seconds_left))
-        return _errors(function, chart, which, None, limits)
+        return measure(function, chart, start=start, limits=Limits(seconds=min(20.0, budget.seconds_left)))
     except LimitExceeded as limit:
         return str(limit)

@@ -104,11 +104,6 @@ class Factor:
     paired: bool
 
     @property
-    def reach(self) -> float:
-        """|zeta| at most."""
-        return math.hypot(self.zeta.re.hi, 0.0 if self.zeta.im is None else self.zeta.im.hi)
-
-    @property
     def whole(self) -> int | None:
         """The power, where that is a small integer."""
         k = self.power.re.hi
@@ -196,7 +191,9 @@ class ProductForm:
             parameter, s = self.conic.coordinates(point.re)
             t, size = Complex(parameter), np.max(np.abs(double(parameter)), initial=0.0)
             growth.append(self.sheet(Complex(point.re), Complex(s)))
-        product = _Product(t, careful, size + max((f.reach for f in self.factors), default=0.0))
+        zetas = (f.zeta for f in self.factors)
+        reach = max((math.hypot(z.re.hi, 0.0 if z.im is None else z.im.hi) for z in zetas), default=0.0)
+        product = _Product(t, careful, size + reach)
         if self.polynomial is not None:
             numbers, powers = self.polynomial.parts(x)
             if careful:

@@ -27,7 +27,7 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from flint import acb, acb_poly, arb, arb_mat, arb_poly, fmpq
+from flint import arb, arb_mat, arb_poly, fmpq
 from numpy.polynomial import chebyshev
 
 from kovacic.algebra.rationals import to_fmpq
@@ -35,7 +35,6 @@ from kovacic.doubles.chart import Chart, chart_of
 from kovacic.doubles.double_double import Pair, double, folded, halves, horner, scaled, two_sum
 from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks
 from kovacic.enclosure.frame import log2
-from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import Point, power_of_two, working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_time
@@ -167,18 +166,11 @@ def table_of(chart: Chart, interval: tuple[object, object], careful: bool, limit
 
 
 def polynomial_table(
-    balls: Callable[[], Sequence[acb_poly]], degree: int, region: Region, careful: bool
+    balls: Callable[[], list[Any]], degree: int, region: Region, careful: bool
 ) -> TabulatedFunction | None:
-    """A polynomial P with a P'' + b P' + c P = 0, from `balls`, which has P, a, b, c at the working precision in force, on an
-    interval that may end in zeros of a; None where it can't be done, as beside a zero of P of high multiplicity."""
-    variant = _CAREFUL if careful else _PLAIN
-
-    @lru_cache
-    def at(prec: int) -> list[Any]:
-        P, *equation = balls()
-        found = [P, P.derivative(), *equation]
-        is_real = all(v.imag.is_zero() for poly in found for v in poly.coeffs())
-        return [arb_poly([v.real for v in poly.coeffs()]) for poly in found] if is_real else found
+    """A polynomial P with a P'' + b P' + c P = 0, from `balls`, which has P, P', a, b, c at the working precision in force, on
+    an interval that may end in zeros of a; None where it can't be done, as beside a zero of P of high multiplicity."""
+    variant, at = _CAREFUL if careful else _PLAIN, lru_cache(lambda prec: balls())
 
     def expand(cells: list[Cell]) -> list[Any]:
         return [_expanded(at, _PREC + 3 * degree, cell, variant) for cell in cells]
@@ -190,12 +182,8 @@ def polynomial_table(
             raise
         return None
     with working_precision(_PREC):
-        powers = np.array([int(log2(max(abs(v).mid() for v in row))) for row in found])
-        rows = [[v * arb((1, -int(k))) for v in row] for row, k in zip(found, powers, strict=True)]
-        names = ("real", "imag") if isinstance(rows[0][0], acb) else ("real",)
-        parts = [halves([getattr(v, name) for row in rows for v in row]) for name in names]
-    table = np.array(parts).reshape(len(names), 2, len(rows), -1).transpose(1, 3, 0, 2)
-    return _assembled(region, None, cells, Pair(*table), powers, variant)
+        table, powers = _rounded(found, variant)
+    return _assembled(region, None, cells, _given(table), powers, variant)
 
 
 def _expanded(at: Callable[[int], list[Any]], prec: int, cell: Cell, variant: _Variant) -> list[Any] | None:
@@ -341,8 +329,8 @@ def _states(chart: Chart, cells: list[Cell], series: Pair, variant: _Variant, li
     def enclose(which: Any) -> None:
         balls = chart.states([Point(cells[k][0]) for k in which], variant.digits, limits)
         with working_precision(_PREC):
-            for k, state in zip(which, balls, strict=True):
-                v[..., k], powers[k] = _rounded(state, cells[k][1], variant)
+            rows = [(y, dy * arb((1, cells[k][1]))) for k, (y, dy) in zip(which, balls, strict=True)]
+            v[..., which], powers[which] = _rounded(rows, variant)
         lost[which] = 0.0
 
     sparse = variant is _PLAIN and chart.forcing is None
@@ -359,20 +347,28 @@ def _states(chart: Chart, cells: list[Cell], series: Pair, variant: _Variant, li
             better = less < lost[k + sign]
             shift, k, new = np.frexp(length[better])[1], k[better] + sign, new[..., better]
             v[..., k], powers[k], lost[k] = np.ldexp([new.hi, new.lo], -shift), powers[k - sign] + shift, less[better]
-    enclose(np.flatnonzero(~(lost <= _LOST)))
+    if (rest := np.flatnonzero(~(lost <= _LOST))).size:
+        enclose(rest)
     kept = np.where(np.abs(powers) > _ROOM, powers, 0)
-    return scaled(Pair(*v[:, :, : 1 + v[:, :, 1].any()]), powers - kept), kept
+    return scaled(_given(v), powers - kept), kept
 
 
-def _rounded(state: State, e: int, variant: _Variant) -> tuple[Any, int]:
-    """(y, H y') over a power of two, without an imaginary part that may be 0."""
-    both = state[0], state[1] * arb((1, e))
-    numbers = [part for v in both for part in (v.real, v.imag * 0 if v.imag.contains(0) else v.imag)]
-    size = max(abs(v).mid() for v in both)
-    if max(r for v in both for r in (v.real.rad(), v.imag.rad())) > size * arb((1, -variant.bits)):
-        raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
-    power = int(log2(size)) if size > 0 else 0
-    return halves([v * arb((1, -power)) for v in numbers]).reshape(2, 2, 2), power
+def _rounded(rows: Sequence[Sequence[Any]], variant: _Variant) -> tuple[Any, Any]:
+    """Rows of balls over powers of two: halves, entries, real and imaginary parts (0 if they may be), rows; and the powers."""
+    numbers, powers = list[arb](), list[int]()
+    for row in rows:
+        size = max(abs(v).mid() for v in row)
+        if max(abs(v).rad() for v in row) > size * arb((1, -variant.bits)):
+            raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
+        powers.append(int(log2(size)) if size > 0 else 0)
+        parts = (part for v in row for part in (v.real, v.imag * 0 if v.imag.contains(0) else v.imag))
+        numbers += [part * arb((1, -powers[-1])) for part in parts]
+    return halves(numbers).reshape(2, len(rows), -1, 2).transpose(0, 2, 3, 1), np.array(powers)
+
+
+def _given(table: Any) -> Pair:
+    """Without imaginary parts that are all zero."""
+    return Pair(*table[:, :, : 1 + table[:, :, 1].any()])
 
 
 def _transfers(series: Pair, exponents: Any) -> tuple[Pair, Pair]:
