@@ -28,7 +28,7 @@ from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, NotRational
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.limits import Limits, check_time
 from kovacic.reading.read import read_input
 
 _SLOPE_BITS = 4000
@@ -100,7 +100,7 @@ class Chart:
     def states(self, points: Sequence[Point], digits: int, limits: Limits | None, **options: Any) -> list[State]:
         """y and dy/dx, to so many digits where they can be had."""
         if self.branch is not None:
-            return self._closed(self.branch, points, digits, Budget(limits or DEFAULT_LIMITS))
+            return self._closed(self.branch, points, digits)
         options |= {"digits": digits, "limits": limits, **self.given}
         if self.answer is None:
             return [s.state for s in evaluate_states(self.problem, points, **options)]
@@ -110,7 +110,7 @@ class Chart:
         found = evaluate_in_x(self.answer, self.answer.equation.change, [*points], **options)
         return [(ball_to_flint(y), ball_to_flint(dy)) for y, dy in found]
 
-    def _closed(self, branch: Exponential, points: Sequence[Point], digits: int, budget: Budget) -> list[State]:
+    def _closed(self, branch: Exponential, points: Sequence[Point], digits: int) -> list[State]:
         """y = exp(int theta) P/P(base) and y' from the certificate: without the zeros of P, and without an integration of the
         equation, in which the dominant solution would grow."""
         goal, prec, found = start_bits(digits) - 24, 2 * start_bits(digits) + branch.P.degree, dict[Point, State]()
@@ -120,7 +120,7 @@ class Chart:
                 theta, P = LogDerivative.make(branch.theta, c), embed(branch.P, c)
                 slope, factor = P.derivative(), 1 / P(z)
                 for point in (point for point in points if point not in found):
-                    budget.check()
+                    check_time()
                     x = to_acb(point)
                     growth = theta.growth(z, x) * factor
                     y = growth * P(x)

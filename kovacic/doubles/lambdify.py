@@ -33,7 +33,7 @@ from kovacic.doubles.tabulate import TabulatedFunction, table_of
 from kovacic.enclosure.points import as_point, working_precision
 from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.limits import DEFAULT_LIMITS, Limits, limited, watched_seconds
 
 TINY, HUGE = 2.0**-960, 2.0**1020
 """Where values count."""
@@ -52,6 +52,7 @@ _MANY, _EACH, _BESIDE = 400, 8, 0.01
 Function = ProductForm | TabulatedFunction
 
 
+@limited
 def lambdify(
     solution: object,
     *,
@@ -107,30 +108,29 @@ def lambdify(
             "lambdify needs a Liouvillian solution, found by kovacic.solve, or initial values",
             hint="x0=, y0= and dy0= serve every S",
         )
-    budget = Budget(limits or DEFAULT_LIMITS)
-    with budget.watched():
-        region, candidates = chart.region(interval)
-        variants = (careful,) if careful is not None else (False, True) if check else (False,)
-        base = None if start else chart.base(which, candidates)
-        if base is not None:
-            chart = chart.beginning(which, base)
-        form: ProductForm | None = None
-        for variant in variants:
-            if base is not None and chart.answer is None and (form is None or form.polynomial is not None):
-                with working_precision(_PREC):
-                    form = product_form(problem, which, region, base, variant)
-            if form is None and not region.is_real:
-                raise InputError(
-                    "complex arguments need a solution of case 1", hint="evaluate treats every complex point"
-                )
-            function: Function = (
-                table_of(chart, interval, variant, budget.share(1).limits)
-                if form is None
-                else replace(form, careful=variant)
-            )
-            found = _measured(function, chart, start, budget) if check else None
-            if not isinstance(found, Measured) or found.keeps_the_promise:
-                break
+    region, candidates = chart.region(interval)
+    variants = (careful,) if careful is not None else (False, True) if check else (False,)
+    base = None if start else chart.base(which, candidates)
+    if base is not None:
+        chart = chart.beginning(which, base)
+    form: ProductForm | None = None
+    found: Measured | str | None
+    for variant in variants:
+        if base is not None and chart.answer is None and (form is None or form.polynomial is not None):
+            with working_precision(_PREC):
+                form = product_form(problem, which, region, base, variant)
+        if form is None and not region.is_real:
+            raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
+        function: Function = (
+            table_of(chart, interval, variant, limits) if form is None else replace(form, careful=variant)
+        )
+        try:
+            seconds = watched_seconds(20.0)
+            found = measure(function, chart, start=start, limits=Limits(seconds=seconds)) if check else None
+        except LimitExceeded as limit:
+            found = str(limit)
+        if not isinstance(found, Measured) or found.keeps_the_promise:
+            break
     if found is None:
         return function
     text = f"measured error of this function in units in the last place: {found}"
@@ -255,11 +255,3 @@ def _units(value: complex, exact: acb) -> float | None:
     if not math.isfinite(abs(value)):
         return math.inf
     return float(abs(value - exact) / float(np.spacing(float(size))))
-
-
-def _measured(function: Function, chart: Chart, start: Mapping[str, Any], budget: Budget) -> Measured | str:
-    """The error on the default points, or why it couldn't be measured."""
-    try:
-        return measure(function, chart, start=start, limits=Limits(seconds=min(20.0, budget.seconds_left)))
-    except LimitExceeded as limit:
-        return str(limit)

@@ -37,7 +37,7 @@ from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.points import Point, power_of_two, working_precision
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_time
+from kovacic.limits import Limits, check_time, limited
 
 _PREC = 300
 _GROWTH = 12.0
@@ -120,6 +120,7 @@ class TabulatedFunction:
         return numbers, self.powers[index] if self.powers.any() else None
 
 
+@limited
 def tabulate(
     equation: object, start: object, stop: object, *, careful: bool = True, limits: Limits | None = None, **given: Any
 ) -> TabulatedFunction:
@@ -139,12 +140,12 @@ def tabulate(
     -0.177596771314338
     """
     params = given.pop("params", None)
-    return table_of(chart_of(equation, given, params), (start, stop), careful, limits or DEFAULT_LIMITS)
+    return table_of(chart_of(equation, given, params), (start, stop), careful, limits)
 
 
-def table_of(chart: Chart, interval: tuple[object, object], careful: bool, limits: Limits) -> TabulatedFunction:
-    """As `tabulate`."""
-    budget, (region, _) = Budget(limits), chart.region(interval)
+def table_of(chart: Chart, interval: tuple[object, object], careful: bool, limits: Limits | None) -> TabulatedFunction:
+    """As `tabulate`, within a budget that is watched."""
+    region, _ = chart.region(interval)
     if not region.is_real:
         raise InputError("a table needs an interval of the real axis")
     if any(region.singular):
@@ -152,12 +153,12 @@ def table_of(chart: Chart, interval: tuple[object, object], careful: bool, limit
             "an end of the interval is a singular point", hint="a table ends beside it; choose an end at some distance"
         )
     variant = _CAREFUL if careful else _PLAIN
-    with budget.watched(), working_precision(_PREC):
+    with working_precision(_PREC):
         cells, found = _pieces(
             region, lambda some: _series(chart, some, variant), lambda x, h: chart.steepness(x, h) > _STEEP
         )
     series = Pair(*np.stack(found, axis=-1))
-    states, powers = _states(chart, cells, series, variant, budget.share(1).limits)
+    states, powers = _states(chart, cells, series, variant, limits)
     coefficients = series[:, 0, None] * states[0] + series[:, 1, None] * states[1]
     if chart.forcing is not None:
         coefficients += scaled(series[:, 2, None], -powers)
@@ -317,7 +318,9 @@ def _lowering(terms: int, kept: int) -> Any:
     return np.array([np.pad(row, (0, kept - len(row))) for row in rows]).T
 
 
-def _states(chart: Chart, cells: list[Cell], series: Pair, variant: _Variant, limits: Limits) -> tuple[Pair, Any]:
+def _states(
+    chart: Chart, cells: list[Cell], series: Pair, variant: _Variant, limits: Limits | None
+) -> tuple[Pair, Any]:
     """(y, H y') at the centres over powers of two, an array of both, parts and pieces; and these powers.
 
     Enclosures, rounded; in the plain variant, without a right-hand side, of every 32nd centre: the series carry the state on to
