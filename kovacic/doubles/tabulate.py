@@ -166,22 +166,15 @@ def table_of(chart: Chart, interval: tuple[object, object], careful: bool, limit
     return _assembled(region, x0 if isinstance(x0, Point) else None, cells, coefficients, powers, variant)
 
 
-def polynomial_table(
-    balls: Callable[[], list[Any]], degree: int, region: Region, careful: bool
-) -> TabulatedFunction | None:
-    """A polynomial P with a P'' + b P' + c P = 0, from `balls`, which has P, P', a, b, c at the working precision in force, on
-    an interval that may end in zeros of a; None where it can't be done, as beside a zero of P of high multiplicity."""
+def polynomial_table(balls: Callable[[], list[Any]], degree: int, region: Region, careful: bool) -> TabulatedFunction:
+    """A polynomial P with a P'' + b P' + c P = 0 and simple zeros, from `balls`, which has P, P', a, b, c at the working
+    precision in force, on an interval that may end in zeros of a."""
     variant, at = _CAREFUL if careful else _PLAIN, lru_cache(lambda prec: balls())
 
     def expand(cells: list[Cell]) -> list[Any]:
         return [_expanded(at, _PREC + 3 * degree, cell, variant) for cell in cells]
 
-    try:
-        cells, found = _pieces(region, expand, lambda x, h: x > math.inf)
-    except LimitExceeded as reason:
-        if reason.limit == "seconds":
-            raise
-        return None
+    cells, found = _pieces(region, expand, lambda x, h: x > math.inf)
     with working_precision(_PREC):
         table, powers = _rounded(found, variant)
     return _assembled(region, None, cells, _given(table), powers, variant)
