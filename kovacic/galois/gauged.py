@@ -20,7 +20,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, lcm, prod
-from typing import Any
+from typing import Any, NamedTuple
 
 from kovacic.algebra.factors import product
 from kovacic.algebra.partial_fractions import decompose
@@ -36,21 +36,11 @@ from kovacic.limits import Budget
 _COMMON_QUOTIENT = {Kind.TETRAHEDRAL: 3, Kind.OCTAHEDRAL: 2, Kind.ICOSAHEDRAL: 1}
 
 
-@dataclass(frozen=True)
-class Torus:
-    """A diagonalisable group G_m^rank x mu_n1 x mu_n2 with n1 | n2."""
+class Torus(NamedTuple):
+    """A diagonalisable group: its name, and its order, None if it is infinite."""
 
-    rank: int
-    orders: tuple[int, ...]
-
-    @property
-    def name(self) -> str:
-        parts = ["G_m"] * self.rank + [f"mu_{n}" for n in self.orders if n > 1]
-        return " x ".join(parts) or "trivial"
-
-    @property
-    def order(self) -> int | None:
-        return None if self.rank else prod(self.orders)
+    name: str
+    order: int | None
 
 
 @dataclass(frozen=True)
@@ -89,7 +79,7 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
         return EquationGroup(normal_form, N, "G_a" if torus.order == 1 else f"G_a extended by {torus.name}", False)
     if kind in (Kind.CYCLIC, Kind.MULTIPLICATIVE):
         torus = _torus(*_forms(f.theta, rho))
-        return EquationGroup(normal_form, N, torus.name, torus.rank == 0, torus.order)
+        return EquationGroup(normal_form, N, torus.name, torus.order is not None, torus.order)
     if N is None:
         return EquationGroup(normal_form, N, f"{given} with the scalars G_m", False)
     if kind is Kind.INFINITE_DIHEDRAL:
@@ -129,7 +119,8 @@ def _finite_order(S: RatFunc, group: Group, f: SemiInvariant, rho: RatFunc, N: i
     if f.P.field != S.field:
         return None
     curve = curve_of(analyse(S, Budget()), f)
-    return None if curve.genus > 0 else 2 * prod(_torus([], _residues_on_curve(curve, rho)).orders)
+    order = None if curve.genus > 0 else _torus([], _residues_on_curve(curve, rho)).order
+    return order and 2 * order
 
 
 def _is_integral(theta: RatFunc) -> bool:
@@ -182,18 +173,20 @@ def _coordinates(pair: Sequence[Any]) -> list[tuple[Fraction, Fraction]]:
 
 def _torus(vanishing: Iterable[tuple[Fraction, Fraction]], integral: Sequence[tuple[Fraction, Fraction]]) -> Torus:
     """The diagonalisable group with the characters Z^2/L, L = {(a, b) : the first forms vanish, the others are integers}."""
+
+    def group(rank: int, *orders: int) -> Torus:
+        parts = ["G_m"] * rank + [f"mu_{n}" for n in orders if n > 1]
+        return Torus(" x ".join(parts) or "trivial", None if rank else prod(orders))
+
     rows = [row for row in vanishing if any(row)]
     if rows:
-        (p, q) = rows[0]
+        p, q = rows[0]
         if any(p * s != q * r for r, s in rows):
-            return Torus(2, ())
-        common = lcm(p.denominator, q.denominator)
-        a, b = int(q * common), int(-p * common)
-        shared = gcd(a, b)
-        a, b = a // shared, b // shared
-        return Torus(1, (lcm(1, *((r * a + s * b).denominator for r, s in integral)),))
+            return group(2)
+        a, b = (-q / p).as_integer_ratio() if p else (1, 0)
+        return group(1, lcm(1, *((r * a + s * b).denominator for r, s in integral)))
     n = lcm(1, *(value.denominator for row in integral for value in row))
     matrix = [(int(r * n), int(s * n)) for r, s in integral] + [(n, 0), (0, n)]
     # The entries have no common factor, n being the least common denominator: the elementary divisors are 1 and the minors'.
     minors = gcd(*(r[0] * s[1] - r[1] * s[0] for k, r in enumerate(matrix) for s in matrix[:k]))
-    return Torus(0, (n // minors, n))
+    return group(0, n // minors, n)
