@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import random
 import re
 import subprocess
 import sys
@@ -996,6 +997,43 @@ def test_an_argument_of_a_function_as_the_variable() -> None:
     """The derivative of f(u) is f'(u) u'."""
     for f in (exp(sin(x)), exp(exp(x)) + sin(exp(x)), sin(log(x)) ** 2):
         assert sympy.simplify(antiderivative(f.diff(x), x).diff(x) - f.diff(x)) == 0
+
+
+FACTORS = """
+    x x^2 1/x exp(x) exp(-x) exp(2*x) sin(x) cos(3*x) log(x) log(x+2) sqrt(x) x^(1/3) 1/(x+1) atan(x) tan(x) sec(x) 1/(1+exp(x))
+    exp(exp(x)) exp(sqrt(x)) sin(sqrt(x)) tan(sqrt(x)) atan(sqrt(x)) cos(log(x)) sin(exp(x)) 1/log(x) log(log(x)) atan(exp(x))
+    log(cos(x)) log(1+exp(x)) exp(-x^2) exp(1/x) tan(log(x)) cot(x) atan(2*x+1) log(x)^2 log(sqrt(x)+1) exp(sin(x)) sqrt(1+x)
+""".replace("^", "**").split()
+
+
+@pytest.mark.parametrize("seed", range(80))
+def test_what_is_called_an_antiderivative_is_one(seed: int) -> None:
+    """For sums of products of functions that were drawn by lot: the derivative at three points, in x alone; or None."""
+    rng = random.Random(seed)
+    integrand = sympy.Add(
+        *(
+            sympy.Mul(
+                rng.choice([1, -1, 2]), *(sympy.sympify(f) for f in rng.sample(FACTORS, rng.choice([1, 2, 2, 3])))
+            )
+            for _ in range(rng.choice([1, 1, 2]))
+        )
+    )
+    found = antiderivative(integrand, sympy.Symbol("x"))
+    if found is not None:
+        assert found.free_symbols <= {sympy.Symbol("x")}
+        difference = found.diff(sympy.Symbol("x")) - integrand
+        for point in ("1.37", "0.61", "2.9"):
+            value, size = (complex(sympy.N(e.subs("x", sympy.Float(point, 30)), 20)) for e in (difference, integrand))
+            assert abs(value) < 1e-9 * (1 + abs(size))
+
+
+@pytest.mark.parametrize(
+    "right", ["tan(sqrt(x))", "exp(sqrt(x))/cos(x)", "(x^(1/3)/2 - atan(x))*log(x)", "tan(log(x))*log(x)/x"]
+)
+def test_integrals_that_stay_are_in_the_variable(right: str) -> None:
+    found = kovacic.dsolve(f"y'' = {right}").rhs
+    assert {symbol.name for symbol in found.free_symbols} == {"x", "C1", "C2"}
+    assert all(integral.variables == [sympy.Symbol("x")] for integral in found.atoms(sympy.Integral))
 
 
 def test_an_integral_beside_a_tangent_begins_at_the_initial_value() -> None:

@@ -98,7 +98,7 @@ def _in_logarithms(term: Expr, x: Expr) -> Expr | None:
     """In t = log(x)."""
     t = sympy.Dummy(real=True)
     inner = prepared(term.subs(x, exp(t)) * exp(t)) if term.has(log(x)) else term
-    found = None if inner.has(log) or inner.has(x) else antiderivative(inner, t)
+    found = None if inner.has(log) or inner.has(x) else _known(inner, t)
     return None if found is None else in_powers(found, t, x)
 
 
@@ -107,7 +107,7 @@ def _in_roots(term: Expr, x: Expr) -> Expr | None:
     arguments = [f.args[0] for f in term.atoms(sympy.Function)]
     q = lcm(*(int(p.exp.q) for u in arguments for p in u.atoms(sympy.Pow) if p.base == x and p.exp.is_Rational))
     t = sympy.Dummy(positive=True)
-    found = None if q == 1 else antiderivative(term.subs(x, t**q) * q * t ** (q - 1), t)
+    found = None if q == 1 else _known(term.subs(x, t**q) * q * t ** (q - 1), t)
     return None if found is None else found.subs(t, sympy.root(x, q))
 
 
@@ -118,9 +118,15 @@ def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
         {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}, key=str
     ):
         inner = (term / argument.diff(x)).subs(argument, u)
-        if not inner.has(x) and (found := antiderivative(inner, u)) is not None:
+        if not inner.has(x) and (found := _known(inner, u)) is not None:
             return found.subs(u, argument)
     return None
+
+
+def _known(integrand: Expr, t: Expr) -> Expr | None:
+    """As `antiderivative` in another variable: an `Integral` that stays would have that."""
+    found = antiderivative(integrand, t)
+    return None if found is None or found.has(sympy.Integral) else found
 
 
 def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
@@ -243,8 +249,8 @@ def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
     if not (term * c).is_polynomial(s, c):
         return None
     (_, q), rest = sympy.reduced(term * c, [s**2 + c**2 - 1, c], s, c)
-    waves = rest.has(log, atan) or any(rest.xreplace({s: sign}).has(sin, cos) for sign in (1, -1))
-    if waves or not all(rest.xreplace({s: sign}).has(x) for sign in (1, -1)):
+    values = [rest.xreplace({s: sympy.Integer(sign)}) for sign in (1, -1)]
+    if rest.has(log, atan) or not all(value.has(x) and not value.has(sin, cos) for value in values):
         return None
     found = antiderivative(q, x)
     return None if found is None else found + sympy.Integral(rest / c, x)
@@ -260,7 +266,7 @@ def _rate(g: Expr, x: Expr) -> Expr:
     (first, E), *rest = parts
     found, others = E.diff(x), sympy.Integer(1)
     for base, e in first:
-        if base.has(exp) and e.is_Rational:  # SymPy expands exp(-x)/(x + 1) so that this is a sum in the denominator
+        if base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
             found += e * _rate(base, x)
         else:
             found += e * base.diff(x) / base if base.has(x) else e.diff(x) * log(base)
