@@ -93,16 +93,13 @@ def _markdown_table(rows: list[list[str]]) -> str:
 def _latex_table(rows: list[list[str]]) -> str:
     """Columns as wide as they are, or with lines that are broken where they would be wider than the page together."""
     widths = [max(map(width, column)) for column in zip(*rows, strict=True)]
-    wide = sum(w for w in widths if sum(widths) > _PAGE and w > _PAGE / 6)
-    share = max(0.3, 0.9 - (sum(widths) - wide) / _PAGE) / max(1, wide)
-    shares = [
-        share * w if sum(widths) > _PAGE and w > _PAGE / 6 else 0 for w in widths
-    ]  # of the line, where it is broken
-    columns = "".join(rf"p{{{part:.2f}\linewidth}}" if part else "l" for part in shares)
+    broken = [w if sum(widths) > _PAGE and w > _PAGE / 6 else 0 for w in widths]
+    share = max(0.3, 0.9 - (sum(widths) - sum(broken)) / _PAGE) / max(1, sum(broken))  # of the line
+    columns = "".join(rf"p{{{share * w:.2f}\linewidth}}" if w else "l" for w in broken)
     cells = [
         [
-            rf"\raggedright {breakable(cell, part * _PAGE)}" if part else cell
-            for cell, part in zip(row, shares, strict=True)
+            rf"\raggedright {breakable(cell, share * w * _PAGE)}" if w else cell
+            for cell, w in zip(row, broken, strict=True)
         ]
         for row in rows
     ]
