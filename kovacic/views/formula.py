@@ -25,8 +25,9 @@ _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
 ]
 _INNERMOST = re.compile(r"(\b(?:sqrt|cbrt|root))?\(([^()]*)\)")
 _QUOTIENT = re.compile(r"([^\s/,-][^\s/,]*)/([^\s/,]+)")
-# The first of the characters that stand for parts of a formula which are ready.
-_PART = 0xE000
+# Characters for private use stand for the parts of a formula which are ready.
+_PART = 0xF0000
+_READY = re.compile(f"[{chr(_PART)}-{chr(0x10FFFD)}]")
 
 
 #: Solutions with polynomials of a higher degree aren't written out, nor are dense polynomials of a higher degree in `Math`.
@@ -172,39 +173,39 @@ def latex_text(text: str) -> str:
     >>> print(latex_text("-n*(n + 3)/(2*sqrt(mu)) - b**2"))
     -\frac{n (n + 3)}{2 \sqrt{\mu}} - b^{2}
     """
-    parts: list[tuple[str, bool]] = []  # from the inside: LaTeX, and does it stand in parentheses?
+    parts: list[tuple[str, str]] = []  # what is ready, from the inside, as it stands in a product, and alone
 
-    def ready(latex: str, around: bool = False) -> str:
-        parts.append((latex, around))
+    def ready(product: str, alone: str) -> str:
+        parts.append((product, alone))
         return chr(_PART + len(parts) - 1)
 
     def alone(product: str) -> str:
-        return ready(parts[ord(product) - _PART][0]) if len(product) == 1 and ord(product) >= _PART else product
+        return ready(*[parts[ord(product) - _PART][1]] * 2) if _READY.fullmatch(product) else product
 
-    def flat(text: str) -> str:
+    def complete(text: str) -> str:  # without parentheses
         text = _QUOTIENT.sub(lambda match: rf"\frac{{{alone(match[1])}}}{{{alone(match[2])}}}", text)
         for pattern, replacement in _REPLACEMENTS:
             text = pattern.sub(replacement, text)
-        return text
+        return _READY.sub(lambda match: parts[ord(match[0]) - _PART][0], text)
 
-    while match := _INNERMOST.search(text):
-        root, (inside, _, n) = match[1], match[2].partition(", ")
-        degree = f"[{'3' if root == 'cbrt' else n}]" if root in ("cbrt", "root") else ""
-        part = ready(rf"\sqrt{degree}{{{flat(inside)}}}") if root else ready(flat(match[2]), True)
-        text = text[: match.start()] + part + text[match.end() :]
-    text = flat(text)
-    for k, (latex, around) in reversed([*enumerate(parts)]):
-        if around:
-            latex = rf"\left({latex}\right)" if r"\frac" in latex else f"({latex})"
-        text = text.replace(chr(_PART + k), latex)
-    return text
+    def parenthesised(match: re.Match[str]) -> str:
+        if match[1]:
+            radicand, _, n = match[2].partition(", ")
+            degree = "[3]" if match[1] == "cbrt" else f"[{n}]" if n else ""
+            return ready(*[rf"\sqrt{degree}{{{complete(radicand)}}}"] * 2)
+        inside = complete(match[2])
+        return ready(rf"\left({inside}\right)" if r"\frac" in inside else f"({inside})", inside)
+
+    found = 1
+    while found:
+        text, found = _INNERMOST.subn(parenthesised, text)
+    return complete(text)
 
 
 def symbol(name: str) -> str:
-    """A name as LaTeX: Greek letters, digits at the end and what follows _ as an index; the constants I and sqrt(n)."""
-    radical = re.fullmatch(r"sqrt\((.*)\)", name)
-    if radical or name == "I":
-        return rf"\sqrt{{{radical[1]}}}" if radical else r"\mathrm{i}"
+    """A name as LaTeX: Greek letters, digits at the end and what follows _ as an index; the constant I."""
+    if name == "I":
+        return r"\mathrm{i}"
     match = re.fullmatch(r"([^\W\d_]+)_*(\w*)", name)
     base, index = (match[1], match[2].replace("_", r"\_")) if match else (name, "")
     letter = rf"\{base}" if base in _GREEK.split() else base if len(base) == 1 else rf"\mathrm{{{base}}}"
