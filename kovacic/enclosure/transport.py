@@ -41,7 +41,7 @@ _MANY = 50
 _FEWER_BITS = 12.0
 _MAX_DISCS = 200_000
 _ROUNDED = 1e-15  # more than the relative errors of doubles
-_TRIED, _WORTH = 16, 0.2  # steps and seconds after which the time of the others is known well enough to be foreseen
+_TRIED, _WORTH = 32, 0.2  # steps and seconds after which the time of the others is known well enough to be foreseen
 
 
 @dataclass(frozen=True)
