@@ -261,20 +261,18 @@ def _pieces(
 
 def _series(chart: Chart, cells: list[Cell], variant: _Variant) -> list[Any]:
     """y1, y2, and beside a right-hand side y3, on each of these pieces that will do: high and low halves, terms, series."""
-    result, terms, count = list[Any]([None] * len(cells)), variant.terms, 2 if chart.forcing is None else 3
-    found = [(k, chart.local(Point(centre), e, terms)) for k, (centre, e) in enumerate(cells)]
-    usable = [(k, local) for k, local in found if local is not None]
-    length = max(2, *(len(part) + i for _, local in usable for i, part in enumerate(local)), 0)
-    numbers, source = np.zeros((2, 3, length, len(usable))), np.zeros((2, terms, count, len(usable)))
-    for column, (k, local) in enumerate(usable):
+    terms, count, size = variant.terms, 2 if chart.forcing is None else 3, len(cells)
+    found = [chart.local(Point(centre), e, terms) for centre, e in cells]
+    length = max(2, *(len(part) + i for local in found for i, part in enumerate(local)))
+    numbers, source, z = (np.zeros((2, *shape, size)) for shape in ((3, length), (terms, count), (terms, count)))
+    for k, ((centre, e), local) in enumerate(zip(cells, found, strict=True)):
         for i, part in enumerate(local):
-            numbers[:, i, i : i + len(part), column] = halves(part)
+            numbers[:, i, i : i + len(part), k] = halves(part)
         if chart.forcing is not None:
             nodes, inverse = _interpolation(terms)
-            values = [[chart.source(Point(cells[k][0]), cells[k][1], u) * arb_poly(local[0])(u)] for u in nodes]
-            source[:, :, 2, column] = halves((inverse * arb_mat(values)).entries())
+            values = [[chart.source(Point(centre), e, u) * arb_poly(local[0])(u)] for u in nodes]
+            source[:, :, 2, k] = halves((inverse * arb_mat(values)).entries())
     a, b, c = (Pair(*numbers[:, i]) for i in range(3))
-    z = np.zeros((2, terms, count, len(usable)))
     z[0, 0, 0] = z[0, 1, 1] = 1.0
     with np.errstate(all="ignore"):
         for n in range(2, terms):
@@ -292,9 +290,7 @@ def _series(chart: Chart, cells: list[Cell], variant: _Variant) -> list[Any]:
         sizes = np.abs(z[0, : variant.tested])
         good = (sizes[-4:].max(0) <= sizes.max(0) * 2.0**-variant.bits).all(0)
         good &= (sizes[:, :2].sum(0) <= _GROWTH).all(0)
-    for column in np.flatnonzero(good).tolist():
-        result[usable[column][0]] = z[..., column]
-    return result
+    return [z[..., k] if fine else None for k, fine in enumerate(good)]
 
 
 @lru_cache
@@ -316,7 +312,7 @@ def _states(
 ) -> tuple[Pair, Any]:
     """(y, H y') at the centres over powers of two, an array of both, parts and pieces; and these powers.
 
-    Enclosures, rounded; in the plain variant, without a right-hand side, of every 32nd centre: the series carry the state on to
+    Enclosures, rounded; in the plain variant, without a right-hand side, of every 24th centre: the series carry the state on to
     the next ones, from the side on which less is lost by an estimate, and where too much is, enclosures serve again.
     """
     size, exponents = len(cells), np.array([e for _, e in cells])
