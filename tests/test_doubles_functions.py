@@ -208,7 +208,7 @@ def test_the_reference_of_case_1_is_that_of_the_taylor_route(S: str) -> None:
         ("x^2 - 401", (-20, 20), False),  # 200 zeros: tabulated
         ("x^2 - 121", (-30, 30), True),  # 60 factors, exp(-450)
         ("(10^6/x - 10^6/(x+1))^2 - 10^6/x^2 + 10^6/(x+1)^2", (10**4, 10**7), True),  # (x/(x + 1))^(10^6)
-        ("1/4 - 150/x", (0, 2000), True),  # right at 24 points: the exponential underflows where the polynomial is large
+        ("1/4 - 150/x", (0, 2000), True),  # right at 24 points: the exponential underflows beside others
     ],
 )
 def test_the_measured_error_chooses_the_arithmetic(S: str, interval: Any, careful: bool) -> None:

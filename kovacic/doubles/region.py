@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kovacic.enclosure.points import Point, as_point, to_acb, working_precision
-from kovacic.enclosure.problem import NumericProblem, System, name_of
+from kovacic.enclosure.problem import NumericProblem, name_of
 from kovacic.errors import InputError
 
 _PREC = 240
@@ -119,8 +119,7 @@ def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -
 
 def _singular_ends(problem: NumericProblem, low: Point, high: Point) -> tuple[bool, bool]:
     at_low, at_high, a, b = False, False, to_acb(low), to_acb(high)
-    systems = [problem.system] if problem.gauge is None else [problem.system, System.of(problem.gauge)]
-    for system in systems:
+    for system in (problem.system, problem.gauge_poles):
         for root, _ in system.roots("den", _PREC):
             here, there = root.overlaps(a), root.overlaps(b)
             at_low, at_high = at_low or here, at_high or there
