@@ -35,7 +35,6 @@ _SLOPE_BITS = 4000
 """Precision of an initial slope, for Taylor steps: its error, times the growth of the dominant solution, contaminates a
 recessive one."""
 
-_NOTHING = [[arb(1)], [], [arb("nan")]]
 _NOISE = 2.0**-40
 """Errors of the value of a polynomial in plain doubles, over the sum of the sizes of its terms."""
 
@@ -162,11 +161,9 @@ class Chart:
             return found
 
     def local(self, centre: Point, e: int, terms: int) -> list[list[arb]]:
-        """a, H b and H^2 c over a(c), so many terms in u; not numbers where a singular point is nearer than 4 H."""
+        """a, H b and H^2 c over a(c), so many terms in u; not numbers where a(c) may be zero."""
         if self.answer is not None:
             return self._changed(centre, e, terms)
-        if any((centre - point).norm_squared() < power_of_two(2 * e + 4) for point in self.singular):
-            return _NOTHING
         line: Any = fmpq_poly([centre.x, power_of_two(e)])
         line = line if self.problem.embedded is None else arb_poly(line)
         found = [[arb(v) for v in part(line).coeffs()[:terms]] for part in self._equation]
@@ -174,7 +171,7 @@ class Chart:
         return [[v * factor for v in part] for part, factor in zip(found, factors, strict=True)]
 
     def _changed(self, centre: Point, e: int, terms: int) -> list[list[arb]]:
-        """Equation (1); not numbers where a(c) or t'(c) is zero.  Raises InputError where it isn't real."""
+        """Equation (1); not numbers where a(c) or t'(c) may be zero.  Raises InputError where it isn't real."""
         (t, at), cap = self._functions, ctx.cap
         ctx.cap = terms + 2  # FLINT's series end there
         try:
@@ -183,7 +180,7 @@ class Chart:
             d = s.derivative()
             found = [(b * d / a - d.derivative() / d).coeffs()[:terms], (c * d * d / a).coeffs()[:terms]]
         except (ZeroDivisionError, ValueError):
-            return _NOTHING
+            return [[arb(1)], [], [arb("nan")]]
         finally:
             ctx.cap = cap
         if not all(v.imag.contains(0) for part in found for v in part):
