@@ -17,8 +17,10 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 from flint import acb, acb_poly, arb, arb_poly
@@ -29,12 +31,13 @@ from kovacic.closed_form.structure import curve_of
 from kovacic.doubles.double_double import Complex, Pair
 from kovacic.doubles.product_form import Conic, Factor, ProductForm, RationalFunction, Shape
 from kovacic.doubles.region import Region
-from kovacic.doubles.tabulate import polynomial_table
+from kovacic.doubles.tabulate import GROWTH, Cell, Variant, polynomial_table
 from kovacic.enclosure.closed_form import Exponential, certified, exponentials, omega, value
 from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, zeros
 from kovacic.enclosure.frame import least_growth
-from kovacic.enclosure.points import Point, as_point, to_acb
+from kovacic.enclosure.points import Point, as_point, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem
+from kovacic.limits import check_time
 
 _SAME = 2.0**-60
 """Balls this close together are the same point or exponent: distinct ones were separated at a far higher precision."""
@@ -43,6 +46,9 @@ _FEW_ZEROS, _MAX_ZEROS, _SHORT = 60, 200, 2000.0
 """Zeros take degree^4 time, and may be lost.  Of a polynomial of a degree between these the solution is tabulated on an
 interval where it grows and oscillates by less than exp(2000), and the polynomial where the interval ends in a singular point;
 of a higher degree always."""
+
+_HIGHEST = 1 << 15
+"""Working precision for the series of a polynomial."""
 
 Powers = list[tuple[acb, acb]]  # (zeta, exponent)
 
@@ -64,7 +70,7 @@ def _exponential(
 ) -> ProductForm | None:
     c, degree, table = branch.constant(), branch.P.degree, None
     if degree > _FEW_ZEROS and region.is_real and any(region.singular):
-        table = polynomial_table(_with_equation(problem, branch, base), degree, region, careful)
+        table = polynomial_table(_expansion(problem, branch, base), region, careful)
     elif degree > _FEW_ZEROS and region.is_real:
         ends = (as_point(end.real, "an end") for end in (region.low, region.high))
         if degree > _MAX_ZEROS or least_growth(problem.system, *ends) < _SHORT:
@@ -81,23 +87,51 @@ def _exponential(
     return ProductForm(region, base, factors, _exponent(theta), is_real, polynomial=table, careful=careful)
 
 
-def _with_equation(problem: NumericProblem, branch: Exponential, base: Point) -> Callable[[], list[Any]]:
-    """P/P(base), its derivative, and a, b, c with a P'' + b P' + c P = 0, at the working precision in force."""
+def _expansion(
+    problem: NumericProblem, branch: Exponential, base: Point
+) -> Callable[[Cell, Variant], list[Any] | None]:
+    """The Taylor series of P/P(base) on a piece, by the recurrence of its equation a P'' + b P' + c P = 0 in balls, which loses
+    digits beside singular points; None if the piece won't do."""
     assert problem.S is not None
     phi = branch.theta if problem.gauge is None else branch.theta - problem.gauge
     rest = phi.derivative() + phi * phi - problem.S  # P'' + 2 phi P' + rest P = 0
     a = phi.den * (rest.den // phi.den.gcd(rest.den))
-    exact = a, (2 * phi * a).num, (rest * a).num
+    exact = branch.P, a, (2 * phi * a).num, (rest * a).num
 
-    def balls() -> list[Any]:
-        c = branch.constant()
-        P, *equation = (embed(part, c) for part in (branch.P, *exact))
+    @lru_cache
+    def balls(prec: int) -> list[Any]:
+        constant = branch.constant()
+        P, *equation = (embed(part, constant) for part in exact)
         P *= 1 / P(to_acb(base))
         found = [P, P.derivative(), *equation]
         is_real = all(v.imag.is_zero() for poly in found for v in poly.coeffs())
         return [arb_poly([v.real for v in poly.coeffs()]) for poly in found] if is_real else found
 
-    return balls
+    def expand(cell: Cell, variant: Variant) -> list[Any] | None:
+        x, h, prec = arb(cell[0]), arb((1, cell[1])), 300 + 3 * branch.P.degree
+        while prec <= _HIGHEST:
+            check_time()
+            with working_precision(prec):
+                P, slope, *equation = balls(prec)
+                row = [P(x), slope(x) * h]
+            with working_precision(200 + prec // 4):
+                a, b, c = ([v * h**k for v in part(type(P)([x, h])).coeffs()] for k, part in enumerate(equation))
+                _, *columns = itertools.zip_longest(a, [0, *b], [0, 0, *c], fillvalue=0)
+                most = GROWTH * max(abs(v).upper() for v in row)
+                for n in range(2, variant.tested):
+                    used = zip(columns, range(n - 1, -1, -1), strict=False)
+                    total = sum((p * (m * (m - 1)) + q * m + r) * row[m] for (p, q, r), m in used)
+                    row.append(total / (-a[0] * (n * (n - 1))))
+                    if abs(row[-1]) > most:
+                        return None
+                sizes = [abs(v) for v in row]
+                small = max(v.mid() for v in sizes) * arb((1, -variant.bits))
+                if all(v.rad() <= small for v in sizes):
+                    return row if sum(sizes, arb(0)) <= most and max(v.mid() for v in sizes[-2:]) <= small else None
+            prec *= 2
+        return None
+
+    return expand
 
 
 def _all_real(values: list[acb]) -> bool:

@@ -18,7 +18,6 @@ plain doubles the error is some 2^-52 of the largest value there.
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -40,13 +39,11 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Limits, check_time, limited
 
 _PREC = 300
-_GROWTH = 12.0
+GROWTH = 12.0
 """The sums of the coefficients of y1 and y2 are at most so large."""
 _STEEP = 4.0
 """Characteristic roots above this make the sums larger."""
 _MAX_PIECES, _SMALLEST = 5000, -1000
-_HIGHEST = 1 << 15
-"""Working precision for a polynomial."""
 _STRIDE, _ROUGH, _LOST = 24, 2.0**-88, 2.0**-58
 """Of so many states one is an enclosure; relative errors of a transfer, and of a state, at most."""
 _SIGNS = np.array([[[1.0], [-1.0]], [[-1.0], [1.0]]])
@@ -54,7 +51,7 @@ _ROOM, _CROWD = 900, 1000
 """Binary exponents up to here stay in the coefficients; fewer points to a piece are treated together (measured)."""
 
 
-class _Variant(NamedTuple):
+class Variant(NamedTuple):
     """Terms of the series, those after which they must have ended, those that are kept, digits of the states, the bits below
     the largest coefficient that count."""
 
@@ -65,7 +62,7 @@ class _Variant(NamedTuple):
     bits: int
 
 
-_CAREFUL, _PLAIN = _Variant(48, 48, 34, 60, 96), _Variant(48, 32, 22, 32, 60)
+_CAREFUL, _PLAIN = Variant(48, 48, 34, 60, 96), Variant(48, 32, 22, 32, 60)
 Cell = tuple[fmpq, int]  # c, and e where H = 2^e
 
 
@@ -166,48 +163,19 @@ def table_of(chart: Chart, interval: tuple[object, object], careful: bool, limit
     return _assembled(region, x0 if isinstance(x0, Point) else None, cells, coefficients, powers, variant)
 
 
-def polynomial_table(balls: Callable[[], list[Any]], degree: int, region: Region, careful: bool) -> TabulatedFunction:
-    """A polynomial P with a P'' + b P' + c P = 0 and simple zeros, from `balls`, which has P, P', a, b, c at the working
-    precision in force, on an interval that may end in zeros of a."""
-    variant, at = _CAREFUL if careful else _PLAIN, lru_cache(lambda prec: balls())
-
-    def expand(cells: list[Cell]) -> list[Any]:
-        return [_expanded(at, _PREC + 3 * degree, cell, variant) for cell in cells]
-
-    cells, found = _pieces(region, expand, lambda x, h: x > math.inf)
+def polynomial_table(
+    expand: Callable[[Cell, Variant], list[Any] | None], region: Region, careful: bool
+) -> TabulatedFunction:
+    """A function from its Taylor series in balls on the pieces that `expand` says will do; up to singular points, too."""
+    variant = _CAREFUL if careful else _PLAIN
+    cells, found = _pieces(region, lambda some: [expand(cell, variant) for cell in some], lambda x, h: x > math.inf)
     with working_precision(_PREC):
         table, powers = _rounded(found, variant)
     return _assembled(region, None, cells, _given(table), powers, variant)
 
 
-def _expanded(at: Callable[[int], list[Any]], prec: int, cell: Cell, variant: _Variant) -> list[Any] | None:
-    """The Taylor series of P on a piece by its equation, which loses digits beside singular points; None if it won't do."""
-    x, h = arb(cell[0]), arb((1, cell[1]))
-    while prec <= _HIGHEST:
-        check_time()
-        with working_precision(prec):
-            P, slope, *equation = at(prec)
-            row = [P(x), slope(x) * h]
-        with working_precision(200 + prec // 4):
-            a, b, c = ([v * h**k for v in part(type(P)([x, h])).coeffs()] for k, part in enumerate(equation))
-            _, *columns = itertools.zip_longest(a, [0, *b], [0, 0, *c], fillvalue=0)
-            most = _GROWTH * max(abs(v).upper() for v in row)
-            for n in range(2, variant.tested):
-                used = zip(columns, range(n - 1, -1, -1), strict=False)
-                total = sum((p * (m * (m - 1)) + q * m + r) * row[m] for (p, q, r), m in used)
-                row.append(total / (-a[0] * (n * (n - 1))))
-                if abs(row[-1]) > most:
-                    return None
-            sizes = [abs(v) for v in row]
-            small = max(v.mid() for v in sizes) * arb((1, -variant.bits))
-            if all(v.rad() <= small for v in sizes):
-                return row if sum(sizes, arb(0)) <= most and max(v.mid() for v in sizes[-2:]) <= small else None
-        prec *= 2
-    return None
-
-
 def _assembled(
-    region: Region, base: Point | None, cells: list[Cell], coefficients: Pair, powers: Any, variant: _Variant
+    region: Region, base: Point | None, cells: list[Cell], coefficients: Pair, powers: Any, variant: Variant
 ) -> TabulatedFunction:
     """The table with the highest terms lowered, from an array of terms, parts and pieces."""
     lowered = np.tensordot(_lowering(len(coefficients.hi), variant.kept), coefficients.hi[variant.kept :], 1)
@@ -259,7 +227,7 @@ def _pieces(
     return [cell for cell, _ in done], [item for _, item in done]
 
 
-def _series(chart: Chart, cells: list[Cell], variant: _Variant) -> list[Any]:
+def _series(chart: Chart, cells: list[Cell], variant: Variant) -> list[Any]:
     """y1, y2, and beside a right-hand side y3, on each of these pieces that will do: high and low halves, terms, series."""
     terms, count, size = variant.terms, 2 if chart.forcing is None else 3, len(cells)
     found = [chart.local(Point(centre), e, terms) for centre, e in cells]
@@ -289,7 +257,7 @@ def _series(chart: Chart, cells: list[Cell], variant: _Variant) -> list[Any]:
                 z[0, n] = (source[0, n - 2] - (weights.hi[:, None] * z[0, n - j]).sum(0)) / (n * (n - 1))
         sizes = np.abs(z[0, : variant.tested])
         good = (sizes[-4:].max(0) <= sizes.max(0) * 2.0**-variant.bits).all(0)
-        good &= (sizes[:, :2].sum(0) <= _GROWTH).all(0)
+        good &= (sizes[:, :2].sum(0) <= GROWTH).all(0)
     return [z[..., k] if fine else None for k, fine in enumerate(good)]
 
 
@@ -307,9 +275,7 @@ def _lowering(terms: int, kept: int) -> Any:
     return np.array([np.pad(row, (0, kept - len(row))) for row in rows]).T
 
 
-def _states(
-    chart: Chart, cells: list[Cell], series: Pair, variant: _Variant, limits: Limits | None
-) -> tuple[Pair, Any]:
+def _states(chart: Chart, cells: list[Cell], series: Pair, variant: Variant, limits: Limits | None) -> tuple[Pair, Any]:
     """(y, H y') at the centres over powers of two, an array of both, parts and pieces; and these powers.
 
     Enclosures, rounded; in the plain variant, without a right-hand side, of every 24th centre: the series carry the state on to
@@ -345,7 +311,7 @@ def _states(
     return scaled(_given(v), powers - kept), kept
 
 
-def _rounded(rows: Sequence[Sequence[Any]], variant: _Variant) -> tuple[Any, Any]:
+def _rounded(rows: Sequence[Sequence[Any]], variant: Variant) -> tuple[Any, Any]:
     """Rows of balls over powers of two: halves, entries, real and imaginary parts (0 if they may be), rows; and the powers."""
     numbers, powers = list[arb](), list[int]()
     for row in rows:
@@ -377,9 +343,8 @@ def _transfers(series: Pair, exponents: Any) -> tuple[Pair, Pair]:
     return forth, _inverse(forth)
 
 
-def _inverse(m: Pair) -> Pair:
+def _inverse(m: Pair) -> Any:
     """Of 2x2 matrices."""
     adjugate = Pair(*(_SIGNS * half.swapaxes(0, 1)[::-1, ::-1] for half in (m.hi, m.lo)))
     determinant = m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]
-    found: Pair = adjugate / determinant
-    return found
+    return adjugate / determinant
