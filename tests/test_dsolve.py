@@ -29,7 +29,7 @@ from kovacic.closed_form.jets import jet
 from kovacic.general_solution import dsolve, solve_riccati
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.undetermined import undetermined
-from kovacic.general_solution.values import values_at, wronskian_at
+from kovacic.general_solution.values import finite_value, values_at
 from kovacic.general_solution.variation import Basis, DefiniteIntegral
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import read_expression
@@ -857,7 +857,7 @@ def test_values_at_a_jump_and_of_forms_without_a_value() -> None:
     assert values_at(step, x, sympy.Integer(2)) == (2 + exp(2), 1 + exp(2))
     assert values_at(sin(x) / x, x, sympy.Integer(0)) == (1, 0)
     assert values_at(sympy.Integral(exp(w**2), (w, 1, x)), x, sympy.Integer(1)) == (0, sympy.E)
-    assert wronskian_at(1 / x, x, x, sympy.Integer(0)) is None
+    assert finite_value(2 / x, x, sympy.Integer(0)) is None
 
 
 def has_values(a: sympy.Expr, b: sympy.Expr, c: sympy.Expr, start: Any, stops: list[Any]) -> bool:

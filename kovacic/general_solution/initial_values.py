@@ -18,7 +18,7 @@ from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import ANTIDERIVATIVES, jet
 from kovacic.errors import InputError
 from kovacic.general_solution.antiderivatives import prepared
-from kovacic.general_solution.values import SECONDS, size, values_at
+from kovacic.general_solution.values import SECONDS, size, value_at
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import watched_seconds
 from kovacic.reading.exponential import in_terms_of
@@ -118,21 +118,15 @@ def constants(given: Sequence[Given], basis: Basis, particular: Any, names: Sequ
 
     Raises `InputError` where there is no solution with these values.
     """
-    rows, known = (
-        [],
-        {
-            point: [values_at(y, basis.x, point) for y in (basis.y1, basis.y2, particular)]
-            for point in dict.fromkeys(item.point for item in given)
-        },
-    )
+    rows = []
     for item in given:
-        u, v, w = (pair[item.order] for pair in known[item.point])
+        u, v, w = (value_at(y, basis.x, item.point, item.order) for y in (basis.y1, basis.y2, particular))
         rows.append((u, v, item.value - w))
     initial = len(rows) == 2 and given[0].point == given[1].point and given[0].order != given[1].order
     for (a, b, r), (c, d, s) in combinations(rows, 2):
         determinant = a * d - b * c
         if initial and not sympy.sympify(determinant).is_Rational:  # the Wronskian at an ordinary point, often shorter
-            W = values_at(basis.wronskian, basis.x, given[0].point)[0] * (1 if given[0].order == 0 else -1)
+            W = value_at(basis.wronskian, basis.x, given[0].point) * (1 if given[0].order == 0 else -1)
             determinant = W if agree(W, determinant) else determinant
         if initial or not _is_zero(determinant):
             values, used = [tidy((r * d - b * s) / determinant), tidy((a * s - r * c) / determinant)], 2

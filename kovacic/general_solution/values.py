@@ -16,7 +16,7 @@ Pair = tuple[Expr, Expr]  # f(a), f'(a)
 #: Seconds for a question about a constant.
 SECONDS = 10.0
 _ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
-_OPEN = (sympy.nan, sympy.zoo, sympy.oo, -sympy.oo)
+_OPEN = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
 
 
 class _SingularError(Exception):
@@ -32,20 +32,33 @@ def values_at(expression: Expr, x: Expr, point: Expr) -> Pair:
     >>> values_at(x * sympy.exp(2 * x), x, sympy.Integer(1))
     (exp(2), 3*exp(2))
     """
-    expression = sympy.sympify(expression, strict=True)
-    jumps = expression.atoms(sympy.Heaviside, sympy.DiracDelta)
-    expression = expression.xreplace({jump: _ZERO for jump in jumps if jump.args[0].subs(x, point) == 0})
-    value, slope = (_value(e, x, point) for e in (expression, expression.diff(x)))
-    return value, slope
+    return value_at(expression, x, point), value_at(expression, x, point, 1)
 
 
-def wronskian_at(y1: Expr, y2: Expr, x: Expr, point: Expr) -> Expr | None:
-    """y1 y2' - y1' y2 at a point; None where these aren't finite."""
+def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
+    """The value of the function (order 0) or of its slope (order 1), as for `values_at`."""
+    e = sympy.sympify(expression, strict=True)
+    if not e.has_free(x):
+        return _ZERO if order else e
+    if jumps := e.atoms(sympy.Heaviside, sympy.DiracDelta):
+        e = e.xreplace({jump: _ZERO for jump in jumps if jump.args[0].subs(x, point) == 0})
+    if order:
+        e = e.diff(x)
+    value = finite_value(e, x, point)
+    if value is None and not e.has(sympy.hyper, BesselBase):  # SymPy takes limits of sqrt(x) besselk(1/4, x^2/2) wrong
+        value = last_of(_limit, e, x, point, seconds=watched_seconds(SECONDS))
+    if value is None:
+        said = f"the functions of the closed form are singular at {point}, where the solutions aren't"
+        raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
+    return value
+
+
+def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
+    """The value at a point; None where it isn't finite."""
     try:
-        u, du, v, dv = (_substituted(e, x, point) for e in (y1, y1.diff(x), y2, y2.diff(x)))
+        return _substituted(expression, x, point)
     except _SingularError:
         return None
-    return u * dv - du * v
 
 
 def size(expression: Expr) -> int:
@@ -55,30 +68,22 @@ def size(expression: Expr) -> int:
 
 def _substituted(e: Expr, x: Expr, point: Expr) -> Expr:
     """The value of a function, of a series at 0, or of an integral from the point on."""
-    sums = {  # SymPy's substitution would compute rational ones exactly, without end
-        r: sympy.RootSum(r.poly, sympy.Lambda(r.fun.variables, _substituted(r.fun.expr, x, point)), auto=False)
-        for r in e.atoms(sympy.RootSum)
-    }
-    value = e.xreplace(sums).subs(x, point)
-    value = value.xreplace({f: _ONE for f in value.atoms(sympy.hyper) if f.argument == 0})
-    empty = (i for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:])
-    value = value.xreplace(dict.fromkeys(empty, _ZERO))
-    if value.has(*_OPEN):
+    special = e.atoms(sympy.RootSum, sympy.hyper, sympy.Integral)
+    if not special:
+        value = e.xreplace({x: point})
+    else:
+        sums = {  # SymPy's substitution would compute rational ones exactly, without end
+            r: sympy.RootSum(r.poly, sympy.Lambda(r.fun.variables, _substituted(r.fun.expr, x, point)), auto=False)
+            for r in special
+            if isinstance(r, sympy.RootSum)
+        }
+        value = e.xreplace(sums).subs(x, point)
+        value = value.xreplace({f: _ONE for f in value.atoms(sympy.hyper) if f.argument == 0})
+        empty = (i for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:])
+        value = value.xreplace(dict.fromkeys(empty, _ZERO))
+    if not _OPEN.isdisjoint(value.atoms()):
         raise _SingularError
     return value
-
-
-def _value(e: Expr, x: Expr, point: Expr) -> Expr:
-    try:
-        return _substituted(e, x, point)
-    except _SingularError:
-        limit = None
-    if not e.has(sympy.hyper, BesselBase):  # SymPy takes limits of sqrt(x) besselk(1/4, x^2/2) wrong
-        limit = last_of(_limit, e, x, point, seconds=watched_seconds(SECONDS))
-    if limit is None:
-        said = f"the functions of the closed form are singular at {point}, where the solutions aren't"
-        raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
-    return limit
 
 
 def _limit(expression: Expr, x: Expr, point: Expr) -> Iterator[Expr]:

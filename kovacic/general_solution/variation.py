@@ -23,7 +23,7 @@ from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
-from kovacic.general_solution.values import size, wronskian_at
+from kovacic.general_solution.values import finite_value, size
 from kovacic.reading.given import Equation
 
 Expr = Any  # SymPy publishes no types
@@ -103,8 +103,9 @@ class Basis:
 
     def _quotients(self, kernel: Expr) -> Iterator[Expr]:
         """W/kernel at points, and at 0 from y ~ x^e for series in x."""
+        by_definition = self._by_definition
         for point in map(sympy.Integer, (0, 1, -1, 2)):
-            W = wronskian_at(self.y1, self.y2, self.x, point)
+            W = finite_value(by_definition, self.x, point)
             c = sympy.nan if W is None else expand(W / kernel.subs(self.x, point))
             yield expand(TR8(c)) if c.has(sin, cos) else c
         series = [f for f in self.y1.atoms(sympy.hyper) | self.y2.atoms(sympy.hyper) if f.argument.subs(self.x, 0) == 0]
