@@ -571,6 +571,13 @@ def test_rational_factors_are_one_fraction(text: str) -> None:
     assert len(str(found.rhs)) < 160
 
 
+def test_values_beside_roots_of_polynomials() -> None:
+    """The x of SymPy's CRootOf(x^3 - x - 1, 0) isn't that of the equation."""
+    c = sympy.CRootOf(x**3 - x - 1, 0)
+    found = dsolve(D2 - c**2 * D0, ics={y(0): 1, D1.subs(x, 0): 0}).rhs
+    assert abs(sympy.N(found.subs(x, 2) - sympy.cosh(2 * c), 30)) < 1e-25
+
+
 def test_roots_of_parameters_and_common_factors() -> None:
     """A root of a linear expression in a parameter is taken for the parameter; what isn't rational is divided out."""
     k = sympy.Symbol("k")

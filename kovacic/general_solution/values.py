@@ -69,15 +69,13 @@ def size(expression: Expr) -> int:
 def _substituted(e: Expr, x: Expr, point: Expr) -> Expr:
     """The value of a function, of a series at 0, or of an integral from the point on."""
     special = e.atoms(sympy.RootSum, sympy.hyper, sympy.Integral)
-    if not special:
-        value = e.xreplace({x: point})
-    else:
-        sums = {  # SymPy's substitution would compute rational ones exactly, without end
-            r: sympy.RootSum(r.poly, sympy.Lambda(r.fun.variables, _substituted(r.fun.expr, x, point)), auto=False)
-            for r in special
-            if isinstance(r, sympy.RootSum)
-        }
-        value = e.xreplace(sums).subs(x, point)
+    sums = {  # SymPy's substitution would compute rational ones exactly, without end
+        r: sympy.RootSum(r.poly, sympy.Lambda(r.fun.variables, _substituted(r.fun.expr, x, point)), auto=False)
+        for r in special
+        if isinstance(r, sympy.RootSum)
+    }
+    value = (e.xreplace(sums) if sums else e).subs(x, point)
+    if special:
         value = value.xreplace({f: _ONE for f in value.atoms(sympy.hyper) if f.argument == 0})
         empty = (i for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:])
         value = value.xreplace(dict.fromkeys(empty, _ZERO))
