@@ -1048,3 +1048,45 @@ def test_an_integral_beside_a_tangent_begins_at_the_initial_value() -> None:
     found = kovacic.dsolve("y'' = x*tan(x)", ics="y(1)=1, y'(1)=0").rhs
     steps = mpmath.odefun(lambda t, y: [y[1], t * mpmath.tan(t)], 1, [1, 0])
     assert abs(sympy.N(found.subs(x, sympy.Rational(5, 4))) - steps(mpmath.mpf("1.25"))[0]) < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("equation", "integrals"),
+    [
+        ("y'' - y' + exp(2*x)*y = tanh(x)", 2),
+        ("y'' - y' + exp(2*x)*y = exp(x)/(1 + exp(x))", 0),
+        ("y'' + cot(x)*y' = -tan(x)", 2),
+        ("y'' + tan(x)*y' + cos(x)^2*y = sin(x)", 2),
+        ("y'' + tanh(x)*y' = cosh(x)", 1),
+        ("y'' + y'/(1 + exp(x)) = exp(x)", 1),
+        ("y'' + (1 - exp(x))*y' = exp(-x)", 1),
+        ("y'' - coth(x)*y' = sinh(x)^3", 0),
+        ("y'' + exp(x)*y = exp(2*x)", 2),
+        ("sin(x)^2*y'' + sin(x)*cos(x)*y' - y = tan(x)", 1),
+        ("y'' = tanh(x)", 1),
+    ],
+)
+def test_right_hand_sides_beside_functions_of_x(equation: str, integrals: int) -> None:
+    """Substituted between and beyond poles, an integral as a function with its integrand as the derivative."""
+    found = kovacic.dsolve(equation).rhs
+    assert len(str(found)) < 300
+    left = found.atoms(sympy.Integral)
+    assert len(left) == integrals
+    variable = sympy.Symbol("x")
+    named = {integral: sympy.Function(f"F{k}")(variable) for k, integral in enumerate(sorted(left, key=str))}
+    y = found.xreplace(named | {sympy.Symbol("C1"): sympy.Rational(2, 7), sympy.Symbol("C2"): sympy.Rational(3, 7)})
+    text = (
+        equation.replace("^", "**")
+        .replace("y''", "Y2")
+        .replace("y'", "Y1")
+        .replace("*y", "*Y0")
+        .replace("- y ", "- Y0 ")
+    )
+    first, second = (sympy.sympify(side) for side in text.split("="))
+    residual = (first - second).subs({"Y0": y, "Y1": y.diff(variable), "Y2": y.diff(variable, 2)})
+    for integral, function in named.items():
+        for k in (2, 1):
+            residual = residual.subs(function.diff(variable, k), integral.function.diff(variable, k - 1))
+        residual = residual.subs(function, sympy.Rational(5, 11))
+    for point in ("0.37", "1.1", "2.2", "-0.8", "4.1", "-2.6"):
+        assert abs(sympy.N(residual.subs(variable, sympy.Float(point, 40)), 20)) < 1e-12

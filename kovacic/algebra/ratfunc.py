@@ -123,6 +123,8 @@ class RatFunc(Immutable):
 
     def __call__(self, point: RatFunc | Poly | Scalar) -> RatFunc:
         """The value at a point, or the composition with a rational function.  Raises ZeroDivisionError at a pole."""
+        if isinstance(point, RatFunc) and point.is_polynomial:
+            point = point.num
         if not isinstance(point, RatFunc):
             return RatFunc(self.num(point), self.den(point))
         top = max(self.num.degree, self.den.degree)

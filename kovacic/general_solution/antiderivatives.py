@@ -16,7 +16,7 @@ from math import lcm
 from typing import Any
 
 import sympy
-from sympy import atan, cos, cot, csc, exp, log, sec, sin, tan
+from sympy import atan, cos, cosh, cot, coth, csc, csch, exp, log, sec, sech, sin, sinh, tan, tanh
 from sympy.simplify.fu import TR8, TR2i
 
 from kovacic.algebra.partial_fractions import decompose
@@ -76,7 +76,8 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
 
 
 def prepared(integrand: Expr) -> Expr:
-    """Expanded, in sines and cosines."""
+    """Expanded, in sines, cosines and exponentials."""
+    integrand = integrand.rewrite((sinh, cosh, tanh, coth, sech, csch), exp)
     if integrand.has(tan, cot, sec, csc):
         integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
         integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))

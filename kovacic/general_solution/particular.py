@@ -33,6 +33,15 @@ from kovacic.reading.exponential import in_terms_of
 from kovacic.reading.given import Equation
 
 Expr = Any  # SymPy publishes no types
+#: (dt/du)^2 for functions t of u, in t.
+_SQUARES: dict[Any, Callable[[Expr], Expr]] = {
+    sympy.exp: lambda t: t**2,
+    sympy.sin: lambda t: 1 - t**2,
+    sympy.cos: lambda t: 1 - t**2,
+    sympy.tan: lambda t: (1 + t**2) ** 2,
+    sympy.sinh: lambda t: t**2 + 1,
+    sympy.cosh: lambda t: t**2 - 1,
+}
 #: The most terms of a right-hand side that are treated one by one.
 _LARGEST_SUM = 30
 
@@ -46,9 +55,10 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
         return sympy.Integer(0)
     change = equation.change
     if change is not None:  # in x, where y'' = (dt/dx)^2 Y'' + ...
-        right = in_terms_of(change, right / Atoms(x).ratio(equation.a).xreplace(NUMBERS), x.name)
-        slope = in_terms_of(change, x, x.name).diff(basis.x)
-        return basis.with_integrals(sympy.powsimp(sympy.expand(right * slope**2)), start)
+        t = in_terms_of(change, x, x.name)
+        square = _SQUARES[t.func](x) * t.args[0].diff(basis.x) ** 2
+        right = sympy.factor(right / Atoms(x).ratio(equation.a).xreplace(NUMBERS) * square)
+        return basis.with_integrals(in_terms_of(change, right, x.name), start)
 
     def at_once(right: Expr) -> Expr:
         f, field = ratfunc(right, x), equation.a.field

@@ -47,6 +47,8 @@ def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
 
 def _terms(right: Expr, x: Expr) -> dict[Pair, dict[int, Pair]] | None:
     """{(rho, omega): {k: the coefficient of x^k exp((rho + i omega) x)}}; a real part is meant."""
+    if any(p.base.has(x) and not (p.exp.is_Integer and p.exp > 0) for p in right.atoms(sympy.Pow)):
+        return None  # before it is expanded
     right = sympy.expand(right.rewrite((sinh, cosh), sympy.exp))
     if right.has(sin, cos):
         right = sympy.expand(TR8(right))  # powers and products of waves become waves

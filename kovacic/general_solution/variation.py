@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -24,7 +24,8 @@ from kovacic.closed_form.product import product
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
 from kovacic.general_solution.values import finite_value, size
-from kovacic.reading.given import Equation
+from kovacic.reading.exponential import in_terms_of
+from kovacic.reading.given import Change, Equation
 
 Expr = Any  # SymPy publishes no types
 #: Points x/101 + i y/89 in each quadrant and on the axis, where a solution is substituted: wrong branches of roots don't pass.
@@ -72,7 +73,9 @@ class Basis:
         known = special_wronskian(self.y1, self.y2, self.x)
         if known is not None:
             return known
-        if self.equation.change is None and not self.y1.has(*_UNKNOWN) and not self.y2.has(*_UNKNOWN):
+        if self.equation.change is not None:
+            return self._changed(self.equation.change) or self._by_definition
+        if not self.y1.has(*_UNKNOWN) and not self.y2.has(*_UNKNOWN):
             kernel = display(product(self.equation.gauge * 2), Atoms(self.x)).xreplace(NUMBERS)
             for c in self._quotients(kernel):
                 known = c.is_finite is not False and not c.has(sympy.nan, sympy.zoo)
@@ -82,6 +85,18 @@ class Basis:
                         return W
                     break
         return self._by_definition
+
+    def _changed(self, change: Change) -> Expr | None:
+        """From that in t = t(x), the variable of the equation, for solutions that are functions of t."""
+        own, t = sympy.Symbol(self.equation.variable), sympy.Dummy()
+        value = in_terms_of(change, own, own.name)
+        whole = value.func is not sympy.exp  # else roots of t are exponentials
+        old, new = (value, t) if whole else (self.x, sympy.log(t) / value.exp.diff(self.x))
+        y1, y2 = (y.subs(old, new) for y in (self.y1, self.y2))
+        if y1.has(self.x) or y2.has(self.x):
+            return None
+        basis = Basis(y1.xreplace({t: own}), y2.xreplace({t: own}), own, replace(self.equation, change=None))
+        return in_terms_of(change, basis.wronskian, own.name) * value.diff(self.x)
 
     @property
     def _by_definition(self) -> Expr:
