@@ -13,6 +13,7 @@ import sympy
 
 import kovacic
 from kovacic.cli import main
+from kovacic.errors import NotRational
 from kovacic.reading.read import read_input
 from kovacic.views.plot import sample
 from kovacic.views.text import render
@@ -435,3 +436,27 @@ def test_solutions_join_where_the_new_variable_has_a_branch_point(equation: str,
     expected = 2 + 3 * (second(x) - second(1)) / second(x).diff(x).subs(x, 1)
     for point in (-2, -1, Fraction(1, 3), 3, 5):
         assert abs(sympy.N((found - expected).subs(x, sympy.Rational(point)), 20)) < 1e-15
+
+
+@pytest.mark.parametrize(
+    "right",
+    [
+        "log(exp(x) + 1)",
+        "sqrt(exp(x) + 1)",
+        "Heaviside(exp(x) - 1)",
+        "x",
+        "log(x)",
+        "Heaviside(x - 1)",
+    ],
+)
+def test_a_right_hand_side_that_is_another_function_is_refused_everywhere(right: str) -> None:
+    """It was left out, in formulas and in proven values, where it is a function of exp(x) that isn't rational."""
+    equation, start = f"y'' + exp(x)*y = {right}", {"x0": 0, "y0": 0, "dy0": 0}
+    for call in (
+        lambda: kovacic.dsolve(equation),
+        lambda: kovacic.solve(equation),
+        lambda: kovacic.evaluate(equation, 1, **start),
+        lambda: kovacic.tabulate(equation, 0, 1, **start),
+    ):
+        with pytest.raises(NotRational, match="right-hand side that isn't rational in exp"):
+            call()

@@ -33,13 +33,15 @@ from kovacic.reading.linear import REST, Symbols
 from kovacic.reading.source import Source, read_source, source_of
 from kovacic.reading.symbolic import read_expression
 
+_RIGHT = "put 0 there: two solutions give one with any right-hand side, by variation of parameters"
 _HINT = "coefficients are rational in x, or in exp(k*x) and sines, cosines, ... of rational multiples of k*x"
 
 
 def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     """The equation (1) for an input with such coefficients; None for any other input.
 
-    Raises `NotRational` where x occurs beside exp(k x), or rates whose quotient isn't rational.
+    Raises `NotRational` where x occurs beside exp(k x), for rates whose quotient isn't rational, and for a right-hand side that
+    isn't rational in exp(k x).
     """
     x, reader = sympy.Symbol(source.variable), EquationReader(source.variable, source.unknown, limits, Symbols())  # type: ignore[arg-type]
     reader.arithmetic.coefficient = lambda expression: expression  # any one
@@ -55,8 +57,12 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     T = sympy.Dummy("T")
     k, offset, powers = _powers(exponentials, x, T)
     a, b, c, rest = (part.xreplace(powers) for part in rewritten)
-    if any(part.has(x) for part in (a, b, c, rest)):
+    if any(part.has(x) for part in (a, b, c)):
         raise NotRational(f"{x} beside exp({k * x}): that isn't rational in one exponential function", hint=_HINT)
+    if not rest.is_rational_function(T) or rest.has(x):
+        raise NotRational(
+            f"a right-hand side that isn't rational in exp({k * x}), as the coefficients are", hint=_RIGHT
+        )
     unknown = reader.unknown or UNKNOWN
     names = {s.name for part in (a, b, c, rest, k) for s in part.free_symbols} | {x.name, unknown}
     t = sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
@@ -64,6 +70,7 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     whole = k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y + rest
     read = read_source(source_of(whole.xreplace({T: t}), None, equation=True), limits)
     assert read.equation is not None
+    assert read.equation.h is None
     (p, q, f), expression = _best(read.equation, k, x + offset)
     denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
     p, q, f = p * denominator, q * denominator, f * denominator
