@@ -19,8 +19,9 @@ from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.matrices import product
 from kovacic.enclosure.points import Point
 from kovacic.enclosure.precision import AccuracyWarning
-from kovacic.enclosure.problem import System, as_problem
+from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
+from kovacic.enclosure.system import System
 from kovacic.enclosure.transport import piece_matrices
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits

@@ -21,8 +21,8 @@ from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.monodromy import connection_matrix, monodromy
 from kovacic.enclosure.points import Point
 from kovacic.enclosure.precision import AccuracyWarning
-from kovacic.enclosure.problem import System, check_segment
 from kovacic.enclosure.states import evaluate_states
+from kovacic.enclosure.system import System, check_segment
 from kovacic.enclosure.transport import cover
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Limits

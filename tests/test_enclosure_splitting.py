@@ -19,9 +19,10 @@ from kovacic.enclosure.frame import Frame, make_frame
 from kovacic.enclosure.matrices import Matrix, product
 from kovacic.enclosure.monodromy import connection_matrix
 from kovacic.enclosure.points import Point
-from kovacic.enclosure.problem import System, as_problem
+from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.splitting import LEAF, Recurrence, bit_burst, is_split, make_block, split_legs
 from kovacic.enclosure.states import evaluate_states
+from kovacic.enclosure.system import System
 from kovacic.enclosure.taylor import expand, transition
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits

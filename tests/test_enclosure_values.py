@@ -27,8 +27,8 @@ from kovacic.enclosure.matrices import product
 from kovacic.enclosure.monodromy import connection_matrix
 from kovacic.enclosure.points import Point, as_point
 from kovacic.enclosure.precision import AccuracyWarning, Method
-from kovacic.enclosure.problem import System, check_segment, distance_lower
 from kovacic.enclosure.states import evaluate_states
+from kovacic.enclosure.system import System, check_segment, distance_lower
 from kovacic.enclosure.transport import cover, piece_matrices
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits

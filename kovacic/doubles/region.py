@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kovacic.enclosure.points import Point, as_point, to_acb, working_precision
-from kovacic.enclosure.problem import NumericProblem, name_of
+from kovacic.enclosure.problem import NumericProblem
+from kovacic.enclosure.system import name_of
 from kovacic.errors import InputError
 
 _PREC = 240

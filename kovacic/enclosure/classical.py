@@ -30,8 +30,8 @@ from kovacic.enclosure.classical_functions import Form, choice_at, form_of, is_i
 from kovacic.enclosure.exponential import log_derivative
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.problem import System, check_segment
 from kovacic.enclosure.singular import Singular
+from kovacic.enclosure.system import System, check_segment
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.special.answer import find

@@ -32,7 +32,8 @@ from kovacic.decision import Decision
 from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, log_derivative, sharp_roots
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.problem import NumericProblem, check_segment
+from kovacic.enclosure.problem import NumericProblem
+from kovacic.enclosure.system import check_segment
 from kovacic.errors import InputError
 
 _CHEAP = 400  # degree of P up to which the values of two exponentials cost less than the Taylor steps

@@ -26,7 +26,8 @@ from kovacic.enclosure.embedded import Embedded, check_apart
 from kovacic.enclosure.exponential import integral
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import Point, to_acb
-from kovacic.enclosure.problem import NumericProblem, System, check_segment
+from kovacic.enclosure.problem import NumericProblem
+from kovacic.enclosure.system import System, check_segment
 from kovacic.enclosure.taylor import error_radii
 from kovacic.enclosure.transport import Leg
 from kovacic.errors import InputError

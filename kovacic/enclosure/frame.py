@@ -21,7 +21,7 @@ from typing import Any
 from flint import acb_poly, arb, arb_poly, fmpq_poly
 
 from kovacic.enclosure.points import Point, power_of_two, to_acb, working_precision
-from kovacic.enclosure.problem import System, distance_lower, offsets
+from kovacic.enclosure.system import System, distance_lower, offsets
 from kovacic.errors import InputError
 
 # Real and imaginary parts of the coefficients; None where all of the latter are zero

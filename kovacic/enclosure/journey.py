@@ -28,10 +28,11 @@ from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.frobenius import basis, junction, limit
 from kovacic.enclosure.matrices import Matrix, Product, State, apply, real_part
 from kovacic.enclosure.points import Point, power_of_two, to_acb, to_double
-from kovacic.enclosure.problem import NumericProblem, check_segment
+from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import Start, middle, spread
+from kovacic.enclosure.system import check_segment
 from kovacic.enclosure.transport import walk
 from kovacic.errors import InputError
 from kovacic.limits import check_time

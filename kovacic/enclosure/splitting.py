@@ -47,7 +47,7 @@ from flint import acb, acb_mat, arb, arb_mat, fmpz_mat, fmpz_poly
 from kovacic.enclosure.frame import Frame, Parts, log2, make_frame, norm, shift
 from kovacic.enclosure.matrices import Matrix
 from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.problem import System
+from kovacic.enclosure.system import System
 from kovacic.enclosure.taylor import error_radii, expand, transition
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time

@@ -26,8 +26,9 @@ from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
 from kovacic.enclosure.forcing import forcing_of
 from kovacic.enclosure.matrices import State, product
 from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.problem import NumericProblem, System
+from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
+from kovacic.enclosure.system import System
 from kovacic.enclosure.transport import piece_matrices
 from kovacic.errors import InputError, LimitExceeded
 

@@ -27,8 +27,8 @@ from flint import fmpq
 from kovacic.enclosure.frame import Frame, fitting, least_growth, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import Point, power_of_two, to_double
-from kovacic.enclosure.problem import System, check_segment, distance_lower, is_apart
 from kovacic.enclosure.splitting import is_split, legs
+from kovacic.enclosure.system import System, check_segment, distance_lower, is_apart
 from kovacic.enclosure.taylor import Expansion, expand, states_at, transition
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, watched_seconds

@@ -1,0 +1,208 @@
+"""The normal form den y'' = num y with integer coefficients: its singular points, and which paths meet them.
+
+Symbols: S = num/den; zeta_i the zeros of den (the singular points), eta_j the zeros of num.  The zeros are enclosed by
+FLINT's certified isolation (`fmpz_poly.complex_roots`: pairwise disjoint rectangles, one zero in each) and refined when a
+distance cannot be told from zero.  Whether a path meets a singular point is decided exactly, by Sturm-free real root
+isolation of the common factor of two polynomials over Q.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations
+from typing import Literal
+
+from flint import acb, acb_poly, arb, fmpq_poly, fmpz_poly
+
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import RationalPoly, to_fraction
+from kovacic.enclosure.points import Point, midpoint, to_acb, working_precision
+from kovacic.errors import InputError
+from kovacic.limits import check_duration
+
+_ISOLATION = 4e-6  # seconds that it takes to isolate the zeros of a polynomial, over the square of its degree
+_SHARP = 40  # relative bits to which the distances of singular points are known
+_SHORT = 10**9  # the largest denominator of a singular point that messages name exactly
+_EXACT = 400  # bits from which on it is worth while to decide exactly whether a point is singular
+Zeros = tuple[tuple[acb, int], ...]  # zeros with their multiplicities
+Which = Literal["num", "den"]
+
+
+@dataclass(frozen=True)
+class System:
+    """den y'' = num y: integer coefficients, low to high, without a common factor, den not zero.
+
+    With a `radius` these are approximations, and the coefficients of the exact equation differ by at most so much from them;
+    `imaginary` are the imaginary parts of both then, where there are any.
+
+    >>> System.make((2, 0), (0, 0, 4))   # S = 2/(4 x^2)
+    System(num=(1,), den=(0, 0, 2), radius=0, imaginary=None)
+    """
+
+    num: tuple[int, ...]
+    den: tuple[int, ...]
+    radius: int = 0
+    imaginary: tuple[tuple[int, ...], tuple[int, ...]] | None = None
+
+    @classmethod
+    def make(cls, num: tuple[int, ...], den: tuple[int, ...]) -> System:
+        """The system in lowest terms; raises InputError if den is zero."""
+        p, q = fmpz_poly(list(num)), fmpz_poly(list(den))
+        if q == 0:
+            raise InputError("the denominator of S is zero")
+        g = p.gcd(q) * (-1 if q.leading_coefficient() < 0 else 1)
+        num, den = (tuple(int(c) for c in (part // g).coeffs()) for part in (p, q))
+        return cls(num, den)
+
+    @classmethod
+    def of(cls, function: RatFunc) -> System:
+        """A rational function over Q, as num/den; raises InputError over another field."""
+        num, den = function.num, function.den
+        if not isinstance(num, RationalPoly) or not isinstance(den, RationalPoly):
+            raise InputError(
+                "numerical evaluation needs S with rational coefficients (no parameters, no algebraic constants)"
+            )
+        p, q = num.rep, den.rep
+        whole = (p.numer() * q.denom(), q.numer() * p.denom())
+        return cls.make(*(tuple(int(c) for c in part.coeffs()) for part in whole))
+
+    def polynomial(self, which: Which) -> acb_poly:
+        """Numerator or denominator, at the working precision in force."""
+        re = acb_poly(list(getattr(self, which)))
+        return re if self.imaginary is None else re + acb_poly(list(self.imaginary[which == "den"])) * acb(0, 1)
+
+    def along(self, which: Which, a: Point, step: Point) -> tuple[fmpq_poly, fmpq_poly]:
+        """Real and imaginary part of numerator or denominator at a + t step, as polynomials in t over Q."""
+        real, imag = _along(getattr(self, which), a, step)
+        if self.imaginary is None:
+            return real, imag
+        first, second = _along(self.imaginary[which == "den"], a, step)
+        return real - second, imag + first
+
+    def roots(self, which: Which, prec: int) -> Zeros:
+        """Enclosures of the zeros of numerator or denominator at about `prec` bits, with multiplicities.
+
+        Where coefficients aren't real, multiplicities may be too large, and zeros of the conjugate polynomial among them.
+        """
+        prec = max(64, 1 << (prec - 1).bit_length())
+        if self.imaginary is None:
+            return _isolated(getattr(self, which), prec)
+        re, im = fmpz_poly(list(getattr(self, which))), fmpz_poly(list(self.imaginary[which == "den"]))
+        found = _isolated(tuple(int(c) for c in (re * re + im * im).coeffs()), prec)
+        with working_precision(prec):
+            return tuple((z, k) for z, k in found if self.polynomial(which)(z).contains(0))
+
+    def singular_points(self, prec: int) -> list[Point]:
+        """The midpoints of the enclosures of the singular points; on the real axis exactly where the singular point is."""
+        return [midpoint(root) for root, _ in self.roots("den", prec)]
+
+    def is_singular(self, point: Point) -> bool:
+        """True if the point is a zero of the denominator, decided exactly."""
+        if point.is_real() and self.imaginary is None:
+            return bool(fmpz_poly(list(self.den))(point.x) == 0)
+        return all(part == 0 for part in self.along("den", point, Point(0)))
+
+
+@lru_cache(maxsize=64)
+def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
+    poly = fmpz_poly(list(coefficients))
+    check_duration(
+        _ISOLATION * poly.degree() ** 2, f"the isolation of the zeros of a polynomial of degree {poly.degree()}"
+    )
+    with working_precision(prec):
+        return tuple((root, int(k)) for root, k in poly.complex_roots()) if poly.degree() > 0 else ()
+
+
+def _along(coefficients: tuple[int, ...], a: Point, step: Point) -> tuple[fmpq_poly, fmpq_poly]:
+    lines = fmpq_poly([a.x, step.x]), fmpq_poly([a.y, step.y])
+    if lines[1] == 0:
+        return fmpq_poly(list(coefficients))(lines[0]), fmpq_poly([])
+    real, imag = fmpq_poly([]), fmpq_poly([])
+    for c in reversed(coefficients):
+        real, imag = real * lines[0] - imag * lines[1] + c, real * lines[1] + imag * lines[0]
+    return real, imag
+
+
+def offsets(system: System, centre: Point) -> Zeros:
+    """The singular points seen from `centre` (point - centre), to 40 relative bits at least, with their multiplicities.
+
+    Raises InputError if the centre is one of them.
+    """
+    prec = 64 + min(max(int(part.height_bits()) for part in (centre.x, centre.y)), 1 << 14)
+    while True:
+        with working_precision(max(128, prec)):
+            here = to_acb(centre)
+            found = tuple((root - here, k) for root, k in system.roots("den", prec))
+        if all(d.rel_accuracy_bits() >= _SHARP for d, _ in found):
+            return found
+        if prec > _EXACT and system.is_singular(centre):
+            raise InputError(f"the point {centre} is a singular point of the equation")
+        prec *= 2
+
+
+def distance_lower(system: System, centre: Point) -> arb | None:
+    """A proven lower bound, positive and exact, of the distance to the nearest singular point; None if there is none."""
+    with working_precision(64):
+        return min((d.abs_lower() for d, _ in offsets(system, centre)), default=None)
+
+
+def is_apart(system: System, *points: Point) -> bool:
+    """Is it certain that no singular point lies in the convex hull of these?  In some direction each is beyond all of them."""
+    with working_precision(128):
+        left = [root for root, _ in system.roots("den", 128)]
+        for a, b in combinations(points, 2):
+            for x, y in ((b.x - a.x, b.y - a.y), (a.y - b.y, b.x - a.x)):
+                reach = [x * p.x + y * p.y for p in points]
+                low, high, along, across = map(arb, (min(reach), max(reach), x, y))
+                left = [z for z in left if not (low > (s := along * z.real + across * z.imag) or s > high)]
+    return not left and not system.radius
+
+
+def check_segment(system: System, a: Point, b: Point) -> None:
+    """Raise InputError if the closed segment from a to b contains a singular point, with that point and the distances.
+
+    Exact: with z = x or, on a vertical line, z = iy for its points, den(z + ...) = A + i B with A, B in Q[x] or Q[y]; the line
+    is singular where gcd(A, B), on the real axis the denominator itself, has a real zero.
+    """
+    for name, point in (("start", a), ("end", b)):
+        if system.is_singular(point):
+            raise InputError(
+                f"the {name} {point} of the path is a singular point of the equation (distance 0)",
+                hint="choose a point beside it; the solutions aren't analytic there",
+            )
+    if a == b or is_apart(system, a, b):
+        return
+    step = b - a
+    first, length = (a.x, step.x) if step.x != 0 else (a.y, step.y)
+    unit = step.scaled(1 / length)
+    real, imaginary = system.along("den", a - unit.scaled(first), unit)
+    poly, prec = real.gcd(imaginary).numer(), 128
+    while poly.degree() > 0:
+        roots = _isolated(tuple(int(c) for c in poly.coeffs()), prec)
+        with working_precision(prec):
+            inside = [(z.real - first) / length for z, _ in roots if z.imag.is_zero()]
+            inside = [t for t in inside if not (t < 0 or t > 1)]
+            if not inside:
+                return
+            t = min(inside, key=lambda t: float(t.mid()))
+            if not (t.contains(0) or t.contains(1)):  # the ends were excluded exactly: else refine
+                distance = float(t.mid()) * math.sqrt(to_fraction(step.norm_squared()))
+                raise InputError(
+                    f"the path from {a} to {b} runs through the singular point {name_of(system, to_acb(a) + to_acb(step) * t)} "
+                    f"(distance 0; {distance:.6g} from the start)",
+                    hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
+                    "the result depends on the side",
+                )
+        prec *= 2
+
+
+def name_of(system: System, point: acb) -> str:
+    """The singular point in this ball, in words: its exact value where that is a short Gaussian rational, else 12 digits."""
+    middle = midpoint(point)
+    guess = Point(*(part.limit_denominator(_SHORT) for part in (middle.re, middle.im)))
+    if point.overlaps(to_acb(guess)) and system.is_singular(guess):
+        return str(guess)
+    re, im = (part.mid().str(12, radius=False) + "..." for part in (point.real, point.imag))
+    return re if point.imag.contains(0) else f"{re} + {im}i"
