@@ -47,7 +47,10 @@ __all__ = sorted(_MODULES)
 def __getattr__(name: str) -> object:
     if name not in _MODULES:
         raise AttributeError(f"module 'kovacic' has no attribute {name!r}")
-    value = globals()[name] = getattr(import_module(_MODULES[name]), name)
+    from kovacic.errors import needs
+
+    with needs("numeric", f"kovacic.{name}"):
+        value = globals()[name] = getattr(import_module(_MODULES[name]), name)
     return value
 
 

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -58,6 +59,8 @@ def test_a_status_is_equal_to_its_string() -> None:
     ("missing", "code", "extra"),
     [
         ("numpy", "answer.lambdify(interval=(1, 3))([2.0])", "numeric"),
+        ("numpy", "kovacic.tabulate('x', 0, 1, x0=0, y0=1, dy0=0)", "numeric"),
+        ("numpy", "answer.plot(1, 2, x0=1, points=5)", "plot"),
         ("matplotlib", "answer.plot(1, 2, x0=1, points=5)", "plot"),
         ("matplotlib", "draw_map('n*x + m', (parse_grid('n=1'), parse_grid('m=1')), {}, 'map.png')", "plot"),
     ],
@@ -72,6 +75,17 @@ def test_a_missing_extra_names_the_command_that_installs_it(missing: str, code: 
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=60)
     assert f"needs {missing}" in done.stdout
     assert f"pip install 'kovacic[{extra}]'" in done.stdout
+
+
+@pytest.mark.parametrize(
+    "arguments", ["plot x --from 0 --to 1 -o p.png", "ball --mass 1 --radius 1 --sphere 3 --simulate"]
+)
+def test_a_command_without_its_extra_says_so_in_one_line(arguments: str, tmp_path: Path) -> None:
+    program = f"import sys; sys.modules['numpy'] = None\nfrom kovacic.cli import main\nmain.main({arguments.split()!r})"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, cwd=tmp_path)
+    assert done.stderr.startswith("kovacic: a ")
+    assert "needs numpy: pip install" in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize(

@@ -73,12 +73,13 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
     kovacic plot "-1/x - 3/(16*x^2)" --from -3 --to 30 -o bessel.png
     """
     from kovacic.errors import needs
-    from kovacic.views.plot import plot
 
     title, S = equation, equation.strip()
     if "=" not in equation:
         title = f"y'' = {equation} y" if S.isalnum() else f"y'' = ({S}) y"
     with needs("plot", "a picture"):
+        from kovacic.views.plot import plot
+
         plot(equation, start, stop, title=title, output=output, **given)
     click.echo(f"wrote {output}")
 
