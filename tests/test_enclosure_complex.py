@@ -116,6 +116,19 @@ def test_complex_poles(c: str, m: int) -> None:
         evaluate(f"{m * (m - 1)}/(x - ({c}))^2", c, x0=-1, y0=1, dy0=0)
 
 
+@pytest.mark.parametrize(("x0", "x"), [("1415", "1414.3"), ("1414.5", "1416")])
+def test_beside_a_pole_of_high_order_that_is_far_from_zero(x0: str, x: str) -> None:
+    # y = (x - c)^6, c = 1000 sqrt(2), whose denominator in x has large coefficients that cancel
+    solution = (X - 1000 * sympy.sqrt(2)) ** 6
+    y0, dy0 = (str(part.subs(X, sympy.Rational(x0))) for part in (solution, solution.diff(X)))
+    for S in ("30/(x - 1000*sqrt(2))^2", "30*(x - 1000*sqrt(2))^4*(x^6 + 2)/((x - 1000*sqrt(2))^6*(x^6 + 2))"):
+        ball = evaluate(S, x, x0=x0, y0=y0, dy0=dy0, digits=20)
+        assert holds(ball, solution, fmpq(*Fraction(x).as_integer_ratio()))
+        assert ball.digits >= 20
+    steep = evaluate("x/(x - 1000*sqrt(2))^6", x, x0=x0, y0=1, dy0=0)
+    assert steep.digits >= 15
+
+
 def test_the_path_through_a_complex_pole_is_refused() -> None:
     with pytest.raises(InputError, match=r"runs through the singular point 0 \+ 1i"):
         evaluate("2/(x - I)^2", "2*I", x0=0, y0=1, dy0=0)

@@ -158,7 +158,8 @@ def _blur(system: System, centre: Point, e: int, poles: list[tuple[arb, int]]) -
     Raises InputError where D may vanish there.
     """
     unit = arb((1, e))
-    reach, least = abs(to_acb(centre)).upper() + unit, abs(system.polynomial("den")(to_acb(centre))).lower()
+    here = Point(*(part[0] for part in system.along("den", centre, Point(0))))  # exact: balls would cancel near poles
+    reach, least = abs(to_acb(centre)).upper() + unit, to_acb(here).abs_lower()
     for size, k in poles:
         least *= (1 - 1 / size) ** k
     numerator = system.polynomial("num").coeffs()
