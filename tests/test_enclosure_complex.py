@@ -70,6 +70,12 @@ def test_a_chosen_solution_of_an_equation_with_constants_and_a_right_hand_side(s
     forced(seed)
 
 
+def airy_basis(root: acb, x: acb) -> list[acb]:
+    """Ai and Bi of root x, and their derivatives."""
+    ai, dai, bi, dbi = (root * x).airy()
+    return [ai, bi, root * dai, root * dbi]
+
+
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("digits", [5, 30, 200])
 def test_airy_with_complex_constants(seed: int, digits: int) -> None:
@@ -83,15 +89,12 @@ def test_airy_with_complex_constants(seed: int, digits: int) -> None:
     for found in (evaluate(text, x, x0=x0, y0=1, dy0="I", digits=digits, derivative=True), given):
         assert found[0].digits >= digits
         with flint.ctx.workprec(1500):
-            root = acb(slope.real, slope.imag) ** (acb(1) / 3)
-
-            def basis(x: acb) -> list[acb]:
-                z = root * (x + acb(shift.real, shift.imag) / acb(slope.real, slope.imag))  # noqa: B023
-                ai, dai, bi, dbi = z.airy()
-                return [ai, bi, root * dai, root * dbi]  # noqa: B023
-
+            root, zero = (
+                acb(slope.real, slope.imag) ** (acb(1) / 3),
+                acb(shift.real, shift.imag) / acb(slope.real, slope.imag),
+            )
             place = acb(fmpq(x.numerator, x.denominator)) if isinstance(x, int | Fraction) else acb(x.real, x.imag)
-            (ai, bi, dai, dbi), (a, b, da, db) = basis(acb(x0)), basis(place)
+            (ai, bi, dai, dbi), (a, b, da, db) = (airy_basis(root, x + zero) for x in (acb(x0), place))
             c, d = dbi - acb(0, 1) * bi, acb(0, 1) * ai - dai
             over = ai * dbi - bi * dai
             for ball, value in zip(found, (c * a + d * b, c * da + d * db), strict=True):

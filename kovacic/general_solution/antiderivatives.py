@@ -114,10 +114,8 @@ def _in_roots(term: Expr, x: Expr) -> Expr | None:
 
 def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
     """In an argument u of a function, beside whose slope the term is one of u."""
-    u = sympy.Dummy()
-    for argument in sorted(
-        {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}, key=str
-    ):
+    u, arguments = sympy.Dummy(), {f.args[0] for f in term.atoms(sympy.Function)}
+    for argument in sorted((a for a in arguments if a.has(x) and a.has(exp, sin, cos, log)), key=str):
         inner = (term / argument.diff(x)).subs(argument, u)
         if not inner.has(x) and (found := _known(inner, u)) is not None:
             return found.subs(u, argument)
