@@ -23,6 +23,7 @@ _NAMES = {
     "enclosure.evaluate": ("evaluate",),
     "enclosure.monodromy": ("connection_matrix", "monodromy"),
     "enclosure.precision": ("AccuracyWarning",),
+    "equation": ("Equation",),
     "errors": (
         "InputError",
         "KovacicError",
@@ -36,7 +37,6 @@ _NAMES = {
     "general_solution": ("dsolve", "solve_riccati"),
     "limits": ("Limits",),
     "parametric.api": ("conditions",),
-    "reading.given": ("Equation",),
     "solution": ("Solution",),
 }
 _MODULES = {name: f"kovacic.{module}" for module, names in _NAMES.items() for name in names}

@@ -11,6 +11,7 @@ from kovacic.enclosure.evaluate import evaluate as evaluate
 from kovacic.enclosure.monodromy import connection_matrix as connection_matrix
 from kovacic.enclosure.monodromy import monodromy as monodromy
 from kovacic.enclosure.precision import AccuracyWarning as AccuracyWarning
+from kovacic.equation import Equation as Equation
 from kovacic.errors import InputError as InputError
 from kovacic.errors import KovacicError as KovacicError
 from kovacic.errors import LimitExceeded as LimitExceeded
@@ -23,7 +24,6 @@ from kovacic.general_solution import dsolve as dsolve
 from kovacic.general_solution import solve_riccati as solve_riccati
 from kovacic.limits import Limits as Limits
 from kovacic.parametric.api import conditions as conditions
-from kovacic.reading.given import Equation as Equation
 from kovacic.solution import Solution as Solution
 
 __version__: str

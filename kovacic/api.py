@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide as decide_structure
+from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
-from kovacic.reading.given import Parsed, parameters_of
 from kovacic.solution import Solution
 from kovacic.verify import Verification, verify
 

@@ -10,9 +10,9 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Status
+from kovacic.equation import Change, Equation
 from kovacic.errors import LimitExceeded, VerificationFailed, needs
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
-from kovacic.reading.given import Change, Equation
 from kovacic.verify import Verification, verify
 
 if TYPE_CHECKING:

@@ -20,8 +20,8 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.equation import Equation
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
-from kovacic.reading.given import Equation
 from kovacic.reading.lexer import is_equation
 from kovacic.reading.read import read_input
 

@@ -20,12 +20,12 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind as PlaceKind
 from kovacic.engine.places import analyse
+from kovacic.equation import Equation
 from kovacic.galois import Ground, Group, Kind
 from kovacic.galois.gauged import _residues_on_curve, _torus
 from kovacic.galois.imprimitive import curve_of, form_of_order
 from kovacic.galois.jacobian import Jacobian
 from kovacic.limits import Budget
-from kovacic.reading.given import Equation
 
 X = RatFunc(QQ.poly([0, 1]))
 

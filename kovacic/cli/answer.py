@@ -79,7 +79,7 @@ def _inhomogeneous(answer: Solution, values: str) -> Iterator[str]:
     """The general solution, or that with the initial values; why not; no line for an undecided equation."""
     if answer.status == "undecided":
         return
-    from kovacic.reading.given import Equation
+    from kovacic.equation import Equation
     from kovacic.views.formula import shortened
 
     zero = answer.S * 0

@@ -23,8 +23,8 @@ from kovacic.enclosure.points import Point, to_acb, working_precision
 from kovacic.enclosure.precision import AccuracyWarning, Evaluation, start_bits
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
+from kovacic.equation import Change
 from kovacic.errors import InputError
-from kovacic.reading.given import Change
 from kovacic.reading.symbolic import read_expression
 
 _BALLS = 5000  # bits of what is computed from a slope that is a ball

@@ -19,8 +19,8 @@ from kovacic.enclosure.constants import Number, as_number
 from kovacic.enclosure.embedded import Embedded
 from kovacic.enclosure.points import Point, working_precision
 from kovacic.enclosure.system import System, Zeros
+from kovacic.equation import EULER, PI, Equation, parameters_of
 from kovacic.errors import InputError
-from kovacic.reading.given import EULER, PI, Equation, parameters_of
 
 _BITS = 40  # to which constants are known where nothing was asked for
 

@@ -24,11 +24,11 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, factors
 from kovacic.closed_form.integrals import integral, logarithms
 from kovacic.closed_form.product import product
+from kovacic.equation import EULER, PI
 from kovacic.errors import InputError
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import size
 from kovacic.limits import check_time
-from kovacic.reading.given import EULER, PI
 from kovacic.reading.read import read_input
 
 Expr = Any  # SymPy publishes no types

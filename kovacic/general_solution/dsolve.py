@@ -17,6 +17,7 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.form import at_edges, solutions
 from kovacic.closed_form.klein import KleinForm
 from kovacic.decision import Status
+from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS
 from kovacic.general_solution.initial_values import as_mapping, constants, read_values
@@ -34,7 +35,6 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.reading.exponential import solution_in_terms_of
-from kovacic.reading.given import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import function_of
 from kovacic.solution import Solution

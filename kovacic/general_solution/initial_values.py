@@ -16,13 +16,13 @@ from kovacic.algebra.apart import last_of
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import ANTIDERIVATIVES, jet
+from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.general_solution.antiderivatives import prepared
 from kovacic.general_solution.values import SECONDS, size, value_at
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import watched_seconds
 from kovacic.reading.exponential import in_terms_of
-from kovacic.reading.given import Equation
 from kovacic.reading.parser import listed, shown
 
 #: Functions whose values are simplified, in constants of so many subexpressions.

@@ -22,6 +22,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product
+from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, in_powers, prepared, ratfunc
 from kovacic.general_solution.initial_values import tidy
@@ -30,7 +31,6 @@ from kovacic.general_solution.values import values_at
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import Budget
 from kovacic.reading.exponential import in_terms_of
-from kovacic.reading.given import Equation
 
 Expr = Any  # SymPy publishes no types
 #: (dt/du)^2 for functions t of u, in t.

@@ -18,10 +18,10 @@ from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import DIGITS, is_numerical_solution
 from kovacic.closed_form.jets import jet
+from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.general_solution.values import size
 from kovacic.general_solution.variation import is_solution, rates
-from kovacic.reading.given import Equation
 from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types

@@ -9,9 +9,9 @@ import sympy
 
 from kovacic.api import solve
 from kovacic.closed_form.atoms import Atoms
+from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
-from kovacic.reading.given import Equation
 from kovacic.solution import Solution
 
 

@@ -21,11 +21,11 @@ from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import one_exponential
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
+from kovacic.equation import Change, Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
 from kovacic.general_solution.values import finite_value, size
 from kovacic.reading.exponential import in_terms_of
-from kovacic.reading.given import Change, Equation
 
 Expr = Any  # SymPy publishes no types
 #: Points x/101 + i y/89 in each quadrant and on the axis, where a solution is substituted: wrong branches of roots don't pass.

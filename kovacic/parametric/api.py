@@ -11,6 +11,7 @@ from typing import Any
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide
+from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric.answer import Conditions
@@ -19,7 +20,6 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.partition import Settings, partition
 from kovacic.parametric.regions import Condition, Verdict, without_empty
 from kovacic.parametric.restriction import reduced, with_free_constant
-from kovacic.reading.given import Parsed, parameters_of
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import with_values
 

@@ -17,6 +17,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
+from kovacic.equation import parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.parametric.functions import Point, over_parameters
@@ -27,7 +28,6 @@ from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_with
-from kovacic.reading.given import parameters_of
 
 #: What was written by the package was within its limits.
 _LIMITS = Limits(degree=10**6, bits=10**8, digits=10**7, text_length=10**8, exponent=10**6)

@@ -17,6 +17,7 @@ from math import floor
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.equation import ENERGY
 from kovacic.parametric.formulas import root_written, text_of, written
 from kovacic.parametric.functions import (
     constant_term,
@@ -26,7 +27,6 @@ from kovacic.parametric.functions import (
     over_parameters,
     powers_of,
 )
-from kovacic.reading.given import ENERGY
 
 #: Characters of a spectrum that is given beside two square roots; and by how many it may be longer than one square root.
 _BESIDE, _LONGER = 90, 40

@@ -8,5 +8,5 @@ position in the text, what would be too large `LimitExceeded` before it is compu
 `lexer` and `parser`, a SymPy expression is walked by `symbolic`: both call a reader, which says what numbers, names and calls
 mean: `expression` (S), `equation`, or `symbolic` (SymPy's expressions).  Readers calculate with `arithmetic`, or with `linear`
 where an unknown function or what isn't rational may occur; `exponential` makes exp(k x) a variable; `constants` has the field,
-`given` the results and the names with a meaning.
+`names` the names with a meaning; the results, `Equation` and `Parsed`, are `kovacic.equation`'s.
 """

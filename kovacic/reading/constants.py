@@ -18,9 +18,9 @@ from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, square_part
+from kovacic.equation import ENERGY, lowered, over
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.reading.given import ENERGY, lowered, over
 
 T = TypeVar("T")
 

@@ -15,14 +15,15 @@ from __future__ import annotations
 
 from typing import Any
 
+from kovacic.equation import ENERGY, EULER, PI, UNKNOWN, Equation, over
 from kovacic.errors import NotLinear, NotRational, ParseError
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
 from kovacic.reading.constants import Constants
 from kovacic.reading.expression import Place, RationalReader
-from kovacic.reading.given import ENERGY, EULER, FUNCTION_NAMES, PI, TRANSCENDENTAL_HINT, UNKNOWN, Equation, over
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import REST, LinearArithmetic, LinearForm, is_rational
+from kovacic.reading.names import FUNCTION_NAMES, TRANSCENDENTAL_HINT
 from kovacic.reading.parser import Site
 
 _LARGEST_ORDER = 100

@@ -24,11 +24,11 @@ from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.equation import UNKNOWN, Change, Equation, Parsed, lowered, over
 from kovacic.errors import NotLinear, NotRational
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import Term
 from kovacic.reading.equation import EquationReader
-from kovacic.reading.given import UNKNOWN, Change, Equation, Parsed, lowered, over
 from kovacic.reading.linear import REST, Symbols
 from kovacic.reading.source import Source, read_source, source_of
 from kovacic.reading.symbolic import read_expression

@@ -11,11 +11,12 @@ from typing import Any, Protocol
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
+from kovacic.equation import DEFAULT_VARIABLE, UNKNOWN
 from kovacic.errors import NotRational
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.reading.constants import Constants, Enlarged
-from kovacic.reading.given import DEFAULT_VARIABLE, FUNCTION_NAMES, NUMBER_NAMES, TRANSCENDENTAL_HINT, UNKNOWN
 from kovacic.reading.lexer import PRIMES, tokenize
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, TRANSCENDENTAL_HINT
 from kovacic.reading.parser import Site, evaluate, shortened, shown
 
 _SHOWN_DECIMALS = 3

@@ -19,7 +19,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import Limits, check_duration
 from kovacic.reading.arithmetic import Arithmetic, Term
-from kovacic.reading.given import FUNCTION_NAMES, RECIPROCALS
+from kovacic.reading.names import FUNCTION_NAMES, RECIPROCALS
 
 #: Bits of a number in SymPy's expressions: Python prints integers of at most 4300 digits.
 _LARGEST_BITS = 14_000

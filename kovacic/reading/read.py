@@ -12,9 +12,9 @@ from typing import Any
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.equation import DEFAULT_VARIABLE, PI, Equation, Parsed
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.reading.given import DEFAULT_VARIABLE, PI, Equation, Parsed
 from kovacic.reading.parser import shown
 from kovacic.reading.source import read_source, source_of
 

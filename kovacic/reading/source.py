@@ -9,13 +9,14 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple
 
+from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, PI, UNKNOWN, Parsed
 from kovacic.errors import InputError, NotLinear, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import RationalReader, as_function
-from kovacic.reading.given import DEFAULT_VARIABLE, ENERGY, EULER, FUNCTION_NAMES, NUMBER_NAMES, PI, UNKNOWN, Parsed
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens, is_equation, tokens_of
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
 from kovacic.reading.parser import evaluate
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.

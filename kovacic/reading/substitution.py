@@ -11,9 +11,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from kovacic.algebra.rationals import QQ
+from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.reading.given import Parsed, parameters_of
 from kovacic.reading.lexer import tokenize
 from kovacic.reading.read import read_input
 

@@ -25,9 +25,9 @@ from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
 from kovacic.reading.expression import Place, RationalReader
-from kovacic.reading.given import FUNCTION_NAMES, NUMBER_NAMES
 from kovacic.reading.lexer import tokens_of
 from kovacic.reading.linear import LinearArithmetic, Symbols
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
 from kovacic.reading.parser import Site, evaluate, shown
 
 LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)

@@ -18,7 +18,7 @@ from sympy import I, atan, cancel, mathieuc, mathieus, pi, tan
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr, display
 from kovacic.closed_form.product import product
-from kovacic.reading.given import Change
+from kovacic.equation import Change
 from kovacic.reading.symbolic import read_expression
 
 

@@ -37,8 +37,8 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.engine.riccati import numerators
+from kovacic.equation import parameters_of
 from kovacic.limits import check_time
-from kovacic.reading.given import parameters_of
 
 _MOST_FAMILIES = 4096
 _FEW_FAMILIES = 8

@@ -14,7 +14,7 @@ from typing import Any
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.reading.given import parameters_of
+from kovacic.equation import parameters_of
 
 _GREEK = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega"
 # What has another form in LaTeX, in the order in which it is replaced.

@@ -37,12 +37,12 @@ from kovacic.decision import (
     Status,
     Structure,
 )
+from kovacic.equation import Equation, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.galois.group import Kind
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.expression import parse_with
-from kovacic.reading.given import Equation, parameters_of
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
 from kovacic.verify import verify

@@ -9,8 +9,8 @@ from sympy import Add, Symbol
 
 from kovacic.decision import Status
 from kovacic.engine.places import Kind, Place, analyse
+from kovacic.equation import parameters_of
 from kovacic.limits import Budget
-from kovacic.reading.given import parameters_of
 from kovacic.views.document import Block, Formula, Heading, Sentence, Table, say
 from kovacic.views.families import Family, Point, Search, in_sympy, is_natural, search
 from kovacic.views.formula import Math, latex_text, of_sympy

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from kovacic.decision import Status
+from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
-from kovacic.reading.given import parameters_of
 from kovacic.reading.lexer import is_equation
 from kovacic.views.formula import LARGEST_DEGREE, Math, caret, shortened
 from kovacic.views.sentences import (

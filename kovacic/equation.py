@@ -1,4 +1,4 @@
-"""What was given: the equation a y'' + b y' + c y = f and its normal form, and the names that mean something.
+"""The equation a y'' + b y' + c y = f, its normal form and its gauge.
 
 With y = v exp(-1/2 int b/a dx) the homogeneous equation becomes
 
@@ -22,38 +22,15 @@ from kovacic.algebra.rationals import QQ, RationalPoly
 
 DEFAULT_VARIABLE = "x"
 
-#: Names that stand for numbers unless the caller says that the variable has this name.
-NUMBER_NAMES = {
-    "I": "the imaginary unit",
-    "pi": "the number pi",
-    "π": "the number pi",
-    "oo": "infinity",
-    "zoo": "infinity",
-    "inf": "infinity",
-    "nan": "not a number",
-}
-
-_FUNCTIONS = """
-    exp log sin cos tan cot sec csc asin acos atan acot sinh cosh tanh coth sech csch asinh acosh atanh erf sqrt cbrt
-    Heaviside DiracDelta
-"""
-
-#: The functions of one argument that expressions and right-hand sides may contain, with SymPy's names.
-FUNCTION_NAMES = {name: name for name in _FUNCTIONS.split()}
-RECIPROCALS = {"sech": "cosh", "csch": "sinh"}
-FUNCTION_NAMES |= {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan"}
+# The unknown function of y'' = S y: a variable only where the caller says so.
+UNKNOWN = "y"
 
 #: Transcendental numbers, which are parameters where they occur in a coefficient: what holds for generic values holds for one.
-PI, EULER = "pi", "e"
+PI = "pi"
+EULER = "e"
 
 # Not the variable unless the caller says so: the energy, a parameter.
 ENERGY = "E"
-
-#: What to do with a transcendental number.
-TRANSCENDENTAL_HINT = "write a letter instead: a parameter with generic values, as every transcendental number is one"
-
-# The unknown function of y'' = S y: a variable only where the caller says so.
-UNKNOWN = "y"
 
 
 @dataclass(frozen=True)

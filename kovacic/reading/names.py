@@ -1,0 +1,27 @@
+"""The names that mean something in what a user writes: numbers and functions."""
+
+from __future__ import annotations
+
+#: Names that stand for numbers unless the caller says that the variable has this name.
+NUMBER_NAMES = {
+    "I": "the imaginary unit",
+    "pi": "the number pi",
+    "π": "the number pi",
+    "oo": "infinity",
+    "zoo": "infinity",
+    "inf": "infinity",
+    "nan": "not a number",
+}
+
+_FUNCTIONS = """
+    exp log sin cos tan cot sec csc asin acos atan acot sinh cosh tanh coth sech csch asinh acosh atanh erf sqrt cbrt
+    Heaviside DiracDelta
+"""
+
+#: The functions of one argument that expressions and right-hand sides may contain, with SymPy's names.
+FUNCTION_NAMES = {name: name for name in _FUNCTIONS.split()}
+RECIPROCALS = {"sech": "cosh", "csch": "sinh"}
+FUNCTION_NAMES |= {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan"}
+
+#: What to do with a transcendental number.
+TRANSCENDENTAL_HINT = "write a letter instead: a parameter with generic values, as every transcendental number is one"
