@@ -42,6 +42,37 @@ DEFAULT_LIMITS = Limits()
 DEFAULT_SECONDS = 600.0
 
 
+class Clock:
+    """Where every limit reads the time, in seconds: on the wall, or where a test says.
+
+    >>> with CLOCK.read_from(lambda: 7.0):
+    ...     CLOCK.now()
+    7.0
+    """
+
+    __slots__ = ("_source",)
+
+    def __init__(self) -> None:
+        self._source: Callable[[], float] = time.monotonic
+
+    def now(self) -> float:
+        return self._source()
+
+    @contextmanager
+    def read_from(self, source: Callable[[], float]) -> Iterator[None]:
+        """Inside `with`, the time is what `source()` returns, in all threads: for tests and measurements."""
+        before = self._source
+        self._source = source
+        try:
+            yield
+        finally:
+            self._source = before
+
+
+#: The only clock of the package on which a result can depend.
+CLOCK = Clock()
+
+
 class Budget:
     """The running clock of one call: `check()` between the steps, raises `LimitExceeded` once the time is over.
 
@@ -53,19 +84,19 @@ class Budget:
     def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
         self.limits = limits
         self._seconds = DEFAULT_SECONDS if limits.seconds is None else limits.seconds
-        self._deadline = time.monotonic() + self._seconds
+        self._deadline = CLOCK.now() + self._seconds
         outer = _WATCHED.get()
         if outer is not None and outer._deadline < self._deadline:
             self._seconds, self._deadline = outer._seconds, outer._deadline
 
     def check(self) -> None:
-        if time.monotonic() > self._deadline:
+        if CLOCK.now() > self._deadline:
             raise LimitExceeded(f"the time limit of {self._seconds:g} s is used up", limit="seconds")
 
     @property
     def seconds_left(self) -> float:
         """Seconds until `check` raises."""
-        return max(0.0, self._deadline - time.monotonic())
+        return max(0.0, self._deadline - CLOCK.now())
 
     def share(self, part: float) -> Budget:
         """A clock for a part of the time that is left."""
