@@ -24,7 +24,7 @@ from kovacic.ball.equations import (
     vanishes,
 )
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.views.breaking import breakable
+from kovacic.writing.breaking import breakable
 
 GENERAL = Ball(m=m, R=R, a=a, A1=A1, A3=A3)
 SYSTEM = ("a1", "a2", "b1", "b2")

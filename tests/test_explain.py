@@ -20,13 +20,13 @@ import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.cli.main import run
+from kovacic.engine.paper import Search, _Roots, in_sympy, is_natural, search
 from kovacic.engine.places import analyse
 from kovacic.limits import Budget
-from kovacic.views.breaking import LINE, breakable, pieces
 from kovacic.views.explain import rational_form
-from kovacic.views.families import Search, _Roots, in_sympy, is_natural, search
-from kovacic.views.formula import latex_text
 from kovacic.views.sentences import formulas_of, normal_form
+from kovacic.writing.breaking import LINE, breakable, pieces
+from kovacic.writing.formula import latex_text
 
 EQUATIONS = [
     "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0",

@@ -23,7 +23,7 @@ from kovacic.limits import Budget, Limits, check_time, limited, watched_seconds
 from kovacic.parametric.answer import Conditions
 from kovacic.solution import Solution
 from kovacic.verify.local import points
-from kovacic.views.formula import Formulas
+from kovacic.writing.formula import Formulas
 
 X = RatFunc(QQ.poly([0, 1]))
 POLES = "+".join(f"1/(x-{i})^4" for i in range(1, 501))

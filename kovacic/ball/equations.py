@@ -23,8 +23,8 @@ from sympy import cos, sin
 from kovacic.ball.ball import A1, A3, InRoots, Rolling, U, X, x1, x2
 from kovacic.limits import Limits
 from kovacic.reading.read import read_input
-from kovacic.views.document import FORMATS, Block, Formula, Heading, say
-from kovacic.views.formula import Math
+from kovacic.writing.document import FORMATS, Block, Formula, Heading, say
+from kovacic.writing.formula import Math
 
 u, x = U, X
 m, R, a, R1, D = sp.symbols("m R a R1 D")

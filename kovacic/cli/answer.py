@@ -80,7 +80,7 @@ def _inhomogeneous(answer: Solution, values: str) -> Iterator[str]:
     if answer.status == "undecided":
         return
     from kovacic.equation import Equation
-    from kovacic.views.formula import shortened
+    from kovacic.writing.formula import shortened
 
     zero = answer.S * 0
     normal = Equation(zero + 1, zero, -answer.S, zero, variable=answer.variable)
@@ -127,8 +127,8 @@ def dsolve(equation: str, latex: bool, ics: str, **given: Any) -> int:
 def _general(equation: Any, *, latex: bool = False, **given: Any) -> Iterator[str]:
     """What `dsolve` finds; beside formulas of many lines a shorter one in special functions, if one is known."""
     from kovacic.general_solution import dsolve, in_special_functions
-    from kovacic.views.formula import caret
     from kovacic.views.sentences import SHORTER
+    from kovacic.writing.formula import caret
 
     found = dsolve(equation, **given)
     shorter = in_special_functions(found, equation, **given)

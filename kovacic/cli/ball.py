@@ -117,7 +117,7 @@ def _answer(place: Rolling, *, latex: bool) -> list[Row]:
     from kovacic.ball import BallOnSphere, closed_form
     from kovacic.ball.equations import equations_of
     from kovacic.ball.theorems import theorem
-    from kovacic.views.breaking import breakable
+    from kovacic.writing.breaking import breakable
 
     # In the roots, the case and the group don't change when x1 and x2 are carried to 1 and -1.
     solution, form = kovacic.solve(place.S.subs({"x1": 1, "x2": -1}), var="x"), closed_form(place)

@@ -215,7 +215,7 @@ def _show_progress(summary: Summary, total: int | None, seconds: float) -> None:
 
 def _print_summary(summary: Summary, answered: int, seconds: float) -> None:
     """Counts by case and the times, on standard error."""
-    from kovacic.views.document import FORMATS, Paragraph, Table
+    from kovacic.writing.document import FORMATS, Paragraph, Table
 
     counts = Table(("outcome", "equations"), [[k, str(n)] for k, n in [*summary.rows(), ("all", summary.total)]])
     lines = [f"{seconds:.1f} s in all, {summary.total / max(seconds, 1e-9):.0f} equations a second"]

@@ -7,7 +7,8 @@ Kovacic's paper [J. Symb. Comp. 2 (1986)], and where its steps are:
   combinations of signs, expansions modulo primes: `local`;
 - section 4, case 2, omega of degree 2: `imprimitive`;
 - section 5, case 3, omega of degree 4, 6, 12: `primitive`;
-- the recursion for the polynomial of omega, in all cases: `riccati`.
+- the recursion for the polynomial of omega, in all cases: `riccati`;
+- the paper's own steps 1 to 3, for reading: `paper`.
 
 In place of the search for exponents in cases 2 and 3 (and for two rational omegas) there are the rational invariants of the
 group: `invariants`, modulo primes, and `expansion`, one of a high degree over Q from its recurrence.

@@ -30,7 +30,7 @@ from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import number_text
 from kovacic.solution import Solution
-from kovacic.views.formula import Formulas, Math
+from kovacic.writing.formula import Formulas, Math
 
 #: Regions that are written unless all are asked for.
 _SCREEN = 24

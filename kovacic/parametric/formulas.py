@@ -20,7 +20,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import square_part
 from kovacic.algebra.sparse import by_power, factorisation
 from kovacic.parametric.functions import over_parameters
-from kovacic.views.formula import caret, latex_text
+from kovacic.writing.formula import caret, latex_text
 
 #: Terms up to which a quotient is written as a sum.
 _TERMS = 4

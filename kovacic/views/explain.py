@@ -17,8 +17,6 @@ from kovacic.engine.places import Problem
 from kovacic.engine.riccati import residue
 from kovacic.errors import KovacicError, LimitExceeded
 from kovacic.views.bibliography import references
-from kovacic.views.document import FORMATS, Block, Formula, Heading, Paragraph, Table, say
-from kovacic.views.formula import LARGEST_DEGREE, Math, shortened
 from kovacic.views.sentences import (
     SHORTER,
     constants_of,
@@ -31,6 +29,8 @@ from kovacic.views.sentences import (
     solutions_of,
 )
 from kovacic.views.steps import DEGREE, Steps
+from kovacic.writing.document import FORMATS, Block, Formula, Heading, Paragraph, Table, say
+from kovacic.writing.formula import LARGEST_DEGREE, Math, shortened
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution

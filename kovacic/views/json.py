@@ -46,7 +46,7 @@ from kovacic.reading.expression import parse_with
 from kovacic.reading.read import read_input
 from kovacic.solution import Solution
 from kovacic.verify import verify
-from kovacic.views.formula import Formulas
+from kovacic.writing.formula import Formulas
 
 SCHEMA = 1
 

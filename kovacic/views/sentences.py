@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from kovacic.decision import Evidence, NecessaryCondition, NoInvariant
-from kovacic.views.formula import Formulas, Math, latex_text, of_sympy
+from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 from sympy import Add, Symbol
 
 from kovacic.decision import Status
+from kovacic.engine.paper import Family, Point, Search, in_sympy, is_natural, search
 from kovacic.engine.places import Kind, Place, analyse
 from kovacic.equation import parameters_of
 from kovacic.limits import Budget
-from kovacic.views.document import Block, Formula, Heading, Sentence, Table, say
-from kovacic.views.families import Family, Point, Search, in_sympy, is_natural, search
-from kovacic.views.formula import Math, latex_text, of_sympy
 from kovacic.views.sentences import formulas_of
+from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, say
+from kovacic.writing.formula import Math, latex_text, of_sympy
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution

@@ -10,7 +10,6 @@ from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 from kovacic.reading.lexer import is_equation
-from kovacic.views.formula import LARGEST_DEGREE, Math, caret, shortened
 from kovacic.views.sentences import (
     SHORTER,
     equation_of,
@@ -23,10 +22,11 @@ from kovacic.views.sentences import (
     solutions_of,
     unknown_of,
 )
+from kovacic.writing.formula import LARGEST_DEGREE, Math, caret, shortened
 
 if TYPE_CHECKING:
     from kovacic.solution import Solution
-    from kovacic.views.document import Sentence
+    from kovacic.writing.document import Sentence
 
 #: Longer formulas aren't typeset in a table.
 _LONGEST = 3000
@@ -182,7 +182,7 @@ def latex_view(solution: Solution) -> str:
 
 def html_view(solution: Solution) -> str:
     """A table of status, case, group, solutions and check."""
-    from kovacic.views.document import FORMATS, Table
+    from kovacic.writing.document import FORMATS, Table
 
     rows: list[tuple[Sentence, Sentence]] = [("equation", equation_of(solution))]
     if solution.equation is not None and not solution.equation.is_normal_form:

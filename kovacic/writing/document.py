@@ -9,8 +9,8 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from kovacic.views.breaking import LINE, breakable, pieces, width
-from kovacic.views.formula import Math
+from kovacic.writing.breaking import LINE, breakable, pieces, width
+from kovacic.writing.formula import Math
 
 #: Characters in a line of a LaTeX table.
 _PAGE = 66
