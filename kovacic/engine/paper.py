@@ -48,6 +48,10 @@ _HIGHEST_ORDER = 40
 _HIGHEST_DEGREE, _MOST_ROOTS = 6, 256
 #: Multiplications of coefficients.
 _MOST_WORK = 1_000_000
+#: Coefficients of P whose conditions are written out.
+_MOST_UNKNOWNS = 3
+#: alpha or e at infinity where it is an ordinary point: 0 and 1, 0, 2 and 4; for m = 4, 6, 12 all integers up to 12.
+_AT_ORDINARY_INFINITY: dict[int, Sequence[int]] = {1: (0, 1), 2: (0, 2, 4)}
 #: d = scale * (value at infinity - sum of the values at the poles), and theta has the residues scale * value.
 SCALE = {1: Fraction(1), 2: Fraction(1, 2), 4: Fraction(1, 3), 6: Fraction(1, 2), 12: Fraction(1)}
 
@@ -55,7 +59,7 @@ Number = int | Fraction | Poly
 
 
 @dataclass(frozen=True)
-class Point:
+class SingularPoint:
     """A pole c (`at`), infinity (`at` is None), or `count` conjugate poles that are taken together (None, too)."""
 
     place: Place
@@ -97,7 +101,7 @@ class Search:
     """
 
     m: int
-    points: tuple[Point, ...]
+    points: tuple[SingularPoint, ...]
     choices: tuple[tuple[Choice, ...], ...]
     total: int
     natural: int | None
@@ -132,31 +136,68 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
     None outside the domain: exponents that are no square roots of constants, constants of a high degree, poles of a high
     order.
     """
-    places, roots = problem.places, _Roots(problem.field)
+    places = problem.places
     if max(place.order for place in places) > _HIGHEST_ORDER or problem.field.absolute_degree > _HIGHEST_DEGREE:
         return None
-    points = [Point(places[-1]), *(point for place in places[:-1] for point in _points(place, roots))]
-    options = [_choices(point, m, roots) for point in points]
-    choices = [chosen for chosen in options if chosen is not None]
-    if len(choices) < len(points):
+    roots = _Roots(problem.field)
+    points = _all_points(places, roots)
+    choices = _all_choices(points, m, roots)
+    if choices is None:
         return None
+
     total = prod(len(chosen) ** point.count for chosen, point in zip(choices, points, strict=True))
-    families, count, signs = None, None, [1, *(-point.count for point in points[1:])]
-    zero: Number = roots.field.poly([]) if m == 1 else 0
-    if prod(map(len, choices)) <= _MOST_FAMILIES:
-        sums: list[tuple[tuple[Choice, ...], Number]] = [((), zero)]
-        for sign, chosen in zip(signs, choices, strict=True):
-            check_time()
-            parts = [(choice, zero + SCALE[m] * sign * choice.value) for choice in chosen]
-            sums = [((*family, choice), d + part) for family, d in sums for choice, part in parts]
-        every = [Family(family, d) for family, d in sums]
-        natural = [f for f in every if is_natural(f.d) and (m != 2 or any(c.value % 2 for c in f.choices))]
-        tried = _tried(natural, points, m, problem, roots.field, Symbol(variable))
-        shown = every if m == 1 and total <= _FEW_FAMILIES else natural
-        families, count = tuple(tried.get(id(family), family) for family in shown), len(natural)
-    if count is None or any(point.count > 1 for point in points):
-        count = _naturals(choices, points, m)
-    return Search(m, tuple(points), tuple(choices), total, count, families)
+    if prod(map(len, choices)) > _MOST_FAMILIES:
+        return Search(m, points, choices, total, _naturals(choices, points, m), None)
+
+    every = _families(choices, points, m, roots.field)
+    natural = [family for family in every if _may_succeed(family, m)]
+    tried = _tried(natural, points, m, problem, roots.field, Symbol(variable))
+    shown = every if m == 1 and total <= _FEW_FAMILIES else natural
+    families = tuple(tried.get(id(family), family) for family in shown)
+    one_by_one = all(point.count == 1 for point in points)
+    number = len(natural) if one_by_one else _naturals(choices, points, m)
+    return Search(m, points, choices, total, number, families)
+
+
+def _all_points(places: Sequence[Place], roots: _Roots) -> tuple[SingularPoint, ...]:
+    """Infinity, which is the last of the places, and the poles."""
+    points = [SingularPoint(places[-1])]
+    for place in places[:-1]:
+        points += _points(place, roots)
+    return tuple(points)
+
+
+def _all_choices(points: Sequence[SingularPoint], m: int, roots: _Roots) -> tuple[tuple[Choice, ...], ...] | None:
+    """Step 1 at every point."""
+    found = []
+    for point in points:
+        chosen = _choices(point, m, roots)
+        if chosen is None:
+            return None
+        found.append(chosen)
+    return tuple(found)
+
+
+def _families(
+    choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int, field: Field
+) -> list[Family]:
+    """Step 2: all families, each with its d; conjugate poles that are taken together have equal exponents."""
+    zero: Number = field.poly([]) if m == 1 else 0
+    families = [Family((), zero)]
+    for point, chosen in zip(points, choices, strict=True):
+        check_time()
+        weight = SCALE[m] * (1 if point.place.at_infinity else -point.count)
+        parts = [(choice, zero + weight * choice.value) for choice in chosen]
+        longer = []
+        for family in families:
+            longer += [Family((*family.choices, choice), family.d + part) for choice, part in parts]
+        families = longer
+    return families
+
+
+def _may_succeed(family: Family, m: int) -> bool:
+    """Is d natural, and for m = 2 one of the e odd?"""
+    return is_natural(family.d) and (m != 2 or any(choice.value % 2 for choice in family.choices))
 
 
 def is_natural(d: Number) -> bool:
@@ -170,48 +211,86 @@ def in_sympy(value: Any, x: Any) -> Any:
     return expand(value.to_sympy(x)) if isinstance(value, Poly) else sympify(value, strict=True)
 
 
-def _points(place: Place, roots: _Roots) -> list[Point]:
+def _points(place: Place, roots: _Roots) -> list[SingularPoint]:
+    """The roots of the factor one by one where they are simple enough, or all of them as one."""
     p = place.factor
     if place.degree == 1:
-        return [Point(place, -p[0])]
-    half = roots.root(p[1] * p[1] / 4 - p[0]) if place.degree == 2 and place.order <= 2 else None
-    return [Point(place, None, place.degree)] if half is None else [Point(place, s * half - p[1] / 2) for s in (-1, 1)]
+        return [SingularPoint(place, -p[0])]
+    if place.degree == 2 and place.order <= 2:
+        half = roots.root(p[1] * p[1] / 4 - p[0])
+        if half is not None:
+            return [SingularPoint(place, sign * half - p[1] / 2) for sign in (-1, 1)]
+    return [SingularPoint(place, None, place.degree)]
 
 
-def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[Point], m: int) -> int | None:
+def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int) -> int | None:
     """How many families have a natural d, conjugate poles counted one by one; None for many poles."""
     if len(points) > _MOST_POINTS:
         return None
+    # By d, and whether all e are even so far, which for m = 2 excludes the family.
     sums: Counter[tuple[Number, bool]] = Counter({(0, m == 2): 1})
     for point, chosen in zip(points, choices, strict=True):
-        sign = SCALE[m] * (1 if point.place.at_infinity else -1)
-        parts = [(sign * choice.value, m == 2 and choice.value % 2 == 0) for choice in chosen]
+        weight = SCALE[m] * (1 if point.place.at_infinity else -1)
+        parts = [(weight * choice.value, m == 2 and choice.value % 2 == 0) for choice in chosen]
         for _ in range(point.count):
-            following: Counter[tuple[Number, bool]] = Counter()
-            for (value, even), count in sums.items():
-                for part, also_even in parts:
-                    following[value + part, even and also_even] += count
-            sums = following
+            sums = _summed(sums, parts)
             if len(sums) > _MOST_FAMILIES:
                 return None
-    return sum(count for (value, even), count in sums.items() if is_natural(value) and not even)
+    return sum(count for (d, all_even), count in sums.items() if is_natural(d) and not all_even)
 
 
-def _choices(point: Point, m: int, roots: _Roots) -> tuple[Choice, ...] | None:
+def _summed(sums: Counter[tuple[Number, bool]], parts: Sequence[tuple[Number, bool]]) -> Counter[tuple[Number, bool]]:
+    """One more pole."""
+    found: Counter[tuple[Number, bool]] = Counter()
+    for (d, all_even), count in sums.items():
+        for part, even in parts:
+            found[d + part, all_even and even] += count
+    return found
+
+
+def _choices(point: SingularPoint, m: int, roots: _Roots) -> tuple[Choice, ...] | None:
     """Step 1; None where the exponents aren't square roots of constants."""
-    place, centre = point.place, 2 if m == 2 else 6
+    place = point.place
     if place.kind is Kind.ORDINARY or (place.at_infinity and place.order == 1):
-        return tuple(map(Choice, (0, 1) if m == 1 else (0, 2, 4) if m == 2 else range(13)))
+        return tuple(map(Choice, _AT_ORDINARY_INFINITY.get(m, range(13))))
     if place.order > 2:
-        if m == 2:
-            return (Choice(4 - place.order if place.at_infinity else place.order),)
-        return _irregular(place, roots) if m == 1 and place.degree == 1 and place.order % 2 == 0 else None
+        return _at_irregular(place, m, roots)
+    # alpha_c = 1, or e_c = 12 (4 for m = 2)
     if place.order == 1:
-        return (Choice(1 if m == 1 else 2 * centre),)
+        return (Choice(1 if m == 1 else 2 * _centre(m)),)
     if m == 1:
-        delta = None if place.delta_squared is None else roots.root(place.delta_squared)
-        return None if delta is None else tuple(Choice((1 + s * delta) / 2) for s in ((1, -1) if delta else (1,)))
-    values = {centre + Fraction(2 * centre * k, m) * (place.delta or 0) for k in range(-m // 2, m // 2 + 1)}
+        return _square_root_exponents(place, roots)
+    return _rational_exponents(place, m)
+
+
+def _centre(m: int) -> int:
+    """The middle of the set E_c at a pole of order 2."""
+    return 2 if m == 2 else 6
+
+
+def _at_irregular(place: Place, m: int, roots: _Roots) -> tuple[Choice, ...] | None:
+    """(c3), (inf3) for m = 1, and E_c with one element for m = 2; higher degrees don't occur."""
+    if m == 2:
+        return (Choice(4 - place.order if place.at_infinity else place.order),)
+    if m == 1 and place.degree == 1 and place.order % 2 == 0:
+        return _irregular(place, roots)
+    return None
+
+
+def _square_root_exponents(place: Place, roots: _Roots) -> tuple[Choice, ...] | None:
+    """(c2) and (inf2): alpha = 1/2 + Delta/2 and 1/2 - Delta/2, once where they are equal."""
+    delta = None if place.delta_squared is None else roots.root(place.delta_squared)
+    if delta is None:
+        return None
+    signs = (1, -1) if delta else (1,)
+    return tuple(Choice((1 + sign * delta) / 2) for sign in signs)
+
+
+def _rational_exponents(place: Place, m: int) -> tuple[Choice, ...]:
+    """The integers among 2 + k Delta (m = 2) and 6 + 12 k Delta / m (m = 4, 6, 12), k = 0, +-1, ..., up to +-m/2 steps."""
+    centre = _centre(m)
+    step = Fraction(2 * centre, m) * (place.delta or 0)
+    values = {centre + k * step for k in range(-m // 2, m // 2 + 1)}
     return tuple(Choice(int(value)) for value in sorted(values) if value.denominator == 1)
 
 
@@ -219,54 +298,115 @@ def _irregular(place: Place, roots: _Roots) -> tuple[Choice, ...] | None:
     """(c3) and (inf3) of section 3.1: r = s t^(-2 nu) w^2, w = 1 + ..., so [sqrt r] begins with a = sqrt s, and
     b/a = 2 a w_k for the first term w_k that isn't in [sqrt r].
     """
-    nu, sign = (place.order // 2, 1) if not place.at_infinity else (place.order // 2 - 2, -1)
     count = place.order // 2  # of the terms up to w_k
-    shift = place.num.field.poly([0, 2]) - place.factor
-    top, bottom = place.num(shift), place.den(shift)
-    u, w = list[Poly](), [place.num.field.poly([1])]
-    zero = place.num.field.poly([])
+    sign = -1 if place.at_infinity else 1
+    nu = count - 2 if place.at_infinity else count
+    leading, w = _square_root(place, count)
+    a = roots.root(leading)
+    if a is None:
+        return None
+    singular = [(sign * (k - nu), a * w[k]) for k in range(count - 1) if w[k]]
+    last = 2 * a * w[-1]
+    choices = []
+    for s in (1, -1):
+        terms = tuple((power, s * coefficient) for power, coefficient in singular)
+        choices.append(Choice((s * last + sign * nu) / 2, terms))
+    return tuple(choices)
+
+
+def _square_root(place: Place, count: int) -> tuple[Poly, list[Poly]]:
+    """The coefficient s, and w_1, ..., w_count of w = 1 + w_1 t + ..., with r = s t^(-2 nu) w^2 at the place."""
+    field = place.num.field
+    shift = field.poly([0, 2]) - place.factor
+    top = place.num(shift)
+    bottom = place.den(shift)
+    zero = field.poly([])
+    u: list[Poly] = []  # the series of r
     for k in range(count):
         known = sum((bottom[place.order + i] * u[k - i] for i in range(1, k + 1)), zero)
         u.append((top[k] - known) / bottom[place.order])
-        if k:
-            w.append((u[k] / u[0] - sum((w[i] * w[k - i] for i in range(1, k)), zero)) / 2)
-    if (a := roots.root(u[0])) is None:
-        return None
-    terms = tuple((sign * (k - nu), a * w[k]) for k in range(count - 1))
-    last = 2 * a * w[-1]
-    return tuple(Choice((s * last + sign * nu) / 2, tuple((power, s * c) for power, c in terms if c)) for s in (1, -1))
+    w = [field.poly([1])]
+    for k in range(1, count):
+        known = sum((w[i] * w[k - i] for i in range(1, k)), zero)
+        w.append((u[k] / u[0] - known) / 2)
+    return u[0], w
 
 
 def _tried(
-    families: Sequence[Family], points: Sequence[Point], m: int, problem: Problem, field: Field, x: Any
+    families: Sequence[Family], points: Sequence[SingularPoint], m: int, problem: Problem, field: Field, x: Any
 ) -> dict[int, Family]:
     """Step 3: the families that were tried, by their ids: all of few, else those up to the first success."""
-    tried, work, degree = dict[int, Family](), 0, problem.D.degree
-    D, T, X = problem.D.over(field), problem.T.over(field), field.poly([0, 1])
-    factors = [X - point.at if point.at is not None else point.place.factor.over(field) for point in points[1:]]
+    trial = _Trial(problem, points, m, field, x)
+    tried: dict[int, Family] = {}
+    work = 0
     for family in families:
-        d = int(in_sympy(family.d, x))
-        work += (d + 1) * m * (m * degree + d) * (degree + 1) * field.absolute_degree**2
+        work += trial.work(family)
         if work > _MOST_WORK:
             break
-        R, theta = field.poly([]), []
-        for choice, f in zip(family.choices[1:], factors, strict=True):
-            value = SCALE[m] * choice.value
-            R += D // f * f.derivative() * value
-            theta.append(in_sympy(value, x) * (in_sympy(f.derivative(), x) / in_sympy(f, x)))
-            for power, c in choice.singular:
-                R += D // f**-power * c
-                theta.append(in_sympy(c, x) * in_sympy(f, x) ** power)
-        for power, c in family.choices[0].singular:
-            R += D * X**power * c
-            theta.append(in_sympy(c, x) * x**power)
-        images = [numerators(D, T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)]  # D^(m+1) L_(m+1)
-        P = _null_vector(images)
-        unknowns, conditions = ((), ()) if P is not None or d > 3 else _conditions(images, parameters_of(field))
-        tried[id(family)] = replace(family, theta=Add(*theta), P=P, conditions=conditions, unknowns=unknowns)
-        if P is not None and len(families) > _FEW_FAMILIES:
+        outcome = trial.outcome(family)
+        tried[id(family)] = outcome
+        if outcome.P is not None and len(families) > _FEW_FAMILIES:
             break
     return tried
+
+
+class _Trial:
+    """Step 3 for the families of one problem."""
+
+    def __init__(self, problem: Problem, points: Sequence[SingularPoint], m: int, field: Field, x: Any) -> None:
+        self.m = m
+        self.field = field
+        self.x = x
+        self.D = problem.D.over(field)
+        self.T = problem.T.over(field)
+        X = field.poly([0, 1])
+        self.factors = [X - p.at if p.at is not None else p.place.factor.over(field) for p in points[1:]]
+
+    def degree(self, family: Family) -> int:
+        return int(in_sympy(family.d, self.x))
+
+    def work(self, family: Family) -> int:
+        """Multiplications, about."""
+        n = self.D.degree
+        d = self.degree(family)
+        return (d + 1) * self.m * (self.m * n + d) * (n + 1) * self.field.absolute_degree**2
+
+    def outcome(self, family: Family) -> Family:
+        """The family with theta, and P or what has to vanish for one."""
+        m, X, d = self.m, self.field.poly([0, 1]), self.degree(family)
+        R = self._theta_numerator(family)
+        images = [
+            numerators(self.D, self.T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)
+        ]  # D^(m+1) L_(m+1)
+        theta = self._theta(family)
+        P = _null_vector(images)
+        if P is not None or d > _MOST_UNKNOWNS:
+            return replace(family, theta=theta, P=P)
+        unknowns, conditions = _conditions(images, parameters_of(self.field))
+        return replace(family, theta=theta, conditions=conditions, unknowns=unknowns)
+
+    def _theta_numerator(self, family: Family) -> Poly:
+        """D theta."""
+        D, R = self.D, self.field.poly([])
+        at_infinity, *at_poles = family.choices
+        for choice, f in zip(at_poles, self.factors, strict=True):
+            R += D // f * f.derivative() * (SCALE[self.m] * choice.value)
+            for power, c in choice.singular:
+                R += D // f**-power * c
+        for power, c in at_infinity.singular:
+            R += D * self.field.poly([0, 1]) ** power * c
+        return R
+
+    def _theta(self, family: Family) -> Any:
+        """theta, a sum over the poles as it stands in the paper."""
+        x, terms = self.x, []
+        at_infinity, *at_poles = family.choices
+        for choice, f in zip(at_poles, self.factors, strict=True):
+            base = in_sympy(f, x)
+            terms.append(in_sympy(SCALE[self.m] * choice.value, x) * (in_sympy(f.derivative(), x) / base))
+            terms += [in_sympy(c, x) * base**power for power, c in choice.singular]
+        terms += [in_sympy(c, x) * x**power for power, c in at_infinity.singular]
+        return Add(*terms)
 
 
 def _null_vector(images: Sequence[Poly]) -> Poly | None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from sympy import Add, Symbol
 
 from kovacic.decision import Status
-from kovacic.engine.paper import Family, Point, Search, in_sympy, is_natural, search
+from kovacic.engine.paper import Family, Search, SingularPoint, in_sympy, is_natural, search
 from kovacic.engine.places import Kind, Place, analyse
 from kovacic.equation import parameters_of
 from kovacic.limits import Budget
@@ -176,7 +176,7 @@ class Steps:
     def _shown(self, value: Any) -> Math:
         return of_sympy(in_sympy(value, self.x))
 
-    def _point(self, point: Point) -> Math:
+    def _point(self, point: SingularPoint) -> Math:
         if point.at is None:
             return self.formulas.place(str(point.place))
         return Math(self.solution.variable, latex_text(self.solution.variable)).equals(self._shown(point.at))
