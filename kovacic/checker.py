@@ -2,17 +2,28 @@
 
     python checker.py answers.jsonl          (or kovacic check answers.jsonl; "-" reads standard input)
 
-For each line: "checked", "refuted: why", "not checked: why" (after a minute, too) or "unreadable: why".  Exit status: 0 all
-checked, 1 one refuted, 2 one unreadable, 3 one not checked.  It needs Python 3.11 and python-flint alone.
+For each line one of
 
-What is proven, for y'' = S y over Q(x) with the S of the line (`input`, `equation`, `gauge`, `solutions` and D aren't looked
-at; answers with parameters or with algebraic numbers in S aren't checked):
-- "yes": the product of W - omega over the conjugates of omega = y'/y belongs to a form in the solutions, over Q(c)(x), c a
-  root of an irreducible polynomial; and no smaller degree is possible, by the exclusions below.
-- "no": the group is neither reducible nor imprimitive nor finite and primitive, each excluded by a local condition at places
-  of S, or by the absence of a rational form in the solutions (a rank modulo a prime can only be smaller than over Q) and, if
-  reducible, of a single rational omega (its expansion, modulo a prime, isn't that of a rational function with few poles).
-- the rational form that comes with an answer, and the group, where it is given.
+    checked: y'' = S y from a, b, c; gauge; case; omega; group; not checked: input, notices, seconds, solutions, ...
+    refuted: why
+    not checked: why                         (parameters, algebraic numbers in S, too large, more than a minute)
+    unreadable: why                          (no JSON, or a key twice in one object)
+
+Exit status: 0 all checked, 1 one refuted, 2 one unreadable, 3 one not checked.  It needs Python 3.11 and python-flint alone.
+
+What "checked" means, for an S over Q(x):
+- y'' = S y from a, b, c, and gauge: S = (b/a)'/2 + (b/a)^2/4 - c/a and gauge = -b/(2a), where an equation was given.
+- case, omega, of a "yes": the product of W - omega over the conjugates of omega = y'/y belongs to a form in the solutions, over
+  Q(c)(x), c a root of an irreducible polynomial; and no smaller degree is possible, by the exclusions.
+- case, of a "no": the group is neither reducible nor imprimitive nor finite and primitive, each excluded by a local condition
+  at places of S, or by the absence of a rational form in the solutions (a rank modulo a prime can only be smaller than over
+  Q) and, if reducible, of a single rational omega (its expansion, modulo a prime, isn't that of a rational function with few
+  poles).
+- group: its family, n, order and name follow from the above, and from the evidence that is given for it.
+Every key is either looked at, or named after "not checked", or refused.  What the keys that aren't looked at say is for the
+reader to compare: `input` and `equation.text` with S, or with a, b and c.
+
+To be read from the end: `Answer.check` is the table of contents.
 
 J. Kovacic, J. Symb. Comp. 2 (1986); F. Ulmer & J.-A. Weil, ibid. 22 (1996); M. van Hoeij, ibid. 24 (1997).
 """
@@ -25,30 +36,48 @@ import multiprocessing
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, islice
 from math import inf, isqrt, lcm, prod
-from typing import Any
+from operator import add, mul, sub, truediv
+from typing import Any, NamedTuple
 
 from flint import Ordering, acb_poly, acb_series, arb, ctx, fmpq, fmpq_mat, fmpq_mpoly_ctx, fmpq_poly, fmpz, nmod_mat
 from flint import nmod_poly as nmod
 
-#: Kovacic's case, the degree of omega, and the degree of a rational form.
-STRUCTURES = {"reducible": (1, 1, 2), "imprimitive": (2, 2, 4), "tetrahedral": (3, 4, 6), "octahedral": (3, 6, 8),
-              "icosahedral": (3, 12, 12)}  # fmt: skip
-ORDERS = {"tetrahedral": {1, 2, 3}, "octahedral": {1, 2, 3, 4}, "icosahedral": {1, 2, 3, 5}}
-SIZES = {"cyclic": 1, "dicyclic": 4, "tetrahedral": 24, "octahedral": 48, "icosahedral": 120}
-NAMES = {"cyclic": "mu_{n}", "cyclic1": "trivial", "additive": "G_a extended by mu_{n}", "additive1": "G_a", "borel": "Borel",
-         "multiplicative": "G_m", "dicyclic": "dicyclic of order {order}", "infinite dihedral": "N(T)", "SL2": "SL2",
-         "tetrahedral": "SL(2,3)", "octahedral": "binary octahedral", "icosahedral": "SL(2,5)"}  # fmt: skip
 LONGEST = 6000  # the largest degrees, and the most terms of a series, that are computed with
 PRIMES = [q for q in range(2**60 + 33, 2**60 + 20_000, 2) if fmpz(q).is_prime()]
 
 
-def demand(holds: Any, claim: str, *expected: Any) -> None:
-    """Refute the answer unless this holds, or is what is expected, and of the same type (true isn't 1)."""
-    if repr(holds) != repr(*expected) if expected else not holds:
-        raise AssertionError(" ".join([claim, *map(repr, expected)]))
+class Unreadable(Exception):
+    """The line isn't a JSON object in which each key occurs once."""
+
+
+def demand(holds: Any, claim: str) -> None:
+    """Refute the answer unless this holds."""
+    if not holds:
+        raise AssertionError(claim)
+
+
+def demand_equal(found: Any, expected: Any, what: str) -> None:
+    """Refute the answer unless this is found, and of the same type: true isn't 1."""
+    demand(repr(found) == repr(expected), f"{what} is {expected!r}")
+
+
+def demand_keys(data: Any, what: str, required: str, optional: str = "") -> None:
+    """Refute the answer unless this is an object with the required keys, and no others than the optional ones."""
+    demand(isinstance(data, dict), f"{what} is an object")
+    missing = set(required.split()) - set(data)
+    unknown = set(data) - set(required.split()) - set(optional.split())
+    demand(not missing, f"{what} has the key {min(missing, default='')!r}")
+    demand(not unknown, f"{what} has a key {ascii(min(unknown, default=''))[:60]}")
+
+
+def is_whole(value: Any) -> bool:
+    """Is this an integer, and no truth value?"""
+    return type(value) is int
 
 
 def affordable(size: Any, what: str) -> int:
@@ -58,6 +87,8 @@ def affordable(size: Any, what: str) -> int:
     return int(size)
 
 
+# ------------------------------------------------------------------------------------------- expressions
+
 PLANE, X = fmpq_mpoly_ctx.get(("c", "x"), Ordering.lex), fmpq_poly([0, 1])
 C, X2 = PLANE.gens()
 
@@ -66,19 +97,45 @@ class Value:
     """num/den in Q(c, x), in lowest terms."""
 
     def __init__(self, num: Any, den: Any = 1) -> None:
-        num, den = PLANE.constant(1) * num, PLANE.constant(1) * den
+        num = PLANE.constant(1) * num
+        den = PLANE.constant(1) * den
         demand(den != 0, "there is no division by zero")
         common = den if den.is_constant() else num.gcd(den)
-        self.num, self.den = num // common, den // common
+        self.num = num // common
+        self.den = den // common
+
+    def __add__(self, other: Value) -> Value:
+        return Value(self.num * other.den + other.num * self.den, self.den * other.den)
+
+    def __sub__(self, other: Value) -> Value:
+        return Value(self.num * other.den - other.num * self.den, self.den * other.den)
+
+    def __mul__(self, other: Value) -> Value:
+        return Value(self.num * other.num, self.den * other.den)
+
+    def __truediv__(self, other: Value) -> Value:
+        return Value(self.num * other.den, self.den * other.num)
 
     def __pow__(self, n: int) -> Value:
         leading = str(self.num.leading_coefficient()) + str(self.den.leading_coefficient())
-        affordable(n * max(len(leading) * (leading != "11"), *self.num.degrees(), *self.den.degrees()), "a power")
+        digits = 0 if leading == "11" else len(leading)
+        affordable(n * max(digits, *self.num.degrees(), *self.den.degrees()), "a power")
         return Value(self.num**n, self.den**n)
+
+    def derivative(self) -> Value:
+        """The derivative by x."""
+        return Value(self.num.derivative(1) * self.den - self.num * self.den.derivative(1), self.den**2)
+
+    def equals(self, other: Value) -> bool:
+        return bool(self.num * other.den == other.num * self.den)
+
+    @property
+    def has_c(self) -> bool:
+        return bool(self.num.degrees()[0] > 0 or self.den.degrees()[0] > 0)
 
     def over_q(self) -> tuple[Any, Any]:
         """Numerator and monic denominator, of a value without c."""
-        demand(self.num.degrees()[0] <= 0 and self.den.degrees()[0] <= 0, "the constants are rational")
+        demand(not self.has_c, "the constants are rational")
         num, den = in_one_variable(self.num, 1), in_one_variable(self.den, 1)
         return num / den.leading_coefficient(), den / den.leading_coefficient()
 
@@ -89,34 +146,55 @@ def in_one_variable(f: Any, i: int) -> Any:
     return fmpq_poly([terms.get(n, fmpq(0)) for n in range(max(terms, default=0) + 1)])
 
 
-OPERATIONS: dict[str, Any] = {"+": (1, lambda a, b: Value(a.num * b.den + b.num * a.den, a.den * b.den)), "**": (3, pow),
-                              "-": (1, lambda a, b: Value(a.num * b.den - b.num * a.den, a.den * b.den)),
-                              "*": (2, lambda a, b: Value(a.num * b.num, a.den * b.den)),
-                              "/": (2, lambda a, b: Value(a.num * b.den, a.den * b.num))}  # fmt: skip
+def is_monic(f: Any) -> bool:
+    """Is 1 the coefficient of the highest power of x?"""
+    degree = f.degrees()[1]
+    return {powers: value for powers, value in f.to_dict().items() if powers[1] == degree} == {(0, degree): 1}
+
+
+#: How strongly an operator binds, and what it does.
+OPERATIONS: dict[str, tuple[int, Callable[[Any, Any], Value]]] = {
+    "+": (1, add),
+    "-": (1, sub),
+    "*": (2, mul),
+    "/": (2, truediv),
+    "**": (3, pow),
+}
 
 
 def read(text: str, names: dict[str, Value]) -> Value:
     """The value of an expression with + - * / ** and parentheses, as the program prints them."""
     tokens = [*re.findall(r"[0-9]+|\w+|\*\*|\S", text), ""][::-1]
 
-    def expression(least: int) -> Value:
+    def operand() -> Value:
         token = tokens.pop()
         if token == "-":
-            value: Value = OPERATIONS["-"][1](Value(0), expression(2))
-        elif token == "(":
+            return Value(0) - expression(2)
+        if token == "(":
             value = expression(0)
             demand(tokens.pop() == ")", "each ( has its )")
-        else:
-            value = Value(fmpq(fmpz(token))) if token.isdecimal() else names[token]
+            return value
+        return Value(fmpq(fmpz(token))) if token.isdecimal() else names[token]
+
+    def expression(least: int) -> Value:
+        """As far as operators bind at least so strongly."""
+        value = operand()
         while tokens[-1] in OPERATIONS and OPERATIONS[tokens[-1]][0] >= least:
-            strength, apply = OPERATIONS[operator := tokens.pop()]
-            value = apply(value, int(tokens.pop()) if operator == "**" else expression(strength + 1))
-            demand(operator != "**" or tokens[-1] != "**", "a power isn't an exponent")
+            operator = tokens.pop()
+            strength, apply = OPERATIONS[operator]
+            if operator == "**":
+                value = value ** int(tokens.pop())
+                demand(tokens[-1] != "**", "a power isn't an exponent")
+            else:
+                value = apply(value, expression(strength + 1))
         return value
 
     value = expression(0)
     demand(tokens == [""], f"{text[:60]!r} can be read")
     return value
+
+
+# ------------------------------------------------------------------------------------------- local data
 
 
 def reduced(f: Any, q: int, point: int = 0) -> Any:
@@ -128,7 +206,9 @@ def reduced(f: Any, q: int, point: int = 0) -> Any:
 
 def frobenius(E: Any, M: Any, e: int, count: int, q: int) -> tuple[Any, bool]:
     """The series a with t^e a a solution of t^2 E y'' = M y modulo q; False where it would need a logarithm."""
-    top, bottom, a = [int(c) for c in E.coeffs()], [int(c) for c in M.coeffs()] or [0], [1]
+    top = [int(c) for c in E.coeffs()]
+    bottom = [int(c) for c in M.coeffs()] or [0]
+    a = [1]
     for n in range(1, count):
         total = sum(bottom[j] * a[n - j] for j in range(1, min(n + 1, len(bottom))))
         total -= sum(top[j] * (n - j + e) * (n - j + e - 1) * a[n - j] for j in range(1, min(n + 1, len(top))))
@@ -139,18 +219,58 @@ def frobenius(E: Any, M: Any, e: int, count: int, q: int) -> tuple[Any, bool]:
     return nmod(a, q), True
 
 
+@contextmanager
+def series_of_length(n: int) -> Iterator[None]:
+    """FLINT's series end after so many terms, in the block."""
+    before = ctx.cap
+    ctx.cap = n
+    try:
+        yield
+    finally:
+        ctx.cap = before
+
+
 class Place:
     """The roots of an irreducible p, of multiplicity k in den, where S = num/den; infinity as z = 0 for S(1/z)/z^4."""
 
     def __init__(self, p: Any, k: int, num: Any, den: Any, infinite: bool = False) -> None:
         self.p, self.k, self.num, self.den, self.infinite = p, k, num, den, infinite
-        self.size, self.nu = int(p.degree()), max(k // 2, 1)  # nu: of a pole of omega, for k even or 1
-        rest = den // p**k
-        b = num * (rest * p.derivative() ** 2 % p).xgcd(p)[1] if k == 2 else fmpq_poly(0)
-        self.leading = (num * rest if k > 2 else 1 + 4 * b) % p  # in Q[x]/p: Delta^2, or S up to a square
-        square = self.leading[0] if k <= 2 and self.leading.degree() <= 0 else fmpq(-1)
+        self.name = "infinity" if infinite else str(p)
+        self.size = int(p.degree())
+        self.nu = max(k // 2, 1)  # the order of a pole of omega, for k even or 1
+        self.is_irregular = k > 2
+        self.is_ramified = k > 2 and k % 2 == 1
+
+    @cached_property
+    def leading(self) -> Any:
+        """In Q[x]/p: for k = 2 Delta^2 = 1 + 4b, S = b/(x - root)^2 + ...; for k > 2 the first coefficient up to a square."""
+        rest = self.den // self.p**self.k
+        if self.is_irregular:
+            return self.num * rest % self.p
+        if self.k < 2:
+            return fmpq_poly(1)
+        return (1 + 4 * self.num * (rest * self.p.derivative() ** 2 % self.p).xgcd(self.p)[1]) % self.p
+
+    @cached_property
+    def difference(self) -> Any:
+        """Delta >= 0, the difference of the exponents, if it is a rational number (1 at an ordinary point)."""
+        if self.is_irregular or self.leading.degree() > 0:
+            return None
+        square = self.leading[0]
         root = fmpq(isqrt(int(max(square.p * square.q, 0))), square.q)
-        self.difference: Any = root if root * root == square else None  # Delta, if it is a rational number
+        return root if root * root == square else None
+
+    @property
+    def can_branch(self) -> bool:
+        """Can the square root of a rational form branch here?  The local group must exchange two lines."""
+        if self.is_irregular:
+            return self.is_ramified
+        return self.difference is not None and self.difference.q == 2
+
+    @property
+    def tells_solutions_apart(self) -> bool:
+        """Have at most two solutions (up to constants) an omega in the Laurent series here?"""
+        return self.k > 0 and (self.difference is None or self.difference.q > 1 or self.logarithm)
 
     def roots(self, moduli: Iterable[int] = PRIMES) -> Iterator[tuple[int, int]]:
         """The primes modulo which p has a simple root, and the least one."""
@@ -165,9 +285,12 @@ class Place:
 
     @cached_property
     def logarithm(self) -> bool:
-        """Is there a logarithm, provably?"""
-        if self.k != 2 or self.difference is None or self.difference == 0 or self.difference.q > 1:
-            return self.k == 1 or self.difference == 0
+        """Is there a logarithm, provably?  Always at a simple pole, and for Delta = 0; for Delta = n > 0 if the series with the
+        smaller exponent can't be continued at its n-th term, modulo a prime."""
+        if self.k == 1 or self.difference == 0:
+            return True
+        if self.k != 2 or self.difference is None or self.difference.q > 1:
+            return False
         n = affordable(self.difference, "an exponent difference")
         q, root = next(self.roots())
         return not frobenius(*self.local(root, q), (1 - n) * pow(2, -1, q) % q, n + 1, q)[1]
@@ -177,80 +300,533 @@ class Place:
         return any(fmpz(int(reduced(self.leading, q)(r))).jacobi(q) == -1 for q, r in islice(self.roots(), 40))
 
     def least_valuation(self, m: int) -> Any:
-        """The least integer that can be the valuation of a rational form of degree m; infinite if there is none."""
-        signs, d = [m] if self.logarithm else range(-m, m + 1, 2), self.difference or fmpq(0)
-        possible = [fmpq(m * self.k, 4)] if self.k > 2 else [(m + i * d) / 2 for i in signs]
+        """The least integer that can be the valuation of a rational form of degree m; infinite if there is none.
+
+        A form is a sum of products of m solutions with the exponents (1 + Delta)/2 and (1 - Delta)/2, the first one alone with
+        a logarithm; at an irregular place the exponential factors must cancel, and leave m k/4.
+        """
+        if self.is_irregular:
+            possible = [fmpq(m * self.k, 4)]
+        else:
+            surplus = [m] if self.logarithm else range(-m, m + 1, 2)
+            possible = [(m + i * (self.difference or fmpq(0))) / 2 for i in surplus]
         return min((int(value.p) for value in possible if value.q == 1), default=inf)
 
     def exponents(self) -> Any:
         """A ball around the sum over the roots of p of the real parts of the least exponents (k not odd > 2)."""
-        total, nu, cap, ctx.cap = arb(0), self.nu, ctx.cap, self.nu + 1  # where FLINT's series end
+        nu, total = self.nu, arb(0)
         parts = self.num * self.p ** (2 * nu - self.k), self.den // self.p**self.k, self.p
-        for root, _ in self.p.complex_roots():
-            shifted = (acb_poly([arb(c) for c in f.coeffs()])(acb_poly([root, 1])).coeffs() for f in parts)
-            num, rest, unit = (acb_series(f, nu + 1) for f in shifted)
-            ratio = num / (rest * acb_series([unit[i + 1] for i in range(nu)], nu) ** self.k)  # t^(2 nu) S
-            half = ratio[0].sqrt() * (ratio / ratio[0]).sqrt()[nu - 1] if nu > 1 else (1 + 4 * ratio[0]).sqrt() / 2
-            total += arb(nu) / 2 + (abs(half.real) if self.logarithm else -abs(half.real))
-        ctx.cap = cap
+        with series_of_length(nu + 1):
+            for root, _ in self.p.complex_roots():
+                shifted = (acb_poly([arb(c) for c in f.coeffs()])(acb_poly([root, 1])).coeffs() for f in parts)
+                num, rest, unit = (acb_series(f, nu + 1) for f in shifted)
+                ratio = num / (rest * acb_series([unit[i + 1] for i in range(nu)], nu) ** self.k)  # t^(2 nu) S
+                half = ratio[0].sqrt() * (ratio / ratio[0]).sqrt()[nu - 1] if nu > 1 else (1 + 4 * ratio[0]).sqrt() / 2
+                total += arb(nu) / 2 + (abs(half.real) if self.logarithm else -abs(half.real))
         return total
 
     def expansions(self, root: int, q: int, count: int) -> Iterator[Any]:
-        """The series t^nu omega modulo q of the solutions that have one, where the place tells the solutions apart."""
-        nu, d, (E, M) = self.nu, self.difference, self.local(root, q)
+        """The series w = t^nu omega modulo q of the solutions that have one, where the place tells the solutions apart.
+
+        With s = t^(2 nu) S the equation omega' + omega^2 = S is t^(2 nu) (omega' + omega^2) = s, a term after the other.
+        """
+        nu, half = self.nu, pow(2, -1, q)
+        E, M = self.local(root, q)
         s = [int(c) for c in M.mul_low(E.inverse_series_trunc(count), count).coeffs()] + [0] * count
-        lead = (s[0] if nu > 1 else 1 + 4 * s[0]) % q
-        if fmpz(lead).jacobi(q) == -1:
+        square = (s[0] if nu > 1 else 1 + 4 * s[0]) % q
+        if fmpz(square).jacobi(q) == -1:
             return
-        first = int(fmpz(lead).sqrtmod(q)) if d is None else int(d.p) * pow(int(d.q), -1, q)
+        if self.difference is None:
+            first = int(fmpz(square).sqrtmod(q))
+        else:
+            first = int(self.difference.p) * pow(int(self.difference.q), -1, q)
         for sign in (1,) if self.logarithm else (1, -1):
-            w = [(sign * first if nu > 1 else (1 + sign * first) * pow(2, -1, q)) % q]
-            for j in range(1, count):  # t^(2 nu) (omega' + omega^2) = s
+            w = [(sign * first if nu > 1 else (1 + sign * first) * half) % q]
+            for j in range(1, count):
                 rest = s[j] - sum(a * b for a, b in zip(w[1:j], w[j - 1 : 0 : -1], strict=True))
-                rest -= (j - 2 * nu + 1) * w[j - nu + 1] if nu > 1 and j >= nu - 1 else 0
+                if nu > 1 and j >= nu - 1:
+                    rest -= (j - 2 * nu + 1) * w[j - nu + 1]
                 pivot = (2 * w[0] + (j - 1 if nu == 1 else 0)) % q
                 demand(pivot, "the prime avoids the exponents")
                 w.append(rest * pow(pivot, -1, q) % q)
             yield nmod(w, q)
 
 
-def residues(phi: Value) -> list[tuple[Any, int]]:
-    """The factors of the denominator of phi, and the residues there, for a phi = F'/F with F rational."""
-    num, den = phi.over_q()
+def places_of(num: Any, den: Any) -> list[Place]:
+    """All poles of num/den, and infinity, which is the last one even if it is an ordinary point."""
+    found = [Place(p / p[p.degree()], k, num, den) for p, k in den.factor()[1]]
+    k = num.degree() - den.degree() + 4 if num != 0 else 0
+    top = fmpq_poly(num.coeffs()[::-1]) * X ** max(-k, 0)
+    bottom = fmpq_poly(den.coeffs()[::-1]) * X ** max(k, 0)
+    return [*found, Place(X, max(k, 0), top, bottom, infinite=True)]
+
+
+# ------------------------------------------------------------------------------------------- structures
+
+
+class Structure(NamedTuple):
+    """Kovacic's case, the degree of omega, the degree of a rational form, and, if finite and primitive, the orders in PGL2."""
+
+    case: int
+    omega: int
+    form: int
+    orders: tuple[int, ...] = ()
+
+
+STRUCTURES = {
+    "reducible": Structure(1, 1, 2),
+    "imprimitive": Structure(2, 2, 4),
+    "tetrahedral": Structure(3, 4, 6, (1, 2, 3)),
+    "octahedral": Structure(3, 6, 8, (1, 2, 3, 4)),
+    "icosahedral": Structure(3, 12, 12, (1, 2, 3, 5)),
+}
+
+
+def ramified(place: Place, structure: str) -> bool:
+    """The two solutions at an irregular place of odd order are conjugate over the Laurent series, and so are their omegas."""
+    return structure == "reducible" and place.is_ramified
+
+
+def not_a_square(place: Place, structure: str) -> bool:
+    """A single rational omega has rational residues in x; its residue, or leading coefficient, contains the square root."""
+    return structure == "reducible" and place.k > 1 and not place.is_ramified and place.is_not_a_square()
+
+
+def logarithm(place: Place, structure: str) -> bool:
+    """The monodromy around a logarithm is unipotent: no finite and no irreducible imprimitive group contains such a matrix."""
+    return structure != "reducible" and place.logarithm
+
+
+def irregular(place: Place, structure: str) -> bool:
+    """All solutions of an equation with a finite group are algebraic, and its places regular."""
+    return STRUCTURES[structure].case == 3 and place.is_irregular
+
+
+def exponents(place: Place, structure: str) -> bool:
+    """The denominator of Delta is the order of the local monodromy in PGL2, which A4, S4 or A5 must contain."""
+    regular = STRUCTURES[structure].case == 3 and 0 < place.k <= 2
+    return regular and (place.difference is None or int(place.difference.q) not in STRUCTURES[structure].orders)
+
+
+#: What is said of places in the necessary conditions, and what it means at each of them.
+RULES: dict[str, tuple[str, Callable[[Place, str], bool]]] = {
+    "ramified": (
+        "an irregular singular point is ramified, so no solution has a rational logarithmic derivative",
+        ramified,
+    ),
+    "not_a_square": ("the exponents at a place aren't rational over the field of its poles", not_a_square),
+    "logarithm": (
+        "a solution has a logarithm, so the group contains a unipotent element and is infinite and not imprimitive",
+        logarithm,
+    ),
+    "irregular": ("an irregular singular point makes the group infinite", irregular),
+    "exponents": ("the exponent differences aren't those of a group of this kind", exponents),
+    "too_few_branch_points": (
+        "fewer than two places can be branch points of the square root of an invariant",
+        lambda place, structure: structure == "imprimitive" and place.can_branch,
+    ),
+}
+
+
+class Exclusions:
+    """What the group of y'' = S y isn't."""
+
+    def __init__(self, num: Any, den: Any, names: dict[str, Value]) -> None:
+        affordable(max(num.degree(), den.degree()), "the degree of S")
+        self.num, self.den, self.names = num, den, dict(names)
+        self.places = places_of(num, den)
+
+    def hold(self, structure: str, evidence: list[Any]) -> None:
+        """The group doesn't have this structure, by the evidence.
+
+        One necessary condition suffices, or the absence of the rational form; but a reducible group has one only where omega
+        isn't unique, and then there must be no unique omega either.
+        """
+        conditions, forms, omegas = 0, 0, 0
+        for item in evidence:
+            kind = item["kind"]
+            if kind == "necessary_condition":
+                self.condition(structure, item)
+                omegas += item["rule"] == "not_a_square"
+                conditions += item["rule"] != "not_a_square"
+            elif kind == "no_invariant":
+                self.no_form(STRUCTURES[structure].form, item)
+                forms += 1
+            else:
+                demand(kind == "no_rational_omega" and structure == "reducible", "the kind of the evidence is known")
+                self.no_omega(item)
+                omegas += 1
+        without_a_form = forms and (omegas or structure != "reducible")
+        demand(conditions or without_a_form, f"the group isn't {structure}")
+
+    def condition(self, structure: str, item: dict[str, Any]) -> None:
+        """The rule holds at each of the places that are named; or these are all that can branch, fewer than two points."""
+        demand_keys(item, "a necessary condition", "kind rule places statement")
+        statement, holds = RULES[item["rule"]]
+        demand_equal(item["statement"], statement, "the statement")
+        named = [self.place(name) for name in item["places"]]
+        demand(len({place.name for place in named}) == len(named), "the places are different")
+        demand(all(holds(place, structure) for place in named), f"these places are {item['rule']}")
+        if item["rule"] == "too_few_branch_points":
+            branching = [place for place in self.places if place.can_branch]
+            demand(structure == "imprimitive", "the rule is one for imprimitive groups")
+            demand(len(named) == len(branching), "these are the places that can branch")
+            demand(sum(place.size for place in branching) < 2, "they are fewer than two")
+        else:
+            demand(named, f"a place is {item['rule']}")
+
+    def place(self, name: str) -> Place:
+        """The place with this factor, or "infinity"."""
+        demand(isinstance(name, str), "a place has a name")
+        key = name if name == "infinity" else str(read(name, self.names).over_q()[0])
+        return {place.name: place for place in self.places}[key]
+
+    def no_form(self, m: int, item: dict[str, Any]) -> None:
+        """There is no rational form of degree m: no room for one, or a system of equations modulo a prime has full rank."""
+        demand_keys(item, "evidence", "kind invariant_degree prime point degree")
+        demand_equal(item["invariant_degree"], m, "the degree of the form")
+        room = max(self.room(m), -1)
+        demand_equal(item["degree"], room, "the largest degree of P")
+        if room < 0:
+            demand_equal((item["prime"], item["point"]), (None, 0), "where there is no room, prime and point")
+            return
+        demand(is_whole(item["prime"]) and is_whole(item["point"]), "prime and point are integers")
+        demand(self.dimension(m, item["prime"], item["point"]) == 0, f"there is no rational form of degree {m}")
+
+    def room(self, m: int) -> Any:
+        """The largest degree of P in a rational form prod p^v P of degree m, v the least valuations; negative without one."""
+        return m - sum(place.least_valuation(m) * place.size for place in self.places)
+
+    def dimension(self, m: int, prime: int | None = None, point: int | None = None) -> int:
+        """An upper bound for the dimension of the rational forms of degree m, from expansions modulo a prime.
+
+        At an ordinary point a form is a sum of y1^(m-i) y2^i; divided by prod p^v it is a polynomial of degree `room`, so that
+        its terms beyond that are zero: as many equations as one likes, whose rank modulo a prime isn't larger than over Q.
+        """
+        valuations = [place.least_valuation(m) for place in self.places]
+        room = self.room(m)
+        if room < 0:
+            return 0
+        n, q = affordable(room + m + 6, f"the number of zeros of a form of degree {m}"), prime or PRIMES[0]
+        demand(q > 2 * n and fmpz(q).is_prime(), "the modulus is a large prime")
+        c = next(c for c in range(LONGEST + 1) if int(reduced(self.den, q)(c))) if point is None else point
+        den, num = reduced(self.den, q, c), reduced(self.num, q, c).left_shift(2)
+        demand(int(den[0]), "the point is ordinary")
+        y1 = frobenius(den, num, 0, n, q)[0]
+        y2 = frobenius(den, num, 1, n, q)[0].left_shift(1)
+        scale = nmod([1], q)
+        for place, v in zip(self.places[:-1], valuations, strict=False):
+            power = reduced(place.p, q, c).truncate(n).pow_trunc(abs(v), n)
+            scale = scale.mul_low(power.inverse_series_trunc(n) if v > 0 else power, n)
+        forms = [scale.mul_low(y1.pow_trunc(m - i, n), n).mul_low(y2.pow_trunc(i, n), n) for i in range(m + 1)]
+        return m + 1 - int(nmod_mat([[int(form[j]) for j in range(room + 1, n)] for form in forms], q).rank())
+
+    def no_omega(self, item: dict[str, Any]) -> None:
+        """No omega in Q(x) is the only one: no solution's is A/(den B) modulo a prime, deg B <= the number of zeros.
+
+        The bound for the zeros is that of this program, by the real parts of the exponents; `degree` is the other's.
+        """
+        demand_keys(item, "evidence", "kind degree prime place")
+        prime, name = item["prime"], item["place"]
+        demand(is_whole(item["degree"]) and item["degree"] >= -1, "the degree is one, or -1")
+        empty = prime is None and name == ""
+        demand(empty if item["degree"] < 0 else is_whole(prime) and name, "a prime and a place belong to a degree")
+        degree = self.zeros()
+        if degree < 0:
+            return
+        apart = [place for place in self.places if place.tells_solutions_apart]
+        place = self.place(name) if name else apart[0]
+        demand(place in apart, "the place tells the solutions apart")
+        q, root = next(place.roots([prime] if prime else PRIMES), (0, 0))
+        demand(q > 10**6 and fmpz(q).is_prime(), "the place has a root modulo a large prime")
+        den = reduced(place.den, q, root)
+        top = degree + den.degree() + max(p.k for p in self.places)
+        count = affordable(top + degree + 12, "the number of zeros of a solution")
+        for w in place.expansions(root, q, count):
+            r0, r1 = nmod([1], q).left_shift(count), den.right_shift(place.nu).mul_low(w, count)
+            while r1.degree() > top:  # r1 = B den w modulo t^count, deg B = count - deg r0
+                r0, r1 = r1, r0 % r1
+            demand(count - r0.degree() > degree, "no expansion of omega is that of a rational function")
+
+    def zeros(self) -> int:
+        """The most zeros at ordinary points that a solution with an omega in Q(x) can have, by Fuchs' relation; or -1."""
+        if any(place.is_ramified for place in self.places):
+            return -1
+        total = 1 - sum((place.exponents() for place in self.places if place.k), arb(0))
+        if total < 0:
+            return -1
+        return affordable(total.upper().floor().unique_fmpz(), "the number of zeros of a solution")
+
+
+# ------------------------------------------------------------------------------------------- forms
+
+
+@dataclass(frozen=True)
+class Form:
+    """F = y_1 ... y_m in the solutions with F'/F = slope and prod (W - y_i'/y_i) = sum (-1)^k N_k/G^k W^(m-k)."""
+
+    slope: Value
+    G: Any
+    N: list[Any]
+
+    @property
+    def has_one_factor(self) -> bool:
+        """F = y1^2, of degree 2: the discriminant is zero."""
+        return bool(self.N[1] * self.N[1] == 4 * self.N[2])
+
+    def modulo(self, modulus: Any) -> Form:
+        """The same with its polynomials reduced modulo that of c."""
+        slope = Value(divmod(self.slope.num, modulus)[1], divmod(self.slope.den, modulus)[1])
+        return Form(slope, divmod(self.G, modulus)[1], [divmod(value, modulus)[1] for value in self.N])
+
+    @property
+    def discriminant(self) -> Value:
+        """(y1'/y1 - y2'/y2)^2, of degree 2."""
+        return Value(self.N[1] ** 2 - 4 * self.N[2], self.G**2)
+
+
+def form(data: dict[str, Any], m: int, S: Value, names: dict[str, Value], modulus: Any = C) -> Form:
+    """The form of degree m with F'/F = theta + P'/P, over Q(c), c a root of the modulus; or over Q.
+
+    By N_0 = 1, (k + 1) N_(k+1) = G N_k' + (N_1 - k G') N_k - (m - k + 1) G^2 S N_(k-1) there is one exactly if N_(m+1) = 0
+    [Kovacic 1986, section 5.2].
+    """
+    demand_equal(data["degree"], m, "the degree of a form")
+    P = read(data["P"], names)
+    demand(P.den.is_constant() and P.num != 0 and is_monic(P.num), "P is a monic polynomial")
+    slope = read(data["theta"], names) + P.derivative() / P
+    G = slope.den * (S.den // slope.den.gcd(S.den))
+    T = S.num * (G * G // S.den)
+    N = [PLANE.constant(1), slope.num * (G // slope.den)]
+    for k in range(1, m + 1):
+        total = G * N[k].derivative(1) + (N[1] - k * G.derivative(1)) * N[k] - (m - k + 1) * T * N[k - 1]
+        N.append(total * fmpq(1, k + 1))
+    demand(divmod(N.pop(), modulus)[1] == 0, f"there is this form of degree {m}")
+    return Form(slope, G, N)
+
+
+def residues(slope: Value) -> list[tuple[Any, int]]:
+    """The factors of the denominator of F'/F, and the residues there; only a rational F passes: simple poles, and integers."""
+    num, den = slope.over_q()
     simple = num.degree() < den.degree() and den.gcd(den.derivative()).degree() == 0
-    found = [(p / p[p.degree()], num * den.derivative().xgcd(p)[1] % p) for p, _ in den.factor()[1]] if simple else []
-    demand(simple and all(v.degree() <= 0 and v[0].q == 1 for _, v in found), "a form is a rational function")
-    return [(p, int(v[0].p)) for p, v in found]
+    demand(simple, "a form is a rational function")
+    found = [(p / p[p.degree()], num * den.derivative().xgcd(p)[1] % p) for p, _ in den.factor()[1]]
+    demand(all(value.degree() <= 0 and value[0].q == 1 for _, value in found), "a form is a rational function")
+    return [(p, int(value[0].p)) for p, value in found]
 
 
 def inverse_has_an_integral(factors: list[tuple[Any, int]]) -> Any:
     """Is 1/prod p^v = num/den = (A/E)', E = gcd(den, den')?  A linear system for A, which is unique up to multiples of E."""
     affordable(sum(abs(v) * p.degree() for p, v in factors), "the degree of a form")
-    num, den = (prod((p ** max(s * v, 0) for p, v in factors), start=X**0) for s in (-1, 1))
+    num = prod((p ** max(-v, 0) for p, v in factors), start=X**0)
+    den = prod((p ** max(v, 0) for p, v in factors), start=X**0)
     E = den.gcd(den.derivative())
     size = affordable(max(num.degree() - den.degree() + E.degree() + 2, E.degree() + 1), "the degree of a form")
     columns = [(X**i).derivative() * den - X**i * (E.derivative() * den // E) for i in range(size)] + [num * E]
     height = max(column.degree() for column in columns) + 1
-    return fmpq_mat(height, size + 1, [c[k] for k in range(height) for c in columns]).rank() == size - 1
+    rows = [[column[k] for column in columns] for k in range(height)]
+    return fmpq_mat(height, size + 1, list(chain(*rows))).rank() == size - 1
 
 
-def order_modulo(q: int, n: int, num: Any, den: Any, poles: list[tuple[Any, Any]]) -> int:
-    """n, if it is the order modulo q of the class of D = sum l d (P - P'), for sqrt(num/den) dx = d f'/f dx + ... at the P over
-    the roots of f, for all poles (f, d).  With y^2 = h, kD is the divisor of a function if a + b y vanishes to the order
-    2 k l d at the P, 2N times in all, for polynomials with deg a, deg b + deg h/2 <= N, b != 0."""
-    demand(type(q) is type(n) is int and n > 0 and q > 2 and fmpz(q).is_prime(), "an order is one modulo an odd prime")
-    if poles[-1][0] is None:  # infinity: x = r + 1/t
-        x = X + next(r for r in range(q) if int(reduced(num * den, q)(r)))
-        num, den, *others = (fmpq_poly(f(x).coeffs()[::-1]) for f in (num, den, *(f for f, _ in poles[:-1])))
-        den, poles = den * X**2, [*zip([*others, X], (d for _, d in poles), strict=True)]
-    factors, l = num.factor()[1] + den.factor()[1], lcm(*(d.q for _, d in poles))  # noqa: E741
-    t, R = prod(p ** (k // 2) for p, k in factors), prod(f for f, _ in poles)  # y = sqrt(num/den) den/t
-    E, whole = prod(f ** int(l * d) for f, d in poles), prod(p for p, _ in factors)
-    h, rest, top, under, R, E = (reduced(f, q) for f in (num * den // t**2, whole, den // R**2, t // R, R, E))
-    demand(rest.gcd(rest.derivative()).degree() == 0, f"{q} is a good prime: no points meet")
-    slopes = (reduced(f, q).derivative() * (R // reduced(f, q)) * int(d.p) * pow(int(d.q), -1, q) for f, d in poles)
-    y = sum(slopes, R * 0) * top * under.xgcd(R)[1] % R
-    demand((y * y - h) % R == 0, "the residues are exponent differences")
+# ------------------------------------------------------------------------------------------- groups
+
+#: The order of the finite groups, for n = 1.
+SIZES = {"cyclic": 1, "dicyclic": 4, "tetrahedral": 24, "octahedral": 48, "icosahedral": 120}
+NAMES = {
+    "cyclic": "mu_{n}",
+    "cyclic1": "trivial",
+    "additive": "G_a extended by mu_{n}",
+    "additive1": "G_a",
+    "borel": "Borel",
+    "multiplicative": "G_m",
+    "dicyclic": "dicyclic of order {order}",
+    "infinite dihedral": "N(T)",
+    "SL2": "SL2",
+    "tetrahedral": "SL(2,3)",
+    "octahedral": "binary octahedral",
+    "icosahedral": "SL(2,5)",
+}
+
+#: A family of subgroups of SL2(C), and its n.
+Family = tuple[str, int | None]
+
+
+def check_group(group: dict[str, Any], family: str, n: int | None, used: set[str]) -> None:
+    """Everything that is said of the group follows from its family; the evidence that is given is what was used."""
+    demand_keys(group, "the group", "name order finite", "family n form orders")
+    order = SIZES[family] * (n or 1) if family in SIZES else None
+    name = NAMES.get(f"{family}{n}", NAMES[family]).format(n=n, order=order)
+    expected = {"name": name, "order": order, "finite": order is not None, "family": family, "n": n}
+    for key in set(expected) & set(group):
+        demand_equal(group[key], expected[key], f"the {key} of the group")
+    demand(set(group) & {"form", "orders"} == used, "the group needs this evidence")
+
+
+def reducible_group(places: list[Place], F: Form | None) -> Family:
+    """The upper triangular matrices with c on the diagonal, c^n = 1 or any c, or fewer: F is the rational form of degree 2.
+
+    y1^n is rational exactly if n omega has integral residues and no other poles; these residues are exponents, (1 + Delta)/2 or
+    (1 - Delta)/2, and whole numbers.  Without F there is one omega only, and the group contains all of G_a.  If F = y1 y2 has
+    different factors, the group is diagonal.  If F = y1^2, then y2 = y1 int dx/F [Kovacic 1986, section 1; Hendriks & van der
+    Put, J. Symb. Comp. 19 (1995)].
+    """
+    differences = [place.difference for place in places]
+    n = None if None in differences else lcm(*(((1 + d) / 2).q for d in differences))
+    if F is None:
+        return ("borel", None) if n is None else ("additive", n)
+    if not F.has_one_factor:
+        return ("multiplicative", None) if n is None else ("cyclic", n)
+    return ("cyclic", n) if inverse_has_an_integral(residues(F.slope)) else ("additive", n)
+
+
+@dataclass(frozen=True)
+class Imprimitive:
+    """An imprimitive group: f = y1 y2 is a form with two factors that are exchanged, and u = y1/y2.
+
+    H = (u'/u)^2, and eta = du/u = sqrt(H) dx is a differential on the curve z^2 = H.  If the equation is Fuchsian, eta has
+    simple poles only, with the residues Delta and -Delta (1 and -1 at an ordinary point, where y1 or y2 is zero).  The group
+    is dicyclic of order 4n, n least with u^n a function on the curve, or N(T) if there is no such n.
+    A rule is a method that tells the family, or None where it doesn't apply; RULES has their order.
+    """
+
+    exclusions: Exclusions
+    slope: Value
+    H: Value
+    group: dict[str, Any]
+    read_form: Callable[[dict[str, Any], int], Form]
+
+    def infinite_monodromy(self) -> Family | None:
+        """An irregular place, or an exponent difference that isn't rational: an element of infinite order."""
+        return (
+            ("infinite dihedral", None) if any(place.difference is None for place in self.exclusions.places) else None
+        )
+
+    def three_pairs_of_lines(self) -> Family | None:
+        """f isn't defined over Q: its conjugates are further pairs of lines; three pairs belong to the quaternion group."""
+        return ("dicyclic", 2) if self.slope.has_c else None
+
+    def genus_zero(self) -> Family | None:
+        """Two branch points: every divisor of degree 0 is that of a function, and n the common denominator of the residues."""
+        return ("dicyclic", self.denominator) if self.eta.branch_points == 2 else None
+
+    def first_kind(self) -> Family | None:
+        """A differential without poles, on a curve of positive genus: its integral is no logarithm of a function."""
+        return None if self.eta.poles else ("infinite dihedral", None)
+
+    def no_torsion(self) -> Family | None:
+        """The divisor D of l eta, l the common denominator, has no finite order.
+
+        Reduction modulo a prime of good reduction is injective on classes of finite order: orders that differ prove that there
+        is none; and a single order k leaves only n = l k, where y1^2n + y2^2n would be a rational form, beside f^n for even n.
+        """
+        if not self.group.get("orders"):
+            return None
+        for entry in self.group["orders"]:
+            demand_keys(entry, "an order", "prime order")
+        shown = {order_modulo(entry["prime"], entry["order"], self.eta) for entry in self.group["orders"]}
+        k = self.denominator * min(shown)
+        demand(len(shown) > 1 or self.exclusions.dimension(2 * k) <= (k + 1) % 2, "the order isn't finite")
+        return "infinite dihedral", None
+
+    def finite(self) -> Family | None:
+        """A rational form of degree 2n beside f^n shows that u^n is a function on the curve.
+
+        n is the least one if there is no such form for its largest proper divisors.
+        """
+        if not self.group.get("form"):
+            return None
+        n = self.group["n"]
+        demand(is_whole(n) and n > 0, "the group has an order")
+        demand_keys(self.group["form"], "the form", "degree theta P")
+        slope = self.read_form(self.group["form"], affordable(2 * n, "the degree of a form")).slope
+        residues(slope)
+        demand(slope.num * self.slope.den != n * self.slope.num * slope.den, "there is a form beside f^n")
+        divisors = [n // int(p) for p, _ in fmpz(n).factor()]
+        demand(all(self.exclusions.dimension(2 * j) <= (j + 1) % 2 for j in divisors), "n is the least")
+        return "dicyclic", n
+
+    #: In this order; the second place is the evidence that a rule uses.
+    RULES = (
+        (infinite_monodromy, ""),
+        (three_pairs_of_lines, ""),
+        (genus_zero, ""),
+        (first_kind, ""),
+        (no_torsion, "orders"),
+        (finite, "form"),
+    )
+
+    def decide(self) -> tuple[Family, set[str]]:
+        """The family, and the evidence that was used."""
+        for rule, evidence in self.RULES:
+            family = rule(self)
+            if family is not None:
+                return family, {evidence} - {""}
+        raise NotImplementedError("the order of a group on a curve of positive genus")
+
+    @cached_property
+    def eta(self) -> Differential:
+        num, den = self.H.over_q()
+        *finite, infinity = self.exclusions.places
+        poles = [Pole(place.p, place.difference) for place in finite if den % place.p**2 == 0]
+        singular = prod((place.p for place in finite), start=X**0)
+        poles += [Pole(p, fmpq(1)) for p, _ in den.factor()[1] if den % p**2 == 0 and singular % p != 0]
+        if den.degree() - num.degree() == 2:
+            poles.append(Pole(None, infinity.difference))
+        return Differential(num, den, poles)
+
+    @property
+    def denominator(self) -> int:
+        """The common denominator of the residues of eta."""
+        return lcm(*(int(pole.residue.q) for pole in self.eta.poles))
+
+
+class Pole(NamedTuple):
+    """The points over the roots of a factor, or over infinity (None), and the residue of a differential at one of each two."""
+
+    factor: Any
+    residue: Any
+
+
+@dataclass(frozen=True)
+class Differential:
+    """eta = sqrt(num/den) dx, with simple poles only."""
+
+    num: Any
+    den: Any
+    poles: list[Pole]
+
+    @property
+    def branch_points(self) -> int:
+        """Of the curve y^2 = num/den, infinity included."""
+        factors = self.num.factor()[1] + self.den.factor()[1]
+        odd = sum(int(p.degree()) for p, k in factors if k % 2)
+        return odd + int(self.den.degree() - self.num.degree()) % 2
+
+    def with_finite_poles(self, q: int) -> Differential:
+        """In the coordinate t of x = r + 1/t, if there is a pole at infinity; r is no zero or pole, modulo q."""
+        if self.poles[-1].factor is not None:
+            return self
+        r = next(r for r in range(q) if int(reduced(self.num * self.den, q)(r)))
+
+        def flipped(f: Any) -> Any:
+            return fmpq_poly(f(X + r).coeffs()[::-1])
+
+        moved = [Pole(flipped(pole.factor), pole.residue) for pole in self.poles[:-1]]
+        at_zero = Pole(X, self.poles[-1].residue)
+        return Differential(flipped(self.num), flipped(self.den) * X**2, [*moved, at_zero])
+
+
+def order_modulo(q: Any, n: Any, given: Differential) -> int:
+    """n, if it is the order modulo q of the class of D = sum l d (P - P'), for eta with the residue d at the points P, l the
+    common denominator, P' the conjugate of P.
+
+    With y^2 = h, k D is the divisor of a function if a + b y vanishes to the order 2 k l d at the P, 2N times in all, for
+    polynomials with deg a, deg b + deg h/2 <= N, b != 0: linear equations, for y is known at the P as a series.
+    """
+    demand(is_whole(q) and is_whole(n) and n > 0, "prime and order are integers")
+    demand(q > 2 and fmpz(q).is_prime(), "an order is one modulo an odd prime")
+    eta = given.with_finite_poles(q)
+    h, y, E = curve_modulo(q, eta)
 
     def principal(k: int) -> bool:
         U, v, N = E ** (2 * k), y, affordable(k * E.degree(), "an order")
@@ -262,205 +838,223 @@ def order_modulo(q: int, n: int, num: Any, den: Any, poles: list[tuple[Any, Any]
 
     least = principal(n) and not any(principal(n // int(p)) for p, _ in fmpz(n).factor())
     demand(least, f"{n} is the order modulo {q}")
-    return n
+    return int(n)
+
+
+def curve_modulo(q: int, eta: Differential) -> tuple[Any, Any, Any]:
+    """Modulo q: h of the curve y^2 = h, y at the points P modulo the product of their factors f, and prod f^(l d)."""
+    factors = eta.num.factor()[1] + eta.den.factor()[1]
+    l = lcm(*(int(pole.residue.q) for pole in eta.poles))  # noqa: E741
+    t = prod(p ** (k // 2) for p, k in factors)  # y = sqrt(num/den) den/t
+    R = prod(pole.factor for pole in eta.poles)
+    distinct = reduced(prod(p for p, _ in factors), q)
+    demand(distinct.gcd(distinct.derivative()).degree() == 0, f"{q} is a good prime: no points meet")
+    h = reduced(eta.num * eta.den // t**2, q)
+    top, under, R_q = reduced(eta.den // R**2, q), reduced(t // R, q), reduced(R, q)
+    slope = R_q * 0
+    for pole in eta.poles:
+        f = reduced(pole.factor, q)
+        residue = int(pole.residue.p) * pow(int(pole.residue.q), -1, q)
+        slope += f.derivative() * (R_q // f) * residue
+    y = slope * top * under.xgcd(R_q)[1] % R_q
+    demand((y * y - h) % R_q == 0, "the residues are exponent differences")
+    return h, y, reduced(prod(pole.factor ** int(l * pole.residue) for pole in eta.poles), q)
+
+
+# ------------------------------------------------------------------------------------------- answers
+
+REQUIRED = "schema input variable S status case riccati constants verified proof notices seconds"
+#: The other keys that an answer has; whatever else is there belongs to the user, as the lines and names of a batch.
+OPTIONAL = "field equation gauge generic_conditions group solutions"
+NOT_LOOKED_AT = ("input", "notices", "seconds", "solutions")
+NOT_LOOKED_AT_IN_THE_EQUATION = ("change", "f", "h", "text", "unknown")
+
+
+def demand_names(*names: Any) -> None:
+    """Refute the answer unless these are names, all different."""
+    demand(all(isinstance(name, str) and name.isidentifier() for name in names), "variables and constants have names")
+    demand(len(set(names)) == len(names), "the names are different")
 
 
 class Answer:
-    """One line: the JSON object, the names in its expressions, and S = num/den."""
+    """One line: the JSON object, the names in its expressions, and S."""
 
     def __init__(self, data: dict[str, Any]) -> None:
-        self.data, self.proof, self.names = data, data["proof"], {data["variable"]: Value(X2)}
-        demand(data["variable"].isidentifier(), "the variable has a name")
+        demand_keys({key: value for key, value in data.items() if key in REQUIRED.split()}, "the answer", REQUIRED)
+        self.data, self.proof = data, data["proof"]
+        demand_keys(self.proof, "the proof", "structure semi_invariant invariant excluded undecided")
+        demand_names(data["variable"])
+        self.structure: str | None = self.proof["structure"]
+        self.names = {data["variable"]: Value(X2)}
         self.S = read(data["S"], self.names)
-        self.num, self.den = self.S.over_q()
-        affordable(max(self.num.degree(), self.den.degree()), "the degree of S")
-        if data["constants"] is not None:
-            demand(self.names.setdefault(data["constants"]["symbol"], c := Value(C)) is c, "the names are different")
+        self.exclusions = Exclusions(*self.S.over_q(), self.names)
 
-    @cached_property
-    def places(self) -> list[Place]:
-        """The finite ones and, last, infinity."""
-        k = self.num.degree() - self.den.degree() + 4 if self.num != 0 else 0
-        flipped = [fmpq_poly(f.coeffs()[::-1]) * X ** max(e, 0) for f, e in ((self.num, -k), (self.den, k))]
-        found = [Place(p / p[p.degree()], m, self.num, self.den) for p, m in self.den.factor()[1]]
-        return [*found, Place(X, max(k, 0), flipped[0], flipped[1], infinite=True)]
+    def check(self) -> str:
+        """Prove everything that is claimed; what was looked at, and what wasn't."""
+        self.heading()
+        checked = self.equation()
+        self.case()
+        checked.append("case")
+        f, F = None, None
+        if self.structure is not None:
+            f = self.omega(STRUCTURES[self.structure].omega)
+            F = self.rational_form(STRUCTURES[self.structure].form)
+            checked.append("omega")
+        if self.data.get("group") is not None:
+            self.group(f, F)
+            checked.append("group")
+        return f"{'; '.join(checked)}; not checked: {', '.join(self.not_looked_at(checked))}"
 
-    def place(self, name: str) -> Place:
-        """The place with this factor, or "infinity"."""
-        key = name if name == "infinity" else str(read(name, self.names).over_q()[0])
-        return {"infinity" if place.infinite else str(place.p): place for place in self.places}[key]
-
-    def check(self) -> None:
-        """Prove everything that is claimed."""
-        data, proof, names = self.data, self.proof, list(STRUCTURES)
-        structure, excluded = proof["structure"], [entry["structure"] for entry in proof["excluded"]]
-        if proof["undecided"] is not None:
-            raise NotImplementedError(f"the answer is undecided: {proof['undecided']!r}")
-        demand(excluded, "what is excluded is", names if structure is None else names[: names.index(structure)])
-        demand(data["case"], "the case is", None if structure is None else STRUCTURES[structure][0])
-        demand(data["status"], "the status is", "none" if structure is None else "liouvillian")
-        for entry in proof["excluded"]:
-            self.excluded(entry["structure"], entry["evidence"])
-        form = slope = H = None
+    def heading(self) -> None:
+        """What is said in more than one place is the same."""
+        data, structure = self.data, self.structure
+        demand_equal(data["verified"], True, "what the answer says of its own check")
+        demand_equal(data["case"], None if structure is None else STRUCTURES[structure].case, "the case")
+        demand_equal(data["status"], "none" if structure is None else "liouvillian", "the status")
+        demand(data.get("generic_conditions") is None, "an S without parameters has no conditions on them")
         if structure is None:
-            beside = [data["riccati"], data["constants"], proof["invariant"], proof["semi_invariant"]]
+            beside = [data["riccati"], data["constants"], self.proof["invariant"], self.proof["semi_invariant"]]
             demand(beside == [None] * 4, "there is no solution beside a proof that there is none")
-        else:
-            slope, H = self.solution(STRUCTURES[structure][1])
-            if structure != "reducible" or proof["invariant"] is not None:
-                form = self.form(proof["invariant"], STRUCTURES[structure][2], C)
-            demand(residues(form[0]) is not None if form else self.dimension(2) == 0, "omega is unique")
-        if data.get("group") is not None:
-            family, n = self.group(structure, form, slope, H)
-            order = SIZES[family] * (n or 1) if family in SIZES else None
-            name = NAMES.get(f"{family}{n}", NAMES[family]).format(n=n, order=order)
-            expected = {"name": name, "order": order, "finite": order is not None, "family": family, "n": n}
-            for key in {"name", "order", "finite"} | (set(expected) & set(data["group"])):
-                demand(data["group"][key], f"the {key} of the group is", expected[key])
 
-    def excluded(self, structure: str, evidence: Any) -> None:
-        """The group doesn't have this structure, by the evidence."""
-        reducible, finite, m = structure == "reducible", ORDERS.get(structure), STRUCTURES[structure][2]
-        branches = sum(p.size for p in self.places if (p.k % 2 if p.k > 2 else (p.difference or fmpq(1)).q == 2))
-        rules: dict[str, Callable[[Place], Any]] = {
-            "ramified": lambda p: reducible and p.k > 2 and p.k % 2,
-            "not_a_square": lambda p: reducible and p.k > 1 and p.k % 2 == 0 and p.is_not_a_square(),
-            "logarithm": lambda p: not reducible and p.logarithm,
-            "irregular": lambda p: finite and p.k > 2,
-            "too_few_branch_points": lambda p: structure == "imprimitive" and branches < 2,
-            "exponents": lambda p: finite and 0 < p.k <= 2 and int((p.difference or fmpq(1, 7)).q) not in finite,
-        }
-        found = set() if reducible else {"no_rational_omega"}
-        for item in evidence:
-            kind, rule = item["kind"], item.get("rule")
-            if kind == "no_rational_omega":
-                self.no_unique_omega(item["prime"], item["place"])
-            elif kind == "no_invariant":
-                demand(item["invariant_degree"], "the degree of the form is", m)
-                demand(self.dimension(m, item["prime"], item["point"]) == 0, f"there is no rational form of degree {m}")
-            else:
-                demand(any(rules[rule](self.place(p)) for p in item["places"] or ["infinity"]), f"a place is {rule}")
-            found.add("no_rational_omega" if rule == "not_a_square" else kind)
-        demand("necessary_condition" in found or len(found) == 2, f"the group isn't {structure}")
+    def equation(self) -> list[str]:
+        """y = v exp(int gauge dx) turns a y'' + b y' + c y = 0 into v'' = S v, gauge = -b/(2a) [Kovacic 1986, section 1.1]."""
+        equation: Any = self.data.get("equation")
+        gauge: Any = self.data.get("gauge")
+        if equation is None:
+            demand(gauge is None, "a gauge belongs to an equation")
+            return []
+        demand_keys(equation, "the equation", "text unknown a b c f h field", "change")
+        demand(isinstance(gauge, str), "the equation has a gauge")
+        if equation["field"] is not None:
+            return []
+        a, b, c = (read(equation[name], self.names) for name in ("a", "b", "c"))
+        demand(a.num != 0, "the equation has second order")
+        half = b / (a + a)
+        demand(self.S.equals(half.derivative() + half * half - c / a), "S is that of the equation")
+        demand(read(gauge, self.names).equals(Value(0) - half), "the gauge is -b/(2a)")
+        return ["y'' = S y from a, b, c", "gauge"]
 
-    def dimension(self, m: int, prime: int | None = None, point: int | None = None) -> int:
-        """An upper bound for the dimension of the rational forms of degree m, from expansions modulo a prime."""
-        valuations = [place.least_valuation(m) for place in self.places]
-        room = m - sum(v * p.size for v, p in zip(valuations, self.places, strict=True))
-        if room < 0:
-            return 0
-        n, q = affordable(room + m + 6, f"the number of zeros of a form of degree {m}"), prime or PRIMES[0]
-        demand(q > 2 * n and fmpz(q).is_prime(), "the modulus is a large prime")
-        c = point if point is not None else next(c for c in range(LONGEST + 1) if int(reduced(self.den, q)(c)))
-        den, num = reduced(self.den, q, c), reduced(self.num, q, c).left_shift(2)
-        demand(int(den[0]), "the point is ordinary")
-        y1, y2 = frobenius(den, num, 0, n, q)[0], frobenius(den, num, 1, n, q)[0].left_shift(1)
-        scale = nmod([1], q)
-        for place, v in zip(self.places[:-1], valuations, strict=False):
-            power = reduced(place.p, q, c).truncate(n).pow_trunc(abs(v), n)
-            scale = scale.mul_low(power.inverse_series_trunc(n) if v > 0 else power, n)
-        forms = [scale.mul_low(y1.pow_trunc(m - i, n), n).mul_low(y2.pow_trunc(i, n), n) for i in range(m + 1)]
-        return m + 1 - int(nmod_mat([[int(form[j]) for j in range(room + 1, n)] for form in forms], q).rank())
+    def not_looked_at(self, checked: list[str]) -> Iterator[str]:
+        """The keys that have no part in what was checked."""
+        data, equation = self.data, self.data.get("equation")
+        yield from (key for key in NOT_LOOKED_AT if key in data)
+        if equation is not None and "gauge" in checked:
+            yield from (f"equation.{key}" for key in NOT_LOOKED_AT_IN_THE_EQUATION if key in equation)
+        elif equation is not None:
+            yield from ("equation", "gauge")
+        if "group" in data and "group" not in checked:
+            yield "group"
+        evidence = chain(*(entry["evidence"] for entry in self.proof["excluded"]))
+        if any(item["kind"] == "no_rational_omega" for item in evidence):
+            yield "degree of no_rational_omega"
+        others = set(data) - set(REQUIRED.split()) - set(OPTIONAL.split())
+        yield from (key if key.isidentifier() else ascii(key)[:60] for key in sorted(others))
 
-    def no_unique_omega(self, prime: int | None, name: str) -> None:
-        """No omega in Q(x) that is the only one: no solution's is A/(den B) modulo a prime, deg B <= the number of zeros."""
-        ramified = any(place.k > 2 and place.k % 2 for place in self.places)
-        if ramified or (zeros := 1 - sum((place.exponents() for place in self.places if place.k), arb(0))) < 0:
-            return
-        degree = affordable(zeros.upper().floor().unique_fmpz(), "the number of zeros of a solution")
-        apart = [p for p in self.places if p.k and (p.difference is None or p.difference.q > 1 or p.logarithm)]
-        place = self.place(name) if name or not apart else apart[0]
-        demand(place in apart, "the place tells the solutions apart")
-        q, root = next(place.roots([prime] if prime else PRIMES), (0, 0))
-        demand(q > 10**6 and fmpz(q).is_prime(), "the place has a root modulo a large prime")
-        den = reduced(place.den, q, root)
-        top = degree + den.degree() + max(p.k for p in self.places)
-        for w in place.expansions(root, q, count := affordable(top + degree + 12, "the number of zeros of a solution")):
-            r0, r1 = nmod([1], q).left_shift(count), den.right_shift(place.nu).mul_low(w, count)
-            while r1.degree() > top:  # r1 = B den w modulo t^count, deg B = count - deg r0
-                r0, r1 = r1, r0 % r1
-            demand(count - r0.degree() > degree, "no expansion of omega is that of a rational function")
+    def case(self) -> None:
+        """Everything before the structure is excluded, each once and in order; without a structure, all five are."""
+        names = list(STRUCTURES)
+        required = names if self.structure is None else names[: names.index(self.structure)]
+        demand_equal([entry["structure"] for entry in self.proof["excluded"]], required, "what is excluded")
+        for entry in self.proof["excluded"]:
+            demand_keys(entry, "an exclusion", "structure case evidence")
+            demand_equal(entry["case"], STRUCTURES[entry["structure"]].case, "the case of an exclusion")
+            self.exclusions.hold(entry["structure"], entry["evidence"])
 
-    def form(self, data: dict[str, Any], m: int, modulus: Any) -> tuple[Value, Any, list[Any]]:
-        """F'/F, G and N_k with prod (W - y_i'/y_i) = sum (-1)^k N_k/G^k W^(m-k) for a form F = y_1 ... y_m in the solutions:
-        N_0 = 1, (k + 1) N_(k+1) = G N_k' + (N_1 - k G') N_k - (m - k + 1) G^2 S N_(k-1), and N_(m+1) = 0, which is demanded."""
-        demand(data["degree"], "the degree of a form is", m)
-        P = read(data["P"], self.names)
-        demand(P.den.is_constant(), "P is a polynomial")
-        slope = OPERATIONS["+"][1](read(data["theta"], self.names), Value(P.num.derivative(1), P.num))
-        G = slope.den * (self.S.den // slope.den.gcd(self.S.den))
-        T, N = self.S.num * (G * G // self.S.den), [PLANE.constant(1), slope.num * (G // slope.den)]
-        for k in range(1, m + 1):
-            total = G * N[k].derivative(1) + (N[1] - k * G.derivative(1)) * N[k] - (m - k + 1) * T * N[k - 1]
-            N.append(total * fmpq(1, k + 1))
-        demand(divmod(N.pop(), modulus)[1] == 0, f"there is this form of degree {m}")
-        return slope, G, N
-
-    def solution(self, n: int) -> tuple[Value, ...]:
-        """The polynomial of omega is that of a form f of degree n; f'/f, and for n = 2 the discriminant, are returned."""
-        constants, riccati = self.data["constants"], self.data["riccati"]
-        modulus = read(constants["minimal_polynomial"], self.names).num if constants else C
-        powers = [k for _, k in in_one_variable(modulus, 0).factor()[1]]
-        demand(modulus.degrees()[1] <= 0 and powers == [1], "c has an irreducible polynomial")
-        slope, G, N = self.form(self.proof["semi_invariant"], n, modulus)
+    def omega(self, n: int) -> Form:
+        """The polynomial of omega is that of a form f of degree n, over Q(c); f, with its polynomials reduced."""
+        riccati, semi_invariant = self.data["riccati"], self.proof["semi_invariant"]
+        demand_keys(riccati, "the polynomial of omega", "variable degree coefficients")
+        demand_keys(semi_invariant, "the form", "degree theta P D")
+        modulus = self.modulus()
+        demand_names(riccati["variable"], *self.names)
+        f = form(semi_invariant, n, self.S, self.names, modulus)
+        self.normal_form(semi_invariant)
         a = [read(text, self.names) for text in reversed(riccati["coefficients"])]
-        demand(repr(riccati["degree"]) == repr(len(a) - 1) == repr(n), f"the degree of omega is {n}")
+        demand_equal((riccati["degree"], len(a) - 1), (n, n), "the degree of omega, twice")
         for k in range(n + 1):
-            difference = a[k].num * G**k - (-1) ** k * N[k] * a[k].den
+            difference = a[k].num * f.G**k - (-1) ** k * f.N[k] * a[k].den
             demand(divmod(difference, modulus)[1] == 0, "the roots of the polynomial solve omega' + omega^2 = S")
-        both = slope, Value(N[1] ** 2 - 4 * N[2], G**2) if n == 2 else slope
-        return tuple(Value(divmod(v.num, modulus)[1], divmod(v.den, modulus)[1]) for v in both)
+        demand(modulus == C or any(value.has_c for value in a), "c occurs in omega")
+        return f.modulo(modulus)
 
-    def group(self, structure: str | None, form: Any, slope: Any, H: Any) -> tuple[str, int | None]:
-        """The family of the group and its n; if imprimitive, by slope = f'/f, f = y1 y2, and sqrt(H) dx = d log(y1/y2)."""
-        differences = [place.difference for place in self.places]
-        if structure is None or structure in ORDERS:
-            return structure or "SL2", None
-        if structure == "reducible":
-            # The residues of omega are exponents, (1 + d)/2 or (1 - d)/2, and whole numbers; or it has other poles.
-            n = None if None in differences else lcm(*(((1 + d) / 2).q for d in differences))
-            if form is None:
-                return ("borel", None) if n is None else ("additive", n)
-            if form[2][1] * form[2][1] != 4 * form[2][2]:  # F has two different factors
-                return ("multiplicative", None) if n is None else ("cyclic", n)
-            return "cyclic" if inverse_has_an_integral(residues(form[0])) else "additive", n
-        if None in differences:  # a local monodromy has infinite order
-            return "infinite dihedral", None
-        if slope.den.degrees()[0] + slope.num.degrees()[0] > 0:  # the conjugates of f are more products of solutions
-            return "dicyclic", 2
-        (num, den), group = H.over_q(), self.data["group"]
-        e = den.degree() - num.degree() - 4  # the valuation at infinity
-        factors = num.factor()[1] + den.factor()[1]
-        poles = [(place.p, place.difference) for place in self.places[:-1] if den % place.p**2 == 0]
-        poles += [(p, fmpq(1)) for p, k in factors if den % p**2 == 0 and self.den % p != 0]
-        poles += [(None, differences[-1])] * (e == -2)
-        n = lcm(*(d.q for _, d in poles))
-        if sum(p.degree() for p, k in factors if k % 2) + e % 2 == 2:  # genus 0
-            return "dicyclic", n
-        if orders := poles and group.get("orders"):
-            k = n * min(shown := {order_modulo(entry["prime"], entry["order"], num, den, poles) for entry in orders})
-            demand(len(shown) > 1 or self.dimension(2 * k) <= (k + 1) % 2, "the order isn't finite")
-        if orders or not poles:  # without poles it is a differential of the first kind
-            return "infinite dihedral", None
-        if not group.get("form"):
-            raise NotImplementedError("the order of a group on a curve of positive genus")
-        demand(type(n := group["n"]) is int and n > 0, "the group has an order")
-        F = self.form(group["form"], affordable(2 * n, "the degree of a form"), C)[0]
-        demand(residues(F) is not None and F.num * slope.den != n * slope.num * F.den, "there is a form beside f^n")
-        smaller = (n // int(p) for p, _ in fmpz(n).factor())
-        demand(all(self.dimension(2 * j) <= (j + 1) % 2 for j in smaller), "n is the least")
-        return "dicyclic", n
+    def modulus(self) -> Any:
+        """The polynomial of c, which is irreducible, so that Q(c) is a field; c itself stands for none."""
+        constants = self.data["constants"]
+        if constants is None:
+            return C
+        demand_keys(constants, "the constant", "symbol minimal_polynomial")
+        demand_names(constants["symbol"], *self.names)
+        self.names[constants["symbol"]] = Value(C)
+        polynomial = read(constants["minimal_polynomial"], self.names)
+        demand(polynomial.den.is_constant() and polynomial.num.degrees()[1] <= 0, "c has a polynomial over Q")
+        modulus = in_one_variable(polynomial.num, 0) / fmpq(polynomial.den.leading_coefficient())
+        factors = modulus.factor()[1]
+        demand(len(factors) == 1 and factors[0][1] == 1, "the polynomial of c is irreducible")
+        demand(
+            modulus.degree() > 1 and modulus.leading_coefficient() == 1,
+            "the polynomial of c is monic, and c irrational",
+        )
+        return polynomial.num
+
+    def normal_form(self, semi_invariant: dict[str, Any]) -> None:
+        """P has its zeros at ordinary points, and D is the product of the factors p^((k + 1)//2) of the places."""
+        P, D = read(semi_invariant["P"], self.names), read(semi_invariant["D"], self.names)
+        demand(P.num.gcd(self.S.den).is_constant(), "P has its zeros at ordinary points")
+        expected = prod((place.p ** ((place.k + 1) // 2) for place in self.exclusions.places[:-1]), start=X**0)
+        found, below = D.over_q()
+        demand(below == 1 and found == expected, "D is the denominator of omega")
+
+    def rational_form(self, m: int) -> Form | None:
+        """The rational form of degree m that shows the structure; a reducible group with one omega only has none."""
+        data = self.proof["invariant"]
+        if data is None:
+            demand(self.structure == "reducible" and self.exclusions.dimension(2) == 0, "omega is unique")
+            return None
+        demand_keys(data, "the rational form", "degree theta P")
+        F = form(data, m, self.S, self.names)
+        residues(F.slope)
+        return F
+
+    def group(self, f: Form | None, F: Form | None) -> None:
+        """The group is the one that is named: SL2, a finite primitive one, or found by the forms."""
+        group, used = self.data["group"], set[str]()
+        demand_keys(group, "the group", "name order finite", "family n form orders")
+        family: Family = self.structure or "SL2", None
+        if self.structure == "reducible":
+            family = reducible_group(self.exclusions.places, F)
+        elif self.structure == "imprimitive" and f is not None:
+
+            def rational(data: dict[str, Any], m: int) -> Form:
+                return form(data, m, self.S, self.names)
+
+            family, used = Imprimitive(self.exclusions, f.slope, f.discriminant, group, rational).decide()
+        check_group(group, *family, used)
+
+
+def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """A JSON object, whose keys must be different."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        raise Unreadable("a key occurs twice in one object")
+    return found
+
+
+def no_number(name: str) -> None:
+    """NaN and Infinity are no JSON."""
+    raise Unreadable(f"{name} is no number")
 
 
 def verdict(line: str) -> str:
     """What is to be said of one line."""
     try:
-        data = json.loads(line)
+        data = json.loads(line, object_pairs_hook=once, parse_constant=no_number)
         if not isinstance(data, dict) or repr(data.get("schema")) != "1" or data.get("field") is not None:
             return "not checked: no answer in schema 1 for an S with rational coefficients"
+        if data["proof"]["undecided"] is not None:
+            return f"not checked: the answer is undecided: {data['proof']['undecided']!r}"
         with ctx.workprec(333):
-            Answer(data).check()
-    except json.JSONDecodeError as error:
+            return f"checked: {Answer(data).check()}"
+    except (json.JSONDecodeError, Unreadable) as error:
         return f"unreadable: {error}"
     except AssertionError as claim:
         return f"refuted: it isn't shown that {claim}"
@@ -468,7 +1062,6 @@ def verdict(line: str) -> str:
         return f"not checked: {str(reason) or type(reason).__name__}"
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
         return f"refuted: malformed ({type(error).__name__})"
-    return "checked"
 
 
 def verdicts(lines: Iterator[str], seconds: float = 60) -> Iterator[str]:

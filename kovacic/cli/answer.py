@@ -182,8 +182,14 @@ def check(files: tuple[str, ...]) -> int:
     \b
     kovacic solve --json --full "x^2 + 3" "x" | kovacic check -
 
-    Says "checked", "refuted: why", "not checked: why" or "unreadable: why" for each line.  The checker is one file that
-    also runs alone, kovacic/checker.py, and begins with what it proves.
+    \b
+    checked: y'' = S y from a, b, c; gauge; case; omega; group; not checked: input, notices, seconds, ...
+    refuted: why
+    not checked: why
+    unreadable: why
+
+    Says one of these for each line: what was proven, and which keys weren't looked at.  The checker is one file that also
+    runs alone, kovacic/checker.py, and begins with what it proves.
 
     Exit status: 0 all checked, 1 one refuted, 2 a file or a line unreadable, 3 one not checked; the first of 1, 2, 3
     that applies.
