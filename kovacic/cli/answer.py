@@ -183,7 +183,7 @@ def check(files: tuple[str, ...]) -> int:
     kovacic solve --json --full "x^2 + 3" "x" | kovacic check -
 
     \b
-    checked: y'' = S y from a, b, c; gauge; case; omega; group; not checked: input, notices, seconds, ...
+    checked: case; omega; group; not checked: input, notices, seconds
     refuted: why
     not checked: why
     unreadable: why
