@@ -130,6 +130,7 @@ def test_everything_that_solve_takes_is_an_item() -> None:
     assert item_from(2, ([3, 0, 1], [1])).text == "x**2 + 3"
     assert item_from(3, {"S": "t", "var": "t", "id": 5}) == Item(3, "t", "t", {"id": 5})
     assert item_from(4, object()).error is not None
+    assert item_from(5, {"S": "x", "id": {1, 2}}).error is not None
 
 
 @given(st.text(), st.none() | st.text(), st.dictionaries(st.text().map("k".__add__), st.text()))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import signal
 import socket
@@ -13,9 +14,11 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+from batch_lines import answers_of, lines_of, random_runs
 
 import kovacic
 from kovacic.batch.backends import CHUNK
+from kovacic.batch.files import read_items
 from kovacic.errors import InputError
 
 pytestmark = [
@@ -87,6 +90,13 @@ def test_dask_answers_in_order_and_limits_hold_there(cluster: Cluster) -> None:
     assert records[5].label == "bad input"
     assert records[6].label == "undecided"
     assert records[0].data["group"]["name"] == "Borel"
+
+
+def test_every_line_of_a_mix_is_answered_once(cluster: Cluster) -> None:
+    runs = random_runs(11, 6_000)
+    items = read_items(io.BytesIO("\n".join(lines_of(runs)).encode()))
+    records = kovacic.solve_many(items, jobs=4, timeout=2, backend="dask", scheduler=cluster.address)
+    assert [(record.number, record.label) for record in records] == answers_of(runs)
 
 
 def test_a_killed_worker_loses_nothing_and_repeats_nothing(cluster: Cluster) -> None:

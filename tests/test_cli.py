@@ -357,6 +357,40 @@ def test_a_full_disk_is_told(arguments: list[str]) -> None:
         assert "Traceback" not in done.stderr
 
 
+@pytest.mark.parametrize(
+    ("line", "status"),
+    [
+        ("solve - <&-", 0),
+        ("check - <&-", 0),
+        ("batch - <&-", 0),
+        ("solve x >&-", 5),
+        ("evaluate x --x0=0 --y0=1 --dy0=0 --at=1 >&-", 5),
+        ("batch - >&- <<<x", 5),
+        ("scan x+a a=1:3 >&-", 5),
+        ("--help >&-", 5),
+        ("solve x <&- >&- 2>&-", 5),
+        ("solve x+ 2>&-", 2),
+        ("nonsense 2>&-", 2),
+        ("batch - -o answers.jsonl 2>&- <<<x+", 2),
+    ],
+)
+def test_streams_that_the_shell_has_closed(tmp_path: Path, line: str, status: int) -> None:
+    """Closed input is empty, closed output can't be written, and what closed standard error would get goes nowhere."""
+    done = subprocess.run(
+        ["bash", "-c", f"{sys.executable} -m kovacic {line}"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode == status
+    assert done.stdout == ""
+    assert "Traceback" not in done.stderr
+    for answers in tmp_path.iterdir():
+        assert [json.loads(line)["status"] for line in answers.read_text().splitlines()] == ["error"]
+
+
 @pytest.mark.parametrize("command", [["batch", "-"], ["scan", "x+n", "n=1:3"]])
 def test_an_output_in_a_missing_folder_is_refused_before_any_work(tmp_path: Path, command: list[str]) -> None:
     done = run(*command, "-o", str(tmp_path / "missing" / "answers.jsonl"), stdin="x\n")

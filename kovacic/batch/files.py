@@ -138,6 +138,11 @@ def _plain_item(number: int, value: Any, text: str, var: str | None) -> Item:
         hint = 'a string, or an object like {"S": "x^2 + 3"}'
         return Item(number, text, var, error=ParseError("the line is neither a string nor an object", hint=hint))
     extra = {"id": value["id"]} if "id" in value else {}
+    try:
+        json.dumps(extra)
+    except (TypeError, ValueError, RecursionError):
+        wrong = type(extra["id"]).__name__
+        return Item(number, text, var, error=InputError(f"the id is a {wrong}, which JSON doesn't have", hint="a text"))
     key = next((key for key in _EXPRESSION_KEYS if key in value), None)
     if key is None:
         error = InputError(f"there is no key {_EXPRESSION_KEYS[0]!r} with the expression", hint='{"S": "x^2 + 3"}')

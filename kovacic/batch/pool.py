@@ -1,7 +1,9 @@
 """A pool of worker processes that can be killed: every item gets exactly one record.
 
-One loop in the caller's thread gives each process that has nothing to do some items, as many as take about 20 ms, and waits for
-events (a record, the end of a process, an item from a stream) and for the next deadline.
+One loop in the caller's thread goes round in four steps.  Each process that has nothing to do gets a lot of items, as many as
+take about 20 ms.  Items that are refused without a process get their records.  Events are taken up: a record, the end of a
+process, an item from a stream.  Processes that are over their time are killed.  The loop waits for events only where a round
+has found nothing to hand out: then every process works or starts, or the input is silent, and each of these ends with an event.
 
 A process that is over its time is killed, and its item gets a record.  So does the item of a process that has ended with an
 exception; one whose process was killed by somebody else gets another one, up to three times.  What waited behind the item
@@ -27,10 +29,10 @@ from collections import Counter, deque
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, suppress
 from queue import Empty, Queue, SimpleQueue
-from typing import IO, Any, cast
+from typing import IO, NamedTuple, cast
 
 from kovacic.batch.records import Item, Job, ProcessLost, Record, refused, stopped
-from kovacic.errors import InputError, KovacicError
+from kovacic.errors import KovacicError
 
 # The interpreter looks for modules where this one does, and not in the current directory.
 _START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.batch.worker import main; main()"
@@ -50,10 +52,11 @@ ORDERED_WINDOW = 10_000
 _AHEAD = 256
 
 # A process gets items for so many seconds at once, so that it needn't wait for the parent after each of them; but one item
-# where they take longer, and no more text than fits into a pipe, since the parent would wait for a process that is busy.
+# where they take longer.  What follows the first item must fit into the pipe: the process reads the first one before it works,
+# and writing to a full pipe of a process that is busy would stop the parent, its deadlines included.
 _SECONDS_AT_ONCE = 0.02
 _ITEMS_AT_ONCE = 32
-_CHARACTERS_AT_ONCE = 30_000
+_BYTES_AT_ONCE = 30_000
 
 # The last words of Python, GMP, flint and the C++ library.
 _OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_alloc", re.IGNORECASE)
@@ -61,6 +64,70 @@ _OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_a
 
 # A record of a child, or None at its end; in place of the pair None, where an item of a stream has arrived.
 Event = tuple["Child", Record | None] | None
+
+
+class Lot(NamedTuple):
+    """What is handed out at once: items for a process, and the records of those that need none, since their line was wrong."""
+
+    items: list[Item]
+    refusals: list[Record]
+
+
+class Source:
+    """Where items come from: those that a lost process has left, then the input, which may be silent for the moment."""
+
+    def __init__(self, feed: Iterator[Item | None]) -> None:
+        self._feed = feed
+        self._returned: deque[Item] = deque()
+        self._ended = False
+        self._failure: Exception | None = None
+
+    @property
+    def exhausted(self) -> bool:
+        """Is the end of the input known, and nothing given back?"""
+        return self._ended and not self._returned
+
+    def give_back(self, items: Sequence[Item]) -> None:
+        """Items that come next, in this order."""
+        self._returned.extendleft(reversed(items))
+
+    def next(self) -> Item | None:
+        """The next item; None where there is none, for the moment or at the end."""
+        if self._returned:
+            return self._returned.popleft()
+        if self._ended:
+            return None
+        try:
+            return next(self._feed)
+        except StopIteration:
+            self._ended = True
+        except Exception as error:  # raised by `close`, when what came before it is answered
+            self._ended = True
+            self._failure = error
+        return None
+
+    def close(self) -> None:
+        """Raise what has ended the input, if it wasn't its end."""
+        if self._failure is not None:
+            raise self._failure
+
+    def lot(self, most: int) -> Lot:
+        """At most so many items, and at least one where one can be had."""
+        lot = Lot([], [])
+        size = 0
+        while len(lot.items) + len(lot.refusals) < most:
+            item = self.next()
+            if item is None:
+                break
+            if item.error is not None:
+                lot.refusals.append(refused(item, item.error))
+                continue
+            size += len(_packed(item))
+            if lot.items and size > _BYTES_AT_ONCE:
+                self.give_back([item])
+                break
+            lot.items.append(item)
+        return lot
 
 
 class Child:
@@ -81,13 +148,18 @@ class Child:
         self._to, self._from = cast("IO[bytes]", self._process.stdin), cast("IO[bytes]", self._process.stdout)
         self._reader = threading.Thread(target=self._read, args=(events,), daemon=True)
         self._reader.start()
-        self._send(job)
+        self._send(pickle.dumps(job))
+
+    @property
+    def idle(self) -> bool:
+        """Has it started, and nothing to do?"""
+        return self.ready and not self.items
 
     def give(self, items: Sequence[Item]) -> None:
         """What the process has to do next."""
         self.items.extend(items)
         self.busy_since = time.monotonic()
-        self._send(*[(item.number, item.text, item.var, item.extra) for item in items])
+        self._send(b"".join(map(_packed, items)))
 
     def kill(self) -> None:
         """End the process at once and wait for it; its reader thread ends as well."""
@@ -106,9 +178,9 @@ class Child:
         self._errors.seek(max(0, size - _SHOWN_ERROR_BYTES))
         return status, self._errors.read().decode("utf-8", errors="replace").strip()
 
-    def _send(self, *data: Any) -> None:
+    def _send(self, data: bytes) -> None:
         with suppress(OSError):  # a broken pipe: the end of the process arrives as an event
-            self._to.write(b"".join(map(pickle.dumps, data)))
+            self._to.write(data)
             self._to.flush()
 
     def _read(self, events: SimpleQueue[Event]) -> None:
@@ -131,10 +203,10 @@ class Pool(AbstractContextManager["Pool"]):
     """
 
     def __init__(self, jobs: int, job: Job) -> None:
-        self.job, self._jobs = job, jobs
+        self.job = job
+        self._jobs = jobs
         self._events: SimpleQueue[Event] = SimpleQueue()
         self._children: list[Child] = []
-        self._again: deque[Item] = deque()
         self._losses: Counter[int] = Counter()
         self._failed_starts = 0
         self._pace = 1.0  # seconds for an item, lately
@@ -147,8 +219,8 @@ class Pool(AbstractContextManager["Pool"]):
         """Kill the processes; `run` would start new ones."""
         for child in self._children:
             child.kill()
-        for kept in (self._children, self._again, self._losses):
-            kept.clear()
+        self._children.clear()
+        self._losses.clear()
         self._failed_starts = 0
 
     def pids(self) -> list[int]:
@@ -182,45 +254,57 @@ class Pool(AbstractContextManager["Pool"]):
 
     def _records(self, feed: Iterator[Item | None]) -> Iterator[Record]:
         """The records as they come; the feed gives None where there is no item for the moment."""
+        source = Source(feed)
         while len(self._children) < self._jobs:
             self._children.append(Child(self.job, self._events))
-        exhausted = False
         while True:
-            for child in self._children:
-                given, room = list[Item](), _CHARACTERS_AT_ONCE
-                most = min(_SECONDS_AT_ONCE / self._pace, _ITEMS_AT_ONCE) if child.ready and not child.items else 0
-                while len(given) < most and room > 0:
-                    try:
-                        item = self._again.popleft() if self._again else None if exhausted else next(feed)
-                    except StopIteration:
-                        exhausted = True
-                        break
-                    if item is None:
-                        break
-                    room -= len(item.text)
-                    if item.error is not None:
-                        yield refused(item, item.error)
-                    elif given and room < 0:
-                        self._again.appendleft(item)
-                    else:
-                        given.append(item)
-                if given:
-                    child.give(given)
-            if exhausted and not self._again and not any(child.items for child in self._children):
+            lots = self._hand_out(source)
+            for lot in lots:
+                yield from lot.refusals
+            working = any(child.items for child in self._children)
+            if source.exhausted and not working:
+                source.close()
                 return
-            yield from self._handle(self._wait())
+            events = self._arrived(wait=not lots)
+            late = self._late(events)
+            yield from self._take_up(events, source)
+            yield from self._end(late, source)
 
-    def _wait(self) -> list[Event]:
-        """The events that have arrived, at least one unless a deadline comes first."""
-        deadline = min(map(self._deadline, self._children))
+    def _hand_out(self, source: Source) -> list[Lot]:
+        """Give each process that has nothing to do a lot, as long as there are items; the lots."""
+        lots: list[Lot] = []
+        for child in self._children:
+            if not child.idle:
+                continue
+            lot = source.lot(self._lot_size())
+            if lot.items:
+                child.give(lot.items)
+            if lot.items or lot.refusals:
+                lots.append(lot)
+        return lots
+
+    def _lot_size(self) -> int:
+        """How many items a process gets at once."""
+        in_time = int(min(_SECONDS_AT_ONCE / self._pace, _ITEMS_AT_ONCE))
+        return max(1, in_time)
+
+    def _arrived(self, *, wait: bool) -> list[Event]:
+        """The events that have arrived; with `wait`, at least one unless a deadline comes first."""
         events: list[Event] = []
         try:
-            wait = None if deadline == math.inf else max(0.0, deadline - time.monotonic())
-            events.append(self._events.get(timeout=wait))
+            if wait:
+                events.append(self._events.get(timeout=self._seconds_to_deadline()))
             while True:
                 events.append(self._events.get_nowait())
         except Empty:
             return events
+
+    def _seconds_to_deadline(self) -> float | None:
+        """How long to wait for an event at most; None for as long as it takes."""
+        deadline = min(map(self._deadline, self._children))
+        if deadline == math.inf:
+            return None
+        return max(0.0, deadline - time.monotonic())
 
     def _deadline(self, child: Child) -> float:
         if not child.ready:
@@ -229,51 +313,68 @@ class Pool(AbstractContextManager["Pool"]):
             return math.inf
         return child.busy_since + self.job.timeout + GRACE_SECONDS
 
-    def _handle(self, events: list[Event]) -> Iterator[Record]:
+    def _take_up(self, events: list[Event], source: Source) -> Iterator[Record]:
+        """The records that these events bring.  An item of a stream brings none, nor does a process that was replaced."""
         for event in events:
-            if event is None or event[0] not in self._children:
+            if event is None:
                 continue
             child, record = event
+            if child not in self._children:
+                continue
             if record is None:
-                yield from self._died(child)
-            elif not child.ready:  # with a record of nothing, by which it says so
+                yield from self._died(child, source)
+            elif child.ready:
+                yield self._answered(child, record)
+            else:  # with a record of nothing, by which it says so
                 child.ready = True
                 self._failed_starts = 0
-            else:
-                before, child.busy_since = child.busy_since, time.monotonic()
-                child.items.popleft()
-                self._pace += (child.busy_since - before - self._pace) / 8
-                yield record
-        if not events:
-            now = time.monotonic()
-            for child in [child for child in self._children if self._deadline(child) <= now]:
-                yield self._over_time(child)
 
-    def _over_time(self, child: Child) -> Record:
-        if not child.items:
-            raise KovacicError(f"a worker process hasn't started within {_START_SECONDS:g} s")
-        reason = f"the time limit of {self.job.timeout:g} s is used up (process killed)"
-        item = child.items.popleft()
-        self._replace(child)
-        return stopped(item, reason, time.monotonic() - child.busy_since)
+    def _answered(self, child: Child, record: Record) -> Record:
+        """The record of the first item of a process, which has turned to the next one."""
+        now = time.monotonic()
+        self._pace += (now - child.busy_since - self._pace) / 8
+        child.busy_since = now
+        child.items.popleft()
+        return record
 
-    def _died(self, child: Child) -> Iterator[Record]:
+    def _late(self, events: list[Event]) -> list[Child]:
+        """The processes that are over their time, and from which nothing has come."""
+        now = time.monotonic()
+        heard = [event[0] for event in events if event is not None]
+        return [child for child in self._children if child not in heard and self._deadline(child) <= now]
+
+    def _end(self, late: list[Child], source: Source) -> Iterator[Record]:
+        """Kill processes that are over their time; the records of what they worked on."""
+        for child in late:
+            if not child.items:
+                raise KovacicError(f"a worker process hasn't started within {_START_SECONDS:g} s")
+            item = child.items.popleft()
+            self._replace(child, source)
+            reason = f"the time limit of {self.job.timeout:g} s is used up (process killed)"
+            yield stopped(item, reason, time.monotonic() - child.busy_since)
+
+    def _died(self, child: Child, source: Source) -> Iterator[Record]:
+        """What follows from the end of a process: another one, and a record for its item, or another attempt."""
         status, words = child.last_words()
         if not child.ready:
             self._failed_starts += 1
-            if self._failed_starts >= _ATTEMPTS:
-                raise KovacicError(f"worker processes can't be started: {_cause(status, words)}\n{words}")
+        if self._failed_starts >= _ATTEMPTS:
+            raise KovacicError(f"worker processes can't be started: {_cause(status, words)}\n{words}")
         item = child.items.popleft() if child.items else None
-        self._replace(child)
-        if item is not None:
-            seconds, limit = time.monotonic() - child.busy_since, self._limit_behind(status, words)
-            self._losses[item.number] += 1
-            if limit is not None:
-                yield stopped(item, limit, seconds)
-            elif self._losses[item.number] >= (_ATTEMPTS if status < 0 else 1):  # an exception repeats itself
-                yield refused(item, ProcessLost(_cause(status, words)), seconds)
-            else:
-                self._again.appendleft(item)
+        self._replace(child, source)
+        if item is None:
+            return
+        seconds = time.monotonic() - child.busy_since
+        limit = self._limit_behind(status, words)
+        if limit is not None:
+            yield stopped(item, limit, seconds)
+            return
+        self._losses[item.number] += 1
+        attempts = _ATTEMPTS if status < 0 else 1  # an exception repeats itself
+        if self._losses[item.number] >= attempts:
+            yield refused(item, ProcessLost(_cause(status, words)), seconds)
+        else:
+            source.give_back([item])
 
     def _limit_behind(self, status: int, words: str) -> str | None:
         """Which limit the end of a process means; None for another reason."""
@@ -283,17 +384,23 @@ class Pool(AbstractContextManager["Pool"]):
             return f"the time limit of {self.job.timeout:g} s is used up (process ended)"
         return None
 
-    def _replace(self, child: Child) -> None:
-        """Kill a process, take back what it hasn't begun, and start another one."""
-        self._again.extendleft(reversed(child.items))
+    def _replace(self, child: Child, source: Source) -> None:
+        """Kill a process, give back what it hasn't begun, and start another one."""
+        source.give_back(child.items)
         child.kill()
-        self._children[self._children.index(child)] = Child(self.job, self._events)
+        place = self._children.index(child)
+        self._children[place] = Child(self.job, self._events)
         self.replaced += 1
+
+
+def _packed(item: Item) -> bytes:
+    """An item as it travels to a process."""
+    return pickle.dumps((item.number, item.text, item.var, item.extra))
 
 
 def _read_ahead(items: Iterable[Item], events: SimpleQueue[Event]) -> Iterator[Item | None]:
     """The items of a stream, read by a thread, so that answers come out while it is silent; None where there is none yet."""
-    queue: Queue[Item | InputError | None] = Queue(_AHEAD)
+    queue: Queue[Item | BaseException | None] = Queue(_AHEAD)
 
     def read() -> None:
         end = None
@@ -301,7 +408,7 @@ def _read_ahead(items: Iterable[Item], events: SimpleQueue[Event]) -> Iterator[I
             for item in items:
                 queue.put(item)
                 events.put(None)
-        except InputError as error:  # a broken compressed stream, for example
+        except BaseException as error:  # whatever it is, the caller gets it: a broken compressed stream, a failing disk
             end = error
         queue.put(end)
         events.put(None)
@@ -313,7 +420,7 @@ def _read_ahead(items: Iterable[Item], events: SimpleQueue[Event]) -> Iterator[I
         except Empty:
             yield None
             continue
-        if isinstance(item, InputError):
+        if isinstance(item, BaseException):
             raise item
         if item is None:
             return

@@ -87,11 +87,37 @@ def main(arguments: Sequence[str] | None = None) -> None:
         from click.shell_completion import shell_complete
 
         sys.exit(shell_complete(cli, {}, "kovacic", "_KOVACIC_COMPLETE", instruction))
+    _open_closed_streams()
     warnings.formatwarning = lambda message, *_, **__: f"kovacic: {message}\n"
     for stream in (sys.stdin, sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # files and pipes are UTF-8 on every system
             stream.reconfigure(encoding=None if stream.isatty() else "utf-8", errors="backslashreplace")
     sys.exit(run(arguments))
+
+
+def _open_closed_streams() -> None:
+    """Stand in for the standard streams that the caller has closed (`<&-`, `>&-`, `2>&-`), which Python gives as None.
+
+    Closed input is empty.  Closed output fails when it is written to, as it would in C.  Closed standard error swallows
+    what it gets; left as it is, `print` would put messages among the data, and an output file could get its number.
+    """
+    if sys.stdin is None:
+        _occupy(0, os.O_RDONLY)
+        sys.stdin = open(0, encoding="utf-8")  # noqa: SIM115 - it stays until the end, as do the others
+    if sys.stdout is None:
+        _occupy(1, os.O_RDONLY)
+        sys.stdout = open(1, "w", encoding="utf-8")  # noqa: SIM115
+    if sys.stderr is None:
+        _occupy(2, os.O_WRONLY)
+        sys.stderr = open(2, "w", encoding="utf-8")  # noqa: SIM115
+
+
+def _occupy(descriptor: int, mode: int) -> None:
+    """Let this file descriptor be the null device."""
+    null = os.open(os.devnull, mode)
+    if null != descriptor:
+        os.dup2(null, descriptor)
+        os.close(null)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

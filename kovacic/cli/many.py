@@ -75,8 +75,9 @@ def batch(
     from kovacic.batch.files import answers, count_items, guess_format, read_items
 
     done = _already_answered(output, resume)
-    stream = file is sys.stdin.buffer
-    form = form or (None if stream else guess_format(file.name))
+    standard = file is sys.stdin.buffer
+    stream = standard or not Path(file.name).is_file()  # a pipe has a name as well, and may be silent for long
+    form = form or (None if standard else guess_format(file.name))
     items = read_items(file, form=form, var=var, limits=limits)
     count = None if stream else partial(count_items, file.name, form=form)
     with answers(output) as write:
