@@ -15,7 +15,7 @@ __version__ = "0.2.0"
 #: The public names by their modules; each is imported when it is first used, so that `import kovacic` costs nothing.
 #: (lazy_loader would do the same, but it and what it imports cost 8 ms at every start, ten times as much as this.)
 _NAMES = {
-    "api": ("Verdict", "decide", "solve"),
+    "api": ("Verdict", "decide"),
     "batch": ("solve_many",),
     "decision": ("Status", "Structure"),
     "doubles.tabulate": ("tabulate",),
@@ -36,8 +36,8 @@ _NAMES = {
     ),
     "general_solution": ("dsolve", "solve_riccati"),
     "limits": ("Limits",),
-    "parametric.api": ("conditions",),
-    "solution": ("Solution",),
+    "parameters": ("conditions",),
+    "solution": ("Solution", "solve"),
 }
 _MODULES = {name: f"kovacic.{module}" for module, names in _NAMES.items() for name in names}
 

@@ -1,7 +1,6 @@
 # Written by tests/test_public_names.py.
 from kovacic.api import Verdict as Verdict
 from kovacic.api import decide as decide
-from kovacic.api import solve as solve
 from kovacic.batch import solve_many as solve_many
 from kovacic.decision import Status as Status
 from kovacic.decision import Structure as Structure
@@ -23,7 +22,8 @@ from kovacic.errors import VerificationFailed as VerificationFailed
 from kovacic.general_solution import dsolve as dsolve
 from kovacic.general_solution import solve_riccati as solve_riccati
 from kovacic.limits import Limits as Limits
-from kovacic.parametric.api import conditions as conditions
+from kovacic.parameters import conditions as conditions
 from kovacic.solution import Solution as Solution
+from kovacic.solution import solve as solve
 
 __version__: str

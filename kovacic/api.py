@@ -1,4 +1,4 @@
-"""`solve` and `decide`: from the input through the engine and the kernel to the answer."""
+"""From the input through the engine and the kernel to the answer, or to the case alone (`decide`)."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from kovacic.algebra.rationals import QQ
+from kovacic.answer import Answer
 from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide as decide_structure
 from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
-from kovacic.solution import Solution
 from kovacic.verify import Verification, verify
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class Verdict:
 
 
 @limited
-def solve(
+def find_answer(
     S: Any = None,
     *,
     a: Any = None,
@@ -41,36 +41,8 @@ def solve(
     var: str | None = None,
     assume: Mapping[Any, Any] | None = None,
     limits: Limits = DEFAULT_LIMITS,
-) -> Solution:
-    """Decide whether y'' = S(x) y has Liouvillian (closed-form) solutions, with a certificate; verified.
-
-    S is a rational function over Q: a string ("x^2 + 3"), a SymPy expression, or a pair of coefficient sequences
-    (numerator, denominator), low to high, of integers or fractions.  Or it is a linear equation of second order, whose
-    normal form is decided: a string ("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"), a SymPy `Eq` with a function y(x), or the
-    coefficients of a y'' + b y' + c y = f as keywords.  `var` names the variable; by default it is the only symbol of S, or
-    x.  `limits` bounds the input and the work.  Every other symbol is a parameter, for whose generic values the equation is
-    decided; `assume={"n": "integer"}`, {"n": ">=0"}, or assumptions of SymPy symbols, say more (see `conditions`), and a notice
-    says for which of these values the answer holds; with {"n": 3} the number is put in for the parameter.
-
-    Returns a `Solution`.  Its `status` is UNDECIDED exactly when a limit of the work was reached, or where the assumptions
-    imply a case with an omega that depends on the values of the parameters; `reason` says so.  Raises `InputError` for
-    what isn't such a function, `LimitExceeded` for an input above the limits, or that isn't read in time, and
-    `VerificationFailed` if the answer doesn't pass its own check, which is a defect of this package.
-
-    >>> import kovacic
-    >>> answer = kovacic.solve("x^2 + 3")
-    >>> answer.case
-    1
-    >>> print(answer.omega)
-    (x**2 + 1)/x
-    >>> kovacic.solve("x").status
-    <Status.NONE_EXISTS: 'none'>
-    >>> bessel = kovacic.solve("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0")
-    >>> print(bessel.S, bessel.gauge)
-    -1 -1/(2*x)
-
-    Reference: J. Kovacic, J. Symb. Comp. 2 (1986) 3-43.
-    """
+) -> Answer:
+    """What `kovacic.solve` returns, as data: arguments and exceptions are the same."""
     start = time.perf_counter()
     if (S is None) == (a is None):
         raise InputError("one equation is expected: S, or the coefficients a=, b=, c=, f=")
@@ -87,7 +59,7 @@ def solve(
         said = f"the answer for S = {parsed.S} failed its own check; please report it"
         raise VerificationFailed(f"{said}\n{verification}")
     text, seconds = S.strip() if isinstance(S, str) else parsed.text, time.perf_counter() - start
-    return Solution(
+    return Answer(
         text, parsed.variable, parsed.S, decision, notices, verified, seconds, parsed.equation, assumed, limits, known
     )
 
@@ -98,7 +70,7 @@ def decide(
 ) -> Verdict:
     """The case of y'' = S(x) y alone, without the polynomial of omega and without the second check.
 
-    Arguments and exceptions as for `solve`.
+    Arguments and exceptions as for `kovacic.solve`.
 
     >>> import kovacic
     >>> kovacic.decide("-3/(16*x^2) + 1/x").case

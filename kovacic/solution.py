@@ -1,19 +1,19 @@
-"""The `Solution` that `solve` returns: an answer whose views are computed when they are asked for."""
+"""The `Solution` that `solve` returns: an answer with everything that can be asked of it as methods.
+
+This is the top: the methods call the rooms in which the views are computed, and no room knows of this class.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
-from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Status
-from kovacic.equation import Change, Equation
-from kovacic.errors import LimitExceeded, VerificationFailed, needs
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
-from kovacic.verify import Verification, verify
+from kovacic import derived
+from kovacic.answer import Answer
+from kovacic.api import find_answer
+from kovacic.errors import needs
+from kovacic.limits import DEFAULT_LIMITS, Limits, limited
+from kovacic.verify import Verification
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -26,13 +26,11 @@ if TYPE_CHECKING:
     from kovacic.enclosure.agreement import Agreement
     from kovacic.enclosure.problem import NumericProblem
     from kovacic.galois import EquationGroup, Group
-    from kovacic.parametric.assumptions import Assumptions
     from kovacic.parametric.restriction import GenericConditions
     from kovacic.special.answer import SpecialFunctions
 
 
-@dataclass(frozen=True, repr=False)
-class Solution:
+class Solution(Answer):
     """The answer for one equation y'' = S y: frozen, comparable, picklable, verified.
 
     `text` is the input as it was given, `variable` the name of x, `S` the coefficient, `decision` the claim with its
@@ -44,147 +42,53 @@ class Solution:
     is computed later: where one would take longer, it raises `LimitExceeded`, and the groups are None.
     """
 
-    text: str
-    variable: str
-    S: RatFunc
-    decision: Decision
-    notices: tuple[str, ...] = ()
-    verified: bool = False
-    seconds: float | None = field(default=None, compare=False)
-    equation: Equation | None = None
-    assumed: bool = False
-    limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
-    known: Assumptions | None = field(default=None, compare=False)
+    @classmethod
+    def of(cls, answer: Answer) -> Solution:
+        """The same answer, with its methods."""
+        return cls(**{field.name: getattr(answer, field.name) for field in fields(answer)})
 
     @property
-    def gauge(self) -> RatFunc:
-        """-b/(2a) for an equation a y'' + b y' + c y = f: its solutions are those of y'' = S y times exp(int gauge dx)."""
-        return RatFunc(self.S.field.poly([])) if self.equation is None else self.equation.gauge
-
-    @property
-    def change(self) -> Change | None:
-        """Which function of the user's variable, that of `solutions`, `variable` is; None where they are the same."""
-        return None if self.equation is None else self.equation.change
-
-    @property
-    def status(self) -> Status:
-        """LIOUVILLIAN, NONE_EXISTS, or UNDECIDED (then `reason` says why)."""
-        return self.decision.status
-
-    @property
-    def case(self) -> int | None:
-        """Kovacic's case: 1 (omega rational), 2 (omega of degree 2), 3 (of degree 4, 6 or 12); None without a solution."""
-        return self.decision.case
-
-    @property
-    def reason(self) -> str | None:
-        """Why the equation is undecided; None if it is decided."""
-        return self.decision.undecided
-
-    @property
-    def semi_invariant(self) -> SemiInvariant | None:
-        """The product of the solutions whose logarithmic derivatives are the conjugates of omega."""
-        return self.decision.semi_invariant
-
-    @property
-    def riccati(self) -> RiccatiPolynomial | None:
-        """The monic polynomial of omega = y'/y, minimal over C(x); its `coefficients` run from W^0 to W^n."""
-        return self.decision.riccati
-
-    @property
-    def omega(self) -> RatFunc | None:
-        """omega = y'/y where it is rational (case 1), else None.  The solution is exp(int omega dx)."""
-        riccati = self.decision.riccati
-        return -riccati.coefficients[0] if riccati is not None and riccati.degree == 1 else None
-
-    @property
-    def constants(self) -> Poly | None:
-        """The minimal polynomial of the constant c in omega's coefficients; None if they lie in the field of S."""
-        extension = None if self.decision.riccati is None else self.decision.riccati.P.field
-        return extension.modulus if isinstance(extension, AlgebraicField) and extension != self.S.field else None
-
-    @cached_property
-    @limited
     def group(self) -> Group | None:
         """The differential Galois group of y'' = S y, a subgroup of SL2(C); None if the equation is undecided.
 
         Raises `VerificationFailed` if the kernel doesn't confirm it, which for an answer of `solve` is a defect.
         """
-        from kovacic.galois import group_of
+        return derived.group(self)
 
-        try:
-            group = group_of(self.S, self.decision, self.limits)
-            if group is None or (verification := verify(self.S, self.decision, group.claim)):
-                return group
-        except LimitExceeded:
-            return None
-        raise VerificationFailed(f"the group of S = {self.S} failed its own check\n{verification}")
-
-    @cached_property
-    @limited
+    @property
     def equation_group(self) -> EquationGroup | None:
         """The group of the equation as it was given, in GL2(C); None without `group`, and with a gauge and parameters."""
-        from kovacic.galois import equation_group
-
-        try:
-            return None if self.group is None else equation_group(self.S, self.decision, self.group, self.gauge)
-        except LimitExceeded:
-            return None
+        return derived.equation_group(self)
 
     @property
     def is_algebraic(self) -> bool | None:
         """Are all solutions of the equation as given algebraic functions?  None if that wasn't determined."""
-        return None if self.equation_group is None else self.equation_group.finite
+        return derived.is_algebraic(self)
 
-    @cached_property
-    @limited
+    @property
     def closed_form(self) -> ClosedForm | None:
         """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution."""
-        from kovacic.closed_form.form import solutions
+        return derived.closed_form(self)
 
-        if self.case is None:
-            return None
-        return self._in_given_variable(solutions(self.S, self.decision, self.gauge, self.variable))  # type: ignore[no-any-return]
-
-    def _in_given_variable(self, found: Any) -> Any:
-        """The same with y1 and y2 in the user's variable."""
-        if self.change is None or found.y1 is None:
-            return found
-        from kovacic.reading.exponential import solution_in_terms_of
-
-        y1, y2 = (solution_in_terms_of(self.change, y, self.variable) for y in (found.y1, found.y2))
-        return replace(found, y1=y1, y2=y2)
-
-    @cached_property
+    @property
     def special(self) -> SpecialFunctions:
         """Two solutions in Airy's, Bessel's, Kummer's or Gauss' functions, or which classes of these were searched in vain.
 
         What was assumed about parameters is used: hermite(n, x) for natural n.  An exhausted limit is a value, `stopped`.
         """
-        from kovacic.special.answer import special_functions
+        return derived.special(self)
 
-        symbols = self.known.symbols() if self.known else {}
-        found = special_functions(self.S, self.gauge, self.variable, Budget(self.limits), symbols=symbols)
-        if found and symbols:
-            plain = {symbol: type(symbol)(name) for name, symbol in symbols.items()}
-            found = replace(found, y1=found.y1.xreplace(plain), y2=found.y2.xreplace(plain))
-        return self._in_given_variable(found)  # type: ignore[no-any-return]
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Without `numeric`, which has what doesn't pickle."""
-        return {name: value for name, value in self.__dict__.items() if name != "numeric"}
-
-    @cached_property
+    @property
     def numeric(self) -> NumericProblem:
         """What `at` and its relatives evaluate, read once."""
-        from kovacic.enclosure.problem import read_problem
+        from kovacic.enclosure.problem import problem_of
 
-        return read_problem(self)
+        return problem_of(self)
 
     @property
     def solutions(self) -> tuple[Any, ...]:
         """y1 and y2, SymPy expressions that solve the equation as it was given; empty without a Liouvillian solution."""
-        return () if self.closed_form is None else (self.closed_form.y1, self.closed_form.y2)
+        return derived.solutions(self)
 
     @limited
     def at(self, x: Any, *, x0: Any, **options: Any) -> Any:
@@ -218,11 +122,6 @@ class Solution:
         return agrees_with_group(self, **options)
 
     @property
-    def proof(self) -> tuple[Exclusion, ...]:
-        """What was excluded and by which evidence: everything, for a "no"; all smaller structures, for a "yes"."""
-        return self.decision.exclusions
-
-    @property
     @limited
     def generic_conditions(self) -> GenericConditions:
         """What must not vanish, and which exponents must not be rational, for the answer to hold; empty without parameters."""
@@ -230,14 +129,9 @@ class Solution:
 
         return generic_conditions(self)
 
-    @limited
     def verify(self) -> Verification:
         """Recompute every claim, the group's too, by independent code; true exactly when all of them hold."""
-        from kovacic.galois import group_of
-
-        verification = verify(self.S, self.decision)
-        group = group_of(self.S, self.decision, self.limits) if verification else None
-        return verification if group is None else verify(self.S, self.decision, group.claim)
+        return derived.verification(self)
 
     @limited
     def to_json(self, **options: Any) -> str:
@@ -255,7 +149,7 @@ class Solution:
         """
         from kovacic.views.json import loads
 
-        return replace(loads(text), limits=limits)
+        return cls.of(replace(loads(text), limits=limits))
 
     @limited
     def explain(self, *, format: str = "text", solutions: bool = True) -> str:
@@ -283,9 +177,6 @@ class Solution:
 
         return html_view(self)
 
-    def __bool__(self) -> bool:
-        raise TypeError("ask for .status or .case: an answer is neither true nor false")
-
     def __repr__(self) -> str:
         return f"<Solution of {self}>"
 
@@ -293,3 +184,47 @@ class Solution:
         from kovacic.views.text import one_line
 
         return one_line(self)
+
+
+@limited
+def solve(
+    S: Any = None,
+    *,
+    a: Any = None,
+    b: Any = 0,
+    c: Any = 0,
+    f: Any = 0,
+    var: str | None = None,
+    assume: Mapping[Any, Any] | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+) -> Solution:
+    """Decide whether y'' = S(x) y has Liouvillian (closed-form) solutions, with a certificate; verified.
+
+    S is a rational function over Q: a string ("x^2 + 3"), a SymPy expression, or a pair of coefficient sequences
+    (numerator, denominator), low to high, of integers or fractions.  Or it is a linear equation of second order, whose
+    normal form is decided: a string ("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"), a SymPy `Eq` with a function y(x), or the
+    coefficients of a y'' + b y' + c y = f as keywords.  `var` names the variable; by default it is the only symbol of S, or
+    x.  `limits` bounds the input and the work.  Every other symbol is a parameter, for whose generic values the equation is
+    decided; `assume={"n": "integer"}`, {"n": ">=0"}, or assumptions of SymPy symbols, say more (see `conditions`), and a notice
+    says for which of these values the answer holds; with {"n": 3} the number is put in for the parameter.
+
+    Returns a `Solution`.  Its `status` is UNDECIDED exactly when a limit of the work was reached, or where the assumptions
+    imply a case with an omega that depends on the values of the parameters; `reason` says so.  Raises `InputError` for
+    what isn't such a function, `LimitExceeded` for an input above the limits, or that isn't read in time, and
+    `VerificationFailed` if the answer doesn't pass its own check, which is a defect of this package.
+
+    >>> import kovacic
+    >>> answer = kovacic.solve("x^2 + 3")
+    >>> answer.case
+    1
+    >>> print(answer.omega)
+    (x**2 + 1)/x
+    >>> kovacic.solve("x").status
+    <Status.NONE_EXISTS: 'none'>
+    >>> bessel = kovacic.solve("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0")
+    >>> print(bessel.S, bessel.gauge)
+    -1 -1/(2*x)
+
+    Reference: J. Kovacic, J. Symb. Comp. 2 (1986) 3-43.
+    """
+    return Solution.of(find_answer(S, a=a, b=b, c=c, f=f, var=var, assume=assume, limits=limits))

@@ -255,7 +255,7 @@ def test_a_failed_self_check_is_status_4(monkeypatch: pytest.MonkeyPatch, capsys
     def failing(*arguments: object, **options: object) -> None:
         raise VerificationFailed("the answer failed its own check; please report it")
 
-    monkeypatch.setattr("kovacic.api.solve", failing)
+    monkeypatch.setattr("kovacic.solution.solve", failing)
     assert main.run(["solve", "x", "log(x)"]) == 4
     assert "please report" in capsys.readouterr().err
 

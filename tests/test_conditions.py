@@ -22,7 +22,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
 from kovacic.galois.group import Kind
 from kovacic.limits import Limits
-from kovacic.parametric.answer import Conditions
+from kovacic.parameters import Conditions
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import without_constant_pivots

@@ -10,7 +10,7 @@ import pytest
 import sympy
 
 import kovacic
-from kovacic.parametric.answer import Conditions
+from kovacic.parameters import Conditions
 from kovacic.parametric.check import Sampler
 from tests.parametric_cases import FAMILIES, hypergeometric
 

@@ -20,7 +20,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, limited, watched_seconds
-from kovacic.parametric.answer import Conditions
+from kovacic.parameters import Conditions
 from kovacic.solution import Solution
 from kovacic.verify.local import points
 from kovacic.writing.formula import Formulas

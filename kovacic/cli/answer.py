@@ -108,8 +108,8 @@ def dsolve(equation: str, latex: bool, ics: str, **given: Any) -> int:
     kovacic dsolve "y'' + 4*y' + 4*y = exp(-2*x)/x^2"
     kovacic dsolve "y'' - 2*x*y' + 2*y = 0" --ics "y(0)=0, y'(0)=5"
     """
-    from kovacic.api import solve
     from kovacic.decision import Status
+    from kovacic.solution import solve
 
     try:
         for line in _general(equation, latex=latex, ics=ics, **given):

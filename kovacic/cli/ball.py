@@ -140,7 +140,7 @@ def _answer(place: Rolling, *, latex: bool) -> list[Row]:
         note = f"x = cos u; x1, x2 are the roots of D(x) = {D}, two different ones"
     rows += [("theorem", said, "theorem")]
     if place.ratio.free_symbols:
-        from kovacic.parametric.api import conditions
+        from kovacic.parameters import conditions
 
         lines = [line.strip() for line in str(conditions(place.S, var="x")).splitlines()[1:]]
         rows += [("conditions", lines, "by the engine", "\n".join(lines))]

@@ -121,9 +121,9 @@ def answer_each(
 
     The status is that of the most serious outcome.
     """
-    from kovacic.api import solve
     from kovacic.decision import Status
     from kovacic.errors import KovacicError
+    from kovacic.solution import solve
 
     outcomes = [DECIDED]
     between = ""

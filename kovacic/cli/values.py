@@ -104,7 +104,7 @@ def conditions(
     kovacic conditions "(4*n^2 - 1)/(4*x^2) - 1"
     kovacic conditions --check 200 "x^4 + mu*x"
     """
-    from kovacic.parametric.api import conditions
+    from kovacic.parameters import conditions
 
     answer = conditions(equation, **given)
     report = None if samples is None else answer.check(samples)

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from flint import acb
 
-from kovacic.api import solve
+from kovacic.api import find_answer
 from kovacic.doubles.arrangement import product_form
 from kovacic.doubles.chart import Chart, chart_of
 from kovacic.doubles.product_form import ProductForm
@@ -101,7 +101,7 @@ def lambdify(
     chart = chart_of(solution, start, params, constants=bool(start))
     problem = chart.problem
     if not start and params and problem.S is not None:
-        problem = replace(problem, decision=solve(problem.S, limits=limits or DEFAULT_LIMITS).decision)
+        problem = replace(problem, decision=find_answer(problem.S, limits=limits or DEFAULT_LIMITS).decision)
         chart = replace(chart, problem=problem)
     if not start and (problem.decision is None or problem.decision.semi_invariant is None):
         raise InputError(

@@ -29,13 +29,14 @@ from itertools import combinations
 
 from flint import acb, acb_mat, arb, fmpq
 
+from kovacic import derived
+from kovacic.answer import Answer
 from kovacic.enclosure.monodromy import LocalMonodromy, monodromy
 from kovacic.enclosure.points import working_precision
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.errors import InputError
 from kovacic.galois import Group, Kind
 from kovacic.limits import Limits
-from kovacic.solution import Solution
 
 _LARGEST = 400  # the largest finite group that is enumerated
 _WORDS = 12  # the number of products that are compared with one another
@@ -62,7 +63,7 @@ class Agreement:
 
 
 def agrees_with_group(
-    solution: Solution, group: Group | None = None, *, digits: int = 15, limits: Limits | None = None
+    answer: Answer, group: Group | None = None, *, digits: int = 15, limits: Limits | None = None
 ) -> Agreement:
     """Does the monodromy of y'' = S y agree with `group`, by default with the one that the engine found?
 
@@ -76,13 +77,13 @@ def agrees_with_group(
     >>> agrees_with_group(equation, Group(Kind.CYCLIC, Ground.RESIDUES, 2)).verdict
     False
     """
-    group = solution.group if group is None else group
+    group = derived.group(answer) if group is None else group
     if group is None:
         raise InputError("the equation is undecided, so there is no group to compare with")
-    fuchsian = is_fuchsian(as_problem(solution, constants=True))
+    fuchsian = is_fuchsian(as_problem(answer, constants=True))
     if not fuchsian and group.finite:
         return Agreement(False, "an irregular singular point makes the group infinite")
-    return compare(monodromy(solution, digits=digits, limits=limits), group, fuchsian)
+    return compare(monodromy(answer, digits=digits, limits=limits), group, fuchsian)
 
 
 def is_fuchsian(problem: NumericProblem) -> bool:

@@ -14,12 +14,13 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
+from kovacic.answer import Answer, computed_once
 from kovacic.decision import Decision
 from kovacic.enclosure.constants import Number, as_number
 from kovacic.enclosure.embedded import Embedded
 from kovacic.enclosure.points import Point, working_precision
 from kovacic.enclosure.system import System, Zeros
-from kovacic.equation import EULER, PI, Equation, parameters_of
+from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError
 
 _BITS = 40  # to which constants are known where nothing was asked for
@@ -117,14 +118,21 @@ def as_problem(
         return NumericProblem(equation)
     if params is None and isinstance(equation, str):
         found = _of_text(equation)
+    elif params is None and isinstance(equation, Answer):
+        found = problem_of(equation)
     else:
-        kept = None if params is not None else getattr(equation, "numeric", None)
-        found = kept or read_problem(equation, params)
+        found = read_problem(equation, params)
     if found.right is not None and not forced:
         raise InputError("an equation without a right-hand side is needed here")
     if found.embedded is not None and not constants:
         raise InputError("numerical evaluation needs S with rational coefficients here, and values such as '1/3'")
     return found
+
+
+@computed_once
+def problem_of(answer: Answer) -> NumericProblem:
+    """The numerical problem of an answer, read once."""
+    return read_problem(answer)
 
 
 @lru_cache(maxsize=64)
@@ -134,13 +142,16 @@ def _of_text(equation: str) -> NumericProblem:
 
 def read_problem(equation: object, params: Mapping[str, object] | None = None) -> NumericProblem:
     """As `as_problem`, whatever its coefficients and its right-hand side are."""
-    decision = getattr(equation, "decision", None)  # a `Solution`, which has an S and perhaps an equation
-    found = equation
-    if not isinstance(decision, Decision):
+    found: Answer | Parsed
+    if isinstance(equation, Answer):
+        found = equation
+        decision: Decision | None = equation.decision
+    else:
         from kovacic.reading.read import read_input
 
-        decision, found = None, read_input(equation)
-    S, given = found.S, found.equation  # type: ignore[attr-defined]
+        found = read_input(equation)
+        decision = None
+    S, given = found.S, found.equation
     gauge = None if given is None else given.gauge or None
     names = parameters_of(S.field) if given is None else parameters_of((given.a + given.b + given.c).field)
     if given is not None and given.change is not None:
@@ -150,17 +161,24 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
         names = tuple(sorted({*names, *(symbol.name for symbol in right.h.free_symbols)} - {right.variable}))
     numbers = _values(names, params or {}) if params is not None or names else {}
     values = {name: value.re for name, value in numbers.items() if isinstance(value, Point) and value.is_real()}
-    extended = [f for f in (S, gauge, right and right.f) if f is not None and isinstance(f.field, AlgebraicField)]
-    if extended or len(values) < len(numbers):
+    functions = [S, gauge, None if right is None else right.f]
+    has_algebraic = any(f is not None and isinstance(f.field, AlgebraicField) for f in functions)
+    if has_algebraic or len(values) < len(numbers):
         return NumericProblem(System((), (1,)), right=right, embedded=Embedded(S, gauge, numbers)).at(_BITS)
     if numbers:
-        decision, S = None, _specialised(S, values)  # the decision is that for generic values
-        gauge = gauge and _specialised(gauge, values)
-        if right is not None:
-            parts = {name: _specialised(getattr(right, name), values) for name in "abcf"}
-            at = {name: str(value) for name, value in values.items()}
-            right = replace(right, **parts, h=right.h and right.h.subs(at))
+        # The decision is that for generic values.
+        decision = None
+        S = _specialised(S, values)
+        gauge = None if gauge is None else _specialised(gauge, values)
+        right = None if right is None else _right_at(right, values)
     return NumericProblem(System.of(S), S, decision, gauge, right)
+
+
+def _right_at(right: Equation, values: dict[str, Fraction]) -> Equation:
+    """The equation with a right-hand side at values of its parameters."""
+    a, b, c, f = (_specialised(part, values) for part in (right.a, right.b, right.c, right.f))
+    h = None if right.h is None else right.h.subs({name: str(value) for name, value in values.items()})
+    return replace(right, a=a, b=b, c=c, f=f, h=h)
 
 
 def _values(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, Number]:

@@ -12,7 +12,6 @@ import sympy
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
 from kovacic.algebra.rationals import QQ
-from kovacic.api import solve
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.form import at_edges, solutions
 from kovacic.closed_form.klein import KleinForm
@@ -37,7 +36,7 @@ from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_as
 from kovacic.reading.exponential import solution_in_terms_of
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import function_of
-from kovacic.solution import Solution
+from kovacic.solution import Solution, solve
 from kovacic.special.answer import special_functions
 from kovacic.special.mathieu import mathieu
 from kovacic.views.sentences import SCREEN

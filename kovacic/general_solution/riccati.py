@@ -7,12 +7,11 @@ from typing import Any
 
 import sympy
 
-from kovacic.api import solve
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
-from kovacic.solution import Solution
+from kovacic.solution import Solution, solve
 
 
 @dataclass(frozen=True)

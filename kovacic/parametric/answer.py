@@ -13,7 +13,9 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.answer import Answer
 from kovacic.decision import Status
+from kovacic.derived import verification
 from kovacic.engine.decide import decide
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
@@ -29,7 +31,6 @@ from kovacic.parametric.statements import both
 from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import number_text
-from kovacic.solution import Solution
 from kovacic.writing.formula import Formulas, Math
 
 #: Regions that are written unless all are asked for.
@@ -107,15 +108,15 @@ class Conditions:
         return decision.case
 
     @limited
-    def solve_at(self, values: Mapping[Any, Any]) -> Solution:
+    def answer_at(self, values: Mapping[Any, Any]) -> Answer:
         """The verified answer at a point: the omega that the region makes possible."""
         point = self.point(values)
         try:
             S = point.restricted(self.S)
         except ZeroDivisionError:
             raise InputError(f"S isn't defined at {point}") from None
-        answer = Solution(S.to_str(self.variable), self.variable, S, decide(S, Budget(self.limits)), limits=self.limits)
-        verified = bool(answer.verify())
+        answer = Answer(S.to_str(self.variable), self.variable, S, decide(S, Budget(self.limits)), limits=self.limits)
+        verified = bool(verification(answer))
         if not verified and answer.status is not Status.UNDECIDED:
             raise VerificationFailed(f"the answer for S = {S} failed its own check; please report it")
         return replace(answer, verified=verified)
@@ -195,7 +196,7 @@ class Conditions:
 
         >>> import kovacic
         >>> answer = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
-        >>> kovacic.parametric.answer.Conditions.from_json(answer.to_json()) == answer
+        >>> type(answer).from_json(answer.to_json()) == answer
         True
         """
         import json

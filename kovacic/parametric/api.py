@@ -1,4 +1,4 @@
-"""`kovacic.conditions`: for which values of the parameters is the equation solvable?"""
+"""For which values of the parameters is the equation solvable?  From the input to `Conditions`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide
 from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.limits import Budget, Limits
 from kovacic.parametric.answer import Conditions
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.natural import Natural
@@ -29,35 +29,10 @@ DEFAULT_SECONDS = 30.0
 DEFAULT_DEGREE = 2
 
 
-def conditions(
-    S: Any,
-    *,
-    var: Any = None,
-    assume: Mapping[Any, Any] | None = None,
-    max_degree: int = DEFAULT_DEGREE,
-    limits: Limits = DEFAULT_LIMITS,
+def find_conditions(
+    S: Any, *, var: Any, assume: Mapping[Any, Any] | None, max_degree: int, limits: Limits
 ) -> Conditions:
-    """The exact values of the parameters for which y'' = S(x) y has Liouvillian solutions.
-
-    Every symbol besides the variable is a parameter.  `assume={"n": "positive integer"}` leaves out what then can't happen;
-    its words are integer, even, odd, half-integer, rational, irrational, noninteger, nonzero, positive, negative, nonnegative,
-    nonpositive, and inequalities such as ">=1/2", for a real number; a number, {"n": 3}, is put in for the parameter.
-    Assumptions of SymPy symbols are used in the same way.  Where a condition has a natural number d in it, its determinants
-    are shown up to d = `max_degree`; `determinant` computes others.  A budget that is used up (`limits.seconds`, 30 s where
-    there is none) gives a partial list, and `complete` says that as well.
-
-    Raises `InputError` for what isn't a rational function with parameters, and `LimitExceeded` for an input above the limits.
-
-    >>> import kovacic
-    >>> print(kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1"))
-    y'' = ((-4*x^2 + 4*n^2 - 1)/(4*x^2)) y, parameters n
-      n - 1/2 in Z: case 1
-      otherwise: no Liouvillian solution
-      (proven to be complete; Whittaker's equation in x: Martinet & Ramis)
-
-    References: T. Kimura, Funkcial. Ekvac. 12 (1969); J. Martinet & J.-P. Ramis (1989); A. Duval & M. Loday-Richaud,
-    AAECC 3 (1992).
-    """
+    """What `kovacic.conditions` returns, as data: arguments and exceptions are the same."""
     parsed = read_input(S, var=var, limits=limits, exponentials=True)
     given = parsed
     S, parsed, assume = with_values(S, parsed, assume, limits)

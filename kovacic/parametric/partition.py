@@ -33,8 +33,8 @@ from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.search import Findings, search
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
-from kovacic.solution import Solution
-from kovacic.views.sentences import omega_lines
+from kovacic.writing.formula import Formulas
+from kovacic.writing.omega import omega_lines
 
 #: The degree of an algebraic number up to which its equation is solved, although it is known to be reducible.
 _WRITTEN_OUT = 2
@@ -216,7 +216,7 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
         if not is_algebraic or max(degrees(function)) <= _WRITTEN_OUT:
             decision = decide(S, settings.budget)
             if decision.riccati is not None:
-                lines = omega_lines(Solution(S.to_str(settings.variable), settings.variable, S, decision))
+                lines = omega_lines(decision.riccati, Formulas(settings.variable, S.field))
                 text = " ".join(line.strip() for line in lines)
                 omega = text if len(text) <= _LONGEST_OMEGA else omega
             if field.ground == QQ and not decision.undecided:

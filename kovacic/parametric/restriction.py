@@ -16,7 +16,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import count
 from math import gcd
-from typing import TYPE_CHECKING
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
 from kovacic.algebra.factors import product
@@ -24,15 +23,13 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.answer import Answer
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.limits import Budget
 from kovacic.parametric import functions
 from kovacic.parametric.formulas import shown
 from kovacic.parametric.functions import Point, degrees, element, irreducible_factors, over_parameters, union
 from kovacic.parametric.statements import Statement
-
-if TYPE_CHECKING:
-    from kovacic.solution import Solution
 
 
 def undefined(problem: Problem) -> list[FunctionPoly]:
@@ -68,19 +65,19 @@ class GenericConditions:
         return ", ".join(parts) or "none"
 
 
-def generic_conditions(solution: Solution) -> GenericConditions:
+def generic_conditions(answer: Answer) -> GenericConditions:
     """The conditions of an answer over Q(t); empty where there are no parameters, or where assumptions make it proven.
 
     >>> import kovacic
     >>> print(generic_conditions(kovacic.solve("(m^2*x^4 + (2*n + 1)*m*x^2 + n^2 - n)/x^2")))
     m != 0, n != 0, n - 1 != 0, sqrt(4*n^2 - 4*n + 1) isn't rational
     """
-    field = solution.S.field
-    if field.ground == QQ or solution.assumed:
+    field = answer.S.field
+    if field.ground == QQ or answer.assumed:
         return GenericConditions((), ())
-    problem = analyse(solution.S, Budget())
+    problem = analyse(answer.S, Budget())
     changes = [structure_changes(problem)]
-    riccati, constants = solution.decision.riccati, solution.constants
+    riccati, constants = answer.decision.riccati, answer.constants
     if riccati is not None:
         for polynomial in (riccati.P, riccati.D, *riccati.numerators):
             changes += [irreducible_factors(_down(d)) for d in functions.denominators(polynomial)]

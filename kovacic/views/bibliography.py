@@ -8,12 +8,10 @@ from __future__ import annotations
 import pkgutil
 import re
 from functools import cache
-from typing import TYPE_CHECKING
 
+from kovacic import derived
+from kovacic.answer import Answer, was_computed
 from kovacic.decision import NoInvariant, NoRationalOmega, Structure
-
-if TYPE_CHECKING:
-    from kovacic.solution import Solution
 
 
 class Reference(dict[str, str]):
@@ -39,9 +37,9 @@ def literature() -> dict[str, Reference]:
     return {key: Reference(re.findall(r"(\w+) = \{(.*)\}", body), key=key) for key, body in entries}
 
 
-def references(solution: Solution) -> tuple[Reference, ...]:
+def references(answer: Answer) -> tuple[Reference, ...]:
     """What the answer rests on; for the group as well, if it was asked for."""
-    decision = solution.decision
+    decision = answer.decision
     evidence = [item for exclusion in decision.exclusions for item in exclusion.evidence]
     used = ["Kov86"]
     if decision.invariant is not None or any(isinstance(item, NoInvariant) for item in evidence):
@@ -51,20 +49,20 @@ def references(solution: Solution) -> tuple[Reference, ...]:
         used += ["vH97", "CvH04"]
     elif decision.structure is Structure.REDUCIBLE:
         used.append("HvdP95")
-    if solution.case == 3:
+    if answer.case == 3:
         used.append("SU93")
-    if solution.case == 3 and "closed_form" in solution.__dict__:
+    if answer.case == 3 and was_computed(derived.closed_form, answer):
         used.append("HW05")
-    group = solution.__dict__.get("group")
+    group = derived.group(answer) if was_computed(derived.group, answer) else None
     if group is not None and group.ground.name in ("NOT_TORSION", "INVARIANT", "NO_INVARIANT"):
         used += ["Dav81", "Can87"]
     return tuple(literature()[key] for key in used)
 
 
-def citation(solution: Solution, *, style: str = "text") -> str:
+def citation(answer: Answer, *, style: str = "text") -> str:
     """The references of an answer, one a line, or as BibTeX (`style="bibtex"`)."""
     if style == "text":
-        return "\n".join(reference.text() for reference in references(solution))
+        return "\n".join(reference.text() for reference in references(answer))
     if style == "bibtex":
-        return "\n\n".join(reference.bibtex() for reference in references(solution))
+        return "\n\n".join(reference.bibtex() for reference in references(answer))
     raise ValueError(f"the style is 'text' or 'bibtex', not {style!r}")

@@ -9,9 +9,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from html import escape
 from io import StringIO
-from typing import TYPE_CHECKING
 
+from kovacic import derived
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.answer import Answer
 from kovacic.decision import Exclusion, NecessaryCondition, SemiInvariant, Status, Structure
 from kovacic.engine.places import Problem
 from kovacic.engine.riccati import residue
@@ -19,11 +20,9 @@ from kovacic.errors import KovacicError, LimitExceeded
 from kovacic.views.bibliography import references
 from kovacic.views.sentences import (
     SHORTER,
-    constants_of,
     equation_of,
     formulas_of,
     normal_form,
-    omega_of,
     reason,
     shorter_pair,
     solutions_of,
@@ -31,9 +30,7 @@ from kovacic.views.sentences import (
 from kovacic.views.steps import DEGREE, Steps
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, Paragraph, Table, say
 from kovacic.writing.formula import LARGEST_DEGREE, Math, shortened
-
-if TYPE_CHECKING:
-    from kovacic.solution import Solution
+from kovacic.writing.omega import constants_math, omega_math
 
 _CASES = {
     Structure.REDUCIBLE: "case 1 (the group is reducible, omega rational)",
@@ -52,7 +49,7 @@ _BY_INVARIANT = {
 _PICTURE_SECONDS = 5.0
 
 
-def explain(solution: Solution, *, format: str = "text", solutions: bool = True) -> str:
+def explain(answer: Answer, *, format: str = "text", solutions: bool = True) -> str:
     """The derivation as "text", "markdown", "latex" (the body of a document with amsmath, amssymb and graphicx) or "html".
 
     HTML is one page that needs nothing from elsewhere, in ASCII, with MathML, and with the picture of a real solution where
@@ -62,22 +59,22 @@ def explain(solution: Solution, *, format: str = "text", solutions: bool = True)
     """
     if format not in FORMATS:
         raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {format!r}")
-    blocks = document(solution, solutions=solutions)
+    blocks = document(answer, solutions=solutions)
     if format != "html":
         return FORMATS[format].render(blocks)
-    body = FORMATS[format].render(blocks) + _picture(solution)
-    page = _PAGE.replace("BODY", body, 1).replace("TITLE", escape(shortened(solution.text)), 1)
+    body = FORMATS[format].render(blocks) + _picture(answer)
+    page = _PAGE.replace("BODY", body, 1).replace("TITLE", escape(shortened(answer.text)), 1)
     return page.encode("ascii", "xmlcharrefreplace").decode()
 
 
-def document(solution: Solution, *, solutions: bool = True) -> list[Block]:
+def document(answer: Answer, *, solutions: bool = True) -> list[Block]:
     """The blocks of the explanation."""
-    writer = _Writer(solution)
+    writer = _Writer(answer)
     steps = writer.steps
     parts = [writer.equation, steps.local_data, steps.necessary, steps.search, writer.cases]
-    if solution.status is Status.LIOUVILLIAN:
+    if answer.status is Status.LIOUVILLIAN:
         parts += [writer.certificate, writer.omega]
-    if solutions and solution.status is not Status.UNDECIDED:
+    if solutions and answer.status is not Status.UNDECIDED:
         parts.append(writer.closed_form)
     return [block for part in (*parts, writer.group, writer.check, writer.bibliography) for block in _in_time(part)]
 
@@ -90,15 +87,16 @@ def _in_time(part: Callable[[], Iterator[Block]]) -> Iterator[Block]:
         yield say(f"The rest of this part isn't written out: {limit}.")
 
 
-def _picture(solution: Solution) -> str:
+def _picture(answer: Answer) -> str:
     """A real solution between and beside the singular points on the axis; nothing where its values can't be had."""
     from kovacic.enclosure.problem import as_problem
+    from kovacic.views.plot import plot
 
     try:
-        singular = [float(z.re) for z in as_problem(solution).singular_points(64) if z.is_real()]
+        singular = [float(z.re) for z in as_problem(answer).singular_points(64) if z.is_real()]
         low, high = round(min(singular, default=-3)) - 2, round(max(singular, default=3)) + 2
-        seconds = min(solution.limits.seconds or _PICTURE_SECONDS, _PICTURE_SECONDS)
-        figure = solution.plot(low, high, digits=6, points=240, limits=replace(solution.limits, seconds=seconds))
+        seconds = min(answer.limits.seconds or _PICTURE_SECONDS, _PICTURE_SECONDS)
+        figure = plot(answer, low, high, digits=6, points=240, limits=replace(answer.limits, seconds=seconds))
     except (KovacicError, ImportError):
         return ""
     figure.savefig(drawing := StringIO(), format="svg", metadata={"Date": None})
@@ -108,28 +106,28 @@ def _picture(solution: Solution) -> str:
 
 
 class _Writer:
-    def __init__(self, solution: Solution) -> None:
-        self.solution = solution
-        self.formulas = formulas_of(solution)
-        self.steps = Steps(solution)
+    def __init__(self, answer: Answer) -> None:
+        self.answer = answer
+        self.formulas = formulas_of(answer)
+        self.steps = Steps(answer)
 
     def equation(self) -> Iterator[Block]:
-        solution, equation = self.solution, self.solution.equation
+        answer, equation = self.answer, self.answer.equation
         yield Heading("The equation", 1)
-        if solution.change is not None:
-            yield say(f"{solution.text}, which becomes an equation with rational coefficients:")
-        yield Formula(equation_of(solution))
+        if answer.change is not None:
+            yield say(f"{answer.text}, which becomes an equation with rational coefficients:")
+        yield Formula(equation_of(answer))
         if equation is not None and not equation.is_normal_form:
             y, v = equation.unknown, "v" if equation.unknown != "v" else "u"
-            substitution = f"{y} = {v} exp(int gamma d{solution.variable}), gamma = -b/(2a)"
+            substitution = f"{y} = {v} exp(int gamma d{answer.variable}), gamma = -b/(2a)"
             yield say(f"With {substitution}, it becomes its normal form for {v}:")
-            yield Formula(self.formulas.named("gamma", r"\gamma", solution.gauge))
-            yield Formula(normal_form(solution, v))
+            yield Formula(self.formulas.named("gamma", r"\gamma", answer.gauge))
+            yield Formula(normal_form(answer, v))
             yield say(f"In the following y stands for {v}.")
-        yield from (say(f"Note: {notice}.") for notice in solution.notices)
+        yield from (say(f"Note: {notice}.") for notice in answer.notices)
 
     def cases(self) -> Iterator[Block]:
-        decision = self.solution.decision
+        decision = self.answer.decision
         yield Heading("The proof of this program")
         yield from map(self._exclusion, decision.exclusions)
         if decision.undecided is not None:
@@ -154,7 +152,7 @@ class _Writer:
         return say(*sentence, ".")
 
     def certificate(self) -> Iterator[Block]:
-        form, case = self.solution.semi_invariant, self.solution.case
+        form, case = self.answer.semi_invariant, self.answer.case
         assert form is not None
         assert case is not None
         yield Heading("theta and P of the answer")
@@ -163,37 +161,39 @@ class _Writer:
         yield Formula(self.formulas.named("P", "P", form.P))
 
     def omega(self) -> Iterator[Block]:
-        solution, omega, constants = self.solution, omega_of(self.solution), constants_of(self.solution)
-        assert solution.riccati is not None
+        riccati = self.answer.riccati
+        assert riccati is not None
+        omega = omega_math(riccati, self.formulas)
+        constants = constants_math(riccati, self.formulas)
         yield Heading("omega = y'/y")
-        if solution.omega is not None:
+        if riccati.degree == 1:
             yield Formula(Math("omega = theta + P'/P", r"\omega = \theta + \frac{P'}{P}").equals(omega))
         else:
             yield say(
-                f"omega is a root {self.formulas.unknown} of the irreducible polynomial of degree {solution.riccati.degree}"
+                f"omega is a root {self.formulas.unknown} of the irreducible polynomial of degree {riccati.degree}"
             )
             yield Formula(omega)
         if constants is not None:
             yield say(f"where {self.formulas.symbol} is a root of ", constants, ".")
 
     def closed_form(self) -> Iterator[Block]:
-        semi = self.solution.semi_invariant
+        semi = self.answer.semi_invariant
         if semi is not None and semi.P.degree > LARGEST_DEGREE:
             yield say(f"The solutions aren't written out: P has the degree {semi.P.degree}.")
             return
-        found, notes = solutions_of(self.solution)
+        found, notes = solutions_of(self.answer)
         if found:
-            yield Heading("Solutions" if self.solution.case else "Solutions in special functions")
+            yield Heading("Solutions" if self.answer.case else "Solutions in special functions")
         for name, y in found:
             long = shortened(y.text) != y.text
             yield Formula(name.equals(Math(shortened(y.text), r"\text{(too long to print)}") if long else y))
-        if shorter := shorter_pair(self.solution, max((len(y.text) for _, y in found), default=0)):
+        if shorter := shorter_pair(self.answer, max((len(y.text) for _, y in found), default=0)):
             yield say(SHORTER.capitalize())
             yield from (Formula(name.equals(y)) for name, y in shorter)
         yield from (say(f"Note: {note}.") for note in notes)
 
     def group(self) -> Iterator[Block]:
-        group = self.solution.group
+        group = derived.group(self.answer)
         if group is None:
             return
         order = ""
@@ -205,14 +205,14 @@ class _Writer:
         name = Math(group.name, group.latex)
         about = f", {group.description}{order}: {group.ground.value}."
         yield say("The differential Galois group of the normal form is ", name, about)
-        given = self.solution.equation_group if self.solution.gauge else None
+        given = derived.equation_group(self.answer) if self.answer.gauge else None
         if given is not None:
             yield say(f"The group of the equation as given, in GL2: {given.name}.")
-        if self.solution.is_algebraic:
+        if derived.is_algebraic(self.answer):
             yield say("All solutions are algebraic functions.")
 
     def check(self) -> Iterator[Block]:
-        checks = self.solution.verify().checks
+        checks = derived.verification(self.answer).checks
         if checks:
             yield Heading("Checks by independent code")
             rows = [[check.statement, "passed" if check.passed else "FAILED"] for check in checks]
@@ -220,7 +220,7 @@ class _Writer:
 
     def bibliography(self) -> Iterator[Block]:
         yield Heading("References")
-        yield from (say(reference.text()) for reference in references(self.solution))
+        yield from (say(reference.text()) for reference in references(self.answer))
 
 
 def rational_form(form: SemiInvariant, problem: Problem) -> RatFunc:

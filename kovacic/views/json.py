@@ -20,10 +20,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from kovacic import derived
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.answer import Answer
 from kovacic.decision import (
     Decision,
     Evidence,
@@ -44,7 +46,6 @@ from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.expression import parse_with
 from kovacic.reading.read import read_input
-from kovacic.solution import Solution
 from kovacic.verify import verify
 from kovacic.writing.formula import Formulas
 
@@ -59,12 +60,12 @@ _ARITHMETIC = Arithmetic(_LIMITS)
 _RADICAL = "radical_"
 
 
-def dumps(solution: Solution, *, full: bool = False) -> str:
+def dumps(answer: Answer, *, full: bool = False) -> str:
     """The answer as one line of JSON; `full` adds the group and two solutions in closed form, which have to be computed."""
-    return json.dumps(to_dict(solution, full=full), ensure_ascii=False)
+    return json.dumps(to_dict(answer, full=full), ensure_ascii=False)
 
 
-def loads(text: str | Mapping[str, Any]) -> Solution:
+def loads(text: str | Mapping[str, Any]) -> Answer:
     """The answer that `dumps` wrote (or the object that the line stands for), verified again: its `verified` isn't believed.
 
     Raises `InputError` where the text isn't an answer in schema 1, or contradicts itself.
@@ -83,17 +84,17 @@ def loads(text: str | Mapping[str, Any]) -> Solution:
         raise InputError(f"this isn't an answer in schema {SCHEMA}: {type(error).__name__}: {error}") from error
 
 
-def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
+def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
     """The answer as a JSON object of plain Python values."""
-    names = Formulas(solution.variable, solution.S.field)
-    decision = solution.decision
-    riccati, form, constants = decision.riccati, decision.semi_invariant, solution.constants
-    conditions = solution.generic_conditions if parameters_of(solution.S.field) else None
+    names = Formulas(answer.variable, answer.S.field)
+    decision = answer.decision
+    riccati, form, constants = decision.riccati, decision.semi_invariant, answer.constants
+    conditions = _generic_conditions(answer)
     data = {
         "schema": SCHEMA,
-        "input": solution.text,
-        "variable": solution.variable,
-        "S": names.python(solution.S),
+        "input": answer.text,
+        "variable": answer.variable,
+        "S": names.python(answer.S),
         "status": decision.status.value,
         "case": decision.case,
         "riccati": riccati
@@ -103,11 +104,9 @@ def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
             "coefficients": [names.python(coefficient) for coefficient in riccati.coefficients],
         },
         "constants": constants and {"symbol": names.symbol, "minimal_polynomial": constants.to_str(names.symbol)},
-        "field": _field(solution.S.field),
-        "generic_conditions": None
-        if conditions is None
-        else {key: [*map(str, f)] for key, f in vars(conditions).items()},
-        "verified": solution.verified,
+        "field": _field(answer.S.field),
+        "generic_conditions": conditions,
+        "verified": answer.verified,
         "proof": {
             "structure": decision.structure and decision.structure.value,
             "semi_invariant": form and riccati and {**_form(form, names), "D": names.python(riccati.D)},
@@ -122,35 +121,44 @@ def to_dict(solution: Solution, *, full: bool = False) -> dict[str, Any]:
             ],
             "undecided": decision.undecided,
         },
-        "notices": list(solution.notices),
-        "seconds": solution.seconds,
-        "equation": solution.equation and _equation(solution.equation),
-        "gauge": solution.equation and names.python(solution.gauge),
+        "notices": list(answer.notices),
+        "seconds": answer.seconds,
+        "equation": answer.equation and _equation(answer.equation),
+        "gauge": answer.equation and names.python(answer.gauge),
     }
     if full:
-        data["group"] = group_dict(solution)
+        data["group"] = group_dict(answer)
         try:
-            data["solutions"] = [str(y) for y in solution.solutions] or None
+            data["solutions"] = [str(y) for y in derived.solutions(answer)] or None
         except LimitExceeded:
             data["solutions"] = None
     return data
 
 
-def group_dict(solution: Solution) -> dict[str, Any] | None:
+def _generic_conditions(answer: Answer) -> dict[str, Any] | None:
+    """What generic parameters have to satisfy; None without parameters."""
+    if not parameters_of(answer.S.field):
+        return None
+    from kovacic.parametric.restriction import generic_conditions
+
+    return {key: [*map(str, functions)] for key, functions in vars(generic_conditions(answer)).items()}
+
+
+def group_dict(answer: Answer) -> dict[str, Any] | None:
     """The name, the order (None if infinite), the finiteness, family and evidence of the group; None if undecided."""
-    group = solution.group
+    group = derived.group(answer)
     if group is None:
         return None
     data: dict[str, Any] = {"name": group.name, "order": group.order, "finite": group.finite}
     data |= {"family": group.kind.value, "n": group.n}
     if group.form is not None and group.kind is Kind.DICYCLIC:
-        data["form"] = _form(group.form, Formulas(solution.variable, solution.S.field))
+        data["form"] = _form(group.form, Formulas(answer.variable, answer.S.field))
     if group.orders:
         data["orders"] = [{"prime": p, "order": k} for p, k in group.orders]
     return data
 
 
-def from_dict(data: Mapping[str, Any]) -> Solution:
+def from_dict(data: Mapping[str, Any]) -> Answer:
     """The answer that `to_dict` made into an object: S and the equation are read from the input, as `solve` reads them."""
     variable, text, proof = _typed(data, "variable", str), _typed(data, "input", str), data["proof"]
     given = ((data.get("equation") or {}).get("change") or {}).get("variable", variable)
@@ -186,7 +194,7 @@ def from_dict(data: Mapping[str, Any]) -> Solution:
         raise ValueError("status or case contradict the proof")
     notices = tuple(_typed({"notice": notice}, "notice", str) for notice in data["notices"])
     seconds = _typed(data, "seconds", int, float, type(None))
-    return Solution(text, variable, S, decision, notices, bool(verify(S, decision)), seconds, equation)
+    return Answer(text, variable, S, decision, notices, bool(verify(S, decision)), seconds, equation)
 
 
 def _check_equation(data: Mapping[str, Any], equation: Equation | None, variable: str) -> None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sympy import Add, Symbol
 
+from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.engine.paper import Family, Search, SingularPoint, in_sympy, is_natural, search
 from kovacic.engine.places import Kind, Place, analyse
@@ -15,9 +16,6 @@ from kovacic.limits import Budget
 from kovacic.views.sentences import formulas_of
 from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, say
 from kovacic.writing.formula import Math, latex_text, of_sympy
-
-if TYPE_CHECKING:
-    from kovacic.solution import Solution
 
 # d from the chosen exponents, and what P has to satisfy, by case [Kovacic 1986, sections 3.1, 4.1 and 5.1].
 DEGREE = {
@@ -55,18 +53,18 @@ _KINDS = {
 class Steps:
     """The steps for one answer."""
 
-    def __init__(self, solution: Solution) -> None:
-        self.solution = solution
-        self.problem = analyse(solution.S, Budget())
+    def __init__(self, answer: Answer) -> None:
+        self.answer = answer
+        self.problem = analyse(answer.S, Budget())
         self.places = self.problem.places
-        self.formulas = formulas_of(solution)
+        self.formulas = formulas_of(answer)
 
     def local_data(self) -> Iterator[Block]:
         yield Heading("Poles and local exponents")
-        x = latex_text(self.solution.variable)
+        x = latex_text(self.answer.variable)
         yield say(
             "At a pole of order 2, ",
-            Math(f"S = b/({self.solution.variable} - c)^2 + ...", rf"S = \frac{{b}}{{({x} - c)^2}} + \dots"),
+            Math(f"S = b/({self.answer.variable} - c)^2 + ...", rf"S = \frac{{b}}{{({x} - c)^2}} + \dots"),
             ", the local solutions have exponents with the difference ",
             Math("Delta = sqrt(1 + 4b)", r"\Delta = \sqrt{1 + 4 b}"),
             ". Conjugate poles stay together.",
@@ -87,7 +85,7 @@ class Steps:
         return [
             self.formulas.place(str(place)),
             "1" if place.at_infinity else str(place.degree),
-            str(place.order) if not place.at_infinity else str(-self.solution.S.degree) if self.solution.S else "-",
+            str(place.order) if not place.at_infinity else str(-self.answer.S.degree) if self.answer.S else "-",
             _KINDS[place.kind] + (", logarithm" if place.logarithm else ""),
             delta,
         ]
@@ -105,14 +103,14 @@ class Steps:
 
     def search(self) -> Iterator[Block]:
         """The paper's steps 1 to 3, case by case, up to the one that succeeds."""
-        solution = self.solution
-        degree = 12 if solution.riccati is None else solution.riccati.degree
-        for m in () if solution.status is Status.UNDECIDED else (1, 2, 4, 6, 12):
+        answer = self.answer
+        degree = 12 if answer.riccati is None else answer.riccati.degree
+        for m in () if answer.status is Status.UNDECIDED else (1, 2, 4, 6, 12):
             case = min(m, 3)
             if m > degree or not _allowed(case, self.places):
                 continue
             yield Heading(f"Case {case}{f', n = {m}' if case == 3 else ''}: Kovacic's steps")
-            found = search(self.problem, solution.variable, m)
+            found = search(self.problem, answer.variable, m)
             if found is None:
                 domain = "exponents that are square roots, constants of low degree, and poles of low order"
                 yield say(f"The steps are written out for {domain} only.")
@@ -171,7 +169,7 @@ class Steps:
 
     @property
     def x(self) -> Any:
-        return Symbol(self.solution.variable)
+        return Symbol(self.answer.variable)
 
     def _shown(self, value: Any) -> Math:
         return of_sympy(in_sympy(value, self.x))
@@ -179,7 +177,7 @@ class Steps:
     def _point(self, point: SingularPoint) -> Math:
         if point.at is None:
             return self.formulas.place(str(point.place))
-        return Math(self.solution.variable, latex_text(self.solution.variable)).equals(self._shown(point.at))
+        return Math(self.answer.variable, latex_text(self.answer.variable)).equals(self._shown(point.at))
 
     def _outcome(self, family: Family) -> str | Math:
         if family.P is not None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from kovacic import derived
+from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded, VerificationFailed
@@ -15,7 +17,6 @@ from kovacic.views.sentences import (
     equation_of,
     formulas_of,
     normal_form,
-    omega_lines,
     omega_of,
     reason,
     shorter_pair,
@@ -23,9 +24,9 @@ from kovacic.views.sentences import (
     unknown_of,
 )
 from kovacic.writing.formula import LARGEST_DEGREE, Math, caret, shortened
+from kovacic.writing.omega import omega_lines
 
 if TYPE_CHECKING:
-    from kovacic.solution import Solution
     from kovacic.writing.document import Sentence
 
 #: Longer formulas aren't typeset in a table.
@@ -36,68 +37,71 @@ _NEITHER = {Status.NONE_EXISTS: "no Liouvillian solution", Status.UNDECIDED: "un
 Style = Callable[[str, str], str]
 
 
-def one_line(solution: Solution) -> str:
+def one_line(answer: Answer) -> str:
     """The equation and the verdict."""
-    equation = _given(solution)
-    if solution.status is Status.UNDECIDED:
-        return f"{equation}: undecided, {solution.reason}"
-    if solution.status is Status.NONE_EXISTS:
+    equation = _given(answer)
+    if answer.status is Status.UNDECIDED:
+        return f"{equation}: undecided, {answer.reason}"
+    if answer.status is Status.NONE_EXISTS:
         return f"{equation}: no Liouvillian solution"
-    if solution.omega is not None:
-        return f"{equation}: case {solution.case}, omega = {omega_of(solution).text}"
-    degree = "" if solution.riccati is None else f", omega {_of_degree(solution.riccati.degree)}"
-    return f"{equation}: case {solution.case}{degree}"
+    if answer.omega is not None:
+        return f"{equation}: case {answer.case}, omega = {omega_of(answer).text}"
+    degree = "" if answer.riccati is None else f", omega {_of_degree(answer.riccati.degree)}"
+    return f"{equation}: case {answer.case}{degree}"
 
 
 def render(
-    solution: Solution, *, style: Style = lambda text, role: text, solutions: Iterable[str] | None = None
+    answer: Answer, *, style: Style = lambda text, role: text, solutions: Iterable[str] | None = None
 ) -> Iterator[str]:
     """The lines: the equation, the verdict in words, the `solutions`, omega or its polynomial, and how it was verified.
 
     Each is given out as soon as it is known: the verdict doesn't wait for solutions, which may take a while.
     """
-    yield style(_given(solution), "title")
-    for notice in solution.notices:
+    yield style(_given(answer), "title")
+    for notice in answer.notices:
         yield style(f"  note: {notice}", "faint")
-    if solution.equation is not None and not solution.equation.is_normal_form:
-        yield f"  normal form: {normal_form(solution).text}, of which the following speaks"
-    if solution.status is Status.UNDECIDED:
-        yield f"  {style('undecided', 'unsure')}: {solution.reason}"
-    elif solution.status is Status.NONE_EXISTS:
+    if answer.equation is not None and not answer.equation.is_normal_form:
+        yield f"  normal form: {normal_form(answer).text}, of which the following speaks"
+    if answer.status is Status.UNDECIDED:
+        yield f"  {style('undecided', 'unsure')}: {answer.reason}"
+    elif answer.status is Status.NONE_EXISTS:
         yield f"  {style('no Liouvillian solution exists', 'bad')}: the Galois group is SL2(C)"
     else:
-        assert solution.riccati is not None
-        case = f"case {solution.case}, omega = y'/y is {_of_degree(solution.riccati.degree)}"
+        assert answer.riccati is not None
+        case = f"case {answer.case}, omega = y'/y is {_of_degree(answer.riccati.degree)}"
         yield f"  {style('Liouvillian solutions exist', 'good')}: {case}"
     yield from (f"  {line}" for line in solutions or ())
-    yield from (f"  {line}" for line in omega_lines(solution))
-    if solution.omega is not None and solutions is None:
-        yield f"  y = exp(integral of omega d{solution.variable})"
-    yield from (f"  {line}" for line in _exclusions(solution))
-    if parameters_of(solution.S.field) and solution.status is not Status.UNDECIDED and not solution.assumed:
-        yield f"  for generic parameters: {solution.generic_conditions}"
+    if answer.riccati is not None:
+        yield from (f"  {line}" for line in omega_lines(answer.riccati, formulas_of(answer)))
+    if answer.omega is not None and solutions is None:
+        yield f"  y = exp(integral of omega d{answer.variable})"
+    yield from (f"  {line}" for line in _exclusions(answer))
+    if parameters_of(answer.S.field) and answer.status is not Status.UNDECIDED and not answer.assumed:
+        from kovacic.parametric.restriction import generic_conditions
+
+        yield f"  for generic parameters: {generic_conditions(answer)}"
         yield "  (kovacic conditions tells for which values more is solvable)"
-    if solution.verified:
-        if solution.status is Status.LIOUVILLIAN:
+    if answer.verified:
+        if answer.status is Status.LIOUVILLIAN:
             how = "omega' + omega^2 = S holds exactly"
-            how += ", and what was excluded was recomputed by independent code" if solution.proof else ""
-        elif solution.status is Status.NONE_EXISTS:
+            how += ", and what was excluded was recomputed by independent code" if answer.proof else ""
+        elif answer.status is Status.NONE_EXISTS:
             how = "every exclusion was recomputed by independent code"
         else:
             how = "what was excluded before the limit was recomputed by independent code"
         yield f"  {style('verified', 'good')}: {how}"
-    elif solution.status is not Status.UNDECIDED:
+    elif answer.status is not Status.UNDECIDED:
         yield f"  {style('not verified', 'bad')}"
 
 
-def _given(solution: Solution) -> str:
+def _given(answer: Answer) -> str:
     """The equation in the user's variable: a notice says what becomes of one that isn't rational in it."""
-    if solution.change is None:
-        return equation_of(solution).text
-    return solution.text if is_equation(solution.text) else f"y'' = ({solution.text}) y"
+    if answer.change is None:
+        return equation_of(answer).text
+    return answer.text if is_equation(answer.text) else f"y'' = ({answer.text}) y"
 
 
-def solution_lines(solution: Solution) -> Iterator[str]:
+def solution_lines(answer: Answer) -> Iterator[str]:
     """y1 and y2, of the homogeneous equation as it was given, with notes; why not, where a limit was reached.
 
     Where there is no Liouvillian solution, the two in special functions, or which were looked for; for an undecided equation
@@ -105,54 +109,54 @@ def solution_lines(solution: Solution) -> Iterator[str]:
     functions, if one is known.  Products of powers and exponentials are written without SymPy, everything else as
     `Solution.closed_form` has it.
     """
-    if solution.status is Status.UNDECIDED and not (solution.known and solution.special):
+    if answer.status is Status.UNDECIDED and not (answer.known and derived.special(answer)):
         return
-    semi = solution.semi_invariant
+    semi = answer.semi_invariant
     if semi is not None and semi.P.degree > LARGEST_DEGREE:
         yield f"the solutions aren't written out here: polynomials of degree {semi.P.degree} (--json --full has them)"
         return
     try:
-        pair, notes = _written(solution)
+        pair, notes = _written(answer)
     except LimitExceeded as limit:
         yield f"the solutions weren't written out: {limit}"
         return
-    if solution.case is None:
-        yield "in special functions, verified:" if pair else str(solution.special)
-    name = unknown_of(solution)
+    if answer.case is None:
+        yield "in special functions, verified:" if pair else str(derived.special(answer))
+    name = unknown_of(answer)
     for k, text in enumerate(pair, start=1):
-        yield f"{'  ' if solution.case is None else ''}{name}{k} = {shortened(text)}"
-    if shorter := shorter_pair(solution, max(map(len, pair), default=0)):
+        yield f"{'  ' if answer.case is None else ''}{name}{k} = {shortened(text)}"
+    if shorter := shorter_pair(answer, max(map(len, pair), default=0)):
         yield SHORTER
         yield from (f"  {name.equals(y).text}" for name, y in shorter)
     yield from (f"note: {note}" for note in notes)
 
 
-def _written(solution: Solution) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    if solution.case is None:
-        return tuple(caret(str(y)) for y in solution.special), ()
+def _written(answer: Answer) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    if answer.case is None:
+        return tuple(caret(str(y)) for y in derived.special(answer)), ()
     from kovacic.closed_form.check import is_exact_solution
     from kovacic.closed_form.primitive import OpenPrimitive
     from kovacic.closed_form.structure import Triangular, build
     from kovacic.views.products import written  # not for a verdict, which takes a fifth less time without it
 
-    with Budget(solution.limits).watched():
-        structure = build(solution.S, solution.decision, solution.gauge)
-        pair = None if solution.change else written(structure, solution.variable)
-        if pair is not None and not is_exact_solution(structure, solution.S, solution.gauge):
-            raise VerificationFailed(f"a closed form for S = {solution.S} failed its check; please report the equation")
+    with Budget(answer.limits).watched():
+        structure = build(answer.S, answer.decision, answer.gauge)
+        pair = None if answer.change else written(structure, answer.variable)
+        if pair is not None and not is_exact_solution(structure, answer.S, answer.gauge):
+            raise VerificationFailed(f"a closed form for S = {answer.S} failed its check; please report the equation")
     if pair is not None:
         primitive = structure.primitive if isinstance(structure, Triangular) else None
         return pair, (f"integral left because {primitive.reason}",) if isinstance(primitive, OpenPrimitive) else ()
-    form = solution.closed_form
+    form = derived.closed_form(answer)
     assert form is not None
     return tuple(caret(str(y)) for y in form), form.notes
 
 
-def _exclusions(solution: Solution) -> list[str]:
+def _exclusions(answer: Answer) -> list[str]:
     """One line for each structure that was excluded, equal reasons of the finite groups together."""
-    formulas = formulas_of(solution)
+    formulas = formulas_of(answer)
     grouped: dict[tuple[int, str], list[str]] = {}
-    for exclusion in solution.proof:
+    for exclusion in answer.proof:
         parts = (reason(evidence, formulas) for evidence in exclusion.evidence)
         reasons = "; ".join("".join(p.text if isinstance(p, Math) else p for p in sentence) for sentence in parts)
         grouped.setdefault((exclusion.structure.case, reasons), []).append(exclusion.structure.value)
@@ -167,52 +171,53 @@ def _of_degree(degree: int) -> str:
     return "rational" if degree == 1 else f"algebraic of degree {degree}"
 
 
-def latex_view(solution: Solution) -> str:
+def latex_view(answer: Answer) -> str:
     """The equation and, where there are some, two solutions, between dollar signs."""
-    found, _ = _in_time(solution)
-    shorter = shorter_pair(solution, max((len(value.text) for _, value in found), default=0))
-    lines = [equation_of(solution).latex, *(name.equals(value).latex for name, value in found)]
+    found, _ = _in_time(answer)
+    shorter = shorter_pair(answer, max((len(value.text) for _, value in found), default=0))
+    lines = [equation_of(answer).latex, *(name.equals(value).latex for name, value in found)]
     if shorter:
         lines += [rf"\text{{{SHORTER}}}", *(name.equals(value).latex for name, value in shorter)]
-    if solution.status in _NEITHER:
-        lines.insert(1, rf"\text{{{_NEITHER[solution.status]}}}")
+    if answer.status in _NEITHER:
+        lines.insert(1, rf"\text{{{_NEITHER[answer.status]}}}")
     body = r" \\ ".join(lines)
     return rf"$\displaystyle \begin{{array}}{{l}} {body} \end{{array}}$"
 
 
-def html_view(solution: Solution) -> str:
+def html_view(answer: Answer) -> str:
     """A table of status, case, group, solutions and check."""
     from kovacic.writing.document import FORMATS, Table
 
-    rows: list[tuple[Sentence, Sentence]] = [("equation", equation_of(solution))]
-    if solution.equation is not None and not solution.equation.is_normal_form:
-        rows.append(("normal form", normal_form(solution)))
+    rows: list[tuple[Sentence, Sentence]] = [("equation", equation_of(answer))]
+    if answer.equation is not None and not answer.equation.is_normal_form:
+        rows.append(("normal form", normal_form(answer)))
     words = {
         Status.LIOUVILLIAN: "Liouvillian solutions exist",
         Status.NONE_EXISTS: "no Liouvillian solution exists",
-        Status.UNDECIDED: f"undecided: {solution.reason}",
+        Status.UNDECIDED: f"undecided: {answer.reason}",
     }
-    rows.append(("status", words[solution.status]))
-    if solution.case is not None:
-        rows.append(("case", str(solution.case)))
-    if (group := solution.group) is not None:
+    rows.append(("status", words[answer.status]))
+    if answer.case is not None:
+        rows.append(("case", str(answer.case)))
+    if (group := derived.group(answer)) is not None:
         rows.append(("Galois group", [Math(group.name, group.latex), f", {group.description}"]))
-    found, notes = _in_time(solution)
+    found, notes = _in_time(answer)
     for name, value in found:
         rows.append((name, value if len(value.latex) <= _LONGEST else Math(value.text[:_LONGEST], "")))
     rows += [("note", note) for note in notes]
-    if found and solution.closed_form is not None:
-        rows.append(("solutions checked", solution.closed_form.checked))
-    rows.append(("verified", "yes, by independent code" if solution.verified else "no"))
-    rows += [("note", notice) for notice in solution.notices]
+    form = derived.closed_form(answer) if found else None
+    if form is not None:
+        rows.append(("solutions checked", form.checked))
+    rows.append(("verified", "yes, by independent code" if answer.verified else "no"))
+    rows += [("note", notice) for notice in answer.notices]
     return FORMATS["html"].render([Table((), rows)]).rstrip()
 
 
-def _in_time(solution: Solution) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
+def _in_time(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
     """Two solutions and notes; where a limit was reached, that."""
-    if solution.status is Status.UNDECIDED:
+    if answer.status is Status.UNDECIDED:
         return [], ()
     try:
-        return solutions_of(solution)
+        return solutions_of(answer)
     except LimitExceeded as limit:
         return [], (f"the solutions weren't written out: {limit}",)

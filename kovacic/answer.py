@@ -1,0 +1,142 @@
+"""The frozen data of an answer: what was given, what was decided, and what can be read off from that.
+
+What has to be computed from an answer (its group, closed forms, ...) is a function in the room where it is computed, and
+`computed_once` keeps what it finds: so whatever shows or uses an answer takes this data, and depends on nothing above it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
+from functools import wraps
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Status
+from kovacic.equation import Change, Equation
+from kovacic.limits import DEFAULT_LIMITS, Limits
+
+if TYPE_CHECKING:
+    from kovacic.parametric.assumptions import Assumptions
+
+_T = TypeVar("_T")
+
+
+@dataclass(frozen=True, repr=False)
+class Answer:
+    """The answer for one equation y'' = S y: frozen, comparable, picklable.
+
+    `text` is the input as it was given, `variable` the name of x, `S` the coefficient, `decision` the claim with its
+    certificates, `notices` what was noticed when the input was read (decimals taken as exact fractions, ...), `verified`
+    whether the decision has passed its independent check (always, for what `solve` returns), and `seconds` the wall-clock
+    time of reading, deciding and verifying together (None for an answer that was read from JSON).  `equation` is the
+    equation of which y'' = S y is the normal form, None where S itself was given.  `assumed` says that a theorem proves the
+    answer for all values with the assumptions, `known`, but for those that the notices name.  `limits` hold for each view that
+    is computed later: where one would take longer, it raises `LimitExceeded`, and the groups are None.
+    """
+
+    text: str
+    variable: str
+    S: RatFunc
+    decision: Decision
+    notices: tuple[str, ...] = ()
+    verified: bool = False
+    seconds: float | None = field(default=None, compare=False)
+    equation: Equation | None = None
+    assumed: bool = False
+    limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
+    known: Assumptions | None = field(default=None, compare=False)
+
+    @property
+    def gauge(self) -> RatFunc:
+        """-b/(2a) for an equation a y'' + b y' + c y = f: its solutions are those of y'' = S y times exp(int gauge dx)."""
+        return RatFunc(self.S.field.poly([])) if self.equation is None else self.equation.gauge
+
+    @property
+    def change(self) -> Change | None:
+        """Which function of the user's variable, that of `solutions`, `variable` is; None where they are the same."""
+        return None if self.equation is None else self.equation.change
+
+    @property
+    def status(self) -> Status:
+        """LIOUVILLIAN, NONE_EXISTS, or UNDECIDED (then `reason` says why)."""
+        return self.decision.status
+
+    @property
+    def case(self) -> int | None:
+        """Kovacic's case: 1 (omega rational), 2 (omega of degree 2), 3 (of degree 4, 6 or 12); None without a solution."""
+        return self.decision.case
+
+    @property
+    def reason(self) -> str | None:
+        """Why the equation is undecided; None if it is decided."""
+        return self.decision.undecided
+
+    @property
+    def semi_invariant(self) -> SemiInvariant | None:
+        """The product of the solutions whose logarithmic derivatives are the conjugates of omega."""
+        return self.decision.semi_invariant
+
+    @property
+    def riccati(self) -> RiccatiPolynomial | None:
+        """The monic polynomial of omega = y'/y, minimal over C(x); its `coefficients` run from W^0 to W^n."""
+        return self.decision.riccati
+
+    @property
+    def omega(self) -> RatFunc | None:
+        """omega = y'/y where it is rational (case 1), else None.  The solution is exp(int omega dx)."""
+        riccati = self.decision.riccati
+        return -riccati.coefficients[0] if riccati is not None and riccati.degree == 1 else None
+
+    @property
+    def constants(self) -> Poly | None:
+        """The minimal polynomial of the constant c in omega's coefficients; None if they lie in the field of S."""
+        extension = None if self.decision.riccati is None else self.decision.riccati.P.field
+        return extension.modulus if isinstance(extension, AlgebraicField) and extension != self.S.field else None
+
+    @property
+    def proof(self) -> tuple[Exclusion, ...]:
+        """What was excluded and by which evidence: everything, for a "no"; all smaller structures, for a "yes"."""
+        return self.decision.exclusions
+
+    def __bool__(self) -> bool:
+        raise TypeError("ask for .status or .case: an answer is neither true nor false")
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The data alone: what was computed from it may not pickle, and is computed again when it is asked for."""
+        return {f.name: self.__dict__[f.name] for f in fields(self)}
+
+
+def computed_once(compute: Callable[[Any], _T]) -> Callable[[Any], _T]:
+    """The function of an answer; what it finds is kept with the answer.
+
+    >>> @computed_once
+    ... def squared(answer):
+    ...     return answer.S * answer.S
+    >>> import kovacic
+    >>> answer = kovacic.solve("x")
+    >>> was_computed(squared, answer), print(squared(answer)), was_computed(squared, answer)
+    x**2
+    (False, None, True)
+    """
+    name = _name(compute)
+
+    @wraps(compute)
+    def found(answer: Answer) -> _T:
+        kept = answer.__dict__
+        if name not in kept:
+            kept[name] = compute(answer)
+        return kept[name]  # type: ignore[no-any-return]
+
+    return found
+
+
+def was_computed(function: Callable[[Any], Any], answer: Answer) -> bool:
+    """Has this function of `computed_once` been asked for?"""
+    return _name(function) in answer.__dict__
+
+
+def _name(function: Callable[..., Any]) -> str:
+    return f"{function.__module__}.{function.__qualname__}"

@@ -1,0 +1,115 @@
+"""What follows from an answer by the theory: the groups, two solutions, the check.  Computed when asked for, once each.
+
+Each room is imported when its function is called: a verdict alone needs neither SymPy nor the group.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from kovacic.answer import Answer, computed_once
+from kovacic.errors import LimitExceeded, VerificationFailed
+from kovacic.limits import Budget, limited
+from kovacic.verify import Verification, verify
+
+if TYPE_CHECKING:
+    from kovacic.closed_form.form import ClosedForm
+    from kovacic.galois import EquationGroup, Group
+    from kovacic.special.answer import SpecialFunctions
+
+
+@computed_once
+@limited
+def group(answer: Answer) -> Group | None:
+    """The differential Galois group of y'' = S y, a subgroup of SL2(C); None if the equation is undecided.
+
+    Raises `VerificationFailed` if the kernel doesn't confirm it, which for an answer of `solve` is a defect.
+    """
+    from kovacic.galois import group_of
+
+    try:
+        found = group_of(answer.S, answer.decision, answer.limits)
+        if found is None:
+            return None
+        verification = verify(answer.S, answer.decision, found.claim)
+    except LimitExceeded:
+        return None
+    if not verification:
+        raise VerificationFailed(f"the group of S = {answer.S} failed its own check\n{verification}")
+    return found
+
+
+@computed_once
+@limited
+def equation_group(answer: Answer) -> EquationGroup | None:
+    """The group of the equation as it was given, in GL2(C); None without `group`, and with a gauge and parameters."""
+    from kovacic.galois import equation_group
+
+    of_normal_form = group(answer)
+    if of_normal_form is None:
+        return None
+    try:
+        return equation_group(answer.S, answer.decision, of_normal_form, answer.gauge)
+    except LimitExceeded:
+        return None
+
+
+def is_algebraic(answer: Answer) -> bool | None:
+    """Are all solutions of the equation as given algebraic functions?  None if that wasn't determined."""
+    found = equation_group(answer)
+    return None if found is None else found.finite
+
+
+@computed_once
+@limited
+def closed_form(answer: Answer) -> ClosedForm | None:
+    """Two independent solutions as SymPy expressions, how they were checked, and notes; None without a solution."""
+    if answer.case is None:
+        return None
+    from kovacic.closed_form.form import solutions
+
+    found = solutions(answer.S, answer.decision, answer.gauge, answer.variable)
+    return _in_given_variable(answer, found)  # type: ignore[no-any-return]
+
+
+def solutions(answer: Answer) -> tuple[Any, ...]:
+    """y1 and y2 of the closed form; empty without a Liouvillian solution."""
+    form = closed_form(answer)
+    return () if form is None else (form.y1, form.y2)
+
+
+@computed_once
+def special(answer: Answer) -> SpecialFunctions:
+    """Two solutions in Airy's, Bessel's, Kummer's or Gauss' functions, or which classes of these were searched in vain.
+
+    What was assumed about parameters is used: hermite(n, x) for natural n.  An exhausted limit is a value, `stopped`.
+    """
+    from kovacic.special.answer import special_functions
+
+    symbols = answer.known.symbols() if answer.known else {}
+    found = special_functions(answer.S, answer.gauge, answer.variable, Budget(answer.limits), symbols=symbols)
+    if found and symbols:
+        plain = {symbol: type(symbol)(name) for name, symbol in symbols.items()}
+        found = replace(found, y1=found.y1.xreplace(plain), y2=found.y2.xreplace(plain))
+    return _in_given_variable(answer, found)  # type: ignore[no-any-return]
+
+
+def _in_given_variable(answer: Answer, found: Any) -> Any:
+    """The same with y1 and y2 in the user's variable."""
+    if answer.change is None or found.y1 is None:
+        return found
+    from kovacic.reading.exponential import solution_in_terms_of
+
+    y1, y2 = (solution_in_terms_of(answer.change, y, answer.variable) for y in (found.y1, found.y2))
+    return replace(found, y1=y1, y2=y2)
+
+
+@limited
+def verification(answer: Answer) -> Verification:
+    """Every claim recomputed, the group's too, by independent code; true exactly when all of them hold."""
+    from kovacic.galois import group_of
+
+    of_decision = verify(answer.S, answer.decision)
+    found = group_of(answer.S, answer.decision, answer.limits) if of_decision else None
+    return of_decision if found is None else verify(answer.S, answer.decision, found.claim)

@@ -1,0 +1,55 @@
+"""omega = y'/y as it is written: the function, or the polynomial of which it is a root, and that of its constants."""
+
+from __future__ import annotations
+
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.decision import RiccatiPolynomial
+from kovacic.writing.formula import Formulas, Math, caret, latex_text
+
+
+def omega_math(riccati: RiccatiPolynomial, formulas: Formulas) -> Math:
+    """omega where it is rational, else the equation of which it is a root, a term a line."""
+    if riccati.degree == 1:
+        return formulas.math(-riccati.coefficients[0])
+    w = formulas.unknown
+    m = riccati.degree
+    texts = [f"{w}^{m}"]
+    latex = [f"{w}^{{{m}}}"]
+    for k in range(m - 1, -1, -1):
+        coefficient = riccati.coefficients[k]
+        if not coefficient:
+            continue
+        sign = "-" if formulas.math(coefficient).text.removeprefix("(").startswith("-") else "+"
+        positive = coefficient if sign == "+" else -coefficient
+        if k == 0:
+            value = formulas.factor(positive)
+        elif k == 1:
+            value = formulas.times(positive, w, w)
+        else:
+            value = formulas.times(positive, f"{w}^{k}", f"{w}^{{{k}}}")
+        texts.append(f"{sign} {value.text}")
+        latex.append(f"{sign} {value.latex}")
+    lines = r" \\ \displaystyle ".join(latex)
+    return Math("\n".join(texts) + " = 0", rf"\begin{{array}}{{l}} \displaystyle {lines} = 0 \end{{array}}")
+
+
+def constants_math(riccati: RiccatiPolynomial, formulas: Formulas) -> Math | None:
+    """The polynomial of which omega's constant is a root."""
+    field = riccati.P.field
+    if not isinstance(field, AlgebraicField) or field == formulas.field:
+        return None
+    text = field.modulus.to_str(formulas.symbol)
+    return Math(caret(text), latex_text(text))
+
+
+def omega_lines(riccati: RiccatiPolynomial, formulas: Formulas) -> list[str]:
+    """omega, or its polynomial, as text."""
+    omega = omega_math(riccati, formulas)
+    if riccati.degree == 1:
+        lines = [f"omega = {omega.text}"]
+    else:
+        lines = [f"omega is a root {formulas.unknown} of", *(f"    {line}" for line in omega.text.splitlines())]
+    constants = constants_math(riccati, formulas)
+    if constants is not None:
+        lines.append(f"where {formulas.symbol} is any root of {constants.text}")
+    return lines
