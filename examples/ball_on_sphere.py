@@ -15,14 +15,15 @@ import sympy as sp
 
 import kovacic
 from kovacic.ball import Ball, InRoots, closed_form
-from kovacic.ball.equations import R1, R, derivation, equations_of, holds
+from kovacic.ball.derivation import holds
+from kovacic.ball.paper import R1, R, equations_of, explained
 from kovacic.ball.theorems import theorem
 
 
 def main() -> int:
     started = time.perf_counter()
     print("Woronetz's equations for the ball, all parameters symbolic:")
-    print(derivation())
+    print(explained())
     derived = holds()
     print(f"derived from the definitions: {derived}\n")
 

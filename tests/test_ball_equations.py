@@ -8,21 +8,12 @@ from fractions import Fraction
 
 import pytest
 import sympy as sp
+from _pytest.mark import ParameterSet
 
-from kovacic.ball import Ball, U, X, equations
+from kovacic.ball import Ball, U, X, derivation
 from kovacic.ball.ball import A1, A3, InRoots, exact, x1, x2
-from kovacic.ball.equations import (
-    PRINTED,
-    R1,
-    D,
-    R,
-    a,
-    derivation,
-    equations_of,
-    holds,
-    m,
-    vanishes,
-)
+from kovacic.ball.derivation import holds, vanishes
+from kovacic.ball.paper import PRINTED, R1, D, R, a, equations_of, explained, m
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.writing.breaking import breakable
 
@@ -38,47 +29,50 @@ def with_roots() -> Ball:
 
 
 def test_every_printed_formula_is_derived_for_all_parameters():
-    """c_ij, n, sigma, tau, K_ij, (7), a1, a2, b1, b2, (11), (12), (13)."""
     found = holds()
-    assert set(found) >= {"c_ij", "n", "sigma, tau", "K_ij", "(7)", "a1, a2, b1, b2", "(11)", "(12)", "(13)"}
+    assert set(found) == {
+        *(
+            "(8)",
+            "(1)",
+            "(2)",
+            "(4)",
+            "(5)",
+            "(3), (6)",
+            "(7)",
+            "(9)",
+            "(10)",
+            "a1, a2, b1, b2",
+            "(11)",
+            "(12)",
+            "(13)",
+        ),
+    }
     assert all(found.values()), found
 
 
-def residuals_of(group: str) -> list[sp.Expr]:
-    """The later groups aren't derived."""
-    return next(parts for name, parts in equations.residuals() if name == group)
+def planted() -> list[ParameterSet]:
+    """Every formula; all but the last of each of the paper's numbers in the long tests."""
+    cases = []
+    for key, formulas in PRINTED.items():
+        *others, last = formulas
+        cases += [pytest.param(key, name, marks=pytest.mark.long) for name in others]
+        cases.append(pytest.param(key, last))
+    return cases
 
 
-@pytest.mark.parametrize(
-    ("name", "group"),
-    [
-        ("c21", "c_ij"),
-        ("n", "n"),
-        ("tau", "sigma, tau"),
-        ("K23", "K_ij"),
-        ("dTheta_u'/dt", "(7)"),
-        ("dTheta_v'/dt", "(7)"),
-        ("dTheta_n/dt", "(7)"),
-        ("a1", "a1, a2, b1, b2"),
-        ("b1", "a1, a2, b1, b2"),
-        ("d2", "(11)"),
-        ("d1", "(12)"),
-    ],
-)
-def test_a_wrong_sign_in_a_printed_formula_is_seen(name, group, monkeypatch):
-    monkeypatch.setitem(equations.PRINTED, name, -PRINTED[name])
-    assert not all(map(vanishes, residuals_of(group)))
-
-
-def test_a_wrong_coefficient_is_seen(monkeypatch):
-    monkeypatch.setitem(equations.PRINTED, "D", PRINTED["D"] + A1 * A3)
-    assert not all(map(vanishes, residuals_of("a1, a2, b1, b2")))
+@pytest.mark.parametrize(("key", "name"), planted())
+def test_a_wrong_term_in_a_printed_formula_is_seen(key, name, monkeypatch):
+    """Every formula enters into the derivation: with the ball's mass added, one of the groups fails."""
+    monkeypatch.setitem(PRINTED[key], name, PRINTED[key][name] + m)
+    assert not all(vanishes(part) for _, parts in derivation.residuals() for part in parts)
 
 
 def test_the_equations_of_a_ball_are_the_printed_ones():
     """`BallOnSphere` has its own short formulas; here for all parameters."""
     sphere = GENERAL.on_sphere(R1)
-    printed = {name: value.subs(D, PRINTED["D"]) for name, value in PRINTED.items()}
+    printed = {
+        name: value.subs(D, PRINTED["system"]["D"]) for name, value in (PRINTED["system"] | PRINTED["11"]).items()
+    }
     for name, part in zip(SYSTEM, sphere.linear_system, strict=True):
         assert vanishes(part.subs(X, sp.cos(U)) * sp.sin(U) - printed[name]), name
     d1, d2 = (part.subs(X, sp.cos(U)) for part in sphere.second_order)
@@ -133,14 +127,18 @@ def test_equations_print():
     assert found["12"].text == "omega_3''(x) + (3*x/(x**2 + 4))*omega_3'(x) + (3/(4*(x**2 + 4)))*omega_3(x) = 0"
     assert found["13"].latex.startswith("y'' = ")
     assert found["11"].latex.endswith("= 0")
-    text, latex = derivation(), derivation(format="latex")
-    for name in PRINTED:
-        assert f"  {name} = " in text
-    assert r"\dot{u}_{1} = c_{11}\dot{u} + c_{12}\dot{v}" in latex
+
+
+def test_the_paper_s_equations_print_under_its_numbers():
+    text, latex, markdown = explained(), explained(format="latex"), explained(format="markdown")
+    for number in range(1, 14):
+        assert f"({number}) " in text
+        assert f"({number}) " in markdown
+    for formulas in PRINTED.values():
+        for name in formulas:
+            assert f"  {name} = " in text
+    assert r"R_{1}\dot{u}_{1} = -\sqrt{E}\,\dot{u}\sin\theta + \sqrt{G}\,\dot{v}\cos\theta" in latex
     assert latex.count("{") == latex.count("}")
-    for label in ("(7) The equations of motion", "(11) Without n", "(12) In the roots", "(13) The normal form"):
-        assert label in text
-        assert label in derivation(format="markdown")
 
 
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex isn't installed")
@@ -152,7 +150,7 @@ def test_latex_compiles_without_overfull_boxes(tmp_path):
     formulas = [math.latex for place in (*places, InRoots(sp.Symbol("r"))) for math in equations_of(place).values()]
     body = "".join(rf"\hangindent2em$\displaystyle {breakable(latex)}$\par" for latex in formulas)
     head = "\\documentclass{article}\\usepackage{amsmath,amssymb,graphicx}\\begin{document}\n"
-    (tmp_path / "a.tex").write_text(f"{head}{derivation(format='latex')}{body}\\end{{document}}\n", encoding="utf-8")
+    (tmp_path / "a.tex").write_text(f"{head}{explained(format='latex')}{body}\\end{{document}}\n", encoding="utf-8")
     command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "a.tex"]
     done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
     assert b"Overfull" not in done.stdout

@@ -15,7 +15,8 @@ from kovacic.algebra.rationals import QQ
 from kovacic.ball import Ball, X, closed_form, theorems
 from kovacic.ball import ball as rolling
 from kovacic.ball.ball import A1, A3, InRoots, x1, x2
-from kovacic.ball.equations import R1, R, a, m, vanishes
+from kovacic.ball.derivation import vanishes
+from kovacic.ball.paper import R1, R, a, m
 from kovacic.ball.theorems import (
     C1,
     C2,

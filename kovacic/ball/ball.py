@@ -6,8 +6,8 @@ inertia; R1 radius of the fixed sphere (negative: the ball rolls inside; infinit
 In x = cos u equation (11) becomes (12), and (13) is its normal form [Kuleshov & Katasonova 2018]:
     (12)  D omega_3'' + (3/2) D' omega_3' + l (1 - rho^2) omega_3 = 0,
     (13)  y'' = S y,  y = D^(3/4) omega_3,  S = l (1 + 2 rho^2)/(2 D) - 3 D'^2/(16 D^2).
-`kovacic.ball.equations` derives them.  D > 0 on [-1, 1] for a possible body, since it is at least A1 A3: the singular points
-x1, x2 of (12), the roots of D, are never reached.
+`kovacic.ball.paper` has them all, `kovacic.ball.derivation` derives them.  D > 0 on [-1, 1] for a possible body, since it is
+at least A1 A3: the singular points x1, x2 of (12), the roots of D, are never reached.
 """
 
 from __future__ import annotations

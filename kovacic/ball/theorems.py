@@ -76,11 +76,12 @@ def closed_form(place: Rolling) -> ClosedForm:
     """The general solution of the linear equations of a ball, degenerate balls and the plane included; real on [-1, 1].
 
     Sines and cosines where l is known to be negative; undecided symbolic parameters are taken as generic.  For an integer
-    N = 2 rho, omega is written in the roots x1, x2.  On the plane y is what belongs to omega_3.
+    N = 2 rho, omega is written in the roots x1, x2.  On the plane y is what belongs to omega_3.  y = D^(3/4) omega_3, but for
+    a constant D (A1 = A3 and a = 0), where its power is left out: y = omega_3 = c1 + c2 x.
 
     >>> from kovacic.ball.ball import Ball
     >>> closed_form(Ball(m=1, R=1, a=0, A1="1/4", A3="1/4").on_sphere(2)).n
-    4*c2
+    -c2/2
     >>> print(closed_form(InRoots(sp.Rational(3, 2))).omega_3)
     c1*(4*x - x1 - 3*x2)/sqrt(x - x2) + c2*(4*x - 3*x1 - x2)/sqrt(x - x1)
     """
@@ -92,9 +93,15 @@ def closed_form(place: Rolling) -> ClosedForm:
     omega: tuple[sp.Expr, ...] = (share + rho * scale / root, share - rho * scale / root)
     if rho == 0:
         eta, n, omega = C1, C2 - half * C1 / root, (share,)
+    elif lead == 0 and half == 0:
+        # D is constant, and its powers go into c1 and c2, of y too.
+        n = -C2 * D / rho / place.weight
+        return ClosedForm((share, 1 / X), C1 + C2 * X, C1 + C2 * X, n)
     elif lead == 0:
-        eta = C1 - rho * C2 * (X / root if half == 0 else root / half)
-        n, omega = C2 - half * eta / root, (share, 1 / X if half == 0 else 3 * share)
+        # D' is constant; zeta = -(half/rho) c2 by the first of the two equations.
+        eta = C1 + C2 * root
+        n = -half * (C2 / rho + eta / root)
+        omega = (share, 3 * share)
     elif sign(square) == 0:
         # D = l (x - x1)^2, so d xi = dx/(sqrt(l) (x - x1)); here l > 0, since a double root needs A3 > A1.
         linear = X + half.subs(X, 0) / lead
@@ -132,7 +139,8 @@ def _in_roots(place: InRoots) -> ClosedForm:
     if N.is_Integer and N <= _EXPANDED:
         # The parts of (sqrt(alpha) + sqrt(beta))^N with an even and with an odd power of sqrt(beta), over sqrt(alpha beta).
         omega, omega_3, spin = [], sp.Integer(0), sp.Integer(0)
-        for i, c in enumerate((C1, C2)):
+        constants = (C2, C1) if N == 1 else (C1, C2)  # the paper names them in this way
+        for i, c in enumerate(constants):
             k = (N - i) // 2
             P = sp.expand(sum(sp.binomial(N, 2 * j + i) * alpha ** (k - j) * beta**j for j in range(k + 1)))
             e1, e2 = (-sp.Rational(i == N % 2, 2), -sp.Rational(i == 0, 2))
@@ -142,6 +150,8 @@ def _in_roots(place: InRoots) -> ClosedForm:
             omega_3 += c * P * power
             spin += c * power * sp.expand((alpha * beta * sp.diff(P, X) + rate * P) / rho)
         y = sum(part * quarter**3 for part in omega_3.args)
+        if N == 1:
+            omega.reverse()
         return ClosedForm(tuple(omega), y, omega_3, spin / -place.weight)
     r, s, steps = sp.sqrt(alpha) + sp.sqrt(beta), sp.sqrt(alpha) - sp.sqrt(beta), (rho / root, -rho / root)
     if N.is_Integer:  # r' = r/(2 root), s' = -s/(2 root): these two are rational

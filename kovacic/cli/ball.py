@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
+from click.core import ParameterSource
 
 from kovacic.cli.options import PICTURE
 
@@ -40,7 +41,11 @@ Row: TypeAlias = tuple[Any, ...]
 @click.option("--sphere", metavar="R1", help='The sphere\'s radius (negative: rolling inside), or "plane".')
 @click.option("--json", "as_json", is_flag=True, help="One JSON object.")
 @click.option("--latex", is_flag=True, help="The equations in LaTeX, for $...$.")
-@click.option("--explain", is_flag=True, help="The derivation of the equations from the definitions, checked.")
+@click.option(
+    "--explain",
+    is_flag=True,
+    help="The equations (1) to (13) of the paper, derived; alone: for every ball.",
+)
 @click.option("--simulate", is_flag=True, help="The motion: turning points, period, path, reaction.")
 @click.option("--gravity", metavar="g", help="Strength of the force that presses the ball to the surface (default: 1).")
 @click.option("--potential", metavar="V", help='A potential in place of gravity, such as "3/2*cos(u) + sin(u)^2".')
@@ -62,11 +67,15 @@ def ball(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
     the normal at the contact; a uniform field over a sphere isn't one.
 
     \b
+    kovacic ball --explain
     kovacic ball --ratio 3/2
     kovacic ball --mass 1 --radius 2 --offset 1/5 --A1 1 --A3 4/3 --sphere 3
     kovacic ball --mass 1 --radius 1 --sphere 3 --explain
     kovacic ball --mass 1 --radius 1 --sphere 3 --simulate --plot path.png
     """
+    if explain and not _names_a_ball():
+        _explain_all(as_json=as_json, latex=latex)
+        return
     place = _place(**given)
     rows = _answer(place, latex=latex)
     data = {key: value for key, value, *_ in rows}
@@ -75,18 +84,46 @@ def ball(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
         data["motion"] = {key: value for key, value, *_ in motion}
         rows += motion
     if explain:
-        from kovacic.ball.equations import derivation, holds
-
-        text, derived = derivation(format="latex" if latex else "text"), all(holds().values())
-        data = {"derivation": text, "derived": derived, **data}
+        derivation = _derivation(latex=latex)
+        data = {**derivation, **data}
         if not as_json:
-            click.echo(f"{text}\nDerived from the definitions: {derived}\n")
+            _print_derivation(derivation)
+            click.echo()
     if as_json:
         click.echo(json.dumps(data, ensure_ascii=False, default=str))
     for _, value, *shown in () if as_json else rows:
         label, template = (*shown, "{}", "")[:2] if shown and value is not None else ("", "")
         for k, line in enumerate(template.format(value).splitlines()):
             click.echo(f"{f'{label}:' if label and not k else '':<20}{line}")
+
+
+def _names_a_ball() -> bool:
+    """Does an option say which ball, or ask for its motion?  The others only say how the answer is shown."""
+    context = click.get_current_context()
+    given = {name for name in context.params if context.get_parameter_source(name) is ParameterSource.COMMANDLINE}
+    return not given <= {"explain", "latex", "as_json"}
+
+
+def _derivation(*, latex: bool) -> dict[str, Any]:
+    """The paper's equations for all balls, as text or LaTeX, and whether each of them was derived."""
+    from kovacic.ball.derivation import holds
+    from kovacic.ball.paper import explained
+
+    text = explained(format="latex" if latex else "text")
+    return {"derivation": text, "derived": all(holds().values())}
+
+
+def _print_derivation(derivation: dict[str, Any]) -> None:
+    click.echo(f"{derivation['derivation']}\nDerived from the definitions: {derivation['derived']}")
+
+
+def _explain_all(*, as_json: bool, latex: bool) -> None:
+    """`kovacic ball --explain` alone: what holds for every ball."""
+    derivation = _derivation(latex=latex)
+    if as_json:
+        click.echo(json.dumps(derivation, ensure_ascii=False))
+    else:
+        _print_derivation(derivation)
 
 
 def _place(*, ratio: str | None, mass: str | None, radius: str | None, sphere: str | None, **given: Any) -> Rolling:
@@ -115,7 +152,7 @@ def _answer(place: Rolling, *, latex: bool) -> list[Row]:
     """What the theorems and the engine say, and the closed form, which is checked."""
     import kovacic
     from kovacic.ball import BallOnSphere, closed_form
-    from kovacic.ball.equations import equations_of
+    from kovacic.ball.paper import equations_of
     from kovacic.ball.theorems import theorem
     from kovacic.writing.breaking import breakable
 
