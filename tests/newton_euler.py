@@ -70,13 +70,15 @@ def integrate(body, start, times, *, method="DOP853", rtol=3e-14, atol=1e-14):
     u, du, dv, n, v, theta, u1, v1 = start
     kappa, c, s = 1 / body.R1, np.cos, np.sin
     if kappa:
-        out = np.array([s(u1) * c(v1), s(u1) * s(v1), c(u1)])
+        radial = np.array([s(u1) * c(v1), s(u1) * s(v1), c(u1)])
         south, east = np.array([c(u1) * c(v1), c(u1) * s(v1), -s(u1)]), np.array([-s(v1), c(v1), 0.0])
-        contact = body.R1 * out
+        contact = abs(body.R1) * radial
+        out = np.sign(kappa) * radial  # from the contact point to the ball's centre
     else:
         south, east, out = np.eye(3)
         contact = np.array([u1, v1, 0.0])
-    e_u, e_v = c(theta) * east - s(theta) * south, c(theta) * south + s(theta) * east
+    e_u = c(theta) * east - s(theta) * south
+    e_v = np.cross(-out, e_u)
     # The axis, and the meridian v = 0: at the angle u from the contact point's direction -out, and v back about the axis.
     k = -s(u) * e_u - c(u) * out
     radial = c(u) * e_u - s(u) * out

@@ -244,7 +244,7 @@ def N_at_most_50(monkeypatch):
 
 def test_theorem_1_printed_solutions():
     printed = {
-        1: C1 / sp.sqrt(X - x2) + C2 / sp.sqrt(X - x1),
+        1: C1 / sp.sqrt(X - x1) + C2 / sp.sqrt(X - x2),
         3: C1 * (4 * X - x1 - 3 * x2) / sp.sqrt(X - x2) + C2 * (4 * X - 3 * x1 - x2) / sp.sqrt(X - x1),
     }
     for N, omega_3 in printed.items():

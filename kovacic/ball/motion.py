@@ -39,6 +39,11 @@ from kovacic.errors import InputError, LimitExceeded
 MAX_EVALUATIONS, LONGEST = 300_000, 100_000
 #: Below the first a motion is steady; one that comes below the second, of its largest distance, is asymptotic to a steady one.
 _STEADY, _ASYMPTOTIC = 1e-12, 1e-6
+#: An asymptotic motion is given for as long as two integrations, of tolerances apart by a factor of ten, agree to this, at so
+#: many times.
+_AGREEMENT, _COMPARED = 1e-6, 4000
+#: The integrator's relative tolerance, the least that SciPy takes.
+_TOLERANCE = 2.3e-14
 _AXIS = np.array([0.0, 0.0, 1.0])
 
 
@@ -46,9 +51,11 @@ _AXIS = np.array([0.0, 0.0, 1.0])
 class State:
     """Position and velocity at time 0: angles in radians, rates in radians per unit of time, n the spin; floats or exact.
 
-    v is the longitude of the contact point on the body, theta the angle between the meridians, u1 and v1 colatitude
-    and longitude on the sphere (Cartesian coordinates on the plane).  At a pole, u = 0 or pi, the meridian v is the one
-    in which the contact point leaves it with the speed u'.
+    v is the longitude of the contact point on the body, u1 and v1 are its colatitude and longitude on the sphere (Cartesian
+    coordinates on the plane), theta is the angle from the direction of growing v1 to that of growing u on the body,
+    e_u = -sin(theta) e_u1 + cos(theta) e_v1.  At a pole, u = 0 or pi, the meridian v is the one in which the contact point
+    leaves it with the speed u'.  Inside a sphere, where R1 < 0, the paper's (u1, v1) are those of the antipode; here they are
+    the contact point's.
     """
 
     u: Any
@@ -65,7 +72,9 @@ class State:
 class Motion:
     """A motion; its methods take times, an array of any shape or a number, negative ones too, and 0 is the start.
 
-    `period` is the time of one oscillation of x = cos u; None for a steady motion, where u stays constant.
+    `period` is the time of one oscillation of x = cos u; None for a steady motion, where u stays constant, and for an
+    asymptotic one.  `determined` is infinite but for an asymptotic motion: the time up to which its digits are known, from 0;
+    later and earlier times raise `LimitExceeded`.
     `turning_points` are the least and the largest u: 0 or pi, up to rounding, where the path goes through a pole.
     Vectors are the last index of what is returned.  Errors are about 5e-14 times the number of oscillations; beyond 10^5 of
     these, `LimitExceeded` is raised.  `approach` is how near the motion comes to an unstable steady one, relative to its
@@ -78,6 +87,7 @@ class Motion:
     period: float | None
     turning_points: tuple[float, float]
     approach: float
+    determined: float
     _solution: Callable[[Array], Array]
     _cycle: float
     _gain: float
@@ -152,17 +162,42 @@ class Motion:
         start = self._solution(np.array(0.0))
         return self.ball.transport(y[5], start[5], start[2], self.start.n)
 
+    def _check_determined(self, instants: Array) -> None:
+        """An asymptotic motion is known from 0 to `determined`."""
+        outside = (instants < 0) | (instants > self.determined)
+        if not outside.any():
+            return
+        why = "it comes so near to an unstable steady motion that floats don't tell whether and when it turns"
+        said = f"the motion is asymptotic, its digits are lost from t = {self.determined:.6g} on: {why}"
+        hint = f"times from 0 to {self.determined:.6g}, or a velocity at the start that differs by 1e-5 of itself"
+        raise LimitExceeded(f"{said}\n  hint: {hint}", limit="digits")
+
     def _at(self, times: Any) -> tuple[Array, Array]:
         """The number of whole oscillations, and the states (18, ...) in the first one."""
         instants = np.asarray(times, dtype=float)
         if not np.isfinite(instants).all():
             raise InputError("times must be finite")
+        if np.isfinite(self.determined):
+            self._check_determined(instants)
+            return np.zeros(instants.shape), self._solution(instants.ravel()).reshape(18, *instants.shape)
         count = np.floor(instants / self._cycle)
         if np.abs(count).max(initial=0) > LONGEST:
             end = f"{LONGEST} oscillations, to t = {LONGEST * self._cycle:.6g}"
             raise LimitExceeded(f"a motion is followed for {end}", limit="time")
         rest = np.clip(instants - count * self._cycle, 0, self._cycle)
         return count, self._solution(rest.ravel()).reshape(18, *rest.shape)
+
+
+@dataclass(frozen=True, slots=True)
+class _Course:
+    """What an integration says of a motion: the fields of `Motion` of the same names."""
+
+    solution: Callable[[Array], Array]
+    cycle: float
+    period: float | None
+    turning_points: tuple[float, float]
+    approach: float
+    determined: float = np.inf
 
 
 def solve_motion(
@@ -173,8 +208,8 @@ def solve_motion(
     The force acts at the centre of mass and presses the ball to the fixed surface: towards the centre of the sphere, away
     from it inside, downwards on a plane.  V is text or SymPy, a smooth function of cos u.  Rolling is enforced, also where
     the reaction would have to pull: see `Motion.reaction`.
-    Every start has a motion, at the poles and steady ones included, but for asymptotic ones, which come as near as 1e-6
-    to an unstable steady motion: their further course depends on digits that floats don't have, and `LimitExceeded` says so.
+    Every start has a motion, at the poles and steady ones included.  Asymptotic ones, which come as near as 1e-6 to an
+    unstable steady motion, depend on digits that floats don't have: they are followed up to `Motion.determined`.
     Raises `InputError` for symbolic parameters, numbers out of range and potentials that aren't smooth.
 
     >>> from kovacic.ball.ball import Ball
@@ -184,50 +219,108 @@ def solve_motion(
     True
     """
     ball = Dynamics.of(sphere)
-    state = State(*(as_float(getattr(start, field.name), field.name) for field in fields(start)))
-    if not 0 <= state.u <= np.pi:
-        raise InputError(f"u is an angle between 0 and pi, not {state.u}")
-    if gravity is not None and potential is not None:
-        raise InputError("either gravity or a potential")
-    force = Force.gravity(sphere, 1 if gravity is None else gravity)
-    if potential is not None:
-        force = Force.of(potential_of(potential))
+    state = _read_state(start)
+    force = _read_force(sphere, gravity, potential)
     frame = Rotation.from_euler("ZY", [state.v, state.u]).as_matrix()  # (e_u, e_v, e_r) as columns
     along = [(1 + ball.rho) * np.sin(state.u) * state.dv, -(1 + ball.rho) * state.du, state.n]
     y = np.concatenate([frame @ along, frame[:, 2], np.eye(3).ravel(), np.zeros(3)])
     slopes = np.abs(np.broadcast_to(force.slope(np.linspace(0, np.pi, 65)), 65))
     rate = float(np.linalg.norm(y[:3]) + np.sqrt(slopes.mean() / (ball.A1 + ball.m * ball.R**2))) or 1.0
-    steady = float(unsteadiness(y, np.array(ball.rates(force.slope, y)), rate)) < _STEADY
-    solution = _integrate(ball, force, y, rate, turns=0 if steady else 4)
-    if steady:
-        cycle, approach, turns = 10 / rate, 1.0, np.zeros(2)
-    else:
-        turns = solution.t_events[0]
-        # x'' at two turning points: the period is known best between those where it is larger.
-        f, p = np.array(ball.rates(force.slope, solution.sol(turns[:2]))), solution.sol(turns[:2])
-        first, second = np.abs(f[3] * p[1] + p[3] * f[1] - f[4] * p[0] - p[4] * f[0])
-        cycle = float(turns[2] - turns[0] if first >= second else turns[3] - turns[1])
-        distance = unsteadiness(solution.y, np.array(ball.rates(force.slope, solution.y)), rate)
-        approach = float(distance.min() / distance.max())
-        if approach < _ASYMPTOTIC:
-            where = f"about t = {solution.t[distance.argmin()]:.6g} it differs from a steady one by less than {_ASYMPTOTIC:g}"
-            why = f"{where}, where floats don't tell whether and when it turns"
-            hint = "change the initial velocity by 1e-5 of itself"
-            raise LimitExceeded(f"the motion is asymptotic: {why}\n  hint: {hint}", limit="digits")
-    turned = solution.sol(cycle)
+    course = _follow(ball, force, y, rate)
+    turned = course.solution(np.array(course.cycle))
     before, after = (z[[0, 3]] + 1j * z[[1, 4]] for z in (y, turned))  # of omega and s, across the axis
     gain = float(np.angle((after * before.conj() * [rate**-2, 1.0]).sum()))
     turn = Rotation.from_matrix(turned[6:15].reshape(3, 3) @ _turned(_AXIS, np.array(gain))).as_rotvec()
-    low, high = np.sort(colatitude(solution.sol(turns[:2])[3:6]))
-    # e_u = -sin(theta) e_u1 + cos(theta) e_v1, and the ball's normal is opposite to the sphere's.
-    s, c = np.sin(state.theta), np.cos(state.theta)
-    below = Rotation.from_euler("ZY", [state.v1, state.u1]).as_matrix() if ball.kappa else np.eye(3)
-    space = below @ np.array([[-s, c, 0], [c, s, 0], [0, 0, -1]]) @ frame.T
-    ends, period = (float(low), float(high)), None if steady else cycle
-    return Motion(ball, force, state, period, ends, approach, solution.sol, cycle, gain, turn, space)
+    return Motion(
+        ball=ball,
+        force=force,
+        start=state,
+        period=course.period,
+        turning_points=course.turning_points,
+        approach=course.approach,
+        determined=course.determined,
+        _solution=course.solution,
+        _cycle=course.cycle,
+        _gain=gain,
+        _turn=turn,
+        _space=_contact_frame(ball, state) @ frame.T,
+    )
 
 
-def _integrate(ball: Dynamics, force: Force, y: Array, rate: float, *, turns: int) -> Any:
+def _read_state(start: State) -> State:
+    """The start as floats."""
+    state = State(*(as_float(getattr(start, field.name), field.name) for field in fields(start)))
+    if not 0 <= state.u <= np.pi:
+        raise InputError(f"u is an angle between 0 and pi, not {state.u}")
+    return state
+
+
+def _read_force(sphere: BallOnSphere, gravity: Scalar | None, potential: Potential | None) -> Force:
+    if gravity is not None and potential is not None:
+        raise InputError("either gravity or a potential")
+    if potential is not None:
+        return Force.of(potential_of(potential))
+    return Force.gravity(sphere, 1 if gravity is None else gravity)
+
+
+def _contact_frame(ball: Dynamics, state: State) -> Array:
+    """(e_u, e_v, e_r) at the start as columns in space: e_u = -sin(theta) e_u1 + cos(theta) e_v1; the normals are opposite.
+
+    Inside a sphere e_u1, e_v1 are still the directions to the south and to the east, and the ball's normal is the sphere's.
+    """
+    s = np.sin(state.theta)
+    c = np.cos(state.theta)
+    if not ball.kappa:
+        return np.array([[-s, c, 0.0], [c, s, 0.0], [0.0, 0.0, -1.0]])
+    on_sphere = Rotation.from_euler("ZY", [state.v1, state.u1]).as_matrix()
+    if ball.kappa > 0:
+        return np.asarray(on_sphere @ [[-s, c, 0.0], [c, s, 0.0], [0.0, 0.0, -1.0]])
+    return np.asarray(on_sphere @ [[-s, -c, 0.0], [c, -s, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> _Course:
+    """One oscillation from y, some time of a steady motion, or what is known of an asymptotic one."""
+
+    def change(states: Array) -> Array:
+        return unsteadiness(states, np.array(ball.rates(force.slope, states)), rate)
+
+    if float(change(y)) < _STEADY:
+        solution = _integrate(ball, force, y, rate, turns=0)
+        steady_u = float(colatitude(y[3:6]))
+        return _Course(solution.sol, 10 / rate, None, (steady_u, steady_u), 1.0)
+    solution = _integrate(ball, force, y, rate, turns=4)
+    turns = solution.t_events[0]
+    distance = change(solution.y)
+    approach = float(distance.min() / distance.max())
+    if approach < _ASYMPTOTIC:
+        rough = _integrate(ball, force, y, rate, turns=4, tolerance=10 * _TOLERANCE)
+        end = _last_agreement(solution, rough, rate)
+        ends = np.array([0.0, *turns[turns < end], end])
+        u = colatitude(solution.sol(ends)[3:6])
+        return _Course(solution.sol, end, None, (float(u.min()), float(u.max())), approach, determined=end)
+    # x'' at two turning points: the period is known best between those where it is larger.
+    p = solution.sol(turns[:2])
+    f = np.array(ball.rates(force.slope, p))
+    first, second = np.abs(f[3] * p[1] + p[3] * f[1] - f[4] * p[0] - p[4] * f[0])
+    period = float(turns[2] - turns[0] if first >= second else turns[3] - turns[1])
+    low, high = np.sort(colatitude(p[3:6]))
+    return _Course(solution.sol, period, period, (float(low), float(high)), approach)
+
+
+def _last_agreement(fine: Any, rough: Any, rate: float) -> float:
+    """The last time up to which two integrations agree in omega and s; the rough one errs ten times as much."""
+    times = np.linspace(0.0, min(fine.t[-1], rough.t[-1]), _COMPARED)
+    scale = np.repeat([rate, 1.0], 3)[:, None]
+    difference = np.abs((fine.sol(times) - rough.sol(times))[:6] / scale).max(axis=0)
+    lost = difference > _AGREEMENT
+    if not lost.any():
+        return float(times[-1])
+    return float(times[max(int(lost.argmax()) - 1, 0)])
+
+
+def _integrate(
+    ball: Dynamics, force: Force, y: Array, rate: float, *, turns: int, tolerance: float = _TOLERANCE
+) -> Any:
     """SciPy's solution from y, until x' has been 0 `turns` times; without any, for the time 10/rate.
 
     Raises `LimitExceeded` after `MAX_EVALUATIONS`, and where the potential isn't smooth.
@@ -248,7 +341,12 @@ def _integrate(ball: Dynamics, force: Force, y: Array, rate: float, *, turns: in
 
     speed.terminal = turns or False  # type: ignore[attr-defined]
     scale = np.repeat([rate, 1.0, ball.R], [3, 12, 3])
-    options: dict[str, Any] = {"rtol": 2.3e-14, "atol": 1e-16 * scale, "dense_output": True, "method": "DOP853"}
+    options: dict[str, Any] = {
+        "rtol": tolerance,
+        "atol": 1e-16 * (tolerance / _TOLERANCE) * scale,
+        "dense_output": True,
+        "method": "DOP853",
+    }
     result = solve_ivp(rates, (0.0, (1e12 if turns else 10) / rate), y, events=speed if turns else None, **options)
     if not result.success or (turns and len(result.t_events[0]) < turns):
         said = f"the motion can't be followed beyond t = {result.t[-1]:.6g}: {result.message}"

@@ -26,6 +26,7 @@ _STEADY = "steady motion", "u = {0[0]:.12g} stays constant"
 _CONTACT = "({0[0]:.12g}, {0[1]:.12g}, {0[2]:.12g}) at the end"
 _PULLED = "from t = {:.6g} on it has to pull at times: a free ball leaves the surface there, this one is held"
 _DIFFERENCE = "omega_3 {0[omega_3]:.2e}, n {0[n]:.2e}: closed form against the integrated motion"
+_DETERMINED = "the digits of this motion last until t = {:.6g}"
 _LOST = "digits are lost: it comes as near as {:.1g} to an unstable steady motion"
 #: A key of the JSON and its value; then, where it is shown, its label, and as a template what is said (the value itself).
 Row: TypeAlias = tuple[Any, ...]
@@ -222,9 +223,12 @@ def _simulate(sphere: Any, *, start: Sequence[str], end: str, plot: Path | None,
     difference = {name: float(np.abs(error).max()) for name, error in motion.defects(times).items()}
     least = None if reaction is None else float(reaction.min())
     pulled = None if reaction is None or reaction.min() >= 0 else float(times[reaction < 0][0])
+    low, high = motion.turning_points
+    said = _STEADY if low == high else _TURNING
+    determined = motion.determined if np.isfinite(motion.determined) else None
     return [
         ("potential", motion.force.V, "potential", "V = {}"),
-        ("turning_points", motion.turning_points, *(_TURNING if motion.period else _STEADY)),
+        ("turning_points", motion.turning_points, *said),
         ("period", motion.period, "period", "{:.15g}"),
         ("time", time),
         ("contact", (motion.contact(time) + 0.0).tolist(), "contact point", _CONTACT),
@@ -232,6 +236,7 @@ def _simulate(sphere: Any, *, start: Sequence[str], end: str, plot: Path | None,
         ("pulled_from", pulled, "", _PULLED),
         ("difference", difference, "difference", _DIFFERENCE),
         ("energy_drift", float(np.ptp(motion.energy(times))), "energy drift", "{:.2e}"),
+        ("determined", determined, "asymptotic", _DETERMINED),
         ("approach", motion.approach, "", _LOST if motion.approach < _SENSITIVE else ""),
         ("plot", plot and str(plot), "picture"),
     ]
