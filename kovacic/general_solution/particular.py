@@ -25,7 +25,7 @@ from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, in_powers, prepared, ratfunc
-from kovacic.general_solution.initial_values import tidy
+from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import values_at
 from kovacic.general_solution.variation import Basis

@@ -6,7 +6,6 @@ well; otherwise the real and the imaginary part of each solution are solutions, 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -14,12 +13,10 @@ import sympy
 from flint import acb, ctx
 from sympy.functions.special.bessel import BesselBase
 
-from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import DIGITS, is_numerical_solution
 from kovacic.closed_form.jets import jet
 from kovacic.equation import Equation
-from kovacic.errors import InputError
 from kovacic.general_solution.values import size
 from kovacic.general_solution.variation import is_solution, rates
 from kovacic.solution import Solution
@@ -32,11 +29,11 @@ _COMPLEX = (sympy.re, sympy.im, sympy.Abs, sympy.arg, sympy.atan2)
 
 def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> tuple[Expr, Expr]:
     """Two solutions that are real at the point, if such are found; else the given ones."""
-    if not point.is_real or not any(_negative(y, x, point) for y in (y1, y2)):
+    if not point.is_real or not any(negative_arguments(y, x, point) for y in (y1, y2)):
         return y1, y2
     found: list[Expr] = []
     for y in (y1, y2):
-        negative = _negative(y, x, point)
+        negative = negative_arguments(y, x, point)
         turned = y.xreplace({e: _turned(e) for e, u in negative.items()})
         if is_numerical_solution(turned, x, solution.S, solution.gauge):
             found.append(turned)
@@ -54,30 +51,9 @@ def are_independent(y1: Expr, y2: Expr, x: Expr) -> bool:
     return False
 
 
-def check_one_side(solutions: Sequence[Expr], x: Expr, points: Sequence[Expr]) -> None:
-    """Raises `ValueError` where a singular point lies between two of the points, so that no real solution joins them."""
-    sides = {frozenset(e for y in solutions for e in _negative(y, x, p)) for p in points if p.is_real}
-    if len(sides) > 1:
-        said = ", ".join(map(str, points))
-        raise InputError(f"a singular point of the equation lies between {said}: on each side the solutions are others")
-
-
-def check_integrals(solutions: Sequence[Expr], equation: Equation, x: Expr, points: Sequence[Expr]) -> None:
-    """Raises `InputError` where an integral that is left would lead over a real singular point of an equation over Q."""
-    if len(points) < 2 or not any(y.has(sympy.Integral) for y in solutions) or not all(p.is_real for p in points):
-        return
-    first, last = sympy.Min(*points), sympy.Max(*points)
-    quotients = (part / equation.a for part in (equation.f, equation.b, equation.c))
-    for den in (q.den for q in quotients if q.den.degree > 0 and q.field == QQ):
-        for pole in sympy.real_roots(Atoms(x).poly(den)):
-            if first < pole < last:
-                said = f"a singular point, {pole}, lies between {', '.join(map(str, points))}"
-                raise InputError(f"{said}: on each side the solutions are others")
-
-
 def real_particular(y: Expr, equation: Equation, x: Expr, point: Expr) -> Expr:
     """A solution of the inhomogeneous equation that is real at the point, if one is found; else the given one."""
-    negative = _negative(y, x, point) if point.is_real else {}
+    negative = negative_arguments(y, x, point) if point.is_real else {}
     if not negative or y.has(sympy.Integral, sympy.Heaviside):
         return y
     right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
@@ -98,7 +74,7 @@ def _turned(e: Expr) -> Expr:
     return e.func(*e.args[:-1], -e.args[-1], evaluate=False)  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
 
 
-def _negative(y: Expr, x: Expr, point: Expr) -> dict[Expr, Expr]:
+def negative_arguments(y: Expr, x: Expr, point: Expr) -> dict[Expr, Expr]:
     """Those whose arguments are negative at the point."""
     return {e: u for e, u in _arguments(y, x).items() if u.subs(x, point).is_negative}
 

@@ -1,0 +1,231 @@
+"""Conditions as a user writes them: values, boundary conditions, and how a solution behaves at a singular point or at infinity.
+
+A condition is linear, sum of c_k y^(m_k)(a_k) = v with m_k = 0 or 1: initial and boundary values, periodic conditions
+y(0) = y(2 pi), Robin's y'(0) = h y(0).  At a singular point, and at oo and -oo, y(a) = v says that y tends to v there, and
+y(a) = "bounded" that it stays bounded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+from sympy.core.function import AppliedUndef
+
+from kovacic.errors import InputError
+from kovacic.reading.parser import listed
+
+Expr = Any  # SymPy publishes no types
+#: The word that stands for a value.
+BOUNDED = "bounded"
+_INFINITIES = {"oo": sympy.oo, "+oo": sympy.oo, "-oo": -sympy.oo}
+_NO_VALUES = (sympy.nan, sympy.zoo)
+
+
+@dataclass(frozen=True)
+class Term:
+    """coefficient * y(point), or times y'(point) for order 1."""
+
+    point: Expr
+    order: int
+    coefficient: Expr
+
+
+@dataclass(frozen=True)
+class Condition:
+    """The sum of the terms is `value`; None: it is bounded."""
+
+    terms: tuple[Term, ...]
+    value: Expr | None
+    text: str
+
+    @property
+    def points(self) -> tuple[Expr, ...]:
+        return tuple(term.point for term in self.terms)
+
+    @property
+    def is_value(self) -> bool:
+        """Is it y(a) = v or y'(a) = v?"""
+        return len(self.terms) == 1 and self.terms[0].coefficient == 1 and self.value is not None
+
+
+def as_mapping(ics: Mapping[Any, Any] | str | None) -> dict[Any, Any]:
+    """Conditions that are given as a mapping, or as one text: "y(0)=1, y'(0)=0".  Raises `InputError`."""
+    if not isinstance(ics, str):
+        return dict(ics or {})
+    found: dict[Any, Any] = {}
+    for part in listed(ics) if ics.strip() else ():
+        place, separator, value = (piece.strip() for piece in part.partition("="))
+        if not (separator and place and value) or place in found:
+            raise InputError(f"{ics!r} aren't initial values", hint='write "y(0)=1, y\'(0)=0", every value once')
+        found[place] = value
+    return found
+
+
+class ConditionReader:
+    """Reads conditions on the unknown function y(x): `function` as the user writes it, or its name in a text."""
+
+    def __init__(self, function: Expr, unknown: str) -> None:
+        self.function = function
+        self.unknown = unknown
+        self._terms: dict[Expr, tuple[Expr, int]] = {}  # what stands for y(a), y'(a) in an expression
+
+    def read(self, key: Any, value: Any) -> Condition:
+        """One condition.  Raises `InputError`."""
+        self._terms = {}
+        left = self._side(key, is_key=True)
+        text = f"{key} = {value}"
+        if not self._terms:
+            raise self._no_condition(key)
+        if str(value).strip() == BOUNDED:
+            return Condition(self._linear(left, key), None, text)
+        right = self._side(value, is_key=False)
+        whole = sympy.expand(left - right)
+        terms = self._linear(whole, key)
+        rest = whole.xreplace(dict.fromkeys(self._terms, sympy.Integer(0)))
+        return Condition(terms, -rest, text)
+
+    def _linear(self, whole: Expr, key: Any) -> tuple[Term, ...]:
+        terms = []
+        for symbol, (point, order) in self._terms.items():
+            coefficient = sympy.expand(whole.diff(symbol))
+            if coefficient.free_symbols & self._terms.keys():
+                raise InputError(f"the condition {key} isn't linear in {self.unknown}")
+            if coefficient != 0:
+                terms.append(Term(point, order, coefficient))
+        if not terms:
+            raise self._no_condition(key)
+        return tuple(terms)
+
+    def _side(self, side: Any, *, is_key: bool) -> Expr:
+        """One side, with symbols in the place of y(a) and y'(a)."""
+        if isinstance(side, str):
+            return self._text(side, is_key=is_key)
+        if is_key and not isinstance(side, sympy.Basic):
+            raise self._no_condition(side)
+        return self._checked(self._expression(side), side)
+
+    # ------------------------------------------------------------------------------------------------ texts
+
+    def _text(self, text: str, *, is_key: bool) -> Expr:
+        """`y(0)`, `y'(0) - h*y(0)`, or a constant."""
+        pieces = []
+        rest = text
+        while (found := self._first_call(rest)) is not None:
+            start, order, inner, end = found
+            pieces += [rest[:start], f"({self._symbol(self._point(inner), order).name})"]
+            rest = rest[end:]
+        pieces.append(rest)
+        if is_key and len(pieces) == 1:
+            raise self._no_condition(text)
+        return self._checked(_read("".join(pieces), self._terms), text)
+
+    def _first_call(self, text: str) -> tuple[int, int, str, int] | None:
+        """(start, order, argument, end) of the first y(...) or y'(...) in a text."""
+        start = 0
+        while (start := text.find(self.unknown, start)) >= 0:
+            before = text[start - 1] if start else " "
+            after = text[start + len(self.unknown) :]
+            primes = len(after) - len(after.lstrip("'"))
+            call = after[primes:].lstrip()
+            if not (before.isalnum() or before == "_") and call.startswith("("):
+                inner = _within(call)
+                if primes > 1 or inner is None:
+                    raise self._no_condition(text)
+                end = len(text) - len(call) + len(inner) + 2
+                return start, primes, inner, end
+            start += len(self.unknown)
+        return None
+
+    def _point(self, text: str) -> Expr:
+        plain = text.replace(" ", "")
+        if plain in _INFINITIES:
+            return _INFINITIES[plain]
+        return self._checked(_read(text, {}), text)
+
+    # -------------------------------------------------------------------------------------- SymPy's expressions
+
+    def _expression(self, given: Any) -> Expr:
+        """With symbols for y(a), y(x).diff(x).subs(x, a) in either form that SymPy gives it."""
+        value = _exact(given)
+        for e in value.atoms(sympy.Subs):
+            value = value.xreplace({e: self._derivative(e.expr, e.point[0])})
+        for e in value.atoms(sympy.Derivative):
+            value = value.xreplace({e: self._derivative(e, e.expr.args[0])})
+        for e in sorted(value.atoms(AppliedUndef), key=str):
+            if e.func == self.function.func and len(e.args) == 1:
+                value = value.xreplace({e: self._symbol(self._place(e.args[0]), 0)})
+        return value
+
+    def _derivative(self, derivative: Expr, point: Expr) -> Expr:
+        orders = [int(count) for _, count in getattr(derivative, "variable_count", ())]
+        if orders != [1] or derivative.expr.func != self.function.func:
+            raise self._no_condition(derivative)
+        return self._symbol(self._place(point), 1)
+
+    def _place(self, point: Expr) -> Expr:
+        return point if point in (sympy.oo, -sympy.oo) else self._checked(point, point)
+
+    # ------------------------------------------------------------------------------------------------ both
+
+    def _symbol(self, point: Expr, order: int) -> Expr:
+        known = next((symbol for symbol, term in self._terms.items() if term == (point, order)), None)
+        if known is None:
+            known = sympy.Symbol(f"value_{len(self._terms)}_")
+            self._terms[known] = point, order
+        return known
+
+    def _checked(self, value: Expr, given: Any) -> Expr:
+        """Refuses what is no constant."""
+        if not isinstance(value, sympy.Expr) or value.has(sympy.oo, -sympy.oo, *_NO_VALUES):
+            raise InputError(f"the value {given!r} isn't a finite number")
+        variables = {argument.name for argument in self.function.args}
+        if any(symbol.name in variables for symbol in value.free_symbols):
+            raise InputError(f"{given} contains the variable: a condition holds at one point", hint="write y(0): 1")
+        if value.atoms(AppliedUndef):
+            raise InputError(f"the value {given!r} can't be read", hint="give a number, or text such as 'sqrt(2)'")
+        return value
+
+    def _no_condition(self, key: Any) -> InputError:
+        y = self.unknown
+        hint = f"write {{'{y}(0)': 1, \"{y}'(0)\": 2}}" if isinstance(key, str) else None
+        return InputError(
+            f"{key!r} isn't an initial value" if isinstance(key, str) else f"{key} isn't an initial value",
+            hint=hint or "write {y(0): 1, y(x).diff(x).subs(x, 0): 2}",
+        )
+
+
+def _within(call: str) -> str | None:
+    """What stands between the first parenthesis and the one that closes it."""
+    depth = 0
+    for position, character in enumerate(call):
+        depth += {"(": 1, ")": -1}.get(character, 0)
+        if depth == 0:
+            return call[1:position]
+    return None
+
+
+def _read(text: str, symbols: Mapping[Expr, Any]) -> Expr:
+    from kovacic.reading.symbolic import read_expression
+
+    value = read_expression(text, what="the initial value")
+    return value.xreplace({sympy.Symbol(symbol.name): symbol for symbol in symbols})
+
+
+def _exact(given: Any) -> Expr:
+    """A SymPy expression; a float is the decimal that it is written as."""
+    try:
+        value = sympy.Rational(repr(float(given))) if isinstance(given, float) else sympy.sympify(given, strict=True)
+        return exact(value)
+    except (sympy.SympifyError, TypeError, ValueError, AttributeError):
+        raise InputError(
+            f"the value {given!r} can't be read", hint="give a number, or text such as 'sqrt(2)'"
+        ) from None
+
+
+def exact(expression: Expr) -> Expr:
+    """With the decimals that floats are written as in their places."""
+    floats: Iterator[Expr] = (number for number in expression.atoms(sympy.Float) if number.is_finite)
+    return expression.xreplace({number: sympy.Rational(str(number)) for number in floats})

@@ -1,0 +1,188 @@
+"""The constants C1, C2 that linear conditions determine: u C1 + v C2 = r for each condition, by rank.
+
+The rank of the matrix with the rows (u, v) is 2 if a minor isn't zero, 1 if an entry isn't and all minors are; with the
+column r it must be the same.  Then one solution, or a family with free constants; else there is none.  Where a minor is zero
+for particular values of the parameters alone, the answer is the one for all others, and the particular case is said beside.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from itertools import combinations
+from typing import Any
+
+import sympy
+from sympy import acos, atan, cos, cosh, exp, log, sin, sinh, tan, tanh
+from sympy.simplify.fu import TR8, TR2i
+
+from kovacic.general_solution.values import size
+from kovacic.general_solution.zero import Zero, is_nowhere_zero, when_zero
+
+Expr = Any  # SymPy publishes no types
+#: Functions whose values are simplified, in constants of so many subexpressions.
+_ELEMENTARY = {exp, log, sin, cos, tan, sinh, cosh, tanh, atan, acos}
+_LONGEST = 200
+_ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
+
+
+@dataclass(frozen=True)
+class Row:
+    """u C1 + v C2 = r."""
+
+    u: Expr
+    v: Expr
+    r: Expr
+
+    def rest(self, c1: Expr, c2: Expr) -> Expr:
+        """u c1 + v c2 - r."""
+        return self.u * c1 + self.v * c2 - self.r
+
+
+class Outcome(Enum):
+    """One solution or a family; none; or what depends on more than the case says."""
+
+    SOLUTIONS = "solutions"
+    NONE = "none"
+    OPEN = "open"
+
+
+@dataclass(frozen=True)
+class Case:
+    """What the conditions determine where all of `zeros` are zero; without any, for generic values of the parameters.
+
+    `values` are those of C1 and C2, in terms of the ones that stay free, where there are solutions; and there are only if
+    all of `needed` are zero, too.
+    """
+
+    zeros: tuple[Expr, ...]
+    outcome: Outcome
+    values: tuple[Expr, Expr] = (sympy.Integer(0), sympy.Integer(0))
+    needed: tuple[Expr, ...] = ()
+
+
+def determine(rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | None = None) -> tuple[Case, list[Case]]:
+    """The generic case and the particular ones.  `wronskian`: that at the point where both y and y' are given, in this order.
+
+    Raises `NotImplementedError` where it can't be told whether a constant is zero.
+
+    >>> k, C1, C2 = sympy.symbols("k C1 C2")
+    >>> generic, others = determine([Row(1, 0, 0), Row(cos(k), sin(k), 0)], (C1, C2))
+    >>> generic.values, others[0].zeros, others[0].values
+    ((0, 0), (sin(k),), (0, C2))
+    """
+    minor, pair, when = _best_minor(rows, wronskian)
+    if when is Zero.ALWAYS:
+        return _split(*_of_rank_one(rows, names))
+    generic, others = _split(*_of_rank_two(rows, pair, minor))
+    if when is Zero.SOMETIMES:
+        others.append(_where_minor_vanishes(rows, names, minor))
+    return generic, others
+
+
+Values = tuple[Expr, Expr]
+#: Values of the constants, what must be zero for them to be a solution, and what must not be.
+Found = tuple[Values, list[Expr], Expr]
+
+
+def _best_minor(rows: Sequence[Row], wronskian: Expr | None) -> tuple[Expr, tuple[Row, Row], Zero]:
+    """A minor and its rows: one that is never zero if there is one, else one that isn't always zero."""
+    nothing = Row(_ZERO, _ZERO, _ZERO)
+    best = _ZERO, (nothing, nothing), Zero.ALWAYS
+    if wronskian is not None:
+        return wronskian, (rows[0], rows[1]), Zero.NEVER
+    for first, second in combinations(rows, 2):
+        minor = first.u * second.v - first.v * second.u
+        when = when_zero(minor)
+        if when is Zero.NEVER:
+            return minor, (first, second), when
+        if when is Zero.SOMETIMES and best[2] is Zero.ALWAYS:
+            best = minor, (first, second), when
+    return best
+
+
+def _of_rank_two(rows: Sequence[Row], pair: tuple[Row, Row], minor: Expr) -> Found:
+    """Cramer's rule for two of the rows; the others must be satisfied."""
+    first, second = pair
+    c1 = tidy((first.r * second.v - first.v * second.r) / minor)
+    c2 = tidy((first.u * second.r - first.r * second.u) / minor)
+    others = [row for row in rows if row is not first and row is not second]
+    return (c1, c2), [row.rest(c1, c2) for row in others], _ONE
+
+
+def _of_rank_one(rows: Sequence[Row], names: Values) -> Found:
+    """One equation for both constants; all rows must be multiples of it."""
+    pivot = _pivot(rows)
+    if pivot is None:
+        return names, [row.r for row in rows], _ONE
+    row, is_first = pivot
+    others = [other for other in rows if other is not row]
+    if is_first:
+        values = tidy(row.r / row.u) - tidy(row.v / row.u) * names[1], names[1]
+        return values, [other.u * row.r - other.r * row.u for other in others], row.u
+    values = names[0], tidy(row.r / row.v) - tidy(row.u / row.v) * names[0]
+    return values, [other.v * row.r - other.r * row.v for other in others], row.v
+
+
+def _pivot(rows: Sequence[Row]) -> tuple[Row, bool] | None:
+    """A row whose u (True) or v isn't zero, preferably never and without the other; None where all are zero."""
+    found: list[tuple[bool, bool, int, Row, bool]] = []
+    for row in rows:
+        for entry, other, is_first in ((row.v, row.u, False), (row.u, row.v, True)):
+            when = when_zero(entry)
+            if when is not Zero.ALWAYS:
+                found.append((when is not Zero.NEVER, other != 0, len(found), row, is_first))
+    best = min(found, key=lambda item: item[:3], default=None)
+    return None if best is None else (best[3], best[4])
+
+
+def _split(values: Values, needed: list[Expr], pivot: Expr) -> tuple[Case, list[Case]]:
+    """The generic case, and those of the parameters for which more is possible or less."""
+    open_cases = [Case((pivot,), Outcome.OPEN)] if when_zero(pivot) is Zero.SOMETIMES else []
+    whens = [(value, when_zero(value)) for value in needed]
+    if any(when is Zero.NEVER for _, when in whens):
+        return Case((), Outcome.NONE), open_cases
+    sometimes = tuple(value for value, when in whens if when is Zero.SOMETIMES)
+    if sometimes:  # generic parameters don't meet what only particular ones do
+        return Case((), Outcome.NONE), [Case(sometimes, Outcome.SOLUTIONS, values), *open_cases]
+    return Case((), Outcome.SOLUTIONS, values), open_cases
+
+
+def _where_minor_vanishes(rows: Sequence[Row], names: Values, minor: Expr) -> Case:
+    """The case of rank one, as far as it follows from the minor's being zero."""
+    values, needed, pivot = _of_rank_one(rows, names)
+    if len(rows) > 2 or when_zero(pivot) is Zero.SOMETIMES:
+        return Case((minor,), Outcome.OPEN)
+    generic, particular = _split(values, needed, pivot)
+    if particular:
+        return Case((minor,), Outcome.SOLUTIONS, values, particular[0].zeros)
+    return Case((minor,), generic.outcome, values)
+
+
+def condition_of(zero: Expr) -> str:
+    """`zero = 0` in a short form: without factors that aren't zero."""
+    whole = sympy.numer(sympy.together(zero))
+    waves = sympy.expand(TR8(sympy.expand(whole)))
+    factored = min((sympy.factor(form) for form in (whole, waves)), key=size)
+    factors = [factor for factor in sympy.Mul.make_args(factored) if not is_nowhere_zero(factor)]
+    left = sympy.Mul(*(factor.base if factor.is_Pow and factor.exp.is_positive else factor for factor in factors))
+    return f"{-left if left.could_extract_minus_sign() else left} = 0"
+
+
+def tidy(value: Any) -> Any:
+    """A shorter form of a constant, where that is known at once."""
+    value = sympy.sympify(value, strict=True)
+    irrational = any(not p.exp.is_Rational and not p.base.is_Symbol for p in value.atoms(sympy.Pow))
+    functions = {f.func for f in value.atoms(sympy.Function)}
+    if value.is_Rational or irrational or size(value) > _LONGEST or value.has(sympy.RootSum, sympy.Integral):
+        return value
+    if not value.free_symbols and functions <= {exp, log} and not value.has(sympy.Add):  # a product of powers
+        return value
+    if not functions:
+        return sympy.radsimp(sympy.cancel(value) if value.free_symbols or value.has(sympy.E) else sympy.expand(value))
+    if not functions <= _ELEMENTARY:
+        expanded = sympy.expand(value)
+        return min((value, expanded, sympy.expand(TR8(expanded))), key=size)
+    shorter = sympy.cancel(value)
+    return shorter if functions == {exp} else min(map(TR2i, (value, shorter)), key=size)

@@ -1,0 +1,124 @@
+"""A basis of the solutions of the homogeneous equation: Liouvillian, or in special functions; and why there is none."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy
+
+from kovacic.algebra.rationals import QQ
+from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.form import at_edges, solutions
+from kovacic.closed_form.klein import KleinForm
+from kovacic.decision import Status
+from kovacic.equation import Parsed, parameters_of
+from kovacic.errors import LimitExceeded
+from kovacic.general_solution.antiderivatives import NUMBERS
+from kovacic.general_solution.question import Question
+from kovacic.general_solution.real_basis import are_independent
+from kovacic.general_solution.variation import Basis
+from kovacic.limits import Budget
+from kovacic.parametric.api import conditions_of
+from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
+from kovacic.reading.exponential import solution_in_terms_of
+from kovacic.solution import Solution, solve
+from kovacic.special.answer import special_functions
+from kovacic.special.mathieu import mathieu
+
+Expr = Any  # SymPy publishes no types
+Pair = tuple[Expr, Expr]
+
+
+def find_basis(question: Question, budget: Budget, *, special: bool = False) -> tuple[Basis, Solution]:
+    """Two independent solutions in the user's variable, and what was decided.
+
+    Liouvillian ones if there are any, unless `special`; else special functions.  Raises `NotImplementedError` without.
+    """
+    solution = decide(question, budget)
+    if solution.case is None or special:
+        pair = _in_special_functions(question, solution, budget, special=special)
+    else:
+        pair = _liouvillian(question, solution, budget)
+    change = question.equation.change
+    if change is not None:
+        name = question.equation.variable
+        pair = solution_in_terms_of(change, pair[0], name), solution_in_terms_of(change, pair[1], name)
+    y1, y2 = (y.xreplace(NUMBERS) for y in pair)
+    return Basis(y1, y2, question.x, question.equation), solution
+
+
+def decide(question: Question, budget: Budget) -> Solution:
+    """What the engine says, with the assumptions where they may matter."""
+    found = solve(question.equation, limits=budget.share(1).limits)
+    known = question.assumptions
+    if found.status is Status.NONE_EXISTS and known.concerns_exponents:
+        return solve(question.equation, assume=known.to_dict(), limits=budget.share(1).limits)
+    return found
+
+
+def _liouvillian(question: Question, solution: Solution, budget: Budget) -> Pair:
+    """The closed form; in case 3 with given conditions one that doesn't jump where J is 1 or infinite."""
+    form = solutions(solution.S, solution.decision, solution.gauge, solution.variable)
+    if question.conditions and isinstance(form.structure, KleinForm):
+        joined = _joined(solution, form.structure, budget)
+        if joined is not None:
+            return joined
+    return form.y1, form.y2
+
+
+def _in_special_functions(question: Question, solution: Solution, budget: Budget, *, special: bool) -> Pair:
+    """Special functions, or Mathieu's; analytic at ordinary points where conditions are given."""
+    found: Any = special_functions(
+        solution.S,
+        solution.gauge,
+        solution.variable,
+        budget,
+        symbols=question.parameters,
+        joined=bool(question.conditions),
+    )
+    equation = question.equation
+    if not found and equation.change is not None:
+        found = mathieu(solution.S, solution.gauge, equation.change, equation.variable) or found
+    if not found:
+        raise NotImplementedError(f"{no_solution(solution, question.assumptions)}; {found}")
+    y1, y2 = found
+    if special and not are_independent(y1, y2, sympy.Symbol(solution.variable)):
+        raise NotImplementedError(f"{no_solution(solution, question.assumptions)}; {found}")
+    return y1, y2
+
+
+def _joined(solution: Solution, form: KleinForm, budget: Budget) -> Pair | None:
+    """Other solutions in case 3, where J is 1 or infinite at real points that aren't singular: functions of J jump there."""
+    S = solution.S
+    places = form.J.den * (form.J.num - form.J.den)
+    while (common := places.gcd(S.den)).degree > 0:
+        places //= common
+    if places.degree == 0 or (S.field == QQ and not Atoms(sympy.Symbol("x")).poly(places).as_poly().count_roots()):
+        return None
+    pair = special_functions(S, solution.gauge, solution.variable, budget)
+    if pair and are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable)):
+        return pair.y1, pair.y2
+    return at_edges(form, S, solution.gauge, solution.variable)
+
+
+def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str:
+    """Why there is no closed form, in a sentence; with parameters, for which values there is one."""
+    if solution.status is Status.UNDECIDED:
+        return f"undecided: {solution.reason}"
+    names = parameters_of(solution.S.field)
+    group = (
+        f"the differential Galois group of the normal form y'' = ({solution.S.to_str(solution.variable)}) y is SL2(C)"
+    )
+    if not names:
+        return f"there is no Liouvillian solution, and that is proven: {group}"
+    said = f"for generic {', '.join(names)} there is no Liouvillian solution, and that is proven: {group}"
+    try:
+        found = conditions_of(Parsed(solution.S, solution.variable), known, None, solution.limits)
+    except LimitExceeded:
+        return said
+    regions = [region for region in found.regions if region.case is not None and region.defined]
+    if not regions:
+        return said + (f"; nor is there for any others ({found.theory})" if found.complete is True else "")
+    listed = "; ".join(f"{region.statement} (case {region.case})" for region in regions[:6])
+    more = "; ..." if len(regions) > 6 or found.complete is not True else ""
+    return f"{said}\nthere is one where {listed}{more}: give such values"

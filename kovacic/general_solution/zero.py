@@ -1,0 +1,210 @@
+"""Is a constant zero?  Always, never, or for particular values of its parameters.
+
+A constant is an expression in the user's own symbols, with what is assumed of them.  "Never" without parameters, and "not
+always" with them, is proven by a ball that doesn't contain zero, at values of the parameters that fit the assumptions.
+"Always" is proven by rewriting as a sum of monomials; and, for numbers made of roots, by a bound from below: an algebraic
+number with the degree D over Q and the bounds u, l is zero or not smaller than 1/(u^(D-1) l).  All work is bounded by sizes.
+
+Reference: C. Burnikel, R. Fleischer, K. Mehlhorn & S. Schirra, Algorithmica 27 (2000) 87-99 (the bound for roots).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+from itertools import islice
+from typing import Any
+
+import sympy
+from flint import acb, arb, ctx
+from sympy.simplify.fu import TR8
+
+from kovacic.closed_form.check import DIGITS
+from kovacic.closed_form.jets import ANTIDERIVATIVES, jet
+from kovacic.general_solution.antiderivatives import prepared
+from kovacic.reading.parser import shown
+
+Expr = Any  # SymPy publishes no types
+#: How many subexpressions a constant may have that is rewritten.
+_LARGEST = 2000
+#: How many bits of an algebraic number are computed to show that it is zero.
+_MOST_BITS = 100_000
+#: Digits to which a number is compared with zero before it is rewritten at length.
+_PRECISE = 400
+#: How many values of the parameters are tried.
+_SAMPLES = 6
+
+
+class Zero(Enum):
+    """When a constant is zero: for all admissible values of its parameters, for none, or for some (not for all)."""
+
+    ALWAYS = "always"
+    NEVER = "never"
+    SOMETIMES = "sometimes"
+
+
+def when_zero(value: Expr) -> Zero:
+    """When a constant is zero.  Raises `NotImplementedError` where that can't be told.
+
+    >>> n, k = sympy.Symbol("n", integer=True), sympy.Symbol("k")
+    >>> when_zero(sympy.sin(n * sympy.pi)), when_zero(sympy.exp(k)), when_zero(1 - sympy.cos(n * sympy.pi))
+    (<Zero.ALWAYS: 'always'>, <Zero.NEVER: 'never'>, <Zero.SOMETIMES: 'sometimes'>)
+    """
+    value = sympy.sympify(value, strict=True)
+    if value.is_Rational:
+        return Zero.ALWAYS if value == 0 else Zero.NEVER
+    if is_nowhere_zero(value):
+        return Zero.NEVER
+    if any(differs_from_zero(value, sample) for sample in islice(samples(value.free_symbols), _SAMPLES)):
+        return Zero.SOMETIMES if value.free_symbols else Zero.NEVER
+    if is_identically_zero(value):
+        return Zero.ALWAYS
+    raise NotImplementedError(f"undecided: whether {shown(value, 60)} is zero")
+
+
+def is_zero(value: Expr) -> bool:
+    """Is a constant zero for all values of its parameters?  Raises `NotImplementedError` where that can't be told."""
+    return when_zero(value) is Zero.ALWAYS
+
+
+def is_nowhere_zero(value: Expr) -> bool:
+    """Is every factor known not to be zero: by assumptions, or because it is an exponential?"""
+    for factor in sympy.Mul.make_args(value):
+        base, exponent = factor.as_base_exp()
+        if isinstance(factor, sympy.exp) or base == sympy.E:
+            continue
+        if base.is_zero is not False or exponent.is_finite is False:
+            return False
+    return True
+
+
+def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
+    """Values of symbols that fit what is assumed of them, the integers small: without an end."""
+    ordered = sorted(symbols, key=str)
+    for k in range(10**6):
+        yield {symbol: _sample(symbol, k + 3 * position) for position, symbol in enumerate(ordered)}
+
+
+def _sample(symbol: Expr, k: int) -> Expr:
+    """The k-th value of a symbol."""
+    if symbol.is_integer:
+        step = 2 if symbol.is_even or symbol.is_odd else 1
+        value = sympy.Integer(step * (k + 1) - (1 if symbol.is_odd else 0))
+    else:
+        value = sympy.Rational(9973 + 2 * sum(ord(c) * 31**i for i, c in enumerate(symbol.name)) % 9973, 9967) + k
+    return -value if symbol.is_negative or symbol.is_nonpositive else value
+
+
+def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
+    """The value of a constant in a ball, None where that can't be computed; parameters have the values of the sample."""
+    if sample:
+        value = value.xreplace(sample)
+    if value.has(*ANTIDERIVATIVES):
+        return None
+    try:
+        return jet(value, sympy.Dummy(), acb(0))[0]
+    except (NotImplementedError, AttributeError, ZeroDivisionError):
+        return None
+
+
+def differs_from_zero(value: Expr, sample: dict[Expr, Expr]) -> bool:
+    """Is a ball around the value seen not to contain zero?"""
+    for digits in (DIGITS, _PRECISE):
+        with ctx.workdps(digits):
+            found = ball(value, sample)
+            if found is None or not found.is_finite():
+                return False
+            if not found.contains(0):
+                return True
+    return False
+
+
+def agree(value: Expr, other: Expr) -> bool:
+    """Are two expressions for a constant, of which one was found at another point, the same to 50 digits?"""
+    sample = next(samples((value - other).free_symbols))
+    with ctx.workdps(3 * DIGITS):
+        difference = ball(value - other, sample)
+        return difference is not None and bool(abs(difference) < arb(10) ** -DIGITS)
+
+
+def is_identically_zero(value: Expr) -> bool:
+    """Is it seen to be zero: as a sum of monomials in exponentials, waves and logarithms, or as a number made of roots?"""
+    if sum(1 for _ in sympy.preorder_traversal(value)) > _LARGEST:
+        return False
+    numerator = sympy.numer(sympy.together(prepared(value)))  # a sum of waves, as sin(a) cos(b) isn't
+    if sympy.expand(numerator) == 0 or sympy.expand(TR8(sympy.expand(numerator))) == 0:
+        return True
+    spread = sympy.expand_log(sympy.expand(numerator, power_base=True), force=False)
+    if sympy.expand(spread) == 0:
+        return True
+    if value.free_symbols:
+        exponentials = sympy.expand(numerator.rewrite(sympy.exp))
+        return bool(sympy.expand(sympy.powsimp(exponentials)) == 0)
+    return is_zero_by_size(value)
+
+
+@dataclass(frozen=True)
+class _Bounds:
+    """u and l of the reference, in bits; the product of the degrees of the roots is kept beside."""
+
+    u: int
+    l: int  # noqa: E741
+
+
+def is_zero_by_size(value: Expr) -> bool:
+    """Is a number that is made of rational numbers, i and roots zero: is it smaller than such a number can be?
+
+    >>> is_zero_by_size(sympy.sqrt(2) + sympy.sqrt(3) - sympy.sqrt(5 + 2 * sympy.sqrt(6)))
+    True
+    """
+    degrees: dict[Expr, int] = {}
+    bounds = _bounds(value, degrees)
+    if bounds is None:
+        return False
+    D = 1
+    for degree in degrees.values():
+        D *= degree
+    bits = (D - 1) * bounds.u + bounds.l + 2
+    if bits > _MOST_BITS:
+        return False
+    with ctx.workprec(bits + 64):
+        found = ball(value)
+        return found is not None and bool(abs(found) < arb(2) ** -bits)
+
+
+def _bounds(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
+    """Every conjugate of l e is an algebraic integer of at most u: in bits; None for what isn't such a number."""
+    if e.is_Rational:
+        return _Bounds(int(abs(e.p)).bit_length(), int(e.q).bit_length())
+    if e is sympy.I:
+        degrees[e] = 2
+        return _Bounds(1, 1)
+    if e.is_Add or e.is_Mul:
+        parts = [_bounds(part, degrees) for part in e.args]
+        total = parts[0]
+        for part in parts[1:]:
+            if total is None or part is None:
+                return None
+            below = total.l + part.l
+            above = total.u + part.u if e.is_Mul else max(total.u + part.l, total.l + part.u) + 1
+            total = _Bounds(above, below)
+        return total
+    if e.is_Pow and e.exp.is_Rational and abs(int(e.exp.p)) <= 64:
+        return _bounds_of_power(e, degrees)
+    return None
+
+
+def _bounds_of_power(e: Expr, degrees: dict[Expr, int]) -> _Bounds | None:
+    inner = _bounds(e.base, degrees)
+    if inner is None:
+        return None
+    times, index = abs(int(e.exp.p)), int(e.exp.q)
+    root = inner
+    if index > 1:
+        degrees[sympy.Pow(e.base, sympy.Rational(1, index), evaluate=False)] = index
+        root = _Bounds(-(-(inner.u + (index - 1) * inner.l) // index), inner.l)
+        if inner.u < inner.l:
+            root = _Bounds(inner.u, -(-(inner.l + (index - 1) * inner.u) // index))
+    found = _Bounds(times * root.u, times * root.l)
+    return _Bounds(found.l, found.u) if e.exp < 0 else found
