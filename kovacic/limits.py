@@ -122,6 +122,46 @@ class Budget:
 _WATCHED: ContextVar[Budget | None] = ContextVar("watched", default=None)
 
 
+class _Work:
+    """How much may still be counted."""
+
+    __slots__ = ("left", "most")
+
+    def __init__(self, most: int) -> None:
+        self.most = most
+        self.left = most
+
+
+_COUNTED: ContextVar[_Work | None] = ContextVar("counted", default=None)
+
+
+@contextmanager
+def bounded_work(most: int) -> Iterator[None]:
+    """Inside `with`, `count_work` raises once more than this was counted, the same on an idle and on a loaded machine.
+
+    >>> with bounded_work(3):
+    ...     count_work(2)
+    ...     count_work(2)
+    Traceback (most recent call last):
+    kovacic.errors.LimitExceeded: more than 3 units of work are needed
+    """
+    token = _COUNTED.set(_Work(most))
+    try:
+        yield
+    finally:
+        _COUNTED.reset(token)
+
+
+def count_work(amount: int) -> None:
+    """Counts some units of work; raises `LimitExceeded` where that is bounded and the bound is passed."""
+    work = _COUNTED.get()
+    if work is None:
+        return
+    work.left -= amount
+    if work.left < 0:
+        raise LimitExceeded(f"more than {work.most} units of work are needed", limit="work")
+
+
 _P = ParamSpec("_P")
 _R = TypeVar("_R")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import time
 from fractions import Fraction
+from itertools import count
 from typing import Any
 
 import mpmath
@@ -31,6 +32,7 @@ from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import CLOCK, bounded_work
 
 TETRAHEDRAL = "(-32*x^2 + 27*x - 27)/(144*x^4 - 288*x^3 + 144*x^2)"
 ICOSAHEDRAL = "(-864*x^2 + 739*x - 675)/(3600*x^4 - 7200*x^3 + 3600*x^2)"
@@ -402,6 +404,19 @@ def test_a_table_of_a_complex_solution_and_of_an_equation_with_a_first_derivativ
 
 
 # --- warnings and refusals -------------------------------------------------------------------------------------------
+
+
+def test_the_error_is_measured_on_a_slow_machine_too() -> None:
+    seconds = count()
+    with CLOCK.read_from(lambda: float(next(seconds))):
+        function = lambdify("-1 - 1/x", interval=(1, 90), x0=1, y0=1, dy0=0)
+    assert function.measured == lambdify("-1 - 1/x", interval=(1, 90), x0=1, y0=1, dy0=0).measured
+
+
+def test_a_measurement_ends_where_its_steps_are_used_up() -> None:
+    function = lambdify("x", interval=(-9, 2), x0=0, y0=1, dy0=0)
+    with bounded_work(100), pytest.raises(LimitExceeded, match="more than 100 units of work"):
+        measure(function, "x", start={"x0": 0, "y0": 1, "dy0": 0})
 
 
 def test_an_inaccurate_function_warns_with_its_measured_error(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 from fractions import Fraction
 from html.parser import HTMLParser
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.cli.main import run
 from kovacic.engine.paper import Search, _Roots, in_sympy, is_natural, search
 from kovacic.engine.places import analyse
-from kovacic.limits import Budget
+from kovacic.limits import CLOCK, Budget
 from kovacic.views.explain import rational_form
 from kovacic.views.sentences import formulas_of, normal_form
 from kovacic.writing.breaking import LINE, breakable, pieces
@@ -497,6 +498,13 @@ def test_an_answer_in_special_functions_shows_them_in_jupyter() -> None:
 def test_a_page_has_a_picture_beside_an_irregular_singular_point() -> None:
     """Kovacic's Example 1; solutions are as large as exp(1/x) at 0."""
     page = kovacic.solve("(4*x^6-8*x^5+12*x^4+4*x^3+7*x^2-20*x+4)/(4*x^4)").explain(format="html")
+    assert "<svg" in page
+
+
+def test_a_page_on_a_slow_machine_has_its_picture() -> None:
+    seconds = count()
+    with CLOCK.read_from(lambda: float(next(seconds))):
+        page = kovacic.solve("x").explain(format="html")
     assert "<svg" in page
 
 

@@ -28,7 +28,7 @@ from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, NotRational
-from kovacic.limits import Limits, check_time
+from kovacic.limits import Limits, check_time, count_work
 from kovacic.reading.read import read_input
 
 _SLOPE_BITS = 4000
@@ -121,6 +121,7 @@ class Chart:
                 slope, factor = P.derivative(), 1 / P(z)
                 for point in (point for point in points if point not in found):
                     check_time()
+                    count_work(prec)
                     x = to_acb(point)
                     growth = theta.growth(z, x) * factor
                     y = growth * P(x)

@@ -33,7 +33,7 @@ from kovacic.doubles.tabulate import TabulatedFunction, table_of
 from kovacic.enclosure.points import as_point, working_precision
 from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Limits, limited, watched_seconds
+from kovacic.limits import DEFAULT_LIMITS, Limits, bounded_work, limited
 
 TINY, HUGE = 2.0**-960, 2.0**1020
 """Where values count."""
@@ -42,6 +42,9 @@ _DIGITS = 50
 _PREC = 240
 _BITS = 166
 """The bits of 50 digits."""
+
+_MOST_WORK = 1_500_000
+"""Steps of Taylor's method, or values of closed forms, times their bits: for the reference values of one measurement."""
 
 _SAMPLES, _ZEROS, _WORST = 24, 3, 4
 """Points at which a function is measured, zeros that are looked at from both sides, and points that are suspected."""
@@ -82,8 +85,8 @@ def lambdify(
     the next zero, and others in between; and at four of thousands, no nearer to zeros, where plain doubles differ most from
     double-doubles.  The arithmetic is that of plain doubles, unless this error is above 8 (median) or 1,000 (worst): then it
     is that of double-doubles, 20 times slower; `careful` True or False chooses.  An AccuracyWarning says where the error is
-    above these bounds after all, or couldn't be measured within 20 s.  A function keeps no state: threads may share it.
-    Making one sets python-flint's precision, under the package's lock.
+    above these bounds after all, or where measuring it would take more steps than some 20 s have.  A function keeps no state:
+    threads may share it.  Making one sets python-flint's precision, under the package's lock.
 
     Raises InputError without a Liouvillian solution and without initial values, for an interval that is empty or has a
     singular point inside, for complex arguments in cases 2 and 3, and for a table up to a singular point.
@@ -125,8 +128,8 @@ def lambdify(
             table_of(chart, interval, variant, limits) if form is None else replace(form, careful=variant)
         )
         try:
-            seconds = watched_seconds(20.0)
-            found = measure(function, chart, start=start, limits=Limits(seconds=seconds)) if check else None
+            with bounded_work(_MOST_WORK):
+                found = measure(function, chart, start=start, limits=limits) if check else None
         except LimitExceeded as limit:
             found = str(limit)
         if not isinstance(found, Measured) or found.keeps_the_promise:

@@ -35,7 +35,7 @@ from kovacic.enclosure.start import Start, middle, spread
 from kovacic.enclosure.system import check_segment
 from kovacic.enclosure.transport import walk
 from kovacic.errors import InputError
-from kovacic.limits import check_time
+from kovacic.limits import check_time, count_work
 
 Closed = ClosedForm | Classical
 _KEPT = 4  # precisions at which the beginning of a journey is kept for the next targets
@@ -205,6 +205,7 @@ class Traveller:
     def by_closed_form(self, closed: Closed, stop: Point, start: State) -> State:
         """The user's (z, z') at the end of a straight line from here."""
         check_time()
+        count_work(self.prec)
         here = self.here
         if isinstance(here, Singular):
             return limit(here, start) if here.is_at(stop) else apply(self._closed_matrix(closed, stop, start), start)

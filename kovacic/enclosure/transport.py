@@ -31,7 +31,7 @@ from kovacic.enclosure.splitting import is_split, legs
 from kovacic.enclosure.system import System, check_segment, distance_lower, is_apart
 from kovacic.enclosure.taylor import Expansion, expand, states_at, transition
 from kovacic.errors import LimitExceeded
-from kovacic.limits import check_time, watched_seconds
+from kovacic.limits import check_time, count_work, watched_seconds
 
 # Scale of a disc as a share of the distance to the nearest singular point, at most (scales are powers of two)
 _RATIO = 0.625
@@ -115,6 +115,7 @@ def walk(system: System, a: Point, b: Point, prec: int, targets: int = 0) -> Ite
     begun, split = watched_seconds(math.inf), is_split(system, prec) and not targets
     growth, foreseen = max(_FEWER_BITS, prec * _GROWTH) if targets >= _MANY else None, False
     for number, disc in enumerate(cover(system, a, b, prec, growth), 1):
+        count_work(prec)
         if split:
             start, stop = map(product, legs(system, disc.frame, disc.enter, disc.leave, prec))
             yield Leg(disc, None, multiply(stop, adjugate(start)))

@@ -6,7 +6,6 @@ First the paper's own steps, line by line (`steps`), then what this package clai
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from html import escape
 from io import StringIO
 
@@ -17,6 +16,7 @@ from kovacic.decision import Exclusion, NecessaryCondition, SemiInvariant, Statu
 from kovacic.engine.places import Problem
 from kovacic.engine.riccati import residue
 from kovacic.errors import KovacicError, LimitExceeded
+from kovacic.limits import bounded_work
 from kovacic.views.bibliography import references
 from kovacic.views.sentences import (
     SHORTER,
@@ -46,7 +46,8 @@ _BY_INVARIANT = {
     Structure.OCTAHEDRAL: "an invariant of degree 8, the least one of the binary octahedral group",
     Structure.ICOSAHEDRAL: "an invariant of degree 12, the least one of the binary icosahedral group",
 }
-_PICTURE_SECONDS = 5.0
+#: Steps of Taylor's method times their bits, or values of closed forms: some seconds.
+_PICTURE_WORK = 400_000
 
 
 def explain(answer: Answer, *, format: str = "text", solutions: bool = True) -> str:
@@ -95,8 +96,8 @@ def _picture(answer: Answer) -> str:
     try:
         singular = [float(z.re) for z in as_problem(answer).singular_points(64) if z.is_real()]
         low, high = round(min(singular, default=-3)) - 2, round(max(singular, default=3)) + 2
-        seconds = min(answer.limits.seconds or _PICTURE_SECONDS, _PICTURE_SECONDS)
-        figure = plot(answer, low, high, digits=6, points=240, limits=replace(answer.limits, seconds=seconds))
+        with bounded_work(_PICTURE_WORK):
+            figure = plot(answer, low, high, digits=6, points=240, limits=answer.limits)
     except (KovacicError, ImportError):
         return ""
     figure.savefig(drawing := StringIO(), format="svg", metadata={"Date": None})
