@@ -173,7 +173,7 @@ def measure(
         raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
     with working_precision(_PREC):
         pairs = list(zip(found, reference, strict=True))
-        quotients = [(acb(v) / y).mid() for v, y in pairs if TINY < abs(v) < math.inf and not y.contains(0)]
+        quotients = [(acb(v) / y).mid() for v, y in pairs if TINY < _size(v) < math.inf and not y.contains(0)]
         if not quotients:
             return Measured(math.inf, math.inf, 0)
         by_real = abs(quotients[0].real) >= abs(quotients[0].imag)
@@ -255,6 +255,11 @@ def _units(value: complex, exact: acb) -> float | None:
     size = abs(exact)
     if not TINY < size < HUGE:
         return None
-    if not math.isfinite(abs(value)):
+    if not math.isfinite(_size(value)):
         return math.inf
     return float(abs(value - exact) / float(np.spacing(float(size))))
+
+
+def _size(value: complex) -> float:
+    """|value|, infinite or NaN where it is; Python's `abs` raises beyond the doubles, and for a NaN after any overflow."""
+    return math.hypot(value.real, value.imag)
