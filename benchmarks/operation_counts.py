@@ -61,6 +61,15 @@ def _system(counts: Counts, arguments: tuple[Any, ...], options: dict[str, Any])
     counts.systems.append(f"{len(arguments[0])}x{arguments[1]}")
 
 
+def _rank(counts: Counts, arguments: tuple[Any, ...], options: dict[str, Any]) -> None:
+    columns, start, end = arguments
+    counts.systems.append(f"{end - start}x{len(columns)}")
+
+
+def _prime(counts: Counts, arguments: tuple[Any, ...], options: dict[str, Any]) -> None:
+    counts.primes += 1
+
+
 def _verification(counts: Counts, arguments: tuple[Any, ...], options: dict[str, Any]) -> None:
     counts.verifications += 1
 
@@ -76,7 +85,13 @@ FUNCTIONS: dict[tuple[str, str], Rule] = {
     ("kovacic.algebra.modular", "square_root_series"): _terms(1),
     ("kovacic.algebra.modular", "null_space"): _system,
     ("kovacic.engine.expansion", "_null_vector"): _system,
-    ("kovacic.verify", "_positive"): _verification,
+    ("kovacic.verify", "_omega_holds"): _verification,
+    ("kovacic.verify.primes", "homomorphisms_modulo"): _prime,
+    ("kovacic.verify.series", "solutions_at_ordinary_point"): _terms(2),
+    ("kovacic.verify.series", "product_of_powers"): _terms(1),
+    ("kovacic.verify.series", "solution_at_singular_point"): _terms(3),
+    ("kovacic.verify.series", "square_root"): _terms(2),
+    ("kovacic.verify.series", "nullity"): _rank,
 }
 METHODS: dict[tuple[str, str, str], Rule] = {
     ("kovacic.algebra.recurrence", "RationalSeries", "extend"): _exact_term,

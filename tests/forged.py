@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import islice
 
-from kovacic.algebra.modular import BadPrimeError, ordinary_point, simple_roots
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRationalOmega, Rule, Structure
 from kovacic.limits import Budget
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
-from kovacic.verify.local import zero_counts
+from kovacic.verify.forms import ordinary_point, room
+from kovacic.verify.primes import roots_modulo
+from kovacic.verify.zeros import zero_counts
 
 
 def forged_evidence(S: RatFunc, structure: Structure) -> Iterator[tuple[Evidence, ...]]:
@@ -24,8 +25,10 @@ def forged_evidence(S: RatFunc, structure: Structure) -> Iterator[tuple[Evidence
     primes = [h.p for h, _ in zip(S.field.homomorphisms(), range(2), strict=False)]
     forms, omegas = [NoInvariant(m) for m in INVARIANT_DEGREE.values()], [NoRationalOmega(-1)]
     for m in INVARIANT_DEGREE.values():
-        room, own = inspector.room(m)[1], m == INVARIANT_DEGREE[structure]
-        forms += [NoInvariant(m, p, ordinary_point(h(S.den)), room) for p in (primes if own else primes[:1])]
+        bounds = room(inspector.points, m)
+        degree = -1 if bounds is None else bounds[1]
+        tried = primes if m == INVARIANT_DEGREE[structure] else primes[:1]
+        forms += [NoInvariant(m, p, ordinary_point(h(S.den)), degree) for p in tried]
     counts = zero_counts(inspector.points)
     if counts is not None:
         omegas += [NoRationalOmega(counts.largest), *(NoRationalOmega(counts.largest, primes[0], n) for n in names)]
@@ -42,9 +45,4 @@ def forged_evidence(S: RatFunc, structure: Structure) -> Iterator[tuple[Evidence
 
 def primes_with_a_root(factor: Poly) -> Iterator[int]:
     """The primes, among the first ones, modulo which a factor has a simple root."""
-    for h in islice(factor.field.homomorphisms(), 100):
-        try:
-            if any(True for _ in simple_roots(h.keeping_degree(factor))):
-                yield h.p
-        except BadPrimeError:
-            continue
+    return (h.p for h in islice(factor.field.homomorphisms(), 100) if roots_modulo(factor, h))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -160,3 +161,12 @@ def test_nothing_executes_text() -> None:
                     continue  # sympify(..., strict=True) refuses text
                 called = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
                 assert called not in forbidden, f"{path}: {called}"
+
+
+def test_what_the_kernel_shares_with_the_search() -> None:
+    """Arithmetic in rings and fields, and reduction modulo a prime; the contract forbids every other module."""
+    rooms = {path.stem for path in (ROOT / "algebra").glob("*.py")} - {"__init__"}
+    shared = {"evaluation", "extension", "function_field", "homomorphism", "poly", "ratfunc", "rationals"}
+    contracts = tomllib.loads((ROOT.parent / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"]
+    forbidden = next(c["forbidden_modules"] for c in contracts["contracts"] if "shares arithmetic" in c["name"])
+    assert {f"kovacic.algebra.{name}" for name in rooms - shared} == set(forbidden)

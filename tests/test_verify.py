@@ -31,9 +31,9 @@ from kovacic.galois.jacobian import Jacobian
 from kovacic.limits import Budget, Limits
 from kovacic.verify import GroupClaim, verify
 from kovacic.verify.evidence import Inspector
-from kovacic.verify.local import zero_counts
 from kovacic.verify.residue import exponent_difference_squared
 from kovacic.verify.torsion import order_holds
+from kovacic.verify.zeros import zero_counts
 
 X = RatFunc(QQ.poly([0, 1]))
 PRIMES = [101, 10007, (1 << 61) - 1]

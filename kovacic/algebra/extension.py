@@ -16,8 +16,8 @@ from typing import Any
 from flint import fmpq
 
 from kovacic.algebra import splitting
+from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.lifting import Lifter, inverse_by_primes
-from kovacic.algebra.modular import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.algebra.rationals import QQ, RationalPoly, square_part
 from kovacic.algebra.traces import coefficients_from_traces, power_sums

@@ -8,8 +8,8 @@ from itertools import islice
 from operator import mul
 from typing import Any
 
+from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.algebra.lifting import Lifter
-from kovacic.algebra.modular import BadPrimeError
 from kovacic.algebra.poly import Poly
 from kovacic.limits import check_time
 

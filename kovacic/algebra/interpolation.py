@@ -9,50 +9,19 @@ Exactness comes from the verification of what is proposed; a wrong proposal is n
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import combinations_with_replacement
-from math import prod
 from typing import Any
 
-from flint import nmod_poly
-
+from kovacic.algebra.evaluation import Evaluation, Exponents, power_product
+from kovacic.algebra.homomorphism import Collector, Homomorphism
 from kovacic.algebra.lifting import chinese_remainders, reconstruct_vector
-from kovacic.algebra.modular import BadPrimeError, Collector, Homomorphism, null_space
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.rationals import RationalHomomorphism, RationalPoly
+from kovacic.algebra.modular import null_space
 from kovacic.errors import LimitExceeded
 
 #: Samples beyond the number of unknowns.
 _MARGIN = 4
 #: The largest linear system: beyond it the answer has too many terms in the parameters.
 _LARGEST = 2400
-
-_Exponents = tuple[int, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Evaluation(Homomorphism):
-    """The parameters take the values `point` modulo p."""
-
-    p: int
-    point: _Exponents
-
-    def __call__(self, polynomial: Poly) -> Any:
-        if isinstance(polynomial, RationalPoly):
-            return RationalHomomorphism(self.p)(polynomial)
-        num, den = polynomial.num, polynomial.den  # type: ignore[attr-defined]
-        scale = sum(self._columns(den)) % self.p
-        if scale == 0:
-            raise BadPrimeError("a parameter takes a forbidden value")
-        image = nmod_poly(self._columns(num), self.p)
-        return image if scale == 1 else image * pow(scale, -1, self.p)
-
-    def _columns(self, polynomial: Any) -> list[int]:
-        """The coefficients of the powers of x, which is variable number 0."""
-        columns = [0] * (int(polynomial.degrees()[0]) + 1)
-        for exponents, coefficient in polynomial.to_dict().items():
-            columns[int(exponents[0])] += int(coefficient) * _power_product(self.point, exponents[1:], self.p)
-        return [c % self.p for c in columns]
 
 
 class Samples(Collector):
@@ -63,7 +32,7 @@ class Samples(Collector):
 
     def __init__(self, parameters: int, shape: tuple[int, ...]) -> None:
         super().__init__(shape)
-        self._points: dict[int, list[_Exponents]] = {}
+        self._points: dict[int, list[Exponents]] = {}
         self._values: dict[int, list[list[int]]] = {}
         self._unknowns = [_Unknown(parameters) for _ in range(sum(shape))]
 
@@ -103,7 +72,7 @@ class _Unknown:
     def __init__(self, parameters: int) -> None:
         self.parameters = parameters
         self.degree = 0
-        self.terms: tuple[list[_Exponents], list[_Exponents]] | None = None
+        self.terms: tuple[list[Exponents], list[Exponents]] | None = None
         self.primes: set[int] = set()
         self.modulus = 1
         self.residues: list[int] = []
@@ -117,7 +86,7 @@ class _Unknown:
     def size(self) -> int:
         return sum(map(len, self.terms)) if self.terms else 0
 
-    def solve(self, p: int, points: list[_Exponents], values: list[int]) -> None:
+    def solve(self, p: int, points: list[Exponents], values: list[int]) -> None:
         """Add what the samples modulo a prime say: with the known terms, or with all up to the next degree."""
         monomials = [] if self.terms else list(_monomials(self.parameters, self.degree))
         if 2 * len(monomials) > _LARGEST:
@@ -138,7 +107,7 @@ class _Unknown:
         self.modulus *= p
         self.primes.add(p)
 
-    def reconstruct(self) -> tuple[dict[_Exponents, int], dict[_Exponents, int]] | None:
+    def reconstruct(self) -> tuple[dict[Exponents, int], dict[Exponents, int]] | None:
         """Integer coefficients of N and D, or None as long as the modulus is too small."""
         assert self.terms is not None
         vector = reconstruct_vector(self.residues, self.modulus)
@@ -151,25 +120,21 @@ class _Unknown:
         )
 
 
-def _monomials(parameters: int, degree: int) -> Iterator[_Exponents]:
+def _monomials(parameters: int, degree: int) -> Iterator[Exponents]:
     """All exponents of total degree at most `degree`."""
     for choice in combinations_with_replacement(range(parameters + 1), degree):
         yield tuple(choice.count(i) for i in range(parameters))
 
 
 def _solve(
-    p: int, points: list[_Exponents], values: list[int], above: list[_Exponents], below: list[_Exponents]
+    p: int, points: list[Exponents], values: list[int], above: list[Exponents], below: list[Exponents]
 ) -> list[int] | None:
     """The only solution up to a factor of N(t) = v D(t) at all points, or None."""
     every = {*above, *below}
     rows: list[list[int]] = []
     for point, value in zip(points, values, strict=False):
-        at = {m: _power_product(point, m, p) for m in every}
+        at = {m: power_product(point, m, p) for m in every}
         rows.append([*(at[m] for m in above), *(-value * at[m] % p for m in below)])
     columns = len(above) + len(below)
     basis = null_space(rows, columns, p)
     return basis[0] if len(basis) == 1 else None
-
-
-def _power_product(point: _Exponents, exponents: _Exponents, p: int) -> int:
-    return prod(pow(base, exponent, p) for base, exponent in zip(point, exponents, strict=True) if exponent) % p

@@ -14,7 +14,7 @@ from typing import Any
 
 from flint import fmpq_poly, fmpz, fmpz_poly, nmod_poly
 
-from kovacic.algebra.modular import BadPrimeError, Collector, Homomorphism
+from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.poly import Field, Poly
 from kovacic.limits import check_time
 

@@ -16,7 +16,7 @@ from fractions import Fraction
 from math import gcd, lcm
 from typing import Any, Self
 
-from kovacic.algebra.modular import Collector, Homomorphism
+from kovacic.algebra.homomorphism import Collector, Homomorphism
 from kovacic.algebra.text import joined_terms, quotient_str
 
 Scalar = int | Fraction

@@ -13,8 +13,8 @@ from flint import fmpq, fmpq_poly, fmpz, fmpz_poly, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.apart import last_of
+from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.lifting import Residues, inverse_by_primes, primes
-from kovacic.algebra.modular import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.limits import check_duration, check_time, watched_seconds
 

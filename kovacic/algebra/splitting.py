@@ -9,15 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
-from dataclasses import dataclass
 from functools import cache, lru_cache
 from itertools import islice, tee
 from typing import Any
 
 from flint import fmpq, fmpq_poly, fmpz_mat, nmod_mat, nmod_poly
 
+from kovacic.algebra.homomorphism import BadPrimeError, Collector, ExtensionHomomorphism, Homomorphism
 from kovacic.algebra.lifting import chinese_remainders, primes
-from kovacic.algebra.modular import BadPrimeError, Collector, Homomorphism, simple_roots
+from kovacic.algebra.modular import simple_roots
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ, RationalHomomorphism
 
@@ -25,35 +25,6 @@ from kovacic.algebra.rationals import QQ, RationalHomomorphism
 _LARGE_DEGREE, _TRIED_PRIMES = 4, 12
 #: Bits that a reduced vector must leave unused, so that a chance hit is improbable; exactness comes from verification.
 _SLACK_BITS = 12
-
-
-@dataclass(frozen=True, slots=True)
-class ExtensionHomomorphism(Homomorphism):
-    """K(c) -> F_p: a homomorphism of K and the image of c, a root of c's minimal polynomial modulo p."""
-
-    base: Homomorphism
-    root: int
-
-    @property
-    def p(self) -> int:  # type: ignore[override]
-        return self.base.p
-
-    @property
-    def ground(self) -> Homomorphism:
-        return self.base.ground
-
-    @property
-    def height(self) -> int:
-        """How many extensions the tower has."""
-        return self.base.height + 1 if isinstance(self.base, ExtensionHomomorphism) else 1
-
-    def __call__(self, polynomial: Poly) -> Any:
-        if polynomial.field.height < self.height:
-            return self.base(polynomial)
-        result = nmod_poly([], self.p)
-        for part in reversed(polynomial.parts):
-            result = result * self.root + self.base(part)
-        return result
 
 
 def homomorphisms_modulo(field: Any, p: int) -> Iterator[Homomorphism]:

@@ -9,7 +9,7 @@ from math import lcm
 
 from flint import fmpz
 
-from kovacic.algebra.modular import BadPrimeError
+from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.algebra.poly import Poly
 
 #: Primes at which a norm is tested for being a square: a norm that isn't one passes with probability 2^-24.

@@ -15,10 +15,9 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
+from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.modular import (
-    BadPrimeError,
-    Homomorphism,
     echelon_by_degree,
     fundamental_system,
     null_space,

@@ -16,9 +16,8 @@ from typing import Any
 
 from flint import nmod_poly
 
+from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.modular import (
-    BadPrimeError,
-    Homomorphism,
     rational_function_from_series,
     reverse,
     series_solution,

@@ -25,7 +25,8 @@ from typing import Any
 from flint import nmod_poly
 
 from kovacic.algebra.factors import expansions, product
-from kovacic.algebra.modular import BadPrimeError, series_solution, simple_roots, translate
+from kovacic.algebra.homomorphism import BadPrimeError
+from kovacic.algebra.modular import series_solution, simple_roots, translate
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget

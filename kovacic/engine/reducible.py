@@ -16,8 +16,8 @@ from itertools import count, islice
 from typing import Any
 
 from kovacic.algebra.extension import adjoined_square_root
+from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.lifting import Lifter
-from kovacic.algebra.modular import BadPrimeError, Homomorphism
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.recurrence import polynomial_solution

@@ -31,7 +31,8 @@ from typing import Any
 
 from flint import fmpz, nmod_poly
 
-from kovacic.algebra.modular import BadPrimeError, Homomorphism, simple_roots
+from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
+from kovacic.algebra.modular import simple_roots
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.splitting import homomorphisms_modulo

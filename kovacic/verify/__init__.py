@@ -7,7 +7,12 @@ checked by the evidence against every structure.  Only exact arithmetic and arit
 which it proves something (a rank can only drop) is used.
 
 S and a `Decision` go in, a `Verification` comes out.  Read `verify` here first, then `identity` for the positive claims and
-`evidence`, with `local` and `residue`, for the negative ones; `group` and `torsion` check the group.
+`evidence` for the negative ones: `conditions` at the points of `local`, `forms`, and `omega` with `zeros` and `residue`, by
+`series` modulo `primes`.  `group` and `torsion` check the group.
+
+With the search the kernel shares the arithmetic of polynomials and rational functions over the fields, with factoring,
+square roots of constants and the reduction of an element modulo a prime; and the classes in which claims are written down.
+Everything else is written here, in the plainest way, and a contract in pyproject.toml forbids to import it.
 """
 
 from __future__ import annotations
@@ -16,7 +21,7 @@ from dataclasses import dataclass
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import Decision, GroupClaim, Status, Structure
+from kovacic.decision import Decision, GroupClaim, RiccatiPolynomial, SemiInvariant, Status, Structure
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
@@ -24,7 +29,6 @@ from kovacic.verify.identity import form_numerators, is_power, is_rational
 
 #: The structures in the order of the proof, with the degree of omega.
 _OMEGA_DEGREE = dict(zip(Structure, (1, 2, 4, 6, 12), strict=True))
-_EXCLUDED = {structure: f"the Galois group isn't {structure.value} (case {structure.case})" for structure in Structure}
 
 
 @dataclass(frozen=True)
@@ -61,71 +65,105 @@ def verify(
     Raises `LimitExceeded` when the budget (by default that of `kovacic.Limits()`) is used up before the group is reached.
     """
     inspector = Inspector(S, budget or Budget())
-    structures, structure = list(_OMEGA_DEGREE), decision.structure
-    claimed = [exclusion.structure for exclusion in decision.exclusions]
-    if decision.status is Status.LIOUVILLIAN and structure is not None:
-        checks = _positive(inspector, decision, structure)
-        required = structures[: structures.index(structure)]
-    else:
-        nothing = (structure, decision.invariant, decision.semi_invariant, decision.riccati)
-        checks = [] if nothing == (None,) * 4 else [Check("no solution is claimed", False)]
-        required = structures if decision.status is Status.NONE_EXISTS else structures[: len(claimed)]
-    if claimed != required:
-        checks.append(Check("the structures before the answer's are excluded, each once", False))
-    for exclusion in decision.exclusions:
-        passed = inspector.excludes(exclusion.structure, exclusion.evidence)
-        checks.append(Check(_EXCLUDED[exclusion.structure], passed))
+    checks = [*_claimed_solution(inspector, decision), *_claimed_exclusions(inspector, decision)]
     if group is None or not all(check.passed for check in checks):
         return Verification(tuple(checks))
+    return _with_group(tuple(checks), inspector, decision, group)
+
+
+def _with_group(checks: tuple[Check, ...], inspector: Inspector, decision: Decision, group: GroupClaim) -> Verification:
+    """And is the group the one that is claimed?"""
     from kovacic.verify.group import group_holds  # which a decision alone doesn't need
 
-    statement, why = "the Galois group is the one that is named", "its order wasn't determined"
+    statement = "the Galois group is the one that is named"
     try:
         holds = group_holds(inspector, decision, group)
     except LimitExceeded as limit:
-        holds, why = None, str(limit)
+        return Verification(checks, (f"{statement}: {limit}",))
     if holds is None:
-        return Verification(tuple(checks), (f"{statement}: {why}",))
+        return Verification(checks, (f"{statement}: its order wasn't determined",))
     return Verification((*checks, Check(statement, holds)))
 
 
-def _positive(inspector: Inspector, decision: Decision, structure: Structure) -> list[Check]:
-    riccati, form, S = decision.riccati, decision.semi_invariant, inspector.S
+# ------------------------------------------------------------------------------------------- what is excluded
+
+
+def _claimed_exclusions(inspector: Inspector, decision: Decision) -> list[Check]:
+    """Every structure before that of the answer is excluded, each once, in this order; all are where there is no solution."""
+    claimed = [exclusion.structure for exclusion in decision.exclusions]
+    checks = []
+    if claimed != _required_exclusions(decision, len(claimed)):
+        checks.append(Check("the structures before the answer's are excluded, each once", False))
+    for exclusion in decision.exclusions:
+        structure = exclusion.structure
+        passed = inspector.excludes(structure, exclusion.evidence)
+        checks.append(Check(f"the Galois group isn't {structure.value} (case {structure.case})", passed))
+    return checks
+
+
+def _required_exclusions(decision: Decision, claimed: int) -> list[Structure]:
+    structures = [*Structure]
+    if decision.status is Status.NONE_EXISTS:
+        return structures
+    if decision.status is Status.LIOUVILLIAN and decision.structure is not None:
+        return structures[: structures.index(decision.structure)]
+    return structures[:claimed]
+
+
+# ------------------------------------------------------------------------------------------- the solution
+
+
+def _claimed_solution(inspector: Inspector, decision: Decision) -> list[Check]:
+    """The polynomial of omega and the forms; there are none beside "no" and "undecided"."""
+    riccati, form, structure = decision.riccati, decision.semi_invariant, decision.structure
+    if decision.status is not Status.LIOUVILLIAN or structure is None:
+        nothing = (structure, decision.invariant, form, riccati)
+        return [] if nothing == (None,) * 4 else [Check("no solution is claimed", False)]
     if riccati is None or form is None:
         return [Check("the polynomial of omega is there", False)]
-    degree, P, field = _OMEGA_DEGREE[structure], riccati.P, riccati.P.field
-    irreducible = []
-    if isinstance(field, AlgebraicField) and field != S.field:
-        irreducible = [Check(f"the polynomial of {field.name} is irreducible", _is_irreducible(field))]
-        if not irreducible[0].passed:
-            return irreducible
-    fitting = form.degree == riccati.degree == degree and form.P == P
-    numerators = form_numerators(S, form, riccati.D) if fitting else None
+    irreducible = _irreducible_constants(inspector.S, riccati)
+    if not all(check.passed for check in irreducible):
+        return irreducible
+    rational = _invariant_holds(inspector, decision, structure, form, riccati)
+    checks = [*irreducible, *_omega_holds(inspector.S, form, riccati, _OMEGA_DEGREE[structure])]
+    return [*checks, Check("the invariant is a rational form", rational)]
+
+
+def _irreducible_constants(S: RatFunc, riccati: RiccatiPolynomial) -> list[Check]:
+    """The constant that omega brings along has an irreducible polynomial, so that K(c) is a field."""
+    field = riccati.P.field
+    if not isinstance(field, AlgebraicField) or field == S.field:
+        return []
+    irreducible = field.modulus.degree > 1 and field.base.factor(field.modulus) == [(field.modulus, 1)]
+    return [Check(f"the polynomial of {field.name} is irreducible", irreducible)]
+
+
+def _omega_holds(S: RatFunc, form: SemiInvariant, riccati: RiccatiPolynomial, degree: int) -> list[Check]:
+    """By the identities of `identity`, for a form of the structure's degree whose linear factors are the solutions."""
+    P = riccati.P
+    numerators = None
+    if form.degree == riccati.degree == degree and form.P == P:
+        numerators = form_numerators(S, form, riccati.D)
+    same_sum = numerators is not None and numerators[1] == riccati.numerators[1]
     return [
-        *irreducible,
         Check(f"omega satisfies a polynomial of degree {degree}", riccati.degree == degree),
         Check("the roots of the polynomial solve omega' + omega^2 = S", numerators == [*riccati.numerators]),
-        Check(
-            "the sum of the roots is the logarithmic derivative of the semi-invariant",
-            numerators is not None and numerators[1] == riccati.numerators[1],
-        ),
-        Check("P has its zeros at ordinary points", P.degree == 0 or P.gcd(S.den.over(field)).degree == 0),
-        Check("the invariant is a rational form", _invariant_holds(inspector, decision, structure)),
+        Check("the sum of the roots is the logarithmic derivative of the semi-invariant", same_sum),
+        Check("P has its zeros at ordinary points", P.degree == 0 or P.gcd(S.den.over(P.field)).degree == 0),
     ]
 
 
-def _invariant_holds(inspector: Inspector, decision: Decision, structure: Structure) -> bool:
+def _invariant_holds(
+    inspector: Inspector, decision: Decision, structure: Structure, form: SemiInvariant, riccati: RiccatiPolynomial
+) -> bool:
     """A rational form of the structure's degree (perhaps a power of the semi-invariant); in case 1 there need not be one."""
-    F, f, riccati = decision.invariant, decision.semi_invariant, decision.riccati
-    if F is None or f is None or riccati is None:
+    F = decision.invariant
+    if F is None:
         return structure is Structure.REDUCIBLE
-    factors = inspector.factors if decision.exclusions else ()  # which the exclusions need as well
-    rational = F.degree == INVARIANT_DEGREE[structure] and is_rational(F, factors)
-    return rational and (is_power(F, f) or form_numerators(inspector.S, F, riccati.D) is not None)
-
-
-def _is_irreducible(field: AlgebraicField) -> bool:
-    return field.modulus.degree > 1 and field.base.factor(field.modulus) == [(field.modulus, 1)]
+    known = inspector.factors if decision.exclusions else []  # which the exclusions need as well
+    if F.degree != INVARIANT_DEGREE[structure] or not is_rational(F, known):
+        return False
+    return is_power(F, form) or form_numerators(inspector.S, F, riccati.D) is not None
 
 
 __all__ = ["Check", "GroupClaim", "Verification", "verify"]

@@ -1,23 +1,14 @@
 """The Galois group, recomputed from S and from a decision whose forms and polynomial of omega have been checked.
 
-Reducible, omega = theta + P'/P: y1^n is rational exactly when n theta has simple poles with integer residues.
-- There is no rational form of degree 2: omega is unique, and the group {(c, b; 0, 1/c)}, c^n = 1 or any c.
-- There is one, F = y1 y2 with different factors: the group is diagonal, mu_n or G_m.
-- F = y1^2: y2 = y1 int dx/F, which lies in C(x, y1) exactly when 1/F has no residue at a pole of S (at ordinary points y2 is
-  analytic).
-Imprimitive, f = y1 y2, g = f^2 = prod p^(e_p) P^2: an irregular point, or an irrational exponent difference, makes the group
-infinite; forms with different f over one field belong to the quaternion group.  Otherwise u = y1/y2 = exp(int eta), where
-eta = dx/sqrt(g) up to a constant has simple poles with residues +-Delta at the points with e = 2 on the curve z^2 = g.  On
-a curve of genus 0 the group is dicyclic of order 4n, n the common denominator l of these Delta; on others it is infinite if
-there are none.  If there are, the order 4n rests on a rational form of degree 2n that isn't f^n, and on the absence of
-such forms of the degrees 2n/q, q prime.  An infinite group rests on two orders of the divisor of l eta modulo primes; or on
-one, k, and the absence of forms of degree 2 l k, which a finite group would have: see `torsion`.
+A claim is the name of a family with its parameter n.  What S and the decision say comes out as such a pair as well, one rule
+after the other; only an imprimitive group on a curve of positive genus needs more than these, which its claim brings along.
 
 References: Kovacic 1986, sections 1 and 4; Hendriks & van der Put, J. Symb. Comp. 19 (1995).
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
@@ -25,48 +16,73 @@ from flint import fmpz
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import Decision, GroupClaim, SemiInvariant, Structure
+from kovacic.decision import Decision, GroupClaim, RiccatiPolynomial, SemiInvariant, Structure
 from kovacic.verify.evidence import Inspector
 from kovacic.verify.identity import form_numerators, is_rational, rational_residues
 from kovacic.verify.residue import residue
 from kovacic.verify.torsion import order_holds
 
+#: The name of a family, as in `kovacic.galois.Kind`, and its parameter.
+_Named = tuple[str, int | None]
+
 
 def group_holds(inspector: Inspector, decision: Decision, claim: GroupClaim) -> bool | None:
     """Is this the group?  None for one of which no more is said than that it is imprimitive, where that doesn't decide it."""
-    structure = decision.structure
-    if structure is Structure.REDUCIBLE:
-        return _reducible(inspector, decision, decision.invariant or claim.form) == (claim.family, claim.n)
-    if structure is Structure.IMPRIMITIVE:
-        return _imprimitive(inspector, decision, claim)
-    name = "SL2" if structure is None else structure.value
+    f, riccati = decision.semi_invariant, decision.riccati
+    if decision.structure is Structure.REDUCIBLE and f is not None and riccati is not None:
+        F = decision.invariant or claim.form
+        return _reducible(inspector, f, riccati, F) == (claim.family, claim.n)
+    if decision.structure is Structure.IMPRIMITIVE and f is not None and riccati is not None:
+        return _imprimitive(inspector, f, riccati, claim)
+    name = "SL2" if decision.structure is None else decision.structure.value
     return decision.undecided is None and (claim.family, claim.n) == (name, None)
 
 
-def _reducible(inspector: Inspector, decision: Decision, F: SemiInvariant | None) -> tuple[str, int | None] | None:
-    """The family and n, by a rational form F of degree 2; None if the decision doesn't prove enough."""
-    form, riccati = decision.semi_invariant, decision.riccati
-    if form is None or riccati is None:
-        return None
-    residues = rational_residues(form.theta)
-    n = None if residues is None else lcm(1, *(value.denominator for _, value in residues))
+# ------------------------------------------------------------------------------------------- reducible groups
+
+
+def _reducible(
+    inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynomial, F: SemiInvariant | None
+) -> _Named | None:
+    """The group of y1 = exp(int theta) P, by a rational form F of degree 2; None if there is less proof than that.
+
+    y1^n is rational exactly when n theta has simple poles with integer residues.  Without a rational form of degree 2 omega is
+    unique, and the group is {(c, b; 0, 1/c)}, c^n = 1 or any c.  If F = y1 y2 has different factors, the group is diagonal,
+    mu_n or G_m; if F = y1^2, y2 = y1 int dx/F.
+    """
+    n = _common_denominator(f)
     if F is None:
-        if not inspector.dimension_is_at_most(0, 2):
-            return None
-        return ("borel", None) if n is None else ("additive", n)
-    A = form_numerators(inspector.S, F, riccati.D) if F.degree == 2 and is_rational(F) else None
+        return _unipotent_by_any(n) if inspector.dimension_is_at_most(0, 2) else None
+    if F.degree != 2 or not is_rational(F):
+        return None
+    A = form_numerators(inspector.S, F, riccati.D)
     if A is None:
         return None
     if A[1] * A[1] == 4 * A[0] * A[2]:  # F'^2 - 2 F F'' + 4 S F^2 = 0: F = y1^2
-        return ("cyclic" if _inverse_has_an_integral(inspector, F) else "additive", n)
+        family = "cyclic" if _inverse_has_an_integral(inspector, F) else "additive"
+        return family, n
     return ("multiplicative", None) if n is None else ("cyclic", n)
 
 
+def _unipotent_by_any(n: int | None) -> _Named:
+    """The group of all (c, b; 0, 1/c) with c^n = 1, or with any c."""
+    return ("borel", None) if n is None else ("additive", n)
+
+
+def _common_denominator(f: SemiInvariant) -> int | None:
+    """The least n for which f^n is rational; None if no power is."""
+    residues = rational_residues(f.theta)
+    if residues is None:
+        return None
+    return lcm(*(value.denominator for _, value in residues))
+
+
 def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:
-    """Has 1/F no residue at the poles of S (and so none at infinity), for a rational F?"""
-    num, den = F.P, F.P * 0 + 1
-    for p, value in rational_residues(F.theta) or []:
-        num, den = num * p ** max(int(value), 0), den * p ** max(-int(value), 0)
+    """Does y1 int dx/F lie in C(x, y1) for F = y1^2: has 1/F no residue at the poles of S (and so none at infinity)?
+
+    At the ordinary points y2 is analytic, so that 1/F has no residue there.
+    """
+    num, den = _as_quotient(F)
     for point in inspector.points[:-1]:
         rest, order = num.remove(point.factor)
         if order:
@@ -76,45 +92,142 @@ def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:
     return True
 
 
-def _imprimitive(inspector: Inspector, decision: Decision, claim: GroupClaim) -> bool | None:
-    points, f, riccati = inspector.points, decision.semi_invariant, decision.riccati
-    if f is None or riccati is None:
+def _as_quotient(F: SemiInvariant) -> tuple[Poly, Poly]:
+    """Numerator and denominator of a rational form."""
+    num = F.P
+    den = F.P.field.poly([1])
+    for p, value in rational_residues(F.theta) or []:
+        if value > 0:
+            num = num * p ** int(value)
+        else:
+            den = den * p ** int(-value)
+    return num, den
+
+
+# ------------------------------------------------------------------------------------------- imprimitive groups
+
+
+@dataclass(frozen=True)
+class Curve:
+    """z^2 = g, g = f^2 for the form f = y1 y2, and the differential eta = dx/z up to a constant, with y1/y2 = exp(int eta).
+
+    `branches` is the number of branch points, so that the genus is branches/2 - 1; `differences` has the exponent differences
+    at the double zeros of g, which are the residues of eta, up to their signs: its only poles.
+    """
+
+    branches: int
+    differences: frozenset[Fraction]
+
+    @property
+    def denominator(self) -> int:
+        """The least l for which l eta has integer residues."""
+        return lcm(*(difference.denominator for difference in self.differences))
+
+
+def _imprimitive(inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynomial, claim: GroupClaim) -> bool | None:
+    """The rules for f = y1 y2, in their order: the first one that concerns the group decides."""
+    named = (claim.family, claim.n)
+    if _has_monodromy_of_infinite_order(inspector):
+        return named == ("infinite dihedral", None)
+    if f.P.field != inspector.S.field:
+        return named == ("dicyclic", 2) and _has_conjugates(f)
+    curve = _curve(inspector, f)
+    if curve is None:
         return False
-    if any(point.order > 2 or point.difference is None for point in points):
-        return (claim.family, claim.n) == ("infinite dihedral", None)
-    if f.P.field != inspector.S.field:  # its conjugates are further forms: three pairs of lines are permuted
-        phi = f.logarithmic_derivative
-        return (claim.family, claim.n) == ("dicyclic", 2) and any((*phi.num.parts[1:], *phi.den.parts[1:]))
+    if curve.branches == 2:  # genus 0: y1/y2 is a product of powers of functions, with the exponents Delta
+        return named == ("dicyclic", curve.denominator)
+    if not curve.differences:  # a differential of the first kind, whose integral has periods
+        return named == ("infinite dihedral", None)
+    return _on_curve_of_positive_genus(inspector, f, riccati, claim, curve)
+
+
+def _has_monodromy_of_infinite_order(inspector: Inspector) -> bool:
+    """Is there an irregular point, or an irrational exponent difference?"""
+    return any(point.order > 2 or point.difference is None for point in inspector.points)
+
+
+def _has_conjugates(f: SemiInvariant) -> bool:
+    """Does f'/f lie over no smaller field?  Then its conjugates are further forms: three pairs of lines are permuted."""
+    phi = f.logarithmic_derivative
+    return any((*phi.num.parts[1:], *phi.den.parts[1:]))
+
+
+def _curve(inspector: Inspector, f: SemiInvariant) -> Curve | None:
+    """From the valuations of g = f^2 at the singular points; None if they aren't whole numbers, or g has other zeros or poles.
+
+    The valuations of g, as a form of degree 4, add up to 4.  P, with its zeros at ordinary points, has simple ones there, where
+    the difference is 1.
+    """
     residues = dict(rational_residues(f.theta) or [])
-    e = [2 * residues.pop(point.factor, Fraction(0)) for point in points[:-1]]
-    e.append(4 - sum((k * point.factor.degree for k, point in zip(e, points, strict=False)), Fraction(2 * f.P.degree)))
-    if residues or any(k.denominator > 1 for k in e):
-        return False
-    branches = sum(point.factor.degree for k, point in zip(e, points, strict=True) if k % 2)
-    differences = {point.difference or Fraction(0) for k, point in zip(e, points, strict=True) if k == 2}
-    differences |= {Fraction(1)} if f.P.degree else set()
-    n = lcm(1, *(difference.denominator for difference in differences))
-    if branches == 2:  # genus 0
-        return (claim.family, claim.n) == ("dicyclic", n)
-    if not differences:
-        return (claim.family, claim.n) == ("infinite dihedral", None)
+    valuations = [2 * residues.pop(point.factor, Fraction(0)) for point in inspector.points[:-1]]
+    if residues:
+        return None
+    rest = Fraction(4 - 2 * f.P.degree)
+    for valuation, point in zip(valuations, inspector.points, strict=False):
+        rest -= valuation * point.factor.degree
+    valuations.append(rest)
+    if any(valuation.denominator > 1 for valuation in valuations):
+        return None
+    pairs = [*zip(inspector.points, valuations, strict=True)]
+    branches = sum(point.factor.degree for point, valuation in pairs if valuation % 2)
+    differences = {point.difference for point, valuation in pairs if valuation == 2 and point.difference is not None}
+    if f.P.degree:
+        differences.add(Fraction(1))
+    return Curve(branches, frozenset(differences))
+
+
+def _on_curve_of_positive_genus(
+    inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynomial, claim: GroupClaim, curve: Curve
+) -> bool | None:
+    """The group is finite exactly when k l eta is the logarithmic differential of a function, for some k: the claim says which.
+
+    None for a claim that leaves this open.
+    """
     if claim.family == "dicyclic" and claim.n is not None:
-        return claim.n % n == 0 and _dicyclic(inspector, f, riccati.D, claim.form, claim.n)
+        return claim.n % curve.denominator == 0 and _is_finite(inspector, f, riccati, claim.form, claim.n)
     if claim.family == "infinite dihedral" and claim.n is None:
-        A, B, C = riccati.numerators
-        H, budget = RatFunc(B * B - 4 * A * C, (A * riccati.D) ** 2), inspector.budget
-        if not claim.orders or not all(order_holds(H, differences, p, k, budget) for p, k in claim.orders):
-            return False
-        ks = {k for _, k in claim.orders}
-        return len(ks) > 1 or all(inspector.dimension_is_at_most((n * k + 1) % 2, 2 * n * k) for k in ks)
+        return _is_infinite(inspector, riccati, claim.orders, curve)
     return None if claim.family == "imprimitive" else False
 
 
-def _dicyclic(inspector: Inspector, f: SemiInvariant, D: Poly, form: SemiInvariant | None, n: int) -> bool:
-    """Is there a rational form of degree 2n that isn't a multiple of f^n, and none for a proper divisor of n?"""
-    if form is None or form.degree != 2 * n or not is_rational(form) or form_numerators(inspector.S, form, D) is None:
+def _is_finite(
+    inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynomial, form: SemiInvariant | None, n: int
+) -> bool:
+    """Is the group dicyclic of order 4n?
+
+    Exactly when y1^(2n) + y2^(2n), or another form of degree 2n that isn't a multiple of (y1 y2)^n, is rational, and for no
+    proper divisor of n: there the powers of y1 y2 with even exponents are the only rational forms.
+    """
+    if form is None or form.degree != 2 * n or not is_rational(form):
+        return False
+    if form_numerators(inspector.S, form, riccati.D) is None:
         return False
     if form.logarithmic_derivative == n * f.logarithmic_derivative:
         return False
-    powers = (n // int(q) for q, _ in fmpz(n).factor())
-    return all(inspector.dimension_is_at_most((k + 1) % 2, 2 * k) for k in powers)
+    divisors = [n // int(q) for q, _ in fmpz(n).factor()]
+    return all(inspector.dimension_is_at_most(_powers_of_product(k), 2 * k) for k in divisors)
+
+
+def _powers_of_product(k: int) -> int:
+    """The dimension of the rational forms of degree 2k that are multiples of (y1 y2)^k, of which the square is rational."""
+    return 1 if k % 2 == 0 else 0
+
+
+def _is_infinite(
+    inspector: Inspector, riccati: RiccatiPolynomial, orders: tuple[tuple[int, int], ...], curve: Curve
+) -> bool:
+    """Is y1/y2 transcendental over the curve?
+
+    If not, the divisor of l eta has a finite order k, and the same one modulo every prime of good reduction.  So two different
+    orders prove it; or one, k, and the absence of forms of degree 2 l k beside the power of y1 y2: see `torsion`.
+    """
+    A, B, C = riccati.numerators
+    H = RatFunc(B * B - 4 * A * C, (A * riccati.D) ** 2)  # (y1'/y1 - y2'/y2)^2
+    residues = set(curve.differences)
+    if not orders or not all(order_holds(H, residues, p, k, inspector.budget) for p, k in orders):
+        return False
+    shown = {k for _, k in orders}
+    if len(shown) > 1:
+        return True
+    n = curve.denominator * shown.pop()
+    return inspector.dimension_is_at_most(_powers_of_product(n), 2 * n)

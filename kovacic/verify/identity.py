@@ -11,7 +11,7 @@ theta has simple poles with integer residues only.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from fractions import Fraction
 
 from kovacic.algebra.poly import Poly
@@ -22,42 +22,62 @@ from kovacic.limits import check_time
 
 def form_numerators(S: RatFunc, F: SemiInvariant, D: Poly) -> list[Poly] | None:
     """A_0, ..., A_m of (1) if F is a form of its degree m in the solutions of y'' = S y, with the denominator D; else None."""
-    T = (S.num * D * D).exact_quotient(S.den) if D else None
-    R = (F.theta.num * D).exact_quotient(F.theta.den)
-    if T is None or R is None or not F.P or F.degree < 1:
+    if not D or not F.P or F.degree < 1:
         return None
-    A, slope = [F.P, D * F.P.derivative() + R * F.P], D.derivative()
+    T = (S.num * D * D).exact_quotient(S.den)  # S D^2
+    R = (F.theta.num * D).exact_quotient(F.theta.den)
+    if T is None or R is None:
+        return None
+    A = [F.P, D * F.P.derivative() + R * F.P]
     for k in range(1, F.degree + 1):
         check_time()
-        R = R - slope
-        A.append((D * A[k].derivative() + R * A[k] - T * A[k - 1] * (F.degree - k + 1)) / (k + 1))
-    return None if A.pop() else A
+        R = R - D.derivative()
+        following = D * A[k].derivative() + R * A[k] - T * A[k - 1] * (F.degree - k + 1)
+        A.append(following / (k + 1))
+    last = A.pop()
+    return None if last else A
 
 
-def rational_residues(theta: RatFunc, factors: Iterable[Poly] = ()) -> list[tuple[Poly, Fraction]] | None:
-    """The irreducible factors of the denominator with the residues at their roots, for simple poles and rational residues.
+def rational_residues(theta: RatFunc, factors: Sequence[Poly] = ()) -> list[tuple[Poly, Fraction]] | None:
+    """The irreducible factors of the denominator with the residues of theta dx at their roots, all of them rational.
 
-    None if there is another pole, also at infinity (theta dx), or another residue.  Some `factors` may be known.
+    None if there is another pole, also at infinity, or another residue.  Some `factors` may be known.
     """
-    num, den, residues = theta.num, theta.den, []
-    if num and num.degree >= den.degree:
+    if theta.num and theta.num.degree >= theta.den.degree:
         return None
-    field, slope, rest, found = den.field, den.derivative(), den, []
-    for p in factors:
-        if (quotient := rest.exact_quotient(p)) is not None:
-            rest = quotient
-            found.append(p)
-    for p in [*found, *(p for p, _ in (field.factor(rest) if rest.degree else []))]:
-        above, below = num % p, slope % p
-        residue = above[below.degree] / below.lc if below else None
-        rational = None if residue is None or above != residue * below else field.rational_value(residue)
-        if rational is None:
+    residues = []
+    for p in _factors_of(theta.den, factors):
+        residue = _rational_residue(theta, p)
+        if residue is None:
             return None
-        residues.append((p, rational))
+        residues.append((p, residue))
     return residues
 
 
-def is_rational(F: SemiInvariant, factors: Iterable[Poly] = ()) -> bool:
+def _factors_of(den: Poly, known: Sequence[Poly]) -> list[Poly]:
+    """The irreducible factors of a denominator: those of the known ones that divide it, and those of what is left."""
+    found = []
+    for p in known:
+        quotient = den.exact_quotient(p)
+        if quotient is not None:
+            found.append(p)
+            den = quotient
+    if den.degree > 0:
+        found += [p for p, _ in den.field.factor(den)]
+    return found
+
+
+def _rational_residue(theta: RatFunc, p: Poly) -> Fraction | None:
+    """The residue num/den' at the roots of p, if these are simple poles with the same rational residue."""
+    num = theta.num % p
+    slope = theta.den.derivative() % p
+    if not slope:
+        return None
+    residue = num[slope.degree] / slope.lc
+    return p.field.rational_value(residue) if num == residue * slope else None
+
+
+def is_rational(F: SemiInvariant, factors: Sequence[Poly] = ()) -> bool:
     """Is exp(int theta) P a rational function?  Some `factors` of the denominator of theta may be known."""
     residues = rational_residues(F.theta, factors)
     return residues is not None and all(residue.denominator == 1 for _, residue in residues)
@@ -66,5 +86,6 @@ def is_rational(F: SemiInvariant, factors: Iterable[Poly] = ()) -> bool:
 def is_power(F: SemiInvariant, f: SemiInvariant) -> bool:
     """Is F a power of f, up to a constant, as its theta, P and degree show?"""
     n, rest = divmod(F.degree, max(f.degree, 1))
-    same = not rest and F.theta.den == f.theta.den and F.theta.num == f.theta.num * n
-    return same and f.P**n == F.P
+    if rest or F.theta.den != f.theta.den:
+        return False
+    return F.theta.num == n * f.theta.num and f.P**n == F.P

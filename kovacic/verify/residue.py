@@ -11,7 +11,7 @@ there, so that no root leaves K; the residue of R/(q p^nu), an element of K[x]/p
 
 from __future__ import annotations
 
-from functools import reduce
+from collections.abc import Iterator
 
 from kovacic.algebra.poly import Poly
 
@@ -19,48 +19,79 @@ from kovacic.algebra.poly import Poly
 def exponent_difference_squared(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
     """(2 r)^2 as an element of K[x]/p, for the residue r of sqrt(S) at the class of x: 36 for sqrt(S) = 1/x^2 + 3/x + ..."""
     modulus = p**nu
-    q = q % modulus
-    radicand = N % modulus * q % modulus
+    radicand = (N % modulus) * (q % modulus) % modulus
     leading = radicand % p
     unit = radicand * _constant(leading.inverse_modulo(p), p, nu) % modulus
-    root, inverse, k = p.field.poly([1]), q.inverse_modulo(p), 1  # unit^(-1/2) and 1/q modulo p^k
-    while k < nu:
-        k = min(2 * k, nu)
-        ahead = p**k
-        root = (root + root * (1 - unit * root * root % ahead) / 2) % ahead
-        inverse = inverse * (2 - q * inverse % ahead) % ahead
-    r = residue(unit * root % modulus * inverse % modulus, p, nu)
+    R = unit * _inverse_square_root(unit, p, nu) % modulus
+    r = residue(R * _inverse(q, p, nu) % modulus, p, nu)
     return 4 * leading * r * r % p
 
 
-def _constant(value: Poly, p: Poly, nu: int) -> Poly:
-    """The element of K[x]/p^nu that is a root of the same polynomial over K as an element of K[x]/p."""
-    if value.degree <= 0:
-        return value
-    slope = p.derivative()
-    theta, inverse, k = p.field.poly([0, 1]), slope.inverse_modulo(p), 1  # a root of p, and 1/p'(theta), modulo p^k
+def _steps(p: Poly, nu: int) -> Iterator[Poly]:
+    """The moduli p^2, p^4, ..., p^nu of Newton's iterations from a root modulo p to one modulo p^nu."""
+    k = 1
     while k < nu:
         k = min(2 * k, nu)
-        ahead = p**k
-        inverse = inverse * (2 - _at(slope, theta, ahead) * inverse) % ahead
-        theta = (theta - _at(p, theta, ahead) * inverse) % ahead
-    return _at(value, theta, p**nu)
+        yield p**k
+
+
+def _inverse_square_root(unit: Poly, p: Poly, nu: int) -> Poly:
+    """unit^(-1/2) modulo p^nu, that is 1 modulo p, as the unit is."""
+    root = p.field.poly([1])
+    for modulus in _steps(p, nu):
+        root = (root + root * (1 - unit * root * root % modulus) / 2) % modulus
+    return root
+
+
+def _inverse(q: Poly, p: Poly, nu: int) -> Poly:
+    """1/q modulo p^nu."""
+    inverse = q.inverse_modulo(p)
+    for modulus in _steps(p, nu):
+        inverse = inverse * (2 - q * inverse % modulus) % modulus
+    return inverse
+
+
+def _constant(value: Poly, p: Poly, nu: int) -> Poly:
+    """The element of K[x]/p^nu that is a root of the same polynomial over K as an element of K[x]/p: its value at theta."""
+    if value.degree <= 0:
+        return value
+    return _at(value, _root(p, nu), p**nu)
+
+
+def _root(p: Poly, nu: int) -> Poly:
+    """theta, the root of p in K[x]/p^nu that is x modulo p: theta - p(theta)/p'(theta), the inverse improved along with it."""
+    slope = p.derivative()
+    theta = p.field.poly([0, 1])
+    inverse = slope.inverse_modulo(p)
+    for modulus in _steps(p, nu):
+        inverse = inverse * (2 - _at(slope, theta, modulus) * inverse) % modulus
+        theta = (theta - _at(p, theta, modulus) * inverse) % modulus
+    return theta
 
 
 def _at(polynomial: Poly, theta: Poly, modulus: Poly) -> Poly:
-    return reduce(lambda value, c: (value * theta + c) % modulus, reversed([*polynomial]), theta * 0)
+    """The value at theta in K[x]/modulus, by Horner's rule."""
+    value = theta * 0
+    for k in range(polynomial.degree, -1, -1):
+        value = (value * theta + polynomial[k]) % modulus
+    return value
 
 
 def residue(H: Poly, p: Poly, nu: int) -> Poly:
-    """The residue of H/p^nu at the class of x in K[x]/p: B p'/p^e = (-B/((e-1) p^(e-1)))' + B'/((e-1) p^(e-1)) for e > 1."""
+    """The residue of H/p^nu at the class of x in K[x]/p, by Hermite's reduction of the highest powers of p.
+
+    B p'/p^e = (-B/((e-1) p^(e-1)))' + B'/((e-1) p^(e-1)) for e > 1: what a digit of H leaves behind is carried to the next.
+    """
     if p.degree == 1:  # all digits are constants, and the last one is the residue
-        return (H(p.field.poly([-p[0], 1])) if p[0] else H)[nu - 1]
+        return _at(H, p.field.poly([-p[0], 1]), p.field.poly([0, 1]) ** nu)[nu - 1]
     slope = p.derivative()
-    inverse, carried = slope.inverse_modulo(p), H * 0
-    *digits, last = _digits(H, p, nu)
-    for e, digit in zip(range(nu, 1, -1), digits, strict=True):
-        B = (digit + carried) * inverse % p
-        carried = (digit + carried - B * slope) // p + B.derivative() / (e - 1)
+    inverse = slope.inverse_modulo(p)
+    *higher, last = _digits(H, p, nu)
+    carried = H * 0
+    for e, digit in zip(range(nu, 1, -1), higher, strict=True):
+        total = digit + carried
+        B = total * inverse % p
+        carried = (total - B * slope) // p + B.derivative() / (e - 1)
     return (last + carried) * inverse % p
 
 

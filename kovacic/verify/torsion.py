@@ -20,10 +20,10 @@ from typing import Any
 
 from flint import fmpz, nmod_poly
 
-from kovacic.algebra.modular import BadPrimeError, Homomorphism
+from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.splitting import homomorphisms_modulo
 from kovacic.limits import Budget
+from kovacic.verify.primes import homomorphisms_modulo
 
 
 def order_holds(H: RatFunc, residues: set[Fraction], p: int, k: int, budget: Budget) -> bool:

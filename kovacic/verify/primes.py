@@ -1,0 +1,81 @@
+"""The kernel's own homomorphisms to prime fields, and roots modulo primes.
+
+What holds modulo one prime proves what is claimed over the field only in one direction (a rank can only drop, a square
+stays a square), and for this any prime will do.  So nothing here has to be the choice of the search.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from itertools import count
+from random import Random
+from typing import Any
+
+from flint import fmpz, nmod_poly
+
+from kovacic.algebra.evaluation import Evaluation
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.function_field import FunctionField
+from kovacic.algebra.homomorphism import BadPrimeError, ExtensionHomomorphism, Homomorphism
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.rationals import RationalHomomorphism
+
+#: The kernel's own primes are taken downwards from here; a record may name any prime below twice this.
+_LARGEST = 1 << 62
+#: So many values of the parameters are tried for one prime.
+_POINTS = 64
+
+
+@lru_cache(maxsize=1024)
+def prime(index: int) -> int:
+    """The kernel's prime number `index`, counted downwards from 2^62."""
+    candidate = _LARGEST - 1 if index == 0 else prime(index - 1) - 2
+    while not fmpz(candidate).is_prime():
+        candidate -= 2
+    return candidate
+
+
+def is_usable_prime(p: int) -> bool:
+    """Is this an odd prime number that arithmetic in machine words can take as its modulus?"""
+    return 2 < p < 2 * _LARGEST and bool(fmpz(p).is_prime())
+
+
+def homomorphisms_modulo(field: Field, p: int) -> Iterator[Homomorphism]:
+    """Homomorphisms of the field's p-integral elements to F_p: of Q the one; of Q(t) some values of the parameters.
+
+    Of K(c) those that extend one of K: c goes to a simple root of its minimal polynomial, which keeps its degree.  Such a
+    homomorphism belongs to an unramified prime ideal of degree 1 [Dedekind].
+    """
+    if isinstance(field, AlgebraicField):
+        for base in homomorphisms_modulo(field.base, p):
+            for root in roots_modulo(field.modulus, base):
+                yield ExtensionHomomorphism(base, root)
+    elif isinstance(field, FunctionField):
+        values = Random(p)
+        for _ in range(_POINTS):
+            yield Evaluation(p, tuple(values.randrange(p) for _ in field.names))
+    else:
+        yield RationalHomomorphism(p)
+
+
+def homomorphisms(field: Field) -> Iterator[Homomorphism]:
+    """Homomorphisms of the field modulo the kernel's own primes, without end."""
+    for index in count():
+        yield from homomorphisms_modulo(field, prime(index))
+
+
+def roots_modulo(polynomial: Poly, h: Homomorphism) -> list[int]:
+    """The simple roots of the image of a polynomial, in increasing order; none where the image loses its degree."""
+    try:
+        image = h.keeping_degree(polynomial)
+    except BadPrimeError:
+        return []
+    return sorted(int(root) for root, multiplicity in image.roots() if multiplicity == 1)
+
+
+def translated(polynomial: Any, point: int) -> Any:
+    """polynomial(t + point)."""
+    if point == 0:
+        return polynomial
+    return polynomial.compose(nmod_poly([point, 1], polynomial.modulus()))

@@ -1,0 +1,119 @@
+"""Power series modulo a prime, in the plainest way: what the negative claims are recomputed with.
+
+A series to `count` terms is an `nmod_poly` of degree below `count`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from operator import mul
+from typing import Any
+
+from flint import nmod_mat, nmod_poly
+
+from kovacic.algebra.homomorphism import BadPrimeError
+
+
+def solutions_at_ordinary_point(num: Any, den: Any, count: int) -> tuple[Any, Any]:
+    """y1 = 1 + O(t^2) and y2 = t + O(t^2) with den y'' = num y, to `count` terms, where den(0) isn't 0.
+
+    Variation of constants: the Wronskian of y1, y2 is 1, so that y + y2 int(y1 r) - y1 int(y2 r) solves y'' = S y + O(t^(2k-3))
+    where y'' = S y - r + O(t^(2k-3)) and the k first terms of y, y1, y2 are right.
+    """
+    p = num.modulus()
+    S = num.mul_low(den.inverse_series_trunc(count), count)
+    y1 = nmod_poly([1], p)
+    y2 = nmod_poly([0, 1], p)
+    known = 2
+    while known < count:
+        known = min(2 * known - 1, count)
+        y1, y2 = _corrected(y1, y1, y2, S, known), _corrected(y2, y1, y2, S, known)
+    return y1, y2
+
+
+def _corrected(y: Any, y1: Any, y2: Any, S: Any, count: int) -> Any:
+    """y + y2 int(y1 r) - y1 int(y2 r) for r = S y - y'', to `count` terms."""
+    r = S.truncate(count).mul_low(y, count) - y.derivative().derivative()
+    along_y2 = y1.mul_low(r, count - 1).integral()
+    along_y1 = y2.mul_low(r, count - 1).integral()
+    return y + y2.mul_low(along_y2, count) - y1.mul_low(along_y1, count)
+
+
+def solution_at_singular_point(second: Any, first: Any, zeroth: Any, count: int) -> Any:
+    """u = 1 + O(t) with second u'' + first u' + zeroth u = 0 to `count` terms, where second(0) = 0.
+
+    The coefficient of t^(j-1) says what u_j is, term after term, as long as the indicial factor j ((j - 1) second_1 + first_0)
+    isn't 0.  Raises `BadPrimeError` where it is 0 modulo the prime.
+    """
+    p = second.modulus()
+    of_second, of_first, of_zeroth = _padded(second, 2), _padded(first, 1), _padded(zeroth, 0)
+    width = max(map(len, (of_second, of_first, of_zeroth)))
+    u, once, twice = [1], [0], [0]  # u_k, k u_k and k (k - 1) u_k
+    for j in range(1, count):
+        indicial = j * ((j - 1) * int(second[1]) + int(first[0])) % p
+        if not indicial:
+            raise BadPrimeError(f"{p} divides an indicial factor")
+        end = max(j - width, 0)
+        total = sum(map(mul, of_second, _backwards(twice, end)))
+        total += sum(map(mul, of_first, _backwards(once, end)))
+        total += sum(map(mul, of_zeroth, _backwards(u, end)))
+        value = -total * pow(indicial, -1, p) % p
+        u.append(value)
+        once.append(j * value % p)
+        twice.append(j * (j - 1) * value % p)
+    return nmod_poly(u, p)
+
+
+def _padded(polynomial: Any, shift: int) -> list[int]:
+    """The coefficients from t^shift on, as integers."""
+    return [int(c) for c in polynomial.coeffs()[shift:]]
+
+
+def _backwards(terms: list[int], end: int) -> list[int]:
+    """The terms from the last one down to number `end`."""
+    return terms[end:][::-1]
+
+
+def square_root(series: Any, root: int, count: int) -> Any:
+    """The square root with the constant term `root`, not 0, of a series, to `count` terms: coefficient by coefficient."""
+    p = series.modulus()
+    half = pow(2 * root, -1, p)
+    r = [root]
+    for k in range(1, count):
+        rest = int(series[k]) - sum(r[i] * r[k - i] for i in range(1, k))
+        r.append(rest * half % p)
+    return nmod_poly(r, p)
+
+
+def product_of_powers(factors: Sequence[tuple[Any, int]], count: int, p: int) -> Any:
+    """The product of the f^k, k of either sign, to `count` terms; f(0) isn't 0 where k is negative."""
+    product = nmod_poly([1], p)
+    for f, k in factors:
+        power = f.truncate(count).pow_trunc(abs(k), count)
+        if k < 0:
+            power = power.inverse_series_trunc(count)
+        product = product.mul_low(power, count)
+    return product
+
+
+def rational_candidate(series: Any, count: int, top: int) -> tuple[Any, Any]:
+    """(A, B) with A = B series + O(t^count) and deg A <= top, B of the least degree: the only A/B there can be.
+
+    Euclid's algorithm for t^count and the series, stopped at the first remainder of degree at most `top`: every other such pair
+    with deg A + deg B < count is a multiple of this one [von zur Gathen & Gerhard, Modern Computer Algebra, section 5.7].
+    """
+    p = series.modulus()
+    before, A = nmod_poly([1], p).left_shift(count), series.truncate(count)
+    B_before, B = nmod_poly([], p), nmod_poly([1], p)
+    while A.degree() > top:
+        quotient, remainder = divmod(before, A)
+        before, A = A, remainder
+        B_before, B = B, B_before - quotient * B
+    return A, B
+
+
+def nullity(columns: Sequence[Any], start: int, end: int) -> int:
+    """The dimension of the combinations of the series without any term from t^start on, below t^end."""
+    p = columns[0].modulus()
+    rows = [[int(column[k]) for k in range(start, end)] for column in columns]
+    return len(columns) - int(nmod_mat(rows, p).rank())

@@ -1,0 +1,197 @@
+"""How many zeros a solution with a rational omega can have, at points where the equation is ordinary.
+
+Fuchs's relation for omega = y'/y, whose residues add up to 0: the zeros of y and its exponents at all singular points, that at
+infinity included, add up to 1.  At a point of the order k > 0 the exponents are A/2 +- half the difference, where A = 1 for
+k <= 2 and A = k/2 for even k > 2, and the difference is Delta or, at an irregular point, twice the residue of sqrt(S) dx.
+Since omega is rational over K, its exponents at the roots of an irreducible factor p are conjugate over K: the difference is an
+element of K[x]/p, and the sum over the roots is its trace, up to one sign.  [Kovacic 1986, sections 2.1 and 3.2]
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import islice
+
+from flint import fmpz
+
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.rationals import QQ, to_fraction
+from kovacic.errors import VerificationFailed
+from kovacic.verify.local import Point
+from kovacic.verify.primes import homomorphisms, roots_modulo
+from kovacic.verify.residue import exponent_difference_squared
+
+#: An element that isn't a square is one modulo so many primes with a probability of 2^-40.
+_TESTS = 40
+#: So many sums with different fractional parts are told apart.
+_FRACTIONAL_PARTS = 4096
+
+
+@dataclass(frozen=True)
+class ZeroCounts:
+    """The possible numbers of zeros: `total` plus or minus each of the `choices`, one for a point with two exponents.
+
+    A choice is half the difference of the exponents, summed over the roots of the factor.
+    """
+
+    total: Fraction
+    choices: tuple[tuple[Point, Fraction], ...]
+
+    @cached_property
+    def largest(self) -> int:
+        """The largest number; -1 if there is none."""
+        return largest_natural_sum(self.total, [half for _, half in self.choices])
+
+    def by_exponent(self, point: Point) -> list[tuple[Fraction, int]] | None:
+        """The exponents that omega can have at a single point, each with the largest number; None where there is no choice.
+
+        None, too, for irrational exponents over another field than Q, of which `choices` has the first coordinate only.
+        """
+        halves = [half for other, half in self.choices if other is point]
+        others = [half for other, half in self.choices if other is not point]
+        is_irrational = point.difference is None and point.factor.field != QQ
+        if not halves or point.factor.degree > 1 or is_irrational:
+            return None
+        possible = []
+        for half in (halves[0], -halves[0]):
+            bound = largest_natural_sum(self.total - half, others)
+            if bound >= 0:
+                possible.append((Fraction(_double_mean(point), 2) + half, bound))
+        return possible
+
+
+def zero_counts(all_points: list[Point]) -> ZeroCounts | None:
+    """None where the exponents at some point aren't rational over K[x]/p, so that no omega is rational over K."""
+    total = Fraction(1)
+    choices = []
+    for point in all_points:
+        if point.order == 0:
+            continue
+        if point.order > 2 and point.order % 2:  # ramified
+            return None
+        total -= Fraction(point.factor.degree * _double_mean(point), 2)
+        half = _half_difference(point)
+        if half is None:
+            return None
+        if point.logarithm:  # omega belongs to the solution without one, which has the larger exponent
+            total -= half
+        else:
+            choices.append((point, half))
+    return ZeroCounts(total, tuple(choices))
+
+
+def is_proven_irrational(point: Point) -> bool:
+    """Are the exponents at the point, of an even order, provably not rational over the field K[x]/p of its roots?"""
+    return point.difference is None and is_no_square(_difference_squared_up_to_squares(point), point.factor)
+
+
+def _double_mean(point: Point) -> int:
+    """A, the sum of the two exponents at a root."""
+    return max(point.order // 2, 1)
+
+
+def _half_difference(point: Point) -> Fraction | None:
+    """Half the sum over the roots of the difference of the exponents, up to sign; None where it provably isn't in K[x]/p.
+
+    Of an irrational number the first coordinate over Q: all are compared under this linear map, the identity on Q.
+    """
+    if point.difference is not None:
+        return point.factor.degree * point.difference / 2
+    p = point.factor
+    if is_no_square(_difference_squared_up_to_squares(point), p):
+        return None
+    root = _square_root(_difference_squared(point), p)
+    trace = _trace(root, p)
+    return to_fraction(trace.rational_coefficients()[0]) / 2 if trace else Fraction(0)
+
+
+def _difference_squared_up_to_squares(point: Point) -> Poly:
+    """The square of the difference in K[x]/p, times a square: Delta^2 = 1 + 4 N/M, or S = N/(p^k q) at an irregular point."""
+    if point.order == 2:
+        N, M = point.at_double_pole
+        return M * (M + 4 * N) % point.factor
+    N, q = point.near
+    return N * q % point.factor
+
+
+def _difference_squared(point: Point) -> Poly:
+    p = point.factor
+    if point.order == 2:
+        N, M = point.at_double_pole
+        return (1 + 4 * N * M.inverse_modulo(p)) % p
+    return exponent_difference_squared(*point.near, p, point.order // 2)
+
+
+def is_no_square(element: Poly, p: Poly) -> bool:
+    """Is an element of K[x]/p provably no square, since at a simple root of p modulo a prime its value isn't one?
+
+    The roots are looked for among so many primes that one with a root is there as a rule; where none is found, or an element
+    happens to be a square modulo all of them, nothing is proven.
+    """
+    if element.degree <= 0 and p.field.sqrt(element) is not None:  # which spares the tests
+        return False
+    return any(fmpz(value).jacobi(h.p) == -1 for h, value in islice(_values(element, p), _TESTS))
+
+
+def _values(element: Poly, p: Poly) -> Iterator[tuple[Homomorphism, int]]:
+    """The values of an element of K[x]/p at the simple roots of p modulo primes."""
+    for h in homomorphisms(p.field):
+        try:
+            image = h(element)
+        except BadPrimeError:
+            continue
+        for root in roots_modulo(p, h):
+            yield h, int(image(root))
+
+
+def _square_root(element: Poly, p: Poly) -> Poly:
+    """A square root in K[x]/p of an element that is a square modulo many primes: found by the field, and squared again."""
+    field = p.field
+    if p.degree == 1:
+        root = field.sqrt(element)
+    else:
+        extension = AlgebraicField(field, p)
+        found = extension.sqrt(extension.element(element))
+        root = None if found is None else field.poly([part[0] for part in found.parts])
+    if root is None or (root * root - element) % p:
+        raise VerificationFailed(f"{element} is a square modulo many primes, and no square root modulo {p} was found")
+    return root
+
+
+def _trace(element: Poly, p: Poly) -> Poly:
+    """The trace over K of an element of K[x]/p: that of the matrix by which it multiplies 1, x, x^2, ..."""
+    x = p.field.poly([0, 1])
+    trace = p.field.poly([])
+    column = element % p
+    for k in range(p.degree):
+        trace = trace + column[k]
+        column = x * column % p
+    return trace
+
+
+def largest_natural_sum(total: Fraction, choices: list[Fraction]) -> int:
+    """The largest natural number among `total` plus or minus each of the choices; -1 if there is none.
+
+    All signs plus give the largest sum; a minus instead takes off twice a choice.  Of what is taken off the least is kept for
+    each fractional part that is left.  With too many of these the largest sum of all, rounded down, is an upper bound.
+    """
+    unit = math.lcm(total.denominator, *(choice.denominator for choice in choices))  # all in units of 1/unit
+    largest = int((total + sum(map(abs, choices))) * unit)
+    losses = {largest % unit: 0}
+    for choice in choices:
+        twice = int(2 * abs(choice) * unit)
+        for loss in [*losses.values()]:
+            more = loss + twice
+            part = (largest - more) % unit
+            losses[part] = min(more, losses.get(part, more))
+        if len(losses) > _FRACTIONAL_PARTS:
+            return max(largest // unit, -1)
+    if 0 not in losses:
+        return -1
+    return max((largest - losses[0]) // unit, -1)
