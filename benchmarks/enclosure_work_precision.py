@@ -288,7 +288,7 @@ def crossover() -> list[dict[str, Any]]:
         for digits in (15, 50, 500):
             ours, closed = (best(partial(call, digits=digits, method=m), 0.05)[0] for m in ("taylor", "closed form"))
             row = {"problem": name, "digits": digits, "Taylor, ms": 1e3 * ours, "closed form, ms": 1e3 * closed}
-            rows.append({**row, "chosen": call(digits=digits)[0].run.method})
+            rows.append({**row, "chosen": call(digits=digits)[0].route.method})
     return rows
 
 

@@ -103,6 +103,30 @@ def test_dsolve_prints_the_general_solution(capsys: pytest.CaptureFixture[str]) 
     assert capsys.readouterr().out == "y{\\left(x \\right)} = \\cos{\\left(x \\right)}\n"
 
 
+@pytest.mark.parametrize(
+    ("equation", "start", "route"),
+    [
+        ("x^3 + 1", ["--x0", "0", "--y0", "1", "--dy0", "0"], "Taylor's method"),
+        ("x", ["--x0", "0", "--y0", "1", "--dy0", "0"], "FLINT's functions: Airy's equation in x"),
+        ("x^2*y'' + x*y' + (x^2 + x^5)*y = 0", ["--x0", "0", "--regular"], "Taylor's method"),
+    ],
+)
+def test_evaluate_says_its_route(
+    equation: str, start: list[str], route: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = ["evaluate", equation, *start, "--at", "3"]
+    assert main.run(command) == 0
+    values, quiet = capsys.readouterr()
+    assert quiet == ""
+    assert main.run([*command, "-v"]) == 0
+    again, said = capsys.readouterr()
+    assert again == values
+    assert said.startswith(f"kovacic: route: {route}\nkovacic: run 1, 73 bits: ")
+    assert main.run([*command, "-vv"]) == 0
+    _, more = capsys.readouterr()
+    assert ("disc 1: centre " in more) == (route == "Taylor's method")
+
+
 def test_evaluate_prints_values_with_bounds(capsys: pytest.CaptureFixture[str]) -> None:
     """cosh, whose equation is y'' = y, at points in the given order."""
     assert main.run(["evaluate", "1", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1,1/2", "--at", "-0.25"]) == 0

@@ -178,7 +178,7 @@ def test_the_rule_takes_flints_functions_and_both_agree(equation: str, x0: Any, 
     (chosen,), (other,) = (
         evaluate_states(equation, [x], x0=x0, digits=digits, method=method, **START) for method in (None, "taylor")
     )
-    assert (chosen.run.method, other.run.method) == ("closed form", "taylor")
+    assert (chosen.route.method, other.route.method) == ("closed form", "taylor")
     assert chosen.reached
     assert chosen.y.overlaps(other.y)
     assert chosen.dy.overlaps(other.dy)
@@ -211,7 +211,7 @@ def test_frobenius_solutions_by_flints_functions(equation: str, x0: Any, x: Any,
         for method in ("closed form", "taylor")
     )
     for one, other in zip(found, others, strict=True):
-        assert one.run.method == "closed form"
+        assert one.route.method == "closed form"
         assert one.reached
         assert one.y.overlaps(other.y)
         assert one.dy.overlaps(other.dy)
@@ -219,7 +219,7 @@ def test_frobenius_solutions_by_flints_functions(equation: str, x0: Any, x: Any,
 
 def test_logarithms_are_left_to_the_series() -> None:
     (found,) = evaluate_states(BESSEL.format(2), [3], x0=0, frobenius=(1, 0))
-    assert found.run.method == "taylor"
+    assert found.route.method == "taylor"
     with pytest.raises(InputError, match="doesn't prove its values on this path"):
         evaluate(BESSEL.format(2), 3, x0=0, frobenius=(1, 0), method="closed form")
 
@@ -243,7 +243,7 @@ def test_a_leg_over_a_cut_is_left_to_taylor_steps_or_followed() -> None:
         (found,) = evaluate_states(BESSEL.format(order), ["-3 - I"], x0="1 + I", **START)
         (other,) = evaluate_states(BESSEL.format(order), ["-3 - I"], x0="1 + I", method="taylor", **START)
         assert found.y.overlaps(other.y)
-        assert found.run.method == method
+        assert found.route.method == method
 
 
 def test_a_path_around_a_singular_point_is_followed() -> None:
@@ -251,7 +251,7 @@ def test_a_path_around_a_singular_point_is_followed() -> None:
         options: dict[str, Any] = {"x0": "1 + I", "path": ["-1 + I", "-1 - I", "1 - I"], **START}
         (found,) = evaluate_states(BESSEL.format(order), ["1 + I"], **options)
         (other,) = evaluate_states(BESSEL.format(order), ["1 + I"], method="taylor", **options)
-        assert found.run.method == "closed form"
+        assert found.route.method == "closed form"
         assert found.y.overlaps(other.y)
         assert found.y.contains(1) is False
 
@@ -265,7 +265,7 @@ def test_singular_points_are_refused_as_before() -> None:
 
 def test_far_away_and_many_digits_cost_no_steps() -> None:
     states = evaluate_states("x", [10**6, -(10**6)], x0=0, **START)
-    assert all(state.reached and state.run.method == "closed form" for state in states)
+    assert all(state.reached and state.route.method == "closed form" for state in states)
     with ctx.workprec(400):
         airy, zero = acb(-(10**6)).airy(), acb(0).airy()
         expected = acb.pi() * (zero[3] * airy[0] - zero[1] * airy[2])
@@ -274,12 +274,12 @@ def test_far_away_and_many_digits_cost_no_steps() -> None:
 
 def test_many_real_points_share_expansions_and_complex_ones_cost_little() -> None:
     (first, *_) = evaluate_states("x", [Fraction(k, 50) for k in range(30)], x0=0, **START)
-    assert first.run.method == "taylor"
+    assert first.route.method == "taylor"
     circle = [complex(k - 15, 8) / 16 for k in range(30)]
     with warnings.catch_warnings():
         warnings.simplefilter("error", AccuracyWarning)
         found, others = (evaluate_states("x", circle, x0=0, method=method, **START) for method in (None, "taylor"))
-    assert {state.run.method for state in found} == {"closed form"}
+    assert {state.route.method for state in found} == {"closed form"}
     assert all(one.y.overlaps(other.y) for one, other in zip(found, others, strict=True))
 
 

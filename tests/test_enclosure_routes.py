@@ -53,7 +53,7 @@ def agree(S: Any, *, x: Any, x0: Any, path: Any = None, digits: int = 25) -> Non
     assert first.dy.overlaps(second.dy)
     assert first.reached
     assert second.reached
-    assert second.run.method == "closed form"
+    assert second.route.method == "closed form"
 
 
 def agree_with_the_second_opinion(solution: kovacic.Solution, vertices: list[Any], digits: int) -> None:
@@ -360,3 +360,21 @@ def test_no_published_equation_disagrees_with_its_group() -> None:
     verdicts = [kovacic.solve(entry.S).compare_with_monodromy().verdict for entry in load()]
     assert False not in verdicts
     assert verdicts.count(True) >= 110
+
+
+@pytest.mark.parametrize(
+    ("equation", "start", "method"),
+    [
+        ("x^3 + 1", {"x0": 0, "y0": 1, "dy0": 0}, "taylor"),
+        ("x", {"x0": 0, "y0": 1, "dy0": 0}, "closed form"),
+        (kovacic.solve("x^2 + 3"), {"x0": 1, "y0": 1, "dy0": 0}, "closed form"),
+        ("sin(x)", {"x0": 0, "y0": 1, "dy0": 0}, "taylor"),
+    ],
+)
+def test_a_ball_knows_its_route(equation: Any, start: dict[str, Any], method: str) -> None:
+    y, dy = kovacic.evaluate(equation, 2, derivative=True, **start)
+    assert y.route == dy.route
+    assert y.route is not None
+    assert (y.route.method, y.route.digits, y.route.runs) == (method, 15, 1)
+    assert kovacic.Ball(y.re, y.im, y.rad, y.real) == y
+    assert (y + 1).route is None

@@ -277,7 +277,7 @@ def test_five_thousand_digits_of_a_legendre_function_of_order_one_third(x: str) 
 def test_the_goal_is_met_in_one_run_above_the_crossover() -> None:
     (state,) = evaluate_states(LEGENDRE, ["2/5"], x0="-1/7", y0=1, dy0=2, digits=3000)
     assert state.reached
-    assert state.run.runs == 1
+    assert state.route.runs == 1
 
 
 # --- limits -----------------------------------------------------------------------------------------------------------

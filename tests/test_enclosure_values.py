@@ -293,7 +293,7 @@ def test_the_recessive_solution_gets_the_digits_that_growth_costs() -> None:
             assert mp_close(state.y, mpmath.exp(-(mpmath.mpf(x) ** 2) / 2), 15)
         assert state.y.digits >= 15
         assert state.reached
-    assert states[1].run.runs > 1
+    assert states[1].route.runs > 1
 
 
 def random_system(rng: random.Random) -> System:

@@ -57,13 +57,18 @@ class LazyGroup(click.Group):
             hint = f"did you mean {near[0]}?" if near else f"the commands are {', '.join(COMMANDS)}"
             context.fail(f"no such command: {arguments[0]} ({hint})")
         # A formula such as -2/cosh(x)^2 isn't a row of short options, among them -h; a space in front says so.
-        plain = [f" {text}" if text[:1] == "-" and text[1:2] not in "-joq" and text[2:] else text for text in arguments]
-        return super().resolve_command(context, plain)
+        return super().resolve_command(context, [f" {text}" if _is_negative(text) else text for text in arguments])
 
     def format_commands(self, context: click.Context, formatter: click.HelpFormatter) -> None:
         """The list of commands, without importing them."""
         with formatter.section("Commands"):
             formatter.write_dl([(name, what) for name, (_, what) in COMMANDS.items()])
+
+
+def _is_negative(text: str) -> bool:
+    """Is it an expression such as -x^2, and no option: a letter, -j4, -o file, -q, -vv, or a long one?"""
+    is_option = text[1:2] in "-joq" or not text[2:] or text == "-vv"
+    return text.startswith("-") and not is_option
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})

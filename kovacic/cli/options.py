@@ -108,6 +108,30 @@ LIMIT = click.option(
 )
 
 
+def _watch(context: click.Context, _: click.Parameter, given: int) -> None:
+    """With -v the routes that are taken are said on the error stream, with -vv every disc."""
+    if given == 0:
+        return
+    import logging
+
+    said = logging.StreamHandler()
+    said.setFormatter(logging.Formatter("kovacic: %(message)s"))
+    logger = logging.getLogger("kovacic")
+    logger.addHandler(said)
+    logger.setLevel(logging.INFO if given == 1 else logging.DEBUG)
+    context.call_on_close(lambda: logger.removeHandler(said))
+
+
+VERBOSE = click.option(
+    "-v",
+    "--verbose",
+    count=True,
+    expose_value=False,
+    callback=_watch,
+    help="Say which route is taken, with how many bits; -vv: every disc of Taylor's method.",
+)
+
+
 def answer_each(
     equations: Sequence[str],
     show: Callable[[Solution], Iterable[str]],

@@ -23,6 +23,7 @@ from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
 @click.option("--at", "points", required=True, multiple=True, metavar="NUMBERS", help='Where: 1,5/2,0.1,"1+2*I".')
 @click.option("--digits", default=15, show_default=True, type=click.IntRange(min=1), help="Proven digits.")
 @click.option("--path", type=click.Choice(["above", "below"]), help="The side on which singular points are passed.")
+@options.VERBOSE
 @options.LIMIT
 def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, **given: Any) -> None:
     """Values of one solution of y'' = S(x) y, or of an equation with y'' in it, and of its derivative.

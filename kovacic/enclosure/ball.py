@@ -15,10 +15,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+from typing import Any, Literal
 
 from flint import acb, arb
 
@@ -75,11 +75,26 @@ def _operator(compute: Callable[[acb, acb], acb]) -> Callable[[Ball, object], Ba
 
 
 @dataclass(frozen=True, slots=True)
+class Route:
+    """How a value was computed: by which `method`, with how many `bits` in the last of so many `runs`, for `digits` digits."""
+
+    digits: int
+    method: Literal["taylor", "closed form"]
+    bits: int
+    runs: int
+
+    def __str__(self) -> str:
+        way = "Taylor's method" if self.method == "taylor" else "a closed form"
+        return f"{way}, {self.bits} bits, {self.runs} run{'s' if self.runs > 1 else ''}"
+
+
+@dataclass(frozen=True, slots=True)
 class Ball:
     """A number known up to a proven error: the exact value z satisfies |z - midpoint| <= radius.
 
-    `re`, `im`, `rad` are dyadic rationals (m, e), m 2^e; `real` says that the exact value is certainly real.  A ball
-    whose radius isn't finite (nothing is known) doesn't exist: what would make one raises.
+    `re`, `im`, `rad` are dyadic rationals (m, e), m 2^e; `real` says that the exact value is certainly real.  `route` says
+    how a value of a solution was computed; None for other balls.  A ball whose radius isn't finite (nothing is known) doesn't
+    exist: what would make one raises.
 
     >>> b = Ball.exact(3, -1)
     >>> float(b), complex(b), b.radius
@@ -92,6 +107,7 @@ class Ball:
     im: Dyadic = (0, 0)
     rad: Dyadic = (0, 0)
     real: bool = True
+    route: Route | None = field(default=None, compare=False)
 
     @classmethod
     def exact(cls, mantissa: int, exponent: int = 0) -> Ball:
@@ -318,22 +334,22 @@ def _reaches(a: Ball, b: Ball, sign: int) -> bool:
     return rest >= 0 and step[0] ** 2 + step[1] ** 2 <= rest**2
 
 
-def ball_from_flint(value: acb | arb) -> Ball | None:
+def ball_from_flint(value: acb | arb, route: Route | None = None) -> Ball | None:
     """The ball around a flint ball (a disc around the rectangle of an acb); None where nothing is known (not finite)."""
     if not value.is_finite():
         return None
     re, im = (value.real, value.imag) if isinstance(value, acb) else (value, None)
     if im is None or im.is_zero():
-        return Ball(_man_exp(re.mid()), (0, 0), _man_exp(re.rad()), True)
+        return Ball(_man_exp(re.mid()), (0, 0), _man_exp(re.rad()), True, route)
     with working_precision(60):
         a, b = re.rad(), im.rad()
         rad = (a + b if a.is_zero() or b.is_zero() else (a * a + b * b).sqrt()).upper()
-    return Ball(_man_exp(re.mid()), _man_exp(im.mid()), _man_exp(rad), False)
+    return Ball(_man_exp(re.mid()), _man_exp(im.mid()), _man_exp(rad), False, route)
 
 
-def finite_ball(value: acb | arb) -> Ball:
+def finite_ball(value: acb | arb, route: Route | None = None) -> Ball:
     """The ball around a finite flint ball; raises LimitExceeded where nothing is known."""
-    ball = ball_from_flint(value)
+    ball = ball_from_flint(value, route)
     if ball is None:
         raise LimitExceeded("a value has no finite enclosure at this precision", limit="digits")
     return ball

@@ -84,7 +84,7 @@ def evaluate_in_x(
             warnings.warn(f"at {variable} = {place}: {state.note}", AccuracyWarning, stacklevel=3)
         with working_precision(2 * start_bits(digits)):
             both = state.state[0], in_balls(slope.subs(variable, place), {}) * state.state[1]
-        y, dy = (finite_ball(acb(value.real) if real else value) for value in both)
+        y, dy = (finite_ball(acb(value.real) if real else value, state.route) for value in both)
         found.append((y, dy) if derivative else y)
     return tuple(found) if many else found[0]
 

@@ -35,7 +35,7 @@ from kovacic.enclosure.system import System, check_segment
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
 from kovacic.special.answer import find
-from kovacic.special.pullback import Confluent, Gauss, Pullback
+from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 
 _BITS = 64  # in which the course of a leg is proven
 _PIECES = 400  # into which a leg is cut for that, at most
@@ -43,6 +43,7 @@ _TRIED = 1, 2, 4  # multiples of the working precision at which a matrix may bec
 # Digits up to which the functions cost less than Taylor steps (measured): elementary ones, Airy's and Bessel's of rational
 # order, other confluent ones, Gauss'; and less than the series at a singular point
 _MOST, _MOST_FROM_ZERO = (10**9, 20_000, 2_000, 300), 2_000
+_NAMES = {Airy: "Airy's", Confluent: "Whittaker's", Gauss: "Gauss'"}
 _DEGREE = 24  # of S, up to which a pull-back is sought
 _LARGEST = 1_000  # parameters of special functions up to which a call of FLINT, which can't be stopped, is short
 
@@ -85,6 +86,9 @@ class Classical:
 
     pullback: Pullback
     most: int = 0
+
+    def __str__(self) -> str:
+        return f"FLINT's functions: {_NAMES[type(self.pullback.equation)]} equation in {self.pullback.f}"
 
     def is_cheap(self, digits: int, *, from_zero: bool) -> bool:
         """Do they cost less than the Taylor route, for a start at a zero of f or another?"""

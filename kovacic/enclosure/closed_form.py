@@ -139,6 +139,9 @@ class ClosedForm:
             total = total * RatFunc(factor) ** e
         return total
 
+    def __str__(self) -> str:
+        return f"the closed form of case 1, with a polynomial of degree {self.first.P.degree}"
+
     def is_cheap(self, digits: int) -> bool:
         """Does the first leg cost less than Taylor steps (measured): two exponentials, or a small integral of 1/y1^2?"""
         if len(self.branches) == 2:

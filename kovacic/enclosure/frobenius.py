@@ -37,6 +37,7 @@ singularities", J. Symb. Comp. 31 (2001).
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -50,6 +51,8 @@ from kovacic.enclosure.points import Point, power_of_two, working_precision
 from kovacic.enclosure.singular import Operator, Singular
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time
+
+_LOG = logging.getLogger(__name__)
 
 _STRIDE = 16  # terms between two looks at the tail
 _GROWTH = 0.2  # growth of the majorant in bits as a share of the working precision, at most
@@ -137,6 +140,7 @@ def basis(
     Solutions that aren't `needed` are zero.
     """
     with working_precision(int(prec * (1 + _GROWTH)) + 100):
+        _LOG.debug("Frobenius series at %s, up to %s, %d bits", point, last, prec)
         t, end = point.offset(last), point.offset(towards)
         if not (t / end).real > 0:
             raise LimitExceeded(f"{last} can't be told from the singular point {point}", limit="digits")

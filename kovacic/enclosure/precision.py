@@ -6,6 +6,7 @@ First digits + guard bits, then as many bits more as were missing.  The global p
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -14,7 +15,7 @@ from typing import Literal
 
 from flint import acb, arb
 
-from kovacic.enclosure.ball import Ball, finite_ball
+from kovacic.enclosure.ball import Ball, Route, finite_ball
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.journey import Closed, Journey
@@ -23,22 +24,14 @@ from kovacic.enclosure.points import working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Limits
 
+_LOG = logging.getLogger(__name__)
+
 Method = Literal["taylor", "closed form"]
 METHODS: tuple[Method, ...] = ("taylor", "closed form")
 
 
 class AccuracyWarning(UserWarning):
     """An enclosure is wider than asked for; the message says why."""
-
-
-@dataclass(frozen=True)
-class Run:
-    """`digits` asked for, the route, the working precision, and the number of runs that it took."""
-
-    digits: int
-    method: Method
-    bits: int
-    runs: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +44,7 @@ class Evaluation:
     x: Number
     state: State
     missing: int
-    run: Run
+    route: Route
     note: str | None = None
 
     @property
@@ -62,12 +55,12 @@ class Evaluation:
     @property
     def y(self) -> Ball:
         """y(x)."""
-        return finite_ball(self.state[0])
+        return finite_ball(self.state[0], self.route)
 
     @property
     def dy(self) -> Ball:
         """y'(x)."""
-        return finite_ball(self.state[1])
+        return finite_ball(self.state[1], self.route)
 
 
 def start_bits(digits: int) -> int:
@@ -99,11 +92,14 @@ def raise_precision(
         try:
             with working_precision(prec + 40):
                 states = journey.states(targets, closed, prec)
-                run = Run(digits, METHODS[closed is not None], prec, runs)
+                route = Route(digits, METHODS[closed is not None], prec, runs)
                 lacking = [_missing_bits(y, digits, prec) for y, _ in states]
                 finite = all(y.is_finite() and dy.is_finite() for y, dy in states)
-                found = tuple(map(Evaluation, targets, states, lacking, repeat(run))) if finite else None
+                found = tuple(map(Evaluation, targets, states, lacking, repeat(route))) if finite else None
                 missing = max(lacking, default=0)
+            _LOG.info(
+                "run %d, %d bits: %d of %d points to %d digits", runs, prec, lacking.count(0), len(lacking), digits
+            )
         except LimitExceeded as limit:
             if previous is None:
                 raise
@@ -143,7 +139,7 @@ def _lost(y: acb, prec: int) -> int:
 
 
 def _growth(result: Evaluation) -> int:
-    return _lost(result.state[0], result.run.bits) if result.y.contains_zero() else 0
+    return _lost(result.state[0], result.route.bits) if result.y.contains_zero() else 0
 
 
 def _reason(result: Evaluation) -> str:
@@ -153,7 +149,7 @@ def _reason(result: Evaluation) -> str:
         lost = f": other solutions grow to about 10^{growth * math.log10(2):.0f} on the way, so that as many digits are lost"
         return (
             f"the value can't be told from zero (|y| is at most about {known}): no relative accuracy was reached"
-            f" with {result.run.bits} bits{lost if growth > 200 else ''}"
+            f" with {result.route.bits} bits{lost if growth > 200 else ''}"
         )
     known = f"{max(0.0, result.y.digits):.1f}"
-    return f"only {known} of {result.run.digits} digits: the initial values or the limits allow no more"
+    return f"only {known} of {result.route.digits} digits: the initial values or the limits allow no more"

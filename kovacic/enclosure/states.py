@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Literal
@@ -19,6 +20,8 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import read_start
 from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+
+_LOG = logging.getLogger(__name__)
 
 Path = Sequence[object] | Literal["chain", "above", "below"] | None
 _APART = arb(2) ** -200  # what is nearer to a singular point can't be told from it
@@ -62,12 +65,14 @@ def evaluate_states(
     _check_regular(problem, targets)
     with Budget(limits).watched():
         closed = _closed_form(journey, targets, method, digits)
+        _LOG.info("route: %s", "Taylor's method" if closed is None else closed)
         if closed is not None:
             try:
                 return raise_precision(journey, targets, closed, digits, limits)
             except NotServed:
                 if method is not None:
                     raise InputError("the closed form doesn't prove its values on this path", hint=_TAYLOR) from None
+                _LOG.info("it doesn't prove its values on this path: Taylor's method")
         return raise_precision(journey, targets, None, digits, limits)
 
 

@@ -16,6 +16,7 @@ less where the solutions grow by more than a fixed share of the working precisio
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -32,6 +33,8 @@ from kovacic.enclosure.system import System, check_segment, distance_lower, is_a
 from kovacic.enclosure.taylor import Expansion, expand, states_at, transition
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, count_work, watched_seconds
+
+_LOG = logging.getLogger(__name__)
 
 # Scale of a disc as a share of the distance to the nearest singular point, at most (scales are powers of two)
 _RATIO = 0.625
@@ -113,8 +116,11 @@ class Leg:
 def walk(system: System, a: Point, b: Point, prec: int, targets: int = 0) -> Iterator[Leg]:
     """The discs of the straight way from a to b; with so many `targets` beside it none of them is split."""
     begun, split = watched_seconds(math.inf), is_split(system, prec) and not targets
-    growth, foreseen = max(_FEWER_BITS, prec * _GROWTH) if targets >= _MANY else None, False
+    growth = max(_FEWER_BITS, prec * _GROWTH) if targets >= _MANY else None
+    foreseen = False
+    _LOG.debug("from %s to %s, %d bits%s", a, b, prec, ", by binary splitting" if split else "")
     for number, disc in enumerate(cover(system, a, b, prec, growth), 1):
+        _LOG.debug("disc %d: centre %s, radius 2^%d", number, disc.frame.centre, disc.frame.e)
         count_work(prec)
         if split:
             start, stop = map(product, legs(system, disc.frame, disc.enter, disc.leave, prec))
