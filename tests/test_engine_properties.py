@@ -503,9 +503,18 @@ def test_no_certificate_passes_where_there_is_no_solution(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", NEGATIVE)
-@pytest.mark.parametrize("prime", [2, 3, 7, 10**9 + 7, 2**59, (1 << 60) - 1])
-def test_a_proof_with_another_modulus_is_refused_at_once(text: str, prime: int) -> None:
+@pytest.mark.parametrize("prime", [2, 3, 7, 2**59, (1 << 60) - 1, (1 << 89) - 1])
+def test_a_proof_with_a_small_or_composite_or_long_modulus_is_refused_at_once(text: str, prime: int) -> None:
     answer = kovacic.solve(text)
     for i, j, evidence in no_invariants(answer.decision):
         if evidence.prime != prime:
             assert not verify(answer.S, changed(answer.decision, i, j, replace(evidence, prime=prime)))
+
+
+@pytest.mark.parametrize("text", NEGATIVE)
+@pytest.mark.parametrize("prime", [10**9 + 7, PRIMES[0]])
+def test_a_rank_modulo_any_large_prime_is_a_proof(text: str, prime: int) -> None:
+    answer = kovacic.solve(text)
+    for i, j, evidence in no_invariants(answer.decision):
+        if evidence.prime is not None:
+            assert verify(answer.S, changed(answer.decision, i, j, replace(evidence, prime=prime)))

@@ -16,7 +16,7 @@ from kovacic.engine.invariants import bounds, invariants, invariants_modulo, lea
 from kovacic.engine.places import analyse
 from kovacic.engine.riccati import Form, hessian, jacobian
 from kovacic.limits import Budget
-from kovacic.verify import local as kernel
+from kovacic.verify import forms, local
 
 X = RatFunc(QQ.poly([0, 1]))
 HALF, THIRD = Fraction(1, 2), Fraction(1, 3)
@@ -48,8 +48,8 @@ def test_lifting_by_primes_and_by_the_recurrence_agree(m: int, shift: int, moved
 def test_valuations_at_irregular_places_in_the_search_and_the_kernel(k: int, m: int) -> None:
     """There y1 y2 has the valuation k/2, and only its powers can be rational: m k/4, if that is an integer."""
     S = 1 / X**k + 1
-    (pole, _), point = analyse(S, Budget()).places, kernel.points(S, Budget())[0]
-    assert least_valuation(pole, m) == kernel.least_valuation(point, m) == (None if m * k % 4 else m * k // 4)
+    (pole, _), point = analyse(S, Budget()).places, local.points(S, Budget())[0]
+    assert least_valuation(pole, m) == forms.least_valuation(point, m) == (None if m * k % 4 else m * k // 4)
 
 
 def test_a_larger_margin_and_another_prime_give_the_same_dimension() -> None:
@@ -89,3 +89,14 @@ def test_a_form_that_isnt_one_is_recognised(S: str) -> None:
         R = problem.D.over(form.P.field) * form.theta.num // form.theta.den
         assert Form(form.degree, R, form.P).is_form(problem)
         assert not Form(form.degree, R, form.P + QQ.poly([0, 0, 0, 0, 0, 1])).is_form(problem)
+
+
+@pytest.mark.parametrize("n", [1, 24, 25, 26, 30, 150])
+def test_bessels_equation_of_whole_order_has_a_logarithm(n: int) -> None:
+    """Y_n has log(x) with the exponents +-n, however far these are apart; of the order n + 1/2 there is none."""
+    answer = kovacic.solve(f"x^2*y'' + x*y' + (x^2 - {n}^2)*y = 0")
+    assert answer.case is None
+    assert answer.verified
+    half = kovacic.solve(f"x^2*y'' + x*y' + (x^2 - ({n} + 1/2)^2)*y = 0")
+    assert half.case == 1
+    assert half.verified

@@ -13,6 +13,7 @@ import sympy
 from published import Published, load
 
 import kovacic
+from kovacic.checker import verdict
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 
@@ -202,3 +203,11 @@ def test_notices_and_exact_text_are_kept() -> None:
     assert answer.notices
     assert loads(answer.to_json()).notices == answer.notices
     assert replace(loads(answer.to_json()), seconds=None) == answer
+
+
+@pytest.mark.parametrize(("square", "said"), [(2, "checked"), (1, "refuted"), (4, "refuted")])
+def test_a_constant_with_a_reducible_polynomial_is_refuted_by_the_checker(square: int, said: str) -> None:
+    """omega = c with c^2 - 1 = 0 for S = 1: every identity holds, but Q(c) is no field, and omega = 1 lies over Q."""
+    text = kovacic.solve("2").to_json().replace('"input": "2"', f'"input": "{square}"')
+    forged = text.replace('"S": "2"', f'"S": "{square}"').replace("c**2 - 2", f"c**2 - {square}")
+    assert verdict(forged).partition(":")[0] == said

@@ -19,6 +19,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import kovacic
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.modular import rational_function_from_series
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
@@ -382,6 +383,24 @@ def test_a_field_of_another_type_or_value_fails_or_is_refused_or_says_the_same(t
                 continue
             assert not passed or said(forged) == said(original), (path, wrong)
             assert passed == forged.verified
+
+
+def test_a_constant_with_a_reducible_polynomial_fails() -> None:
+    """omega = c with c^2 - 1 = 0 for S = 1: every identity holds, but Q(c) is no field, and omega = 1 lies over Q."""
+    decision = kovacic.solve("2").decision
+    assert decision.semi_invariant is not None
+    assert decision.riccati is not None
+
+    def with_constant(square: int) -> Any:
+        field = AlgebraicField(QQ, QQ.poly([-square, 0, 1]))
+        c, one = field.generator, field.poly([1])
+        form = SemiInvariant(1, RatFunc(c), one)
+        riccati = replace(decision.riccati, P=one, D=QQ.poly([1]), numerators=(one, c))
+        return replace(decision, semi_invariant=form, riccati=riccati)
+
+    assert verify(RatFunc(QQ.poly([2])), with_constant(2))
+    assert not verify(RatFunc(QQ.poly([1])), with_constant(1))
+    assert not verify(RatFunc(QQ.poly([4])), with_constant(4))
 
 
 def test_a_claim_beside_the_proof_fails() -> None:
