@@ -28,8 +28,9 @@ from kovacic.closed_form.form import at_edges
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution import dsolve, solve_riccati
 from kovacic.general_solution.antiderivatives import antiderivative
+from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.undetermined import undetermined
-from kovacic.general_solution.values import finite_value, values_at
+from kovacic.general_solution.values import values_at
 from kovacic.general_solution.variation import Basis, DefiniteIntegral
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import read_expression

@@ -87,7 +87,7 @@ class _Evaluator:
         if isinstance(e, sympy.RootSum):
             a = e.fun.variables[0]
             return reduce(add, (_Evaluator({**self.bindings, a: root})(e.fun.expr) for root in self._roots(e.poly)))
-        if (known := _rewritten(e)) is not None:
+        if (known := rewritten(e)) is not None:
             return self(known)
         if isinstance(e, ANTIDERIVATIVES):
             slope = self(e.diff(next(iter(self.bindings))))
@@ -205,7 +205,7 @@ _REWRITTEN: dict[Any, Any] = {
 }
 
 
-def _rewritten(e: Any) -> Any:
+def rewritten(e: Any) -> Any:
     """By functions that are known here: those above, spherical Bessel functions, and polynomials by 2F1, 1F1; or None."""
     half, gamma = sympy.S.Half, sympy.gamma
     if e.func in _REWRITTEN and (e.func is not sympy.elliptic_e or len(e.args) == 1):

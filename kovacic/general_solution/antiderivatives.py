@@ -26,8 +26,8 @@ from kovacic.closed_form.integrals import integral, logarithms
 from kovacic.closed_form.product import product
 from kovacic.equation import EULER, PI
 from kovacic.errors import InputError
+from kovacic.general_solution.substitution import size
 from kovacic.general_solution.undetermined import undetermined
-from kovacic.general_solution.values import size
 from kovacic.limits import check_time
 from kovacic.reading.read import read_input
 

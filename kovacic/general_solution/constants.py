@@ -17,7 +17,7 @@ import sympy
 from sympy import acos, atan, cos, cosh, exp, log, sin, sinh, tan, tanh
 from sympy.simplify.fu import TR8, TR2i
 
-from kovacic.general_solution.values import size
+from kovacic.general_solution.substitution import size
 from kovacic.general_solution.zero import Zero, is_nowhere_zero, when_zero
 
 Expr = Any  # SymPy publishes no types

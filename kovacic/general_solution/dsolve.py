@@ -23,7 +23,7 @@ from kovacic.general_solution.constants import Case, Outcome, condition_of
 from kovacic.general_solution.determined import constants_of
 from kovacic.general_solution.homogeneous import find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
-from kovacic.general_solution.places import check_ordinary, given_points, real_basis_at, real_particular_at
+from kovacic.general_solution.places import limit_points, real_basis_at, real_particular_at, start_of
 from kovacic.general_solution.question import Question, read_question
 from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.written import combination, free_constants, written
@@ -114,16 +114,18 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
         particular = particular_solution(basis, None, budget)
         constants = free_constants(question, basis, particular)
         return written(question, combination(question, basis, particular, constants)), notices
-    check_ordinary(question)
-    start = given_points(question)[0]
+    limits = limit_points(question)
+    start = start_of(question, limits)
     basis = real_basis_at(question, basis, solution, start)
     particular = real_particular_at(question, basis, particular_solution(basis, start, budget), start)
     names = free_constants(question, basis, particular)
-    generic, others = constants_of(question, basis, particular, names)
+    generic, others = constants_of(question, basis, particular, names, limits)
     exceptions = [_said(question, basis, particular, case) for case in others]
     if generic.outcome is Outcome.NONE:
         unless = f", unless {'; or '.join(exceptions)}" if exceptions else ""
-        raise InputError(f"there is no solution with these values: the conditions contradict one another{unless}")
+        singular = " and ".join(str(point) for point, place in limits.items() if not place.is_infinite)
+        at = f" (a singular point of the equation is {singular})" if singular else ""
+        raise InputError(f"there is no solution with these values: the conditions contradict one another{at}{unless}")
     value = combination(question, basis, particular, generic.values)
     notices += [f"this holds unless {said}" for said in exceptions]
     return written(question, value), notices

@@ -1,12 +1,12 @@
 """Where the conditions are given, and solutions that are real there.
 
 Singular points are the poles of b/a and c/a, and those of f/a: a solution isn't determined on one side by its values on
-the other.
+the other.  At a singular point and at infinity, a condition is one on a limit, from the side on which the others are.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -15,15 +15,43 @@ import sympy
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.errors import InputError
+from kovacic.general_solution.behaviour import Place, behaviour
+from kovacic.general_solution.expansion import UnknownBehaviour
 from kovacic.general_solution.particular import place_of
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.real_basis import negative_arguments, real_basis, real_particular
+from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.variation import Basis, starting_at
 from kovacic.general_solution.zero import is_zero
 from kovacic.reading.exponential import in_terms_of
 from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types
+_INFINITIES = (sympy.oo, -sympy.oo)
+#: The functions that are analytic everywhere.
+_ENTIRE = (
+    sympy.exp,
+    sympy.sin,
+    sympy.cos,
+    sympy.sinh,
+    sympy.cosh,
+    sympy.erf,
+    sympy.erfi,
+    sympy.Si,
+    sympy.airyai,
+    sympy.airybi,
+)
+#: x with f(x) = value in a period, for the functions f that are variables of equations; and the period.
+_INVERSES: dict[Any, tuple[Any, Any]] = {
+    sympy.exp: (lambda value: [sympy.log(value)] if value != 0 else [], 2 * sympy.pi * sympy.I),
+    sympy.cosh: (lambda value: [sympy.acosh(value), -sympy.acosh(value)], None),
+    sympy.sinh: (lambda value: [sympy.asinh(value)], None),
+    sympy.cos: (lambda value: [sympy.acos(value), -sympy.acos(value)], 2 * sympy.pi),
+    sympy.sin: (lambda value: [sympy.asin(value), sympy.pi - sympy.asin(value)], 2 * sympy.pi),
+    sympy.tan: (lambda value: [sympy.atan(value)], sympy.pi),
+}
+#: The most singular points of an interval that are looked at.
+_MOST_POINTS = 200
 
 
 def given_points(question: Question) -> list[Expr]:
@@ -40,19 +68,170 @@ def jump_points(question: Question) -> list[Expr]:
     return [*dict.fromkeys(place[0] for place in places if place is not None)]
 
 
-def check_ordinary(question: Question) -> None:
-    """Raises `InputError` where a condition is given at a singular point."""
+def is_singular(question: Question, point: Expr) -> bool:
+    """Is a finite point a pole of b/a, c/a or f/a, or one where the rest of the right-hand side has no value?"""
     equation = question.equation
     atoms = Atoms(sympy.Symbol(equation.variable))
-    dens = [den for part in (equation.b, equation.c) if (den := (part / equation.a).den).degree > 0]
-    for point in given_points(question) if dens else ():
-        at = point
-        if equation.change is not None:
-            at = in_terms_of(equation.change, atoms.x, equation.variable).subs(equation.change.variable, point)
-        for den in dens:
+    at = point
+    if equation.change is not None:
+        at = in_terms_of(equation.change, atoms.x, equation.variable).subs(equation.change.variable, point)
+    for part in (equation.b, equation.c, equation.f):
+        den = (part / equation.a).den
+        if den.degree > 0:
             value = question.own(atoms.poly(den)).subs(atoms.x, at)
-            if value.is_finite is not False and is_zero(value):
-                raise InputError(f"{point} is a singular point of the equation")
+            if value.is_finite is False or is_zero(value):
+                return True
+    h = equation.h
+    if h is None:
+        return False
+    smooth = h.xreplace(dict.fromkeys(h.atoms(sympy.Heaviside, sympy.DiracDelta), sympy.Integer(0)))
+    return finite_value(smooth, question.x, point) is None
+
+
+def limit_points(question: Question) -> dict[Expr, Place]:
+    """The points of the conditions at which these are conditions on limits, with the side.
+
+    Raises `InputError` where the others are on both sides.
+    """
+    points = given_points(question)
+    found = {}
+    for point in points:
+        if point in _INFINITIES:
+            found[point] = Place(point)
+        elif is_singular(question, point):
+            found[point] = Place(point, _side(point, [*points, *jump_points(question)]))
+    return found
+
+
+def _side(point: Expr, points: Sequence[Expr]) -> int:
+    """1 or -1: on which side of the point the others are; 1 where that isn't known."""
+    sides = set()
+    for other in points:
+        distance = other - point
+        if distance.is_positive:
+            sides.add(1)
+        elif distance.is_negative:
+            sides.add(-1)
+    if len(sides) > 1:
+        raise _apart(point, [other for other in points if other != point])
+    return sides.pop() if sides else 1
+
+
+def _apart(point: Expr, points: Sequence[Expr]) -> InputError:
+    said = f"a singular point of the equation lies between {', '.join(map(str, points))}"
+    return InputError(f"{said}: {point}; on each side the solutions are others")
+
+
+def start_of(question: Question, limits: dict[Expr, Place]) -> Expr:
+    """An ordinary point on the side that is meant: the first one with a condition, or one between singular points."""
+    for point in given_points(question):
+        if point not in limits:
+            return point
+    place = next(iter(limits.values()))
+    for other in limits.values():
+        if not other.is_infinite:
+            place = other
+    poles = [*_rational_poles(question)]
+    if place.is_infinite:
+        return _beyond(place, poles)
+    ends = [pole for pole in poles if ((pole - place.point) * place.direction).is_positive]
+    ends += [point for point in limits if point not in _INFINITIES and point != place.point]
+    if not ends:
+        return place.point + place.direction
+    nearest = min(ends, key=lambda end: abs(end - place.point).evalf())
+    return (place.point + nearest) / 2
+
+
+def _beyond(place: Place, poles: Sequence[Expr]) -> Expr:
+    """An integer beyond all poles."""
+    if place.point == sympy.oo:
+        return sympy.ceiling(sympy.Max(0, *poles)) + 1
+    return sympy.floor(sympy.Min(0, *poles)) - 1
+
+
+def check_between(question: Question, solutions: Sequence[Expr]) -> None:
+    """Raises `InputError` where a singular point lies between points of conditions or jumps.
+
+    Solutions that are written with functions that are analytic everywhere may be continued.
+    """
+    points = [point for point in [*given_points(question), *jump_points(question)] if point not in _INFINITIES]
+    if len(points) < 2 or not all(point.is_real and point.is_number for point in points):
+        return
+    if all(_is_entire(question.own(y), question.x) for y in solutions):
+        return
+    first, last = sympy.Min(*points), sympy.Max(*points)
+    for pole in [*_rational_poles(question), *_changed_poles(question, first, last)]:
+        if first < pole < last:
+            raise _apart(pole, points)
+
+
+def _is_entire(y: Expr, x: Expr) -> bool:
+    for e in sympy.preorder_traversal(y):
+        if not e.has(x) or e == x or e.is_Add or e.is_Mul or isinstance(e, _ENTIRE):
+            continue
+        if not (e.is_Pow and e.exp.is_Integer and e.exp > 0):
+            return False
+    return True
+
+
+def _rational_poles(question: Question) -> Iterator[Expr]:
+    """The real singular points of an equation with rational coefficients over Q."""
+    equation = question.equation
+    if equation.change is not None:
+        return
+    quotients = [part / equation.a for part in (equation.b, equation.c, equation.f)]
+    for den in (q.den for q in quotients if q.den.degree > 0 and q.field == QQ):
+        yield from sympy.real_roots(Atoms(question.x).poly(den), multiple=True)
+
+
+def _changed_poles(question: Question, first: Expr, last: Expr) -> Iterator[Expr]:
+    """Singular points between two points, of an equation in t = f(k x + c)."""
+    equation = question.equation
+    if equation.change is None:
+        return
+    t = sympy.Symbol(equation.variable)
+    value = in_terms_of(equation.change, t, t.name)
+    rates = _rates_in_x(question, value)
+    quotients = [part / equation.a for part in (equation.b, equation.c, equation.f)]
+    dens = [Atoms(t).poly(q.den) for q in quotients if q.den.degree > 0]
+    roots = {root for den in dens if den.free_symbols == {t} for root in sympy.roots(den, t)}
+    for root in sorted(roots, key=str):
+        for x0 in _preimages(value, root, question.x, first, last):
+            if not _is_analytic(rates, question.x, x0):
+                yield x0
+
+
+def _preimages(value: Expr, root: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
+    """The x between two points with f(k x + c) = root."""
+    inverse, period = _INVERSES[value.func]
+    inner = value.args[0]
+    slope = inner.diff(x)
+    for base in inverse(root):
+        x0 = sympy.expand((base - inner.subs(x, 0)) / slope)
+        if not x0.is_number or abs(sympy.im(x0).evalf(30)) > 1e-20:
+            continue
+        step = None if period is None or not (period / slope).is_real else abs(period / slope)
+        low = 0 if step is None else int(sympy.ceiling((first - x0) / step))
+        high = 0 if step is None else int(sympy.floor((last - x0) / step))
+        for m in range(low, min(high, low + _MOST_POINTS) + 1):
+            yield x0 + (m * step if step is not None else 0)
+
+
+def _rates_in_x(question: Question, value: Expr) -> list[Expr]:
+    """The coefficients of y'' + B y' + C y = F in x: B = t' b/a - t''/t', C = t'^2 c/a, F = t'^2 f/a."""
+    equation = question.equation
+    t = sympy.Symbol(equation.variable)
+    b, c, f = (Atoms(t).ratio(part / equation.a).subs(t, value) for part in (equation.b, equation.c, equation.f))
+    slope = value.diff(question.x)
+    return [b * slope - slope.diff(question.x) / slope, c * slope**2, f * slope**2]
+
+
+def _is_analytic(rates: Sequence[Expr], x: Expr, point: Expr) -> bool:
+    """Have the coefficients limits at the point?"""
+    try:
+        return all(not behaviour(rate, x, Place(point)).parts[0] for rate in rates)
+    except (UnknownBehaviour, NotImplementedError):
+        return False
 
 
 def real_basis_at(question: Question, basis: Basis, solution: Solution, start: Expr) -> Basis:
@@ -60,41 +239,29 @@ def real_basis_at(question: Question, basis: Basis, solution: Solution, start: E
 
     Raises `InputError` where the points of the conditions lie on two sides of a singular point.
     """
+    check_between(question, (basis.y1, basis.y2))
     if question.equation.change is not None:
         return basis
     x = question.x
-    _check_one_side((basis.y1, basis.y2), x, [*given_points(question), *jump_points(question)])
+    _check_one_side((basis.y1, basis.y2), question)
     y1, y2 = real_basis(solution, basis.y1, basis.y2, x, start)
     return replace(basis, y1=starting_at(y1, x, start), y2=starting_at(y2, x, start))
 
 
 def real_particular_at(question: Question, basis: Basis, particular: Expr, start: Expr) -> Expr:
     """The particular solution, real at `start`.  Raises `InputError` as `real_basis_at` does."""
+    check_between(question, (basis.y1, basis.y2, particular))
     if question.equation.change is not None:
         return particular
-    points = given_points(question)
-    _check_one_side((particular,), question.x, points)
-    _check_integrals((basis.y1, basis.y2, particular), question, [*points, *jump_points(question)])
+    _check_one_side((particular,), question)
     return real_particular(particular, question.equation, question.x, start)
 
 
-def _check_one_side(solutions: Sequence[Expr], x: Expr, points: Sequence[Expr]) -> None:
-    """Raises `InputError` where a singular point lies between two of the points, so that no real solution joins them."""
-    sides = {frozenset(e for y in solutions for e in negative_arguments(y, x, p)) for p in points if p.is_real}
+def _check_one_side(solutions: Sequence[Expr], question: Question) -> None:
+    """Raises `InputError` where roots or logarithms have arguments of both signs at the points."""
+    points = [point for point in [*given_points(question), *jump_points(question)] if point.is_real]
+    ordinary = [point for point in points if not is_singular(question, point)]
+    sides = {frozenset(e for y in solutions for e in negative_arguments(y, question.x, p)) for p in ordinary}
     if len(sides) > 1:
         said = ", ".join(map(str, points))
         raise InputError(f"a singular point of the equation lies between {said}: on each side the solutions are others")
-
-
-def _check_integrals(solutions: Sequence[Expr], question: Question, points: Sequence[Expr]) -> None:
-    """Raises `InputError` where an integral that is left would lead over a real singular point of an equation over Q."""
-    if len(points) < 2 or not any(y.has(sympy.Integral) for y in solutions) or not all(p.is_real for p in points):
-        return
-    equation = question.equation
-    first, last = sympy.Min(*points), sympy.Max(*points)
-    quotients = (part / equation.a for part in (equation.f, equation.b, equation.c))
-    for den in (q.den for q in quotients if q.den.degree > 0 and q.field == QQ):
-        for pole in sympy.real_roots(Atoms(question.x).poly(den)):
-            if first < pole < last:
-                said = f"a singular point, {pole}, lies between {', '.join(map(str, points))}"
-                raise InputError(f"{said}: on each side the solutions are others")

@@ -17,7 +17,7 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import DIGITS, is_numerical_solution
 from kovacic.closed_form.jets import jet
 from kovacic.equation import Equation
-from kovacic.general_solution.values import size
+from kovacic.general_solution.substitution import size
 from kovacic.general_solution.variation import is_solution, rates
 from kovacic.solution import Solution
 

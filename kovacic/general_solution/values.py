@@ -1,26 +1,19 @@
-"""The value and the slope of an expression at a point; where SymPy's limit is taken, the expression may be of the form 0/0."""
+"""The value and the slope of an expression at a point, where it may be of the form 0/0."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import sympy
-from sympy.functions.special.bessel import BesselBase
 
-from kovacic.algebra.apart import last_of
-from kovacic.limits import watched_seconds
+from kovacic.general_solution.behaviour import Place, behaviour
+from kovacic.general_solution.expansion import UnknownBehaviour
+from kovacic.general_solution.substitution import finite_value
+from kovacic.general_solution.zero import Zero, agree, when_zero
 
 Expr = Any  # SymPy publishes no types
 Pair = tuple[Expr, Expr]  # f(a), f'(a)
-#: Seconds for a question about a constant.
-SECONDS = 10.0
-_ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
-_OPEN = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
-
-
-class _SingularError(Exception):
-    """A subexpression isn't finite at the point."""
+_ZERO = sympy.Integer(0)
 
 
 def values_at(expression: Expr, x: Expr, point: Expr) -> Pair:
@@ -45,44 +38,26 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     if order:
         e = e.diff(x)
     value = finite_value(e, x, point)
-    if value is None and not e.has(sympy.hyper, BesselBase):  # SymPy takes limits of sqrt(x) besselk(1/4, x^2/2) wrong
-        value = last_of(_limit, e, x, point, seconds=watched_seconds(SECONDS))
+    if value is None:
+        value = _limit(e, x, point)
     if value is None:
         said = f"the functions of the closed form are singular at {point}, where the solutions aren't"
         raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
     return value
 
 
-def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
-    """The value at a point; None where it isn't finite."""
-    try:
-        return _substituted(expression, x, point)
-    except _SingularError:
-        return None
+def _limit(expression: Expr, x: Expr, point: Expr) -> Expr | None:
+    """The limit from the right, if it is that from the left: None without, or where it isn't known.
 
-
-def size(expression: Expr) -> int:
-    """The number of subexpressions."""
-    return 1 + sum(map(size, expression.args))
-
-
-def _substituted(e: Expr, x: Expr, point: Expr) -> Expr:
-    """The value of a function, of a series at 0, or of an integral from the point on."""
-    special = e.atoms(sympy.RootSum, sympy.hyper, sympy.Integral)
-    sums = {  # SymPy's substitution would compute rational ones exactly, without end
-        r: sympy.RootSum(r.poly, sympy.Lambda(r.fun.variables, _substituted(r.fun.expr, x, point)), auto=False)
-        for r in special
-        if isinstance(r, sympy.RootSum)
-    }
-    value = (e.xreplace(sums) if sums else e).subs(x, point)
-    if special:
-        value = value.xreplace({f: _ONE for f in value.atoms(sympy.hyper) if f.argument == 0})
-        empty = (i for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:])
-        value = value.xreplace(dict.fromkeys(empty, _ZERO))
-    if not _OPEN.isdisjoint(value.atoms()):
-        raise _SingularError
-    return value
-
-
-def _limit(expression: Expr, x: Expr, point: Expr) -> Iterator[Expr]:
-    yield sympy.limit(expression, x, point)
+    A closed form with roots may be another solution on the other side.
+    """
+    limits = []
+    for direction in (1, -1):
+        try:
+            large, constant, _ = behaviour(expression, x, Place(point, direction)).parts
+        except (UnknownBehaviour, NotImplementedError):
+            return None
+        if any(when_zero(coefficient) is not Zero.ALWAYS for coefficient in large.values()):
+            return None
+        limits.append(constant)
+    return limits[0] if agree(*limits) else None

@@ -24,7 +24,7 @@ from kovacic.closed_form.product import product
 from kovacic.equation import Change, Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
-from kovacic.general_solution.values import finite_value, size
+from kovacic.general_solution.substitution import finite_value, size
 from kovacic.reading.exponential import in_terms_of
 
 Expr = Any  # SymPy publishes no types

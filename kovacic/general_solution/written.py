@@ -8,7 +8,7 @@ from typing import Any
 import sympy
 
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.values import size
+from kovacic.general_solution.substitution import size
 from kovacic.general_solution.variation import Basis
 
 Expr = Any  # SymPy publishes no types

@@ -69,14 +69,21 @@ def is_zero(value: Expr) -> bool:
 
 
 def is_nowhere_zero(value: Expr) -> bool:
-    """Is every factor known not to be zero: by assumptions, or because it is an exponential?"""
-    for factor in sympy.Mul.make_args(value):
-        base, exponent = factor.as_base_exp()
-        if isinstance(factor, sympy.exp) or base == sympy.E:
-            continue
-        if base.is_zero is not False or exponent.is_finite is False:
-            return False
-    return True
+    """Is every factor known not to be zero: by assumptions, or because the function has no zeros?"""
+    return all(_is_nonzero(factor) for factor in sympy.Mul.make_args(value))
+
+
+def _is_nonzero(factor: Expr) -> bool:
+    base, exponent = factor.as_base_exp()
+    if isinstance(factor, sympy.exp) or base == sympy.E:
+        return True
+    if isinstance(base, sympy.besselk | sympy.besseli):
+        order, z = base.args
+        has_zeros = isinstance(base, sympy.besseli) and not order.is_nonnegative
+        return bool(order.is_real and z.is_positive and not has_zeros)
+    if isinstance(base, sympy.gamma | sympy.cosh):
+        return bool(base.args[0].is_real and exponent.is_Integer and exponent > 0)
+    return base.is_zero is False and exponent.is_finite is not False
 
 
 def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:

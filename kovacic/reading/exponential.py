@@ -200,8 +200,17 @@ def _best(equation: Equation, k: Any, x: Any) -> tuple[Monic, str]:
             found.append((quotient, function(sympy.expand(h * rate * x))))
     if i is not None:
         found.append((_substituted(found[0][0], (1 + T * i) / (1 - T * i)), sympy.tan(sympy.expand(g * rate * x / 2))))
-    below = [(_over_base(*monic), str(expression)) for monic, expression in found]
-    return min(below, key=lambda pair: (isinstance(pair[0][0].field, AlgebraicField), _singular_points(*pair[0])))
+    below = [(_over_base(*monic), expression) for monic, expression in found]
+
+    def cost(pair: tuple[Monic, Any]) -> tuple[bool, int, bool]:
+        """Three singular points are those of Gauss' equation, which is real in cos(x) and sin(x)."""
+        monic, expression = pair
+        places = _singular_points(*monic)
+        is_real = expression.func in (sympy.cos, sympy.sin) and expression.args[0] == sympy.expand(rate * x)
+        return isinstance(monic[0].field, AlgebraicField), places, places == 3 and not is_real
+
+    best, variable = min(below, key=cost)
+    return best, str(variable)
 
 
 def _substituted(equation: Monic, M: RatFunc) -> Monic:

@@ -1,0 +1,233 @@
+"""How an expression behaves as t > 0 tends to 0: a finite sum of monomials with constant coefficients, and bounds of the rest.
+
+A monomial is exp(Q) t^e log(t)^k with Q = sum of a_j t^(-p_j), p_j > 0 rational: that is what solutions of linear equations
+consist of at singular points, regular (Q = 0) and irregular.  An error is a monomial m of which the rest is O(m), or less.
+Exponents may have symbols; what their assumptions don't tell isn't decided.
+
+Nothing is approximated, nothing guessed: `Expansion` is exact up to the errors that it says, and the work is bounded by the
+number of terms, `depth`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+
+from kovacic.general_solution.zero import Zero, when_zero
+
+Expr = Any  # SymPy publishes no types
+_ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
+#: The most monomials of an expansion.
+_MOST_TERMS = 400
+
+
+class UnknownBehaviour(Exception):
+    """It isn't known how the expression behaves; `deeper`: more terms may tell."""
+
+    def __init__(self, message: str, *, deeper: bool = False) -> None:
+        super().__init__(message)
+        self.deeper = deeper
+
+
+def sign_of(value: Expr) -> int:
+    """The sign of the real part.  Raises `UnknownBehaviour` where the assumptions don't tell."""
+    value = sympy.expand(value)
+    if value.is_real is False or value.has(sympy.I):
+        value = sympy.re(value)
+    for is_so, sign in ((value.is_zero, 0), (value.is_positive, 1), (value.is_negative, -1)):
+        if is_so:
+            return sign
+    raise UnknownBehaviour(f"the sign of {value} isn't known")
+
+
+@dataclass(frozen=True)
+class Monomial:
+    """exp(sum of a t^(-p) over `growth`) t^e log(t)^k; `growth` has pairs (p, a), the largest p first."""
+
+    growth: tuple[tuple[Expr, Expr], ...] = ()
+    e: Expr = _ZERO
+    k: int = 0
+
+    def __mul__(self, other: Monomial) -> Monomial:
+        return Monomial(_added(self.growth, other.growth), sympy.expand(self.e + other.e), self.k + other.k)
+
+    def power(self, r: Expr) -> Monomial:
+        """For a real exponent r."""
+        k = sympy.expand(self.k * r)
+        real = all(a.is_real for _, a in self.growth)
+        if not k.is_Integer or not (r.is_Integer or real):
+            raise UnknownBehaviour("a root of a logarithm or of a wave")
+        growth = tuple((p, sympy.expand(a * r)) for p, a in self.growth)
+        return Monomial(growth, sympy.expand(self.e * r), int(k))
+
+    @property
+    def growth_sign(self) -> int:
+        """1 if the exponential grows, -1 if it decays, 0 if its modulus is 1."""
+        return next((sign for _, a in self.growth if (sign := sign_of(a)) != 0), 0)
+
+    @property
+    def size(self) -> int:
+        """1 if it is unbounded, -1 if it tends to 0; 0 for constants and for oscillations with a constant amplitude."""
+        if self.growth_sign:
+            return self.growth_sign
+        sign = -sign_of(self.e)
+        if sign:
+            return sign
+        return (self.k > 0) - (self.k < 0)
+
+    @property
+    def is_constant(self) -> bool:
+        return not self.growth and self.e == 0 and self.k == 0
+
+    def is_below(self, other: Monomial) -> bool:
+        """Is it O(other), as far as that is known?"""
+        quotient = Monomial(
+            _added(self.growth, tuple((p, -a) for p, a in other.growth)),
+            sympy.expand(self.e - other.e),
+            self.k - other.k,
+        )
+        try:
+            return quotient.size <= 0
+        except UnknownBehaviour:
+            return False
+
+
+def _added(first: Iterable[tuple[Expr, Expr]], second: Iterable[tuple[Expr, Expr]]) -> tuple[tuple[Expr, Expr], ...]:
+    total: dict[Expr, Expr] = {}
+    for p, a in (*first, *second):
+        total[p] = sympy.expand(total.get(p, _ZERO) + a)
+    return tuple((p, total[p]) for p in sorted(total, reverse=True) if total[p] != 0)
+
+
+CONSTANT = Monomial()
+LOG = Monomial(k=1)
+
+
+class Expansion:
+    """The sum of coefficient * monomial over `terms`, up to O(sum of the errors)."""
+
+    def __init__(self, terms: dict[Monomial, Expr], errors: Iterable[Monomial] = ()) -> None:
+        kept: list[Monomial] = []
+        for error in errors:
+            if not any(error.is_below(other) for other in kept):
+                kept = [other for other in kept if not other.is_below(error)] + [error]
+        self.errors = tuple(kept)
+        self.terms = {m: c for m, c in terms.items() if c != 0 and not any(m.is_below(error) for error in self.errors)}
+        if len(self.terms) > _MOST_TERMS:
+            raise UnknownBehaviour("the expansion has too many terms")
+
+    @classmethod
+    def constant(cls, value: Expr) -> Expansion:
+        return cls({CONSTANT: value})
+
+    def __add__(self, other: Expansion) -> Expansion:
+        terms = dict(self.terms)
+        for m, c in other.terms.items():
+            terms[m] = sympy.expand(terms[m] + c) if m in terms else c
+        return Expansion(terms, (*self.errors, *other.errors))
+
+    def __mul__(self, other: Expansion) -> Expansion:
+        terms: dict[Monomial, Expr] = {}
+        for m, c in self.terms.items():
+            for n, d in other.terms.items():
+                terms[m * n] = sympy.expand(terms.get(m * n, _ZERO) + c * d)
+        errors = [m * n for m in self.terms for n in other.errors]
+        errors += [m * n for m in self.errors for n in (*other.terms, *other.errors)]
+        return Expansion(terms, errors)
+
+    def times(self, factor: Expr, monomial: Monomial = CONSTANT) -> Expansion:
+        terms = {m * monomial: sympy.expand(c * factor) for m, c in self.terms.items()}
+        return Expansion(terms, [m * monomial for m in self.errors])
+
+    @property
+    def parts(self) -> tuple[dict[Monomial, Expr], Expr, Expansion]:
+        """What doesn't tend to 0, the constant apart; the constant; what tends to 0."""
+        if any(error.size >= 0 for error in self.errors):
+            raise UnknownBehaviour("too few terms", deeper=True)
+        large = {m: c for m, c in self.terms.items() if not m.is_constant and m.size >= 0}
+        small = {m: c for m, c in self.terms.items() if not m.is_constant and m not in large}
+        return large, self.terms.get(CONSTANT, _ZERO), Expansion(small, self.errors)
+
+    def leading(self) -> tuple[Monomial, Expr, Expansion]:
+        """m, c and d with self = c m (1 + d), where d tends to 0."""
+        terms = {m: c for m, c in self.terms.items() if when_zero(c) is not Zero.ALWAYS}
+        for m, c in terms.items():
+            if all(other is m or _is_smaller(other, m) for other in (*terms, *self.errors)):
+                rest = Expansion({n: d for n, d in terms.items() if n is not m}, self.errors)
+                return m, c, rest.times(1 / c, _inverse(m))
+        raise UnknownBehaviour("no term is larger than all others", deeper=bool(self.errors))
+
+    def power(self, r: Expr, depth: int) -> Expansion:
+        """The principal power with a constant exponent."""
+        if r.is_Integer and 0 <= r <= depth:
+            total = Expansion.constant(_ONE)
+            for _ in range(int(r)):
+                total = total * self
+            return total
+        m, c, rest = self.leading()
+        coefficients = [sympy.binomial(r, k) for k in range(depth)]
+        return _series(rest, coefficients).times(c**r, m.power(r))
+
+    def log(self, depth: int) -> Expansion:
+        m, c, rest = self.leading()
+        if m.k:
+            raise UnknownBehaviour("the logarithm of a logarithm")
+        coefficients = [_ZERO, *(sympy.Rational((-1) ** (k + 1), k) for k in range(1, depth))]
+        exponent = Expansion({Monomial(e=-p): a for p, a in m.growth})
+        return _series(rest, coefficients) + exponent + Expansion({LOG: m.e, CONSTANT: sympy.log(c)})
+
+    def exp(self, depth: int) -> Expansion:
+        large, constant, small = self.parts
+        factor = CONSTANT
+        for m, c in large.items():
+            if m == LOG:
+                factor = factor * Monomial(e=c)
+            elif m.growth or m.k or not m.e.is_Rational:
+                raise UnknownBehaviour("an exponential that isn't that of a sum of powers")
+            else:
+                factor = factor * Monomial(growth=((-m.e, c),))
+        coefficients = [1 / sympy.factorial(k) for k in range(depth)]
+        return _series(small, coefficients).times(sympy.exp(constant), factor)
+
+    def taylor(self, function: Callable[[Expr], Expr], depth: int) -> Expansion | None:
+        """f of it, where it tends to a point at which f is analytic: None where a derivative isn't finite there."""
+        large, constant, small = self.parts
+        if large:
+            return None
+        z = sympy.Dummy()
+        derivative = function(z)
+        coefficients = []
+        for k in range(depth):
+            value = derivative.subs(z, constant)
+            if value.has(sympy.nan, sympy.zoo, sympy.oo) or value.has(z):
+                return None
+            coefficients.append(value / sympy.factorial(k))
+            derivative = derivative.diff(z)
+            if not small.terms and not small.errors:
+                break
+        return _series(small, coefficients)
+
+
+def _is_smaller(first: Monomial, second: Monomial) -> bool:
+    """Does the quotient tend to 0, as far as that is known?"""
+    try:
+        return (first * _inverse(second)).size < 0
+    except UnknownBehaviour:
+        return False
+
+
+def _inverse(m: Monomial) -> Monomial:
+    return Monomial(tuple((p, -a) for p, a in m.growth), -m.e, -m.k)
+
+
+def _series(small: Expansion, coefficients: list[Expr]) -> Expansion:
+    """sum of coefficient * small^k, for something that tends to 0, up to O(small^n) for n coefficients."""
+    n = len(coefficients)
+    errors = [m.power(sympy.Integer(n)) for m in (*small.terms, *small.errors)]
+    total = Expansion({CONSTANT: coefficients[-1]}, errors)
+    for coefficient in reversed(coefficients[:-1]):
+        total = total * small + Expansion({CONSTANT: coefficient}, errors)
+    return total
