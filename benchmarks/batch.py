@@ -12,17 +12,17 @@ Written are benchmarks/results/batch.json, batch.md and batch.png (memory of par
 
 from __future__ import annotations
 
-import argparse
 import itertools
 import json
 import os
-import platform
 import resource
 import sys
 import time
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+
+import frame
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -137,8 +137,7 @@ def report(sample: int, loop: tuple[float, float], one: Run, two: Run, whole: Ru
         "",
         "Written by `python benchmarks/batch.py`; see there for what is measured.",
         "",
-        f"{platform.system()} {platform.machine()}, {os.cpu_count()} CPUs, load at the start {load:.1f}, "
-        f"python {platform.python_version()}, kovacic {kovacic.__version__}.",
+        f"{frame.line()}  Load at the start {load:.1f}.",
         "",
         f"| {sample} mixed equations | wall s | processor s, workers | processor s, parent | equations/s |",
         "|---|---:|---:|---:|---:|",
@@ -189,7 +188,7 @@ def draw(whole: Run, path: Path) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = frame.parser(__doc__)
     parser.add_argument(
         "--count", type=int, default=5000, help="equations of the long run, on two workers; 0 keeps the last one"
     )
@@ -206,13 +205,9 @@ def main() -> None:
         whole = run(equations(options.count), 2, options.count, samples=_SAMPLES_OF_MEMORY)
     else:
         whole = Run(**json.loads((HERE / "results" / "batch.json").read_text())["runs"][-1])
-    results = HERE / "results"
-    results.mkdir(exist_ok=True)
     text = report(options.sample, loop, one, two, whole, load)
-    (results / "batch.md").write_text(text)
-    data = {"load": load, "bare_loop": loop, "runs": [asdict(r) for r in (one, two, whole)]}
-    (results / "batch.json").write_text(json.dumps(data) + "\n")
-    draw(whole, results / "batch.png")
+    frame.save("batch", {"load": load, "bare_loop": loop, "runs": [asdict(r) for r in (one, two, whole)]}, text)
+    draw(whole, frame.RESULTS / "batch.png")
     print(text)
 
 

@@ -11,15 +11,13 @@ Writes benchmarks/results/closed_forms.json.
 
 from __future__ import annotations
 
-import argparse
 import json
-import platform
 import statistics
-import sys
 import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+import frame
 from sympy.core.cache import clear_cache
 
 import kovacic
@@ -149,7 +147,7 @@ def summary(name: str, rows: list[Row]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = frame.parser(__doc__)
     parser.add_argument("--show", action="store_true", help="print the solutions")
     options = parser.parse_args()
     groups = {"textbook": list(TEXTBOOK), "published": list(published().values())}
@@ -163,13 +161,7 @@ def main() -> None:
             for row in results[name]:
                 y1, y2 = row.solutions
                 print(f"  {row.full:7.1f}  {row.equation[:60]}\n           {y1}\n           {y2}")
-    report = {
-        "python": sys.version.split()[0],
-        "machine": platform.machine(),
-        "rows": {name: [asdict(row) for row in rows] for name, rows in results.items()},
-    }
-    (HERE / "results").mkdir(exist_ok=True)
-    (HERE / "results" / "closed_forms.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    frame.save("closed_forms", {"rows": {name: [asdict(row) for row in rows] for name, rows in results.items()}})
 
 
 if __name__ == "__main__":

@@ -10,14 +10,14 @@ calls for answers.  Writes benchmarks/results/conditions.json.
 
 from __future__ import annotations
 
-import argparse
 import json
-import platform
 import statistics
 import sys
 import time
 from pathlib import Path
 from typing import Any
+
+import frame
 
 import kovacic
 
@@ -69,14 +69,14 @@ def check(samples: int, seed: int) -> int:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = frame.parser(__doc__)
     parser.add_argument("--samples", type=int, default=0)
     parser.add_argument("--check", type=int, metavar="N", help="N points for each of the families, and nothing else")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     if options.check:
         return check(options.check, options.seed)
-    results: dict[str, Any] = {"python": platform.python_version(), "machine": platform.machine()}
+    results: dict[str, Any] = {}
     conditions: dict[str, Any] = {}
     print(f"{'conditions':30} {'ms':>8}  complete  samples")
     for name, S in {**{family.name: family.S for family in FAMILIES}, **LARGE}.items():
@@ -98,9 +98,7 @@ def main() -> int:
             times[name] = 1000 * statistics.median(seconds(lambda S=S: kovacic.solve(S, var="x")) for _ in range(RUNS))
         results[title] = {"milliseconds": times, "median": statistics.median(times.values())}
         print(f"\n{title} answers: median {results[title]['median']:.1f} ms, largest {max(times.values()):.1f} ms")
-    target = HERE / "results"
-    target.mkdir(exist_ok=True)
-    (target / "conditions.json").write_text(json.dumps(results, indent=1) + "\n")
+    frame.save("conditions", results)
     return 0
 
 

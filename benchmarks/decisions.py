@@ -5,18 +5,15 @@ Regenerate:  python benchmarks/decisions.py      writes results/decisions.{json,
 
 from __future__ import annotations
 
-import json
-import platform
 import subprocess
 import sys
 import time
 from collections.abc import Callable
 from fractions import Fraction
 from functools import partial
-from pathlib import Path
 from typing import Any
 
-RESULTS = Path(__file__).parent / "results"
+import frame
 
 
 def timed(action: Callable[[], Any], repeats: int = 5) -> tuple[float, Any]:
@@ -170,11 +167,7 @@ def fresh(S: str, expression: str) -> dict[str, Any]:
 
 def main() -> None:
     found, exact, costs = decisions(), notices(), skipping()
-    RESULTS.mkdir(exist_ok=True)
-    (RESULTS / "decisions.json").write_text(
-        json.dumps({"decisions": found, "notices": exact, "skipping": costs}, indent=1) + "\n"
-    )
-    head = f"Python {platform.python_version()}, processor times.  Regenerate: `python benchmarks/decisions.py`."
+    head = f"{frame.line()}  Processor times.  Regenerate: `python benchmarks/decisions.py`."
     lines = [
         "# Decision stability",
         "",
@@ -204,7 +197,7 @@ def main() -> None:
         f"| {r['equation']} | {r['call']} | {r['seconds']:.4f} | {r['first']:.3f} | {', '.join(r['loads']) or 'none'} |"
         for r in costs
     ]
-    (RESULTS / "decisions.md").write_text("\n".join(lines) + "\n")
+    frame.save("decisions", {"decisions": found, "notices": exact, "skipping": costs}, "\n".join(lines))
 
 
 if __name__ == "__main__":

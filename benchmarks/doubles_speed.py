@@ -9,16 +9,13 @@ the equation.
 
 from __future__ import annotations
 
-import argparse
-import json
-import platform
 import time
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
+import frame
 import numpy as np
 import scipy
 import scipy.special as special
@@ -27,7 +24,6 @@ import sympy
 import kovacic
 from kovacic.doubles.lambdify import lambdify, measure
 
-RESULTS = Path(__file__).parent / "results"
 POINTS = 100_000
 X = sympy.Symbol("x")
 
@@ -137,11 +133,11 @@ def compare(row: Row) -> dict[str, Any]:
 
 
 def markdown(found: list[dict[str, Any]]) -> str:
-    versions = f"Python {platform.python_version()}, NumPy {np.__version__}, SciPy {scipy.__version__}, SymPy"
+    versions = frame.line(NumPy=np.__version__, SciPy=scipy.__version__, SymPy=sympy.__version__)
     lines = [
         "# NumPy functions",
         "",
-        f"{versions} {sympy.__version__}; {POINTS:,} points.  Regenerate: `python benchmarks/doubles_speed.py`.",
+        f"{versions}  {POINTS:,} points.  Regenerate: `python benchmarks/doubles_speed.py`.",
         "",
         "Processor time in ms of one call, and errors in units in the last place, median / worst of 24 points.",
         "",
@@ -160,7 +156,7 @@ def markdown(found: list[dict[str, Any]]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = frame.parser(__doc__)
     parser.add_argument("--quick", action="store_true", help="print the table, write nothing")
     options = parser.parse_args()
     warnings.simplefilter("ignore")
@@ -169,8 +165,7 @@ def main() -> None:
     text = markdown(found)
     print(text)
     if not options.quick:
-        (RESULTS / "doubles_speed.json").write_text(json.dumps(found, indent=1) + "\n")
-        (RESULTS / "doubles_speed.md").write_text(text)
+        frame.save("doubles_speed", found, text)
 
 
 if __name__ == "__main__":

@@ -12,21 +12,17 @@ Every solution is known in closed form.  Two tables:
 
 from __future__ import annotations
 
-import argparse
-import json
 import math
-import platform
 import time
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
+import frame
 from stability_families import Row, expression, families, number, reference
 
-RESULTS = Path(__file__).parent / "results"
 DIGITS = 30
 SECONDS = 60
 
@@ -192,7 +188,7 @@ def markdown(rows: list[dict[str, Any]]) -> str:
     lines = [
         "# Stability",
         "",
-        f"Python {platform.python_version()}.  Regenerate: `python benchmarks/doubles_stability.py`.",
+        f"{frame.line()}  Regenerate: `python benchmarks/doubles_stability.py`.",
         "",
         "## Enclosures",
         "",
@@ -248,7 +244,7 @@ def units(row: dict[str, Any], name: str) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = frame.parser(__doc__)
     parser.add_argument("--quick", action="store_true", help="print the table, write nothing")
     parser.add_argument("--family", help="this family only (implies --quick)")
     options = parser.parse_args()
@@ -267,9 +263,7 @@ def main() -> None:
     text = markdown(rows)
     print(text)
     if not options.quick and options.family is None:
-        RESULTS.mkdir(exist_ok=True)
-        (RESULTS / "doubles_stability.json").write_text(json.dumps(rows, indent=1) + "\n")
-        (RESULTS / "doubles_stability.md").write_text(text)
+        frame.save("doubles_stability", rows, text)
 
 
 if __name__ == "__main__":

@@ -25,13 +25,13 @@ import warnings
 from pathlib import Path
 from typing import Any
 
+import frame
 import sympy
 from dsolve_problems import Problem, problems, sympy_equations
 from peer_systems.process import Answer, System
 from sympy.parsing.sympy_parser import parse_expr
 
 LIMIT, CHECK_LIMIT = 10.0, 20
-RESULTS = Path(__file__).parent / "results"
 X = sympy.Symbol("x")
 Y = sympy.Function("y")
 _NAMES = {"x": X, "Heaviside": sympy.Heaviside, "DiracDelta": sympy.DiracDelta, "pi": sympy.pi}
@@ -312,8 +312,7 @@ def main() -> None:
     versions = {"python": platform.python_version(), "sympy": sympy.__version__}
     if not wanted:
         data = {"versions": versions, "seconds": seconds, "limit": LIMIT, "problems": rows}
-        (RESULTS / f"{name}.json").write_text(json.dumps(data, indent=1) + "\n")
-        (RESULTS / f"{name}.md").write_text(table(rows, [system.name for system in systems], seconds))
+        frame.save(name, data, table(rows, [system.name for system in systems], seconds))
     print(table(rows, [system.name for system in systems], seconds))
 
 
@@ -323,6 +322,8 @@ def table(rows: list[dict[str, Any]], names: list[str], seconds: int) -> str:
     common = [row for row in rows if all(row["answers"][name]["verdict"] in good for name in names)]
     lines = [
         f"# {len(rows)} problems: `python benchmarks/dsolve.py`, {seconds} s, {LIMIT:.0f} s a problem at most",
+        "",
+        frame.line(sympy=sympy.__version__),
         "",
         "| | " + " | ".join(names) + " |",
         "| --- |" + " --- |" * len(names),

@@ -7,16 +7,15 @@ the least of several runs where they are short; the load of the machine is store
 
 from __future__ import annotations
 
-import json
 import math
 import multiprocessing
 import os
-import platform
 import time
 from concurrent.futures import ProcessPoolExecutor
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
+
+import frame
 
 from kovacic.enclosure import transport
 from kovacic.enclosure.evaluate import evaluate
@@ -24,7 +23,6 @@ from kovacic.enclosure.splitting import is_split
 from kovacic.limits import Limits
 from kovacic.reading.read import read_input
 
-RESULTS = Path(__file__).parent / "results"
 DIGITS = (300, 1_000, 3_000, 10_000, 30_000, 100_000)
 PATIENCE = 3.0
 """Term by term is followed to more digits while its last time is below this; the choice, below three times this."""
@@ -155,8 +153,7 @@ def markdown(data: dict[str, Any]) -> str:
     parts = [
         "# Cost of the Taylor route against the digits",
         "",
-        f"Python {data['python']}, {data['machine']}; load {data['load'][0]:.1f} at the start, "
-        f"{data['load'][1]:.1f} at the end.",
+        f"{frame.line()}  Load {data['load'][0]:.1f} at the start, {data['load'][1]:.1f} at the end.",
         "Regenerate: `python benchmarks/enclosure_long_series.py`.",
         "",
         "Seconds of processor time of one call of `evaluate`; the exponent k of digits^k is fitted from 3,000 digits on.",
@@ -192,8 +189,6 @@ def main() -> None:
     before = os.getloadavg()[0]
     rows = growth()
     data: dict[str, Any] = {
-        "python": platform.python_version(),
-        "machine": platform.machine(),
         "growth": rows,
         "exponents": {
             f"{name} / {method}": exponent([r for r in rows if (r["problem"], r["method"]) == (name, method)])
@@ -202,10 +197,8 @@ def main() -> None:
         "crossover": crossover(),
     }
     data["load"] = [before, os.getloadavg()[0]]
-    RESULTS.mkdir(exist_ok=True)
-    (RESULTS / "enclosure_long_series.json").write_text(json.dumps(data, indent=1) + "\n")
     text = markdown(data)
-    (RESULTS / "enclosure_long_series.md").write_text(text)
+    frame.save("enclosure_long_series", data, text)
     print(text)
 
 

@@ -7,9 +7,7 @@ calls; errors are relative, against the Taylor route at more digits.  Thousands 
 
 from __future__ import annotations
 
-import json
 import math
-import platform
 import statistics
 import time
 from collections import Counter
@@ -20,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import flint
+import frame
 
 import kovacic
 from kovacic.enclosure import classical, closed_form, frobenius, journey, transport
@@ -305,7 +304,7 @@ def markdown(data: dict[str, list[dict[str, Any]]]) -> str:
     parts = [
         "# What a proven value costs",
         "",
-        f"Python {platform.python_version()}, {platform.machine()}.  Processor times.",
+        f"{frame.line()}  Processor times.",
         "Regenerate: `python benchmarks/enclosure_work_precision.py`.",
         "",
         "## What each kind of call computes and costs",
@@ -382,9 +381,8 @@ def main() -> None:
         "costs": costs(),
         "crossover": crossover(),
     }
-    (RESULTS / "enclosure_work_precision.json").write_text(json.dumps(data, indent=1) + "\n")
-    (RESULTS / "enclosure_work_precision.md").write_text(markdown(data))
-    picture(data, RESULTS / "enclosure_work_precision.png")
+    frame.save("enclosure_work_precision", data, markdown(data))
+    picture(data, frame.RESULTS / "enclosure_work_precision.png")
 
 
 if __name__ == "__main__":

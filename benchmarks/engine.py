@@ -29,6 +29,7 @@ from pathlib import Path
 from typing import Any
 
 import families
+import frame
 
 import kovacic
 from kovacic.algebra import rationals
@@ -212,7 +213,7 @@ def _cell(kind: str, m: dict[str, Any]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = frame.parser(__doc__)
     parser.add_argument("--quick", action="store_true", help="small sizes, no memory, nothing written")
     parser.add_argument("--only", default="", help="only the series whose names contain this; nothing written")
     parser.add_argument("--child", nargs=3, metavar=("WHAT", "NAME", "PARAMETER"), help=argparse.SUPPRESS)
@@ -244,10 +245,7 @@ def main() -> None:
     text = markdown(report)
     print("\n" + text)
     if not options.quick and not options.only:
-        target = HERE / "results"
-        target.mkdir(exist_ok=True)
-        (target / "engine.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
-        (target / "engine.md").write_text(text, encoding="utf-8")
+        frame.save("engine", report, text)
 
 
 if __name__ == "__main__":

@@ -9,8 +9,6 @@ shows why series at ordinary points come from Newton's iteration and from no rec
 
 from __future__ import annotations
 
-import json
-import platform
 import sys
 import time
 from collections.abc import Callable
@@ -21,6 +19,7 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
+import frame
 from flint import nmod_poly
 
 import kovacic
@@ -38,7 +37,6 @@ from kovacic.verify import verify
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 import transform
 
-RESULTS = Path(__file__).parent / "results"
 X = RatFunc(QQ.poly([0, 1]))
 HALF, THIRD = Fraction(1, 2), Fraction(1, 3)
 #: Prime by prime takes minutes above this degree bound, so it isn't run there.
@@ -156,22 +154,17 @@ def _table(rows: list[dict[str, object]]) -> str:
 def main() -> None:
     kovacic.solve("x^2 + 3")
     found = {"invariants": invariant_rows(), "solutions": solution_rows(), "series": series_rows()}
-    machine = (
-        f"kovacic {kovacic.__version__}, python {platform.python_version()}, {platform.system()} {platform.machine()}"
-    )
     text = "\n\n".join(
         [
             "# Lifting\n\nWritten by `python benchmarks/lifting.py`; see there for what is measured.  Times in seconds.",
-            machine,
+            frame.line(),
             _table(found["invariants"]),
             _table(found["solutions"]),
             "Series modulo a prime near 2^60 at an ordinary point, both solutions:",
             _table(found["series"]),
         ]
     )
-    RESULTS.mkdir(exist_ok=True)
-    (RESULTS / "lifting.md").write_text(text + "\n")
-    (RESULTS / "lifting.json").write_text(json.dumps({"machine": machine, **found}, indent=1) + "\n")
+    frame.save("lifting", found, text)
     print(text)
 
 

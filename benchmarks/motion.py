@@ -13,14 +13,12 @@ oscillation by the same equations at rtol = 3e-14; its error is about 1e-13, a r
 
 from __future__ import annotations
 
-import argparse
-import json
-import platform
 import sys
 import time
 from dataclasses import asdict, astuple, dataclass
 from pathlib import Path
 
+import frame
 import mpmath
 import numpy as np
 
@@ -28,7 +26,6 @@ sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 import newton_euler
 from ball_quadratures import quadratures
 
-import kovacic
 from kovacic.ball import Ball
 from kovacic.ball.motion import State, solve_motion
 
@@ -143,7 +140,7 @@ def markdown(period: float, rows: list[Row]) -> str:
             "",
             "Written by `python benchmarks/motion.py`; see there for what is measured.  Seconds of processor time.",
             "",
-            f"kovacic {kovacic.__version__}, python {platform.python_version()}, {platform.system()} {platform.machine()}",
+            frame.line(),
             "",
             f"- One oscillation and its powers (ours) cost {1000 * min(row.seconds for row in mine):.0f} to"
             f" {1000 * max(row.seconds for row in mine):.0f} ms for any number of oscillations; the cost of direct integration"
@@ -182,14 +179,11 @@ def draw(rows: list[Row], path: Path) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--results", type=Path, default=RESULTS, help="the folder that is written to")
-    options = parser.parse_args()
+    parser = frame.parser(__doc__)
+    parser.parse_args()
     period, rows = run()
-    data = {"python": platform.python_version(), "period": period, "rows": [asdict(row) for row in rows]}
-    (options.results / "motion.json").write_text(json.dumps(data, indent=1) + "\n")
-    (options.results / "motion.md").write_text(markdown(period, rows))
-    draw(rows, options.results / "motion.png")
+    frame.save("motion", {"period": period, "rows": [asdict(row) for row in rows]}, markdown(period, rows))
+    draw(rows, frame.RESULTS / "motion.png")
 
 
 if __name__ == "__main__":

@@ -45,6 +45,12 @@ def test_the_reference_has_every_public_name() -> None:
     assert set(re.findall(r"^\.\. auto\w+:: kovacic\.(\w+)$", reference, re.MULTILINE)) == set(kovacic.__all__)
 
 
+def test_every_benchmark_is_listed_with_its_question() -> None:
+    listed = (ROOT / "benchmarks" / "README.md").read_text(encoding="utf-8")
+    scripts = [path for path in (ROOT / "benchmarks").glob("*.py") if "if __name__" in path.read_text(encoding="utf-8")]
+    assert [path.name for path in scripts if f"`{path.name}`" not in listed and path.stem != "frame"] == []
+
+
 def test_the_comparison_has_the_figures_of_its_file() -> None:
     """Each row of the table, counted anew from the benchmark's results."""
     rows = json.loads((ROOT / "benchmarks" / "results" / "peers.json").read_text(encoding="utf-8"))["rows"]
