@@ -651,12 +651,18 @@ NAMES = {
 Family = tuple[str, int | None]
 
 
+def as_json(number: int | None) -> int | str | None:
+    """An integer of more than 4,300 digits is a text in JSON."""
+    return number if number is None or number < 10**4300 else str(fmpz(number))
+
+
 def check_group(group: dict[str, Any], family: str, n: int | None, used: set[str]) -> None:
     """Everything that is said of the group follows from its family; the evidence that is given is what was used."""
     demand_keys(group, "the group", "name order finite", "family n form orders")
     order = SIZES[family] * (n or 1) if family in SIZES else None
-    name = NAMES.get(f"{family}{n}", NAMES[family]).format(n=n, order=order)
-    expected = {"name": name, "order": order, "finite": order is not None, "family": family, "n": n}
+    size, degree = as_json(order), as_json(n)
+    name = NAMES.get(f"{family}{degree}", NAMES[family]).format(n=degree, order=size)
+    expected = {"name": name, "order": size, "finite": order is not None, "family": family, "n": degree}
     for key in set(expected) & set(group):
         demand_equal(group[key], expected[key], f"the {key} of the group")
     demand(set(group) & {"form", "orders"} == used, "the group needs this evidence")
@@ -736,6 +742,8 @@ class Imprimitive:
         if not self.group.get("form"):
             return None
         n = self.group["n"]
+        if isinstance(n, str) and n.isdecimal():
+            n = int(fmpz(n))
         demand(is_whole(n) and n > 0, "the group has an order")
         demand_keys(self.group["form"], "the form", "degree theta P")
         slope = self.read_form(self.group["form"], affordable(2 * n, "the degree of a form")).slope

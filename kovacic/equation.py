@@ -19,6 +19,7 @@ from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
+from kovacic.numerals import as_text
 
 DEFAULT_VARIABLE = "x"
 
@@ -96,7 +97,7 @@ class Equation:
         left = " + ".join(_term(coefficient, name, self.variable) for coefficient, name in terms if coefficient)
         right = [_coefficient(self.f, self.variable)] if self.f or self.h is None else []
         if self.h is not None:
-            right.append(str(self.h))
+            right.append(as_text(self.h))
         line = f"{left} = {' + '.join(right)}".replace("+ -", "- ")
         return line.replace("**", "^") if caret else line
 

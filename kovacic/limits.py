@@ -11,6 +11,7 @@ from functools import wraps
 from typing import ParamSpec, TypeVar
 
 from kovacic.errors import LimitExceeded
+from kovacic.numerals import in_a_message
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -114,7 +115,7 @@ class Budget:
     def check_degree(self, degree: int, what: str) -> None:
         if degree > self.limits.unknown_degree:
             raise LimitExceeded(
-                f"{what} may have degree {degree}, above the limit of {self.limits.unknown_degree}",
+                f"{what} may have degree {in_a_message(degree)}, above the limit of {self.limits.unknown_degree}",
                 limit="unknown_degree",
             )
 

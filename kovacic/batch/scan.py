@@ -13,6 +13,7 @@ from typing import Any
 
 from kovacic.batch.records import Item, Record
 from kovacic.errors import InputError, LimitExceeded, needs
+from kovacic.numerals import as_text
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import Template, number_text
 
@@ -112,9 +113,14 @@ def scan_items(expression: Any, grids: Sequence[Grid], *, var: str | None = None
         raise InputError("a scan needs a parameter", hint="n=0:10:1/4")
     if len(set(names)) < len(names) or var in names:
         raise InputError(f"the names {', '.join(names)} aren't different parameters")
-    template = Template(str(expression).strip(), names)  # as the answers have it
+    template = Template(as_text(expression).strip(), names)  # as the answers have it
     return (
-        Item(number, template.filled(values), var, {"parameters": {name: str(value) for name, value in values.items()}})
+        Item(
+            number,
+            template.filled(values),
+            var,
+            {"parameters": {name: as_text(value) for name, value in values.items()}},
+        )
         for number, values in enumerate(points(grids), start=1)
     )
 

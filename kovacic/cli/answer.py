@@ -127,6 +127,7 @@ def dsolve(equation: str, latex: bool, ics: str, **given: Any) -> int:
 def _general(equation: Any, *, latex: bool = False, **given: Any) -> Iterator[str]:
     """What `dsolve` finds; beside formulas of many lines a shorter one in special functions, if one is known."""
     from kovacic.general_solution import dsolve, in_special_functions
+    from kovacic.numerals import as_latex, as_text
     from kovacic.views.sentences import SHORTER
     from kovacic.writing.formula import caret
 
@@ -134,12 +135,10 @@ def _general(equation: Any, *, latex: bool = False, **given: Any) -> Iterator[st
     shorter = in_special_functions(found, equation, **given)
     for k, solution in enumerate([found] if shorter is None else [found, shorter]):
         if latex:
-            from sympy import latex as formula
-
-            yield from (r"\text{" + SHORTER + "}", formula(solution)) if k else (formula(solution),)
+            yield from (r"\text{" + SHORTER + "}", as_latex(solution)) if k else (as_latex(solution),)
         else:
             yield from (SHORTER,) if k else ()
-            yield f"{'  ' if k else ''}{solution.lhs} = {caret(str(solution.rhs))}"
+            yield f"{'  ' if k else ''}{solution.lhs} = {caret(as_text(solution.rhs))}"
 
 
 @options.equation_command()

@@ -20,6 +20,7 @@ from kovacic.closed_form.structure import (
     Triangular,
     logarithmic_derivative,
 )
+from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
 DIGITS = 50
@@ -105,7 +106,10 @@ def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: 
 
 
 def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc) -> bool:
-    """Does the expression satisfy the equation to 50 digits at a point with negative real and imaginary part?"""
+    """Does the expression satisfy the equation to 50 digits at a point with negative real and imaginary part?
+
+    Raises `LimitExceeded` where 4,800 digits don't tell.
+    """
     # Legendre's Q_60 is the difference of two terms that agree in a hundred digits; hence the repetitions.
     for digits in (DIGITS + 15, 3 * DIGITS, 8 * DIGITS, 24 * DIGITS, 96 * DIGITS):
         check_time()
@@ -114,7 +118,8 @@ def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: Rat
             value, bound = residual(expression, variable, S, gauge, point), arb(10) ** -DIGITS
             if value < bound or value > bound:  # neither holds for a ball that contains the bound
                 return bool(value < bound)
-    return False
+    said = f"the check of a written-out solution needs more than {digits} digits"
+    raise LimitExceeded(said, limit="digits")
 
 
 def value_at(r: RatFunc, point: Any) -> Any:

@@ -10,6 +10,7 @@ from enum import Enum
 from typing import Any, NamedTuple
 
 from kovacic.decision import GroupClaim, SemiInvariant
+from kovacic.numerals import digits
 
 
 class Kind(Enum):
@@ -118,17 +119,22 @@ class Group:
     @property
     def name(self) -> str:
         """A short name in plain characters: `mu_4`, `G_m`, `G_a extended by mu_3`, `dicyclic of order 12`, `SL(2,3)`."""
-        return self._facts.name.format(n=self.n, order=self.order)
+        return self._filled(self._facts.name)
 
     @property
     def latex(self) -> str:
         """The name for formulas."""
-        return self._facts.latex.format(n=self.n)
+        return self._filled(self._facts.latex)
 
     @property
     def description(self) -> str:
         """One phrase for a reader who doesn't know the name."""
-        return self._facts.description.format(n=self.n, order=self.order)
+        return self._filled(self._facts.description)
+
+    def _filled(self, text: str) -> str:
+        """The text with the order and the number of the family in it."""
+        n, order = (None if number is None else digits(number) for number in (self.n, self.order))
+        return text.format(n=n, order=order)
 
     @property
     def order(self) -> int | None:

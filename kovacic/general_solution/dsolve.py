@@ -28,6 +28,7 @@ from kovacic.general_solution.question import Question, read_question
 from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.written import combination, free_constants, written
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.numerals import as_text
 from kovacic.views.sentences import SCREEN
 
 Expr = Any  # SymPy publishes no types
@@ -76,12 +77,12 @@ def in_special_functions(found: Any, eq: Any, func: Any = None, **given: Any) ->
 
     None where they take more, or none are known.  Arguments as for `dsolve`.
     """
-    length = len(str(found.rhs))
+    length = len(as_text(found.rhs))
     if length <= SCREEN:
         return None
     with suppress(NotImplementedError, InputError):
         other, _ = _answered(eq, func, special=True, **given)
-        return other if len(str(other.rhs)) < length / 2 else None
+        return other if len(as_text(other.rhs)) < length / 2 else None
     return None
 
 

@@ -19,6 +19,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import square_part
 from kovacic.algebra.sparse import by_power, factorisation
+from kovacic.numerals import digits
 from kovacic.parametric.functions import over_parameters
 from kovacic.writing.formula import caret, latex_text
 
@@ -182,7 +183,7 @@ def _term(term: _Term, names: Sequence[str]) -> str:
 
 def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[str]) -> list[str]:
     """The factors of a product, none for 1; sums are in parentheses."""
-    pieces = [str(number)] if number != 1 else []
+    pieces = [digits(number)] if number != 1 else []
     for factor, k in factors:
         if not (factor.is_constant() and factor.is_one()):
             text = _polynomial(factor, names)

@@ -20,6 +20,7 @@ from kovacic.decision import Structure
 from kovacic.equation import parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import Limits
+from kovacic.numerals import as_text, for_json, fraction
 from kovacic.parametric.functions import Point, over_parameters
 from kovacic.parametric.integers import Congruence, free_letter
 from kovacic.parametric.natural import Natural
@@ -63,7 +64,7 @@ def statement_data(statement: Statement) -> dict[str, Any]:
 
 
 def _number(value: Fraction) -> int | str:
-    return int(value) if value.denominator == 1 else str(value)
+    return for_json(int(value)) if value.denominator == 1 else as_text(value)
 
 
 def constant_data(constant: Point) -> dict[str, Any]:
@@ -120,9 +121,9 @@ class Reader:
         letter, residues = data.get("unknown", "x"), tuple(map(Fraction, data.get("residues", [0])))
         if kind == "lattice":
             equation = self.field.poly([0, 1]) - self.polynomial(data["form"])
-            return Congruence.make(equation, residues, Fraction(data["modulus"]))
+            return Congruence.make(equation, residues, fraction(data["modulus"]))
         if kind == "integer root":
-            return Congruence(self.polynomial(data["equation"], letter), residues, Fraction(data["modulus"]), letter)
+            return Congruence(self.polynomial(data["equation"], letter), residues, fraction(data["modulus"]), letter)
         if kind == "natural number":
             equations = tuple(self.polynomial(text, letter) for text in data["equations"])
             S = self.function(data["S"], data["variable"])

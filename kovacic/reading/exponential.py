@@ -27,6 +27,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import UNKNOWN, Change, Equation, Parsed, lowered, over
 from kovacic.errors import NotLinear, NotRational
 from kovacic.limits import Limits
+from kovacic.numerals import as_text
 from kovacic.reading.arithmetic import Term
 from kovacic.reading.equation import EquationReader
 from kovacic.reading.linear import REST, Symbols
@@ -210,7 +211,7 @@ def _best(equation: Equation, k: Any, x: Any) -> tuple[Monic, str]:
         return isinstance(monic[0].field, AlgebraicField), places, places == 3 and not is_real
 
     best, variable = min(below, key=cost)
-    return best, str(variable)
+    return best, as_text(variable)
 
 
 def _substituted(equation: Monic, M: RatFunc) -> Monic:

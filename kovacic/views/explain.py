@@ -17,6 +17,7 @@ from kovacic.engine.places import Problem
 from kovacic.engine.riccati import residue
 from kovacic.errors import KovacicError, LimitExceeded
 from kovacic.limits import bounded_work
+from kovacic.numerals import digits
 from kovacic.views.bibliography import references
 from kovacic.views.sentences import (
     SHORTER,
@@ -199,7 +200,7 @@ class _Writer:
             return
         order = ""
         if group.order is not None:
-            order = f", of order {group.order}"
+            order = f", of order {digits(group.order)}"
         elif group.order_at_least is not None:
             order = f", of order at least {group.order_at_least} if it is finite"
         yield Heading("The Galois group")

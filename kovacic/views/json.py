@@ -43,6 +43,7 @@ from kovacic.equation import Equation, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.galois.group import Kind
 from kovacic.limits import Limits
+from kovacic.numerals import as_text, for_json
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.expression import parse_with
 from kovacic.reading.read import read_input
@@ -129,7 +130,7 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
     if full:
         data["group"] = group_dict(answer)
         try:
-            data["solutions"] = [str(y) for y in derived.solutions(answer)] or None
+            data["solutions"] = [as_text(y) for y in derived.solutions(answer)] or None
         except LimitExceeded:
             data["solutions"] = None
     return data
@@ -149,12 +150,12 @@ def group_dict(answer: Answer) -> dict[str, Any] | None:
     group = derived.group(answer)
     if group is None:
         return None
-    data: dict[str, Any] = {"name": group.name, "order": group.order, "finite": group.finite}
-    data |= {"family": group.kind.value, "n": group.n}
+    data: dict[str, Any] = {"name": group.name, "order": for_json(group.order), "finite": group.finite}
+    data |= {"family": group.kind.value, "n": for_json(group.n)}
     if group.form is not None and group.kind is Kind.DICYCLIC:
         data["form"] = _form(group.form, Formulas(answer.variable, answer.S.field))
     if group.orders:
-        data["orders"] = [{"prime": p, "order": k} for p, k in group.orders]
+        data["orders"] = [{"prime": p, "order": for_json(k)} for p, k in group.orders]
     return data
 
 
@@ -214,7 +215,7 @@ def _equation(equation: Equation) -> dict[str, Any]:
         "text": equation.text(caret=False),
         "unknown": equation.unknown,
         **{name: getattr(equation, name).to_str(x) for name in ("a", "b", "c", "f")},
-        "h": None if equation.h is None else str(equation.h),
+        "h": None if equation.h is None else as_text(equation.h),
         "field": _field(equation.a.field),
         "change": equation.change and {"variable": equation.change.variable, "expression": equation.change.expression},
     }

@@ -15,6 +15,7 @@ from kovacic.algebra.rationals import QQ, square_part
 from kovacic.closed_form.primitive import OpenPrimitive, RationalPrimitive, normalised_constant
 from kovacic.closed_form.product import Factor, Product, grouped, merged
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, Triangular
+from kovacic.numerals import digits
 
 
 def written(structure: ClosedStructure, variable: str) -> tuple[str, str] | None:
@@ -122,9 +123,9 @@ def _sum(r: RatFunc, variable: str, radical: str = "") -> str:
 
 def _term(c: Fraction, radical: str, monomial: str, divisor: str = "") -> str:
     """c * radical * monomial / divisor."""
-    size = "" if abs(c.numerator) == 1 else str(abs(c.numerator))
+    size = "" if abs(c.numerator) == 1 else digits(abs(c.numerator))
     above = "*".join(part for part in (size, radical, monomial) if part) or "1"
-    factors = [str(c.denominator)] if c.denominator > 1 else []
+    factors = [digits(c.denominator)] if c.denominator > 1 else []
     if divisor:
         factors.append(_factor(divisor))
     below = factors[0] if len(factors) == 1 else f"({'*'.join(factors)})"

@@ -13,6 +13,7 @@ from kovacic.engine.paper import Family, Search, SingularPoint, in_sympy, is_nat
 from kovacic.engine.places import Kind, Place, analyse
 from kovacic.equation import parameters_of
 from kovacic.limits import Budget
+from kovacic.numerals import as_text
 from kovacic.views.sentences import formulas_of
 from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, say
 from kovacic.writing.formula import Math, latex_text, of_sympy
@@ -76,7 +77,7 @@ class Steps:
         delta: str | Math = "-"
         if place.kind is Kind.REGULAR:
             if place.delta is not None:
-                delta = str(place.delta)
+                delta = as_text(place.delta)
             elif place.delta_squared is not None:
                 square = self.formulas.math(place.delta_squared)
                 delta = Math(f"sqrt({square.text})", rf"\sqrt{{{square.latex}}}")

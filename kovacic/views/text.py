@@ -11,6 +11,7 @@ from kovacic.decision import Status
 from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
+from kovacic.numerals import as_text
 from kovacic.reading.lexer import is_equation
 from kovacic.views.sentences import (
     SHORTER,
@@ -133,7 +134,7 @@ def solution_lines(answer: Answer) -> Iterator[str]:
 
 def _written(answer: Answer) -> tuple[tuple[str, ...], tuple[str, ...]]:
     if answer.case is None:
-        return tuple(caret(str(y)) for y in derived.special(answer)), ()
+        return tuple(caret(as_text(y)) for y in derived.special(answer)), ()
     from kovacic.closed_form.check import is_exact_solution
     from kovacic.closed_form.primitive import OpenPrimitive
     from kovacic.closed_form.structure import Triangular, build
@@ -149,7 +150,7 @@ def _written(answer: Answer) -> tuple[tuple[str, ...], tuple[str, ...]]:
         return pair, (f"integral left because {primitive.reason}",) if isinstance(primitive, OpenPrimitive) else ()
     form = derived.closed_form(answer)
     assert form is not None
-    return tuple(caret(str(y)) for y in form), form.notes
+    return tuple(caret(as_text(y)) for y in form), form.notes
 
 
 def _exclusions(answer: Answer) -> list[str]:

@@ -15,6 +15,7 @@ from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import parameters_of
+from kovacic.numerals import as_latex, as_text
 
 _GREEK = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega"
 # What has another form in LaTeX, in the order in which it is replaced.
@@ -157,9 +158,7 @@ def _degrees(function: RatFunc) -> str:
 
 def of_sympy(expression: Any) -> Math:
     """A SymPy expression."""
-    from sympy import latex
-
-    return Math(caret(str(expression)), latex(expression))
+    return Math(caret(as_text(expression)), as_latex(expression))
 
 
 def caret(text: str) -> str:

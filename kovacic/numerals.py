@@ -1,0 +1,143 @@
+"""Integers, fractions and SymPy expressions as text, with numbers of any length.
+
+Python refuses to convert integers of more than 4,300 digits, and takes time that grows with the square of their length where it
+is allowed to.  FLINT does neither.  SymPy's printers use Python's conversion, so ours replace what they do with numbers.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+from flint import fmpz
+
+#: Above, Python's readers of JSON refuse an integer as they are set by default; so it is a text there.
+_TOO_LONG_FOR_JSON = 10**4300
+#: Bits of a number above which a message has its size in place of its digits.
+_BITS_IN_A_MESSAGE = 128
+#: Bits of a number which SymPy's printers can sort by its digits, whatever limit Python has been set to.
+_SORTED_BITS = 2000
+
+
+def digits(number: int) -> str:
+    """The decimal digits of an integer, with its sign.
+
+    >>> len(digits(10**5000))
+    5001
+    """
+    return str(fmpz(number))
+
+
+def integer(text: str) -> int:
+    """The integer that decimal digits denote, with or without a sign.  Raises `ValueError` for any other text.
+
+    >>> integer("1" + 5000 * "0") == 10**5000
+    True
+    """
+    return int(fmpz(text))
+
+
+def fraction(text: str | int) -> Fraction:
+    """The fraction p/q that a text denotes, or the integer.  Raises `ValueError` for any other text.
+
+    >>> fraction("-1/2"), fraction(3)
+    (Fraction(-1, 2), Fraction(3, 1))
+    """
+    if isinstance(text, int):
+        return Fraction(text)
+    above, slash, below = text.partition("/")
+    return Fraction(integer(above), integer(below) if slash else 1)
+
+
+def in_a_message(number: int) -> str:
+    """A number as it is mentioned in passing.
+
+    >>> in_a_message(17), in_a_message(10**5000)
+    ('17', 'of 16610 bits')
+    """
+    bits = number.bit_length()
+    return digits(number) if bits <= _BITS_IN_A_MESSAGE else f"of {bits} bits"
+
+
+def as_text(value: Any) -> str:
+    """What `str` gives for an integer, a `Fraction` or a SymPy expression, with numbers of any length.
+
+    >>> as_text(Fraction(-1, 2))
+    '-1/2'
+    >>> import sympy
+    >>> len(as_text(sympy.Symbol("x") ** 2 + 10**5000))
+    5008
+    """
+    if isinstance(value, int):
+        return digits(value)
+    if isinstance(value, Fraction):
+        above = digits(value.numerator)
+        return above if value.denominator == 1 else f"{above}/{digits(value.denominator)}"
+    text, _ = _printers()
+    return text(_settings(value)).doprint(value)  # type: ignore[no-any-return]
+
+
+def as_latex(expression: Any) -> str:
+    """What `sympy.latex` gives for an expression, with numbers of any length."""
+    _, latex = _printers()
+    return latex(_settings(expression)).doprint(expression)  # type: ignore[no-any-return]
+
+
+def for_json(number: int | None) -> int | str | None:
+    """An integer for JSON: as a text where it has more than 4,300 digits.
+
+    >>> for_json(12), len(for_json(10**5000))
+    (12, 5001)
+    """
+    if number is None or abs(number) < _TOO_LONG_FOR_JSON:
+        return number
+    return digits(number)
+
+
+def _settings(expression: Any) -> dict[str, Any]:
+    """Those of SymPy's printers.  SymPy sorts roots of numbers by Python's digits of them: long ones stay in their order."""
+    import sympy
+
+    parts = sympy.preorder_traversal(expression)
+    numbers = (part for part in parts if isinstance(part, sympy.Rational))
+    is_long = any(int(number.p).bit_length() > _SORTED_BITS for number in numbers)
+    return {"order": "none"} if is_long else {}
+
+
+@cache
+def _printers() -> tuple[type[Any], type[Any]]:
+    """The classes that print text and LaTeX; SymPy is imported when they are needed."""
+    from sympy.printing.latex import LatexPrinter
+    from sympy.printing.str import StrPrinter
+
+    class Text(StrPrinter):  # type: ignore[misc]
+        def _print_int(self, number: int) -> str:
+            return digits(number)
+
+        def _print_Integer(self, number: Any) -> str:
+            return digits(int(number.p))
+
+        def _print_Rational(self, number: Any) -> str:
+            return as_text(Fraction(int(number.p), int(number.q)))
+
+    class Latex(LatexPrinter):  # type: ignore[misc]
+        def _print_int(self, number: int) -> str:
+            return digits(number)
+
+        def _print_Integer(self, number: Any) -> str:
+            return digits(int(number.p))
+
+        def _print_Rational(self, number: Any) -> str:
+            sign = "- " if number < 0 else ""
+            above = digits(abs(int(number.p)))
+            return rf"{sign}\frac{{{above}}}{{{digits(int(number.q))}}}"
+
+        def _print_Pow(self, power: Any) -> str:
+            exponent = power.exp
+            if not exponent.is_Rational or int(exponent.q).bit_length() <= _BITS_IN_A_MESSAGE:
+                return super()._print_Pow(power)  # type: ignore[no-any-return]
+            # SymPy would write a root, whose index it converts itself.
+            return self._helper_print_standard_power(power, "%s^{%s}")  # type: ignore[no-any-return]
+
+    return Text, Latex
