@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 
+from kovacic.shown import visible
+
 
 class KovacicError(Exception):
     """Base class of every exception that this package raises on purpose."""
@@ -46,13 +48,19 @@ class InputError(KovacicError, ValueError):
     def __str__(self) -> str:
         parts = [self.message]
         if self.text is not None and self.position is not None:
-            start = max(0, self.position - 30)
-            excerpt = self.text[start : self.position + max(self.length, 1) + 30].replace("\n", " ")
-            marker = " " * (self.position - start) + "^" * max(1, min(self.length, 40))
-            parts.append(f"  at position {self.position}:\n    {excerpt}\n    {marker}")
+            parts.append(f"  at position {self.position}:\n{self._marked(self.text, self.position)}")
         if self.hint:
             parts.append(f"  hint: {self.hint}")
-        return "\n".join(parts)
+        return visible("\n".join(parts))
+
+    def _marked(self, text: str, position: int) -> str:
+        """The text around the offending part, in one line, and below it a line that marks the part."""
+        end = position + max(self.length, 1)
+        before = visible(text[max(0, position - 30) : position].replace("\n", " "))
+        part = visible(text[position:end].replace("\n", " "))
+        after = visible(text[end : end + 30].replace("\n", " "))
+        marker = "^" * max(1, min(len(part), 40))
+        return f"    {before}{part}{after}\n    {' ' * len(before)}{marker}"
 
 
 class ParseError(InputError):

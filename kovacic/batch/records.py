@@ -15,6 +15,7 @@ from typing import Any
 
 from kovacic.errors import InputError, KovacicError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.shown import json_line
 from kovacic.solution import Solution
 from kovacic.views.json import group_dict
 
@@ -138,7 +139,7 @@ def solved(item: Item, solution: Solution, job: Job) -> Record:
     added = {"line": item.number, **item.extra}
     if job.group:
         added["group"] = group_dict(solution)
-    head = json.dumps(added, ensure_ascii=False)
+    head = json_line(added)
     structure = solution.decision.structure
     label = UNDECIDED if solution.reason else _LABELS[None if structure is None else structure.value][0]
     return Record(item.number, label, solution.seconds or 0.0, f"{head[:-1]}, {solution.to_json()[1:]}")
@@ -193,7 +194,7 @@ def stopped(item: Item, reason: str, seconds: float) -> Record:
 
 def _without_answer(item: Item, label: str, data: Mapping[str, Any], seconds: float) -> Record:
     head = {"line": item.number, **item.extra, "schema": 1, "input": item.text}
-    return Record(item.number, label, seconds, json.dumps({**head, **data}))
+    return Record(item.number, label, seconds, json_line({**head, **data}))
 
 
 class Summary:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -10,6 +9,7 @@ import click
 from click.core import ParameterSource
 
 from kovacic.cli.options import PICTURE
+from kovacic.shown import json_line
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -91,7 +91,7 @@ def ball(as_json: bool, latex: bool, explain: bool, **given: Any) -> None:
             _print_derivation(derivation)
             click.echo()
     if as_json:
-        click.echo(json.dumps(data, ensure_ascii=False, default=str))
+        click.echo(json_line(data, default=str))
     for _, value, *shown in () if as_json else rows:
         label, template = (*shown, "{}", "")[:2] if shown and value is not None else ("", "")
         for k, line in enumerate(template.format(value).splitlines()):

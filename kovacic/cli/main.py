@@ -17,6 +17,7 @@ from io import TextIOWrapper
 import click
 
 import kovacic
+from kovacic.shown import visible
 
 DECIDED, BAD_INPUT, UNDECIDED, CHECK_FAILED, NOT_WRITTEN, INTERRUPTED, PIPE_CLOSED = 0, 2, 3, 4, 5, 130, 141
 
@@ -136,6 +137,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except click.exceptions.Exit as ending:
         return ending.exit_code
     except click.ClickException as error:
+        error.message = visible(error.message)
         error.show()
         return BAD_INPUT
     except kovacic.KovacicError as error:
@@ -147,7 +149,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return _given_up(PIPE_CLOSED)
     except OSError as error:
         with suppress(OSError):  # standard error may be full as well
-            where = f" to {error.filename}" if error.filename else ""
+            where = f" to {visible(str(error.filename))}" if error.filename else ""
             print(f"kovacic: the output can't be written{where}: {error.strerror}", file=sys.stderr)
         return _given_up(NOT_WRITTEN)
 
@@ -165,7 +167,7 @@ def _given_up(status: int) -> int:
 
 def reported(error: Exception) -> int:
     """Say what was wrong, on standard error; the exit status for it."""
-    print(f"kovacic: {error}", file=sys.stderr)
+    print(f"kovacic: {visible(str(error))}", file=sys.stderr)
     if isinstance(error, kovacic.InputError | ImportError):
         return BAD_INPUT
     return UNDECIDED if isinstance(error, kovacic.LimitExceeded) else CHECK_FAILED

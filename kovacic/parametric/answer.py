@@ -31,6 +31,7 @@ from kovacic.parametric.statements import both
 from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import number_text
+from kovacic.shown import json_line, visible
 from kovacic.writing.formula import Formulas, Math
 
 #: Regions that are written unless all are asked for.
@@ -169,9 +170,7 @@ class Conditions:
 
     def to_json(self) -> str:
         """One line of JSON: parameters, generic, regions."""
-        import json
-
-        return json.dumps(self.to_dict(), ensure_ascii=False)
+        return json_line(self.to_dict())
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object as plain Python values."""
@@ -204,6 +203,8 @@ class Conditions:
         try:
             data = json.loads(text) if isinstance(text, str) else text
             names, variable, constant = tuple(data["parameters"]), data["variable"], constant_from(data)
+            if not all(name.isidentifier() for name in (*names, variable)):
+                raise ValueError("a parameter or the variable isn't a name")
             reader = Reader(FunctionField((*names, *constant.names)), constant.names)
             regions = tuple(
                 Condition(
@@ -218,7 +219,7 @@ class Conditions:
             known = read_assumptions(data["assumptions"], None, names) if data["assumptions"] else NOTHING_ASSUMED
             S, notices = reader.function(data["S"], variable), tuple(data["notices"])
             return cls(S, variable, names, *claim, DEFAULT_LIMITS, notices, known, constant)
-        except (KeyError, TypeError, ValueError, AttributeError) as error:
+        except (KeyError, TypeError, ValueError, AttributeError, IndexError, RecursionError) as error:
             raise InputError(f"this isn't the JSON of conditions: {error}") from None
 
     def latex(self) -> str:
@@ -264,7 +265,7 @@ class Conditions:
         lines.append(f"  {self._where_generic}: {self.generic}")
         complete = "proven to be complete" if self.complete is True else f"complete {self.complete}"
         lines.append(f"  ({complete}; {self.theory})")
-        return "\n".join(lines)
+        return visible("\n".join(lines))
 
     def explain(self) -> str:
         """The partition, and for each region what it follows from: exponents, degrees, and solutions where they are known."""
@@ -274,7 +275,7 @@ class Conditions:
             known = [s for d in (None, *range(len(region.determinants))) for s in region.solution(d)]
             shown = [*([region.omega] if region.omega else []), *known]
             lines += [f"  {line}" for line in shown or ([region.why_no_solution] if region.case == 1 else [])]
-        return "\n".join(lines)
+        return visible("\n".join(lines))
 
     def __str__(self) -> str:
         return self.text()

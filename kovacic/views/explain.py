@@ -6,10 +6,9 @@ First the paper's own steps, line by line (`steps`), then what this package clai
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from html import escape
 from io import StringIO
 
-from kovacic import derived
+from kovacic import derived, shown
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.answer import Answer
 from kovacic.decision import Exclusion, NecessaryCondition, SemiInvariant, Status, Structure
@@ -65,7 +64,7 @@ def explain(answer: Answer, *, format: str = "text", solutions: bool = True) -> 
     if format != "html":
         return FORMATS[format].render(blocks)
     body = FORMATS[format].render(blocks) + _picture(answer)
-    page = _PAGE.replace("BODY", body, 1).replace("TITLE", escape(shortened(answer.text)), 1)
+    page = _PAGE.replace("BODY", body, 1).replace("TITLE", shown.html(shortened(answer.text)), 1)
     return page.encode("ascii", "xmlcharrefreplace").decode()
 
 

@@ -47,6 +47,7 @@ from kovacic.numerals import as_text, for_json
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.expression import parse_with
 from kovacic.reading.read import read_input
+from kovacic.shown import json_line
 from kovacic.verify import verify
 from kovacic.writing.formula import Formulas
 
@@ -63,7 +64,7 @@ _RADICAL = "radical_"
 
 def dumps(answer: Answer, *, full: bool = False) -> str:
     """The answer as one line of JSON; `full` adds the group and two solutions in closed form, which have to be computed."""
-    return json.dumps(to_dict(answer, full=full), ensure_ascii=False)
+    return json_line(to_dict(answer, full=full))
 
 
 def loads(text: str | Mapping[str, Any]) -> Answer:
@@ -73,7 +74,7 @@ def loads(text: str | Mapping[str, Any]) -> Answer:
     """
     try:
         data = json.loads(text) if isinstance(text, str) else text
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise InputError(f"this isn't JSON: {error}") from None
     if not isinstance(data, Mapping):
         raise InputError("this isn't an answer: a JSON object is expected")
@@ -81,7 +82,7 @@ def loads(text: str | Mapping[str, Any]) -> Answer:
         raise InputError(f"schema {data.get('schema')!r} isn't known; this version reads schema {SCHEMA}")
     try:
         return from_dict(data)
-    except (KeyError, TypeError, AttributeError, IndexError, ValueError, ArithmeticError) as error:
+    except (KeyError, TypeError, AttributeError, IndexError, ValueError, ArithmeticError, RecursionError) as error:
         raise InputError(f"this isn't an answer in schema {SCHEMA}: {type(error).__name__}: {error}") from error
 
 

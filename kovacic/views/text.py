@@ -13,6 +13,7 @@ from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 from kovacic.numerals import as_text
 from kovacic.reading.lexer import is_equation
+from kovacic.shown import in_one_line, visible
 from kovacic.views.sentences import (
     SHORTER,
     equation_of,
@@ -42,7 +43,7 @@ def one_line(answer: Answer) -> str:
     """The equation and the verdict."""
     equation = _given(answer)
     if answer.status is Status.UNDECIDED:
-        return f"{equation}: undecided, {answer.reason}"
+        return f"{equation}: undecided, {in_one_line(answer.reason or '')}"
     if answer.status is Status.NONE_EXISTS:
         return f"{equation}: no Liouvillian solution"
     if answer.omega is not None:
@@ -60,11 +61,11 @@ def render(
     """
     yield style(_given(answer), "title")
     for notice in answer.notices:
-        yield style(f"  note: {notice}", "faint")
+        yield style(f"  note: {visible(notice)}", "faint")
     if answer.equation is not None and not answer.equation.is_normal_form:
         yield f"  normal form: {normal_form(answer).text}, of which the following speaks"
     if answer.status is Status.UNDECIDED:
-        yield f"  {style('undecided', 'unsure')}: {answer.reason}"
+        yield f"  {style('undecided', 'unsure')}: {visible(answer.reason or '')}"
     elif answer.status is Status.NONE_EXISTS:
         yield f"  {style('no Liouvillian solution exists', 'bad')}: the Galois group is SL2(C)"
     else:
@@ -99,7 +100,8 @@ def _given(answer: Answer) -> str:
     """The equation in the user's variable: a notice says what becomes of one that isn't rational in it."""
     if answer.change is None:
         return equation_of(answer).text
-    return answer.text if is_equation(answer.text) else f"y'' = ({answer.text}) y"
+    text = in_one_line(answer.text)
+    return text if is_equation(text) else f"y'' = ({text}) y"
 
 
 def solution_lines(answer: Answer) -> Iterator[str]:

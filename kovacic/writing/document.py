@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from kovacic import shown
 from kovacic.writing.breaking import LINE, breakable, pieces, width
 from kovacic.writing.formula import Math
 
@@ -57,7 +58,7 @@ class Format:
     math: Callable[[Math], str]
     formula: Callable[[Math], str]
     table: Callable[[list[list[str]]], str]
-    plain: Callable[[str], str] = str
+    plain: Callable[[str], str]
     paragraph: Callable[[str], str] = str
 
     def render(self, blocks: Sequence[Block]) -> str:
@@ -137,19 +138,13 @@ def _mathml(math: Math, display: str = "inline") -> str:
     from latex2mathml.converter import convert
 
     if not math.latex:
-        return f"<code>{_html_escaped(math.text)}</code>"
+        return f"<code>{shown.html(math.text)}</code>"
     written = convert(math.latex, display=display)
     # A prime is raised and small by itself, and infinity is no operator.
     written = re.sub(
         r"<msup>(<mi>[^<]*</mi>)<mi>(&#x0?203\d;)</mi></msup>", r"\1<mo lspace='0' rspace='0'>\2</mo>", written
     )
     return written.replace("<mo>&#x0221E;</mo>", "<mi>&#x0221E;</mi>")
-
-
-def _html_escaped(text: str) -> str:
-    from html import escape  # with a table of all entities, which no other format needs
-
-    return escape(text)
 
 
 def _html_math(math: Math) -> str:
@@ -167,39 +162,34 @@ def _html_formula(math: Math) -> str:
     return "".join(f'<div style="padding:.4em 0">{_html_math(Math(math.text, row))}</div>' for row in rows)
 
 
-def _latex_escaped(text: str) -> str:
-    for char in "&%#_{}":
-        text = text.replace(char, "\\" + char)
-    text = text.replace(">=", r"$\ge$").replace("<=", r"$\le$").replace("^", r"\textasciicircum{}")
-    return re.sub("([<>|])", r"$\1$", text)
-
-
 FORMATS = {
     "text": Format(
         heading=lambda text, level: f"{text}\n{('=' if level == 1 else '-') * len(text)}",
         math=lambda math: math.text,
         formula=lambda math: "    " + math.text.replace("\n", "\n    "),
         table=_text_table,
+        plain=shown.visible,
     ),
     "markdown": Format(
         heading=lambda text, level: f"{'#' * level} {text}",
         math=lambda math: f"${math.latex}$",
         formula=lambda math: f"$$\n{math.latex}\n$$",
         table=_markdown_table,
+        plain=shown.markdown,
     ),
     "latex": Format(  # the body of a document with amsmath, amssymb and graphicx
         heading=lambda text, level: rf"\raggedright\{'section' if level == 1 else 'subsection'}*{{{text}}}",
         math=lambda math: f"${breakable(math.latex)}$",
         formula=_latex_formula,
         table=_latex_table,
-        plain=_latex_escaped,
+        plain=shown.latex,
     ),
     "html": Format(
         heading=lambda text, level: f"<h{level}>{text}</h{level}>",
         math=_html_math,
         formula=_html_formula,
         table=_html_table,
-        plain=_html_escaped,
+        plain=shown.html,
         paragraph=lambda text: f"<p>{text}</p>",
     ),
 }

@@ -1,0 +1,90 @@
+r"""Text from outside, as it is shown: one function for each target.
+
+Equations, names and messages may come from anybody: a file, a message, an answer in JSON that was changed by hand.  A terminal
+would obey escape sequences in them, and a reader would be misled by marks that turn the direction of writing round; LaTeX
+would obey \input, and browsers <script> and links.
+
+>>> visible("x\x1b[31m + \u202e1")
+'x\\x1b[31m + \\u202e1'
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from typing import Any
+
+_LATEX = {
+    "\\": r"\textbackslash{}",
+    "^": r"\textasciicircum{}",
+    "~": r"\textasciitilde{}",
+    "$": r"\$",
+    ">=": r"$\ge$",
+    "<=": r"$\le$",
+    "<": "$<$",
+    ">": "$>$",
+    "|": "$|$",
+    **{char: f"\\{char}" for char in "&%#_{}"},
+}
+_LATEX_PATTERN = re.compile("|".join(map(re.escape, _LATEX)))
+_MARKDOWN_PATTERN = re.compile(r"[\\`*_\[\]<>$|#]")
+
+
+def visible(text: str) -> str:
+    """For a terminal: what isn't printed as a character, but for the ends of lines, as a backslash and its code."""
+    if text.isprintable():
+        return text
+    return "".join(char if char.isprintable() or char == "\n" else _code(char) for char in text)
+
+
+def _code(char: str) -> str:
+    return char.encode("unicode_escape").decode("ascii")
+
+
+def in_one_line(text: str) -> str:
+    """For a terminal, with the ends of lines visible as well."""
+    return visible(text).replace("\n", r"\n")
+
+
+def latex(text: str) -> str:
+    r"""For LaTeX, outside of formulas.
+
+    >>> print(latex(r"50 % of \input{x}, y^2 <= 1"))
+    50 \% of \textbackslash{}input\{x\}, y\textasciicircum{}2 $\le$ 1
+    """
+    return _LATEX_PATTERN.sub(lambda match: _LATEX[match[0]], visible(text))
+
+
+def markdown(text: str) -> str:
+    r"""For Markdown, outside of formulas.
+
+    >>> print(markdown("[a_1](javascript:b) <i>"))
+    \[a\_1\](javascript:b) \<i\>
+    """
+    return _MARKDOWN_PATTERN.sub(lambda match: "\\" + match[0], in_one_line(text))
+
+
+def html(text: str) -> str:
+    """For HTML, between tags and in the values of attributes.
+
+    >>> html('<a href="b">')
+    '&lt;a href=&quot;b&quot;&gt;'
+    """
+    from html import escape  # with a table of all entities, which no other format needs
+
+    return escape(visible(text))
+
+
+def json_line(data: Any, default: Callable[[Any], str] | None = None) -> str:
+    r"""An object as one line of JSON: UTF-8, but for what isn't printed as a character.
+
+    `default` turns what JSON doesn't have into a text.
+
+    >>> json_line({"note": "\u03bb \u202e"})
+    '{"note": "\u03bb \\u202e"}'
+    """
+    line = json.dumps(data, ensure_ascii=False, default=default)
+    if line.isprintable():
+        return line
+    return "".join(char if char.isprintable() else json.dumps(char)[1:-1] for char in line)
