@@ -84,13 +84,13 @@ def as_latex(expression: Any) -> str:
     return latex(_settings(expression)).doprint(expression)  # type: ignore[no-any-return]
 
 
-def for_json(number: int | None) -> int | str | None:
+def for_json(number: int) -> int | str:
     """An integer for JSON: as a text where it has more than 4,300 digits.
 
     >>> for_json(12), len(for_json(10**5000))
     (12, 5001)
     """
-    if number is None or abs(number) < _TOO_LONG_FOR_JSON:
+    if abs(number) < _TOO_LONG_FOR_JSON:
         return number
     return digits(number)
 

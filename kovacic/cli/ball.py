@@ -122,7 +122,7 @@ def _explain_all(*, as_json: bool, latex: bool) -> None:
     """`kovacic ball --explain` alone: what holds for every ball."""
     derivation = _derivation(latex=latex)
     if as_json:
-        click.echo(json.dumps(derivation, ensure_ascii=False))
+        click.echo(json_line(derivation))
     else:
         _print_derivation(derivation)
 

@@ -12,7 +12,7 @@ import warnings
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
-from io import TextIOWrapper
+from io import StringIO, TextIOWrapper
 
 import click
 
@@ -137,8 +137,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except click.exceptions.Exit as ending:
         return ending.exit_code
     except click.ClickException as error:
-        error.message = visible(error.message)
-        error.show()
+        said = StringIO()
+        error.show(said)
+        print(visible(said.getvalue()), end="", file=sys.stderr)
         return BAD_INPUT
     except kovacic.KovacicError as error:
         return reported(error)

@@ -98,7 +98,7 @@ def _picture(answer: Answer) -> str:
         low, high = round(min(singular, default=-3)) - 2, round(max(singular, default=3)) + 2
         with bounded_work(_PICTURE_WORK):
             figure = plot(answer, low, high, digits=6, points=240, limits=answer.limits)
-    except (KovacicError, ImportError):
+    except (KovacicError, ImportError, OverflowError):
         return ""
     figure.savefig(drawing := StringIO(), format="svg", metadata={"Date": None})
     svg = drawing.getvalue()[drawing.getvalue().index("<svg") :]

@@ -151,8 +151,9 @@ def group_dict(answer: Answer) -> dict[str, Any] | None:
     group = derived.group(answer)
     if group is None:
         return None
-    data: dict[str, Any] = {"name": group.name, "order": for_json(group.order), "finite": group.finite}
-    data |= {"family": group.kind.value, "n": for_json(group.n)}
+    order, n = (None if number is None else for_json(number) for number in (group.order, group.n))
+    data: dict[str, Any] = {"name": group.name, "order": order, "finite": group.finite}
+    data |= {"family": group.kind.value, "n": n}
     if group.form is not None and group.kind is Kind.DICYCLIC:
         data["form"] = _form(group.form, Formulas(answer.variable, answer.S.field))
     if group.orders:
