@@ -149,24 +149,6 @@ def test_balls_of_any_exponents_are_compared_exactly() -> None:
     assert Ball((3, 0), rad=(1, 0)).overlaps(Ball((5, 0), rad=(1, 0)))  # they touch
 
 
-def test_the_parts_of_a_call_share_one_clock(monkeypatch: pytest.MonkeyPatch) -> None:
-    seen: list[float | None] = []
-
-    def slow(*arguments: Any, limits: Limits, **options: Any) -> Any:
-        seen.append(limits.seconds)
-        time.sleep(0.05)
-        return ()
-
-    monkeypatch.setattr("kovacic.doubles.chart.evaluate_states", slow)
-    sample("1/((x-1)*(x-2)*(x-3))", 0, 4, points=8, limits=Limits(seconds=9))
-    assert seen == [9]  # one call for all four intervals
-    seen.clear()
-    monkeypatch.setattr("kovacic.doubles.chart.evaluate_states", slow)
-    with pytest.raises(ValueError, match="shorter"):
-        lambdify(kovacic.solve("1/x - 3/(16*x^2)"), interval=(1, 2), limits=Limits(seconds=5))
-    assert 0 < (seen[0] or 9) < 5
-
-
 @pytest.mark.parametrize("side", ["above", "below"])
 @pytest.mark.parametrize("x", ["-1/100", "1/100", "-1/1000", "1/1000", "2"])
 def test_a_detour_around_an_irregular_singular_point_is_as_wide_as_it_can_be(side: Any, x: str) -> None:

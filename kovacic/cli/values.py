@@ -58,7 +58,7 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, **gi
 @click.option("--x0", help="Where the initial values are given (default: the middle of the longest regular interval).")
 @click.option("--y0", default="1", show_default=True, help="y(x0).")
 @click.option("--dy0", default="0", show_default=True, help="y'(x0).")
-@click.option("--points", default=400, show_default=True, type=click.IntRange(2, 100_000), help="Sample points.")
+@click.option("--points", default=400, show_default=True, type=click.IntRange(2, 100_000), help="Samples at the least.")
 @click.option(
     "--digits", default=8, show_default=True, type=click.IntRange(1, 1000), help="Proven digits of each value."
 )
@@ -66,7 +66,8 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, **gi
 def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> None:
     """Draw the solution of y'' = S(x) y, or of an equation with y'' in it, with y(x0) = y0, y'(x0) = dy0.
 
-    Every sample is the midpoint of an enclosure whose error is proven.  Singular points on the axis are marked; beyond
+    Every sample is the midpoint of an enclosure whose error is proven, and there are some for each oscillation; where these
+    are too fine to be drawn, their envelope is.  Singular points on the axis are marked; beyond
     one, the continuation through the upper half-plane is drawn, with its real and imaginary part.
 
     \b

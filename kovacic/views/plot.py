@@ -1,8 +1,9 @@
 """Pictures of solutions: real and imaginary part over an interval of the real axis, with the singular points marked.
 
-What is drawn are midpoints of proven enclosures at every sample point; the error band is drawn where it's visible at all.
-Between sample points the curve is a straight line, which proves nothing.  Beyond a singular point on the axis the solution
-is the continuation through the upper half-plane.
+What is drawn are midpoints of proven enclosures, as dense as the solution oscillates, and cubics between them that were
+compared with further values; the error band is drawn where it's visible at all.  Where an oscillation is too fine for the
+picture, its envelope is drawn instead (`kovacic.doubles.curve`), and the legend says so.  Beyond a singular point on the
+axis the solution is the continuation through the upper half-plane.
 
 matplotlib is needed (`pip install kovacic[plot]`) and imported here only, with a canvas of its own: no window is opened,
 and neither the backend nor the state of pyplot is touched.
@@ -10,116 +11,291 @@ and neither the backend nor the state of pyplot is touched.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from io import BytesIO
-from itertools import chain, islice, pairwise
+from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
-from kovacic.doubles.chart import chart_of
-from kovacic.enclosure.ball import Ball, finite_ball
+import numpy as np
+
+from kovacic import derived
+from kovacic.answer import Answer
+from kovacic.doubles.chart import Chart, chart_of
+from kovacic.doubles.curve import Arc, Envelope, arcs, coefficients
 from kovacic.enclosure.points import Point, as_point, midpoint
 from kovacic.errors import InputError
+from kovacic.limits import limited
+from kovacic.views.sentences import equation_of
+from kovacic.writing.formula import of_sympy
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _SHARE, _IRREGULAR_SHARE = Fraction(1, 256), Fraction(1, 16)
 """The curve ends this share of its interval before a singular point."""
 
-
-class Sample(NamedTuple):
-    """The solution at one point."""
-
-    x: Point
-    y: Ball
+#: A formula of more characters isn't written into the legend.
+_LONGEST_LABEL = 50
+#: Where the largest value is more than so many times the usual one, the axis is logarithmic beyond the usual one.
+_RANGE = 20
 
 
 @dataclass(frozen=True)
-class Samples:
-    """The solution at points of an interval, in runs that are separated by singular points (real parts as doubles)."""
+class Curve:
+    """A solution over an interval, in runs that are separated by singular points; each run is arcs and envelopes in order."""
 
-    runs: tuple[tuple[Sample, ...], ...]
+    runs: tuple[tuple[Arc | Envelope, ...], ...]
     singular: tuple[complex, ...]
+    x0: object
+
+    @property
+    def arcs(self) -> list[Arc]:
+        return [part for run in self.runs for part in run if isinstance(part, Arc)]
+
+    @property
+    def envelopes(self) -> list[Envelope]:
+        return [part for run in self.runs for part in run if isinstance(part, Envelope)]
 
 
+@limited
 def sample(
     equation: object, start: object, stop: object, *, x0: object | None = None, points: int = 400, **options: Any
-) -> Samples:
-    """Enclosures at about `points` points of [start, stop]; x0 is the middle of the longest regular interval by default,
-    and real.  `y0` = 1, `dy0` = 0, `which`, `frobenius`, `digits` = 8 and `limits` as for `evaluate`.
+) -> Curve:
+    """The solution over [start, stop] in proven values.
+
+    Parameters
+    ----------
+    equation
+        S or an equation, as for `evaluate`, real for real x.
+    start, stop
+        The ends of the interval, real numbers.
+    x0
+        Where the initial values are given, real; the middle of the longest regular interval by default.
+    points
+        The least number of samples; more are taken where the solution oscillates or bends.
+    options
+        `y0` = 1, `dy0` = 0, `which`, `frobenius`, `params`, `digits` = 8 and `limits` as for `evaluate`.
 
     Raises InputError if start isn't below stop, and what `evaluate` raises.
     """
-    a, b = (as_point(value, name) for value, name in ((start, "from"), (stop, "to")))
-    if not (a.is_real() and b.is_real()) or a.re >= b.re:
-        raise InputError(f"the interval from {a} to {b} is empty", hint="give real numbers, the smaller one first")
+    a, b = _ends(start, stop)
     if points < 2:
         raise InputError("at least 2 points are needed")
     chart = chart_of(equation, {}, options.pop("params", None))
-    singular = chart.singular
-    cuts = sorted({z.re for z in singular if z.is_real() and a.re <= z.re <= b.re})
-    wild = {float(midpoint(root).re) for root, order in chart.problem.system.roots("den", 128) if order > 2}
-    grids, longest = [], (a.re, a.re)
-    for left, right in pairwise([a.re, *cuts, b.re]):
-        # Beside an irregular singular point, solutions are as large as exp(1/distance).
-        shares = [0 if end not in cuts else _IRREGULAR_SHARE if float(end) in wild else _SHARE for end in (left, right)]
-        first, last = left + (right - left) * shares[0], right - (right - left) * shares[1]
-        longest = max(longest, (first, last), key=lambda interval: interval[1] - interval[0])
-        count = max(2, round(points * (last - first) / (b.re - a.re)))
-        grids.append([first + (last - first) * Fraction(k, count - 1) for k in range(count)] if left < right else [])
-    initial = {"y0": 1, "dy0": 0} if options.get("which") is options.get("frobenius") is None else {}
-    options = {"limits": None, **initial, **(options if initial else options | {"y0": None, "dy0": None})}
-    chart = replace(chart, given={"x0": sum(longest) / 2 if x0 is None else x0})
-    places = [Point(x) for x in chain(*grids)]
-    values = map(finite_ball, (y for y, _ in chart.states(places, path="above", **{"digits": 8, **options})))
-    samples = map(Sample, places, values)
-    runs = (tuple(islice(samples, len(grid))) for grid in grids if grid)
-    return Samples(tuple(runs), tuple(map(complex, singular)))
+    intervals = _regular_intervals(chart, a, b)
+    if x0 is None:
+        x0 = _middle_of_the_longest(intervals)
+    if options.get("which") is None and options.get("frobenius") is None:
+        initial: dict[str, Any] = {"y0": 1, "dy0": 0}
+    else:
+        initial = {"y0": None, "dy0": None}
+    asked = {"limits": None, "digits": 8, **initial, **options}
+    digits = asked.pop("digits")
+    limits = asked.pop("limits")
+    chart = replace(chart, given={"x0": x0})
+
+    def states(places: Sequence[Point]) -> Any:
+        return chart.states(list(places), digits, limits, path="above", **asked)
+
+    runs = [tuple(arcs(chart, interval, b - a, points, states)) for interval in intervals]
+    return Curve(tuple(runs), tuple(map(complex, chart.singular)), x0)
 
 
-def plot(
-    equation: object, start: object, stop: object, *, title: str = "", output: str | Path | None = None, **options: Any
-) -> Figure:
-    """A figure with the real part over [start, stop], and the imaginary part unless it can't be told from zero; saved to
-    `output` if given.
+def _ends(start: object, stop: object) -> tuple[Fraction, Fraction]:
+    a = as_point(start, "from")
+    b = as_point(stop, "to")
+    if not (a.is_real() and b.is_real()) or a.re >= b.re:
+        raise InputError(f"the interval from {a} to {b} is empty", hint="give real numbers, the smaller one first")
+    return a.re, b.re
 
-    `options` are those of `sample`.  The file type follows the suffix of `output` (png, svg, pdf).  Returns the matplotlib
-    figure.
+
+def _regular_intervals(chart: Chart, a: Fraction, b: Fraction) -> list[tuple[Fraction, Fraction]]:
+    """The parts of [a, b] between singular points, shorter by a share beside each of these.
+
+    Beside an irregular singular point, solutions are as large as exp(1/distance).
     """
-    import numpy as np
+    cuts = sorted({z.re for z in chart.singular if z.is_real() and a <= z.re <= b})
+    wild = {float(midpoint(root).re) for root, order in chart.problem.system.roots("den", 128) if order > 2}
+
+    def share(end: Fraction) -> Fraction:
+        if end not in cuts:
+            return Fraction(0)
+        return _IRREGULAR_SHARE if float(end) in wild else _SHARE
+
+    found = []
+    for left, right in pairwise([a, *cuts, b]):
+        if left < right:
+            length = right - left
+            found.append((left + length * share(left), right - length * share(right)))
+    return found
+
+
+def _middle_of_the_longest(intervals: list[tuple[Fraction, Fraction]]) -> Fraction:
+    low, high = max(intervals, key=lambda interval: interval[1] - interval[0])
+    return (low + high) / 2
+
+
+@limited
+def plot(
+    equation: object,
+    start: object,
+    stop: object,
+    *,
+    title: str | None = None,
+    output: str | Path | None = None,
+    **options: Any,
+) -> Figure:
+    """A figure with the real part over [start, stop], and the imaginary part unless it can't be told from zero.
+
+    Parameters
+    ----------
+    equation
+        As for `sample`.  For an answer of `solve`, without initial values, its solutions y1 and y2 are drawn.
+    start, stop
+        The ends of the interval.
+    title
+        Above the picture; the equation by default.
+    output
+        A file to which the picture is saved; its type follows the suffix (png, svg, pdf).
+    options
+        Those of `sample`.
+
+    Returns the matplotlib figure.
+    """
     from matplotlib.figure import Figure as NewFigure
 
-    samples = sample(equation, start, stop, **options)
+    curves = _curves(equation, start, stop, options)
+    low, high = map(float, _ends(start, stop))
     figure = NewFigure(figsize=(8, 4.8), layout="constrained")
     axes = figure.add_subplot()
-    rows = [[*((float(x.re), y.mid, y.radius) for x, y in run), (np.nan,) * 3] for run in samples.runs]
-    x, y, radius = map(np.array, zip(*[*chain(*rows)][:-1], strict=True))  # nothing is drawn from one run to the next
-    parts = {"y": y.real} if np.nanmax(np.abs(y.imag) - radius) <= 0 else {"Re y": y.real, "Im y": y.imag}
-    sizes = np.abs([y.real, y.imag])
-    for k, (label, part) in enumerate(parts.items()):
-        axes.plot(x, part, linewidth=1.5, label=label)
-        if np.nanmax(radius) > 2e-3 * np.nanmax(sizes):
-            band = "_" * k + "error band"  # once in the legend
-            axes.fill_between(x, part - radius, part + radius, color=f"C{k}", alpha=0.25, linewidth=0, label=band)
-    low, high = float(as_point(start, "from").re), float(as_point(stop, "to").re)
-    marked = [z.real for z in samples.singular if z.imag == 0 and low <= z.real <= high]
+    colour = 0
+    for label, curve in curves:
+        colour = _draw(axes, curve, label, colour)
+    marked = [z.real for z in curves[0][1].singular if z.imag == 0 and low <= z.real <= high]
     for k, z in enumerate(marked):
-        axes.axvline(z, color="C3", linestyle="--", linewidth=1, label=None if k else "singular point")
-    usual = 4 * np.nanquantile(sizes, 0.9)
-    if 0 < 3 * usual < np.nanmax(sizes):  # a solution runs to infinity, and the rest is to be seen
-        bottom, top = axes.get_ylim()
-        axes.set_ylim(max(bottom, -usual), min(top, usual))
-    axes.set(xlim=(low, high), xlabel="x", ylabel="y", title=title)
+        axes.axvline(z, color="0.4", linestyle="--", linewidth=1, label=None if k else "singular point")
+    axes.set(xlim=(low, high), xlabel=_variable(equation), title=_title(equation, title))
+    _scale(axes, [curve for _, curve in curves])
     axes.axhline(0, color="0.8", linewidth=0.8, zorder=0)
-    if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="best", frameon=False)
+    figure.legend(loc="outside lower center", ncols=2, frameon=False)
     if output is not None:
         figure.savefig(output, dpi=150)
     figure._repr_png_ = partial(_png, figure)  # type: ignore[attr-defined]  # Jupyter shows it without pyplot
     return figure
+
+
+def _title(equation: object, title: str | None) -> str:
+    if title is not None:
+        return title
+    if isinstance(equation, Answer):
+        return equation_of(equation).text
+    return ""
+
+
+def _variable(equation: object) -> str:
+    return equation.variable if isinstance(equation, Answer) else "x"
+
+
+def _curves(equation: object, start: object, stop: object, options: dict[str, Any]) -> list[tuple[str, Curve]]:
+    """What is drawn, and how the legend names it."""
+    given = {name for name in ("y0", "dy0", "which", "frobenius") if options.get(name) is not None}
+    if isinstance(equation, Answer) and not given:
+        found = _solutions(equation, start, stop, options)
+        if found:
+            return found
+    curve = sample(equation, start, stop, **options)
+    if given:
+        return [("y", curve)]
+    return [(f"y, where y({curve.x0}) = 1, y'({curve.x0}) = 0", curve)]
+
+
+def _solutions(answer: Answer, start: object, stop: object, options: dict[str, Any]) -> list[tuple[str, Curve]]:
+    """y1 and y2 of the answer, as the solutions with their values and slopes at x0; none where these aren't known.
+
+    A solution that decays from x0 on needs initial values with the digits that the other one gains on the way.
+    """
+    import sympy
+
+    form = derived.closed_form(answer)
+    expressions = tuple(derived.special(answer) if form is None else form)
+    if any(y.has(sympy.Integral) or y.free_symbols - {sympy.Symbol(answer.variable)} for y in expressions):
+        return []
+    a, b = _ends(start, stop)
+    chart = chart_of(answer, {}, options.get("params"))
+    intervals = _regular_intervals(chart, a, b)
+    at = as_point(options.get("x0"), "x0").re if options.get("x0") is not None else _middle_of_the_longest(intervals)
+    digits = 30 + _digits_gained(chart, intervals)
+    x = sympy.Symbol(answer.variable)
+    place = sympy.Rational(at.numerator, at.denominator)
+    found = []
+    for k, y in enumerate(expressions, start=1):
+        values = [sympy.N(f.subs(x, place), digits) for f in (y, y.diff(x))]
+        if not all(value.is_number and value.is_finite for value in values):
+            return []
+        curve = sample(answer, start, stop, **{**options, "x0": at, "y0": str(values[0]), "dy0": str(values[1])})
+        text = of_sympy(y).text
+        name = f"y{k}"
+        found.append((f"{name} = {text}" if len(text) <= _LONGEST_LABEL else name, curve))
+    return found
+
+
+def _digits_gained(chart: Chart, intervals: list[tuple[Fraction, Fraction]]) -> int:
+    """Decimal digits by which a growing solution may gain on a decaying one: twice the integral of sqrt(S), S > 0."""
+    total = 0.0
+    for low, high in intervals:
+        here = coefficients(chart, [Point(low + (high - low) * Fraction(k, 200)) for k in range(201)])
+        growth = np.sqrt(np.maximum(here.S, 0.0))
+        total += float(np.trapezoid(growth, here.x))
+    return min(5000, int(2 * total / np.log(10)))
+
+
+def _draw(axes: Axes, curve: Curve, label: str, colour: int) -> int:
+    """The parts of one solution; returns the number of the next colour."""
+    biggest = max((float(np.abs(arc.y).max()) for arc in curve.arcs), default=0.0)
+    parts = [("real", "")]
+    if _is_complex(curve):
+        parts = [("real", "Re "), ("imag", "Im ")]
+    for part, prefix in parts:
+        style = f"C{colour}"
+        name = prefix + label
+        for arc in curve.arcs:
+            x, y = arc.drawn()
+            axes.plot(x, getattr(y, part), linewidth=1.5, color=style, label=name)
+            name = "_"  # once in the legend
+            if arc.radius.max() > 2e-3 * biggest:
+                middle = getattr(arc.y, part)
+                low, high = middle - arc.radius, middle + arc.radius
+                axes.fill_between(arc.x, low, high, color=style, alpha=0.25, linewidth=0, label="error band")
+        for envelope in curve.envelopes:
+            size = envelope.real if part == "real" else envelope.imaginary
+            said = f"{prefix}{label}: envelope of {envelope.periods:,.0f} oscillations"
+            axes.fill_between(envelope.x, -size, size, color=style, alpha=0.35, linewidth=0.8, label=said)
+        colour += 1
+    return colour
+
+
+def _is_complex(curve: Curve) -> bool:
+    """Can an imaginary part be told from zero?"""
+    if any(np.any(np.abs(arc.y.imag) > arc.radius) for arc in curve.arcs):
+        return True
+    return any(np.any(envelope.imaginary > 1e-6 * envelope.real.max()) for envelope in curve.envelopes)
+
+
+def _scale(axes: Axes, curves: list[Curve]) -> None:
+    """A linear axis, or, where a solution grows so much that the rest wouldn't be seen, logarithmic beyond the usual."""
+    sizes = [np.abs(arc.y) for curve in curves for arc in curve.arcs]
+    sizes += [np.hypot(part.real, part.imaginary) for curve in curves for part in curve.envelopes]
+    usual = 2 * min(float(np.median(part)) for part in sizes)
+    largest = max(float(part.max()) for part in sizes)
+    axes.set_ylabel("y")
+    if 0 < _RANGE * usual < largest:
+        axes.set_yscale("symlog", linthresh=usual, linscale=2)
+        axes.set_ylabel(f"y (logarithmic beyond {usual:.2g})")
 
 
 def _png(figure: Figure) -> bytes:

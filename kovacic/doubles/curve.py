@@ -1,0 +1,237 @@
+"""A solution as a curve for a picture: proven values as dense as it oscillates, or its envelope where that can't be drawn.
+
+In the normal form u'' = S u, y = u exp(-int beta), beta = b/(2a), a solution oscillates with the local frequency
+q = sqrt(-S) where S < 0.  There are _PER_PERIOD samples of y and y' for each period 2 pi/q, so that nothing is seen that isn't
+there, and at least as many as asked for.  Between samples runs the cubic with their values and slopes; it is
+compared with one more value in the middle of each interval, and the interval is halved until they agree.
+
+Where a period would be drawn on less than _FINEST of the picture's width, only the envelope is given:
+    A = sqrt(u^2 + u'^2/q^2) exp(-int beta) = sqrt(y^2 + (y' + beta y)^2/q^2),
+which is the amplitude up to a relative error of about S'/(4 q^3), small where S changes little within a period.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kovacic.doubles.chart import Chart
+from kovacic.enclosure.ball import finite_ball
+from kovacic.enclosure.points import Point, to_double
+from kovacic.errors import LimitExceeded
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+_PER_PERIOD = 12
+#: Periods shorter than this share of the picture's width are shown by their envelope.
+_FINEST = 1 / 125
+#: A stretch with fewer periods than this is drawn, however short they are.
+_FEWEST = 10
+#: Points of an envelope across the whole width, and of the grid on which S is looked at.
+_ENVELOPE, _GRID = 300, 800
+#: The cubic between two samples may be off by this share of the size of the solution nearby.
+_TOLERANCE = 2e-3
+#: How often an interval is halved, and how many samples a curve has at the most.
+_HALVINGS, _MOST = 14, 400_000
+#: Points that are drawn for one interval between samples.
+_DRAWN = 6
+
+
+@dataclass(frozen=True)
+class Arc:
+    """A part of the curve between singular points: samples with y, y' and the proven error bounds of y."""
+
+    x: Floats
+    y: Complexes
+    dy: Complexes
+    radius: Floats
+
+    def drawn(self) -> tuple[Floats, Complexes]:
+        """Points so dense that straight lines between them are as good as the cubics."""
+        h = np.diff(self.x)[:, None]
+        t = np.arange(_DRAWN) / _DRAWN
+        # The basis of the cubics on [0, 1]: values and slopes at both ends.
+        value = (1 + 2 * t) * (1 - t) ** 2
+        slope = t * (1 - t) ** 2
+        last_slope = -(t**2) * (1 - t)
+        inner = value * self.y[:-1, None] + (1 - value) * self.y[1:, None]
+        inner = inner + h * (slope * self.dy[:-1, None] + last_slope * self.dy[1:, None])
+        x = self.x[:-1, None] + h * t
+        return np.append(x.ravel(), self.x[-1]), np.append(inner.ravel(), self.y[-1])
+
+
+@dataclass(frozen=True)
+class Envelope:
+    """A part whose oscillation is too fine to be drawn: |Re y| <= real and |Im y| <= imaginary, nearly reached."""
+
+    x: Floats
+    real: Floats
+    imaginary: Floats
+    periods: float
+
+
+@dataclass(frozen=True)
+class Coefficients:
+    """beta = b/(2a) and S at points x."""
+
+    x: Floats
+    beta: Floats
+    S: Floats
+
+    @property
+    def frequency(self) -> Floats:
+        return np.sqrt(np.maximum(-self.S, 0.0))
+
+
+def coefficients(chart: Chart, points: Sequence[Point]) -> Coefficients:
+    """By y'' + b y' + c y = f/a at each point, divided by a: S = b'/2 + b^2/4 - c."""
+    rows = [_at(chart, point) for point in points]
+    beta, S = np.array(rows).T
+    return Coefficients(np.array([float(point.re) for point in points]), beta, S)
+
+
+def _at(chart: Chart, point: Point) -> tuple[float, float]:
+    a, b, c = ([float(v.mid()) for v in part] + [0.0, 0.0] for part in chart.local(point, 0, 2))
+    slope_of_b = b[1] - b[0] * a[1]
+    return b[0] / 2, slope_of_b / 2 + b[0] ** 2 / 4 - c[0]
+
+
+def arcs(
+    chart: Chart,
+    interval: tuple[Fraction, Fraction],
+    width: Fraction,
+    points: int,
+    states: Callable[[Sequence[Point]], Sequence[Any]],
+) -> list[Arc | Envelope]:
+    """The curve over an interval without singular points, of a picture of this width with at least so many samples across it.
+
+    `states` gives y and y' in balls.  Raises `LimitExceeded` where more than 400,000 samples would be needed.
+    """
+    here = coefficients(chart, _grid(chart, interval, width))
+    finest = _FINEST * float(width)
+    too_fine = here.frequency * finest > 2 * np.pi
+    if chart.forcing is not None:
+        # The envelope is that of a solution of the homogeneous equation.
+        too_fine[:] = False
+    for first, last in _stretches(too_fine):
+        if _periods(here.x[first : last + 1], here.frequency[first : last + 1]) < _FEWEST:
+            too_fine[first : last + 1] = False
+    found: list[Arc | Envelope] = []
+    for first, last in _stretches(too_fine):
+        part = Coefficients(here.x[first : last + 1], here.beta[first : last + 1], here.S[first : last + 1])
+        if too_fine[first]:
+            found.append(_envelope(chart, part, width, states))
+        else:
+            found.append(_arc(part, width, points, states))
+    return found
+
+
+def _grid(chart: Chart, interval: tuple[Fraction, Fraction], width: Fraction) -> list[Point]:
+    """Where S is looked at: equidistant points, and, beside singular points near the axis, nearer and nearer ones."""
+    low, high = interval
+    count = max(8, round(_GRID * (high - low) / width))
+    chosen = {low + (high - low) * Fraction(k, count) for k in range(count + 1)}
+    for z in map(to_double, chart.singular):
+        distance = abs(z.imag)
+        while 0 < distance < float(width):
+            for x in (z.real - distance, z.real, z.real + distance):
+                if low < x < high:
+                    chosen.add(Fraction(x))
+            distance *= 1.5
+    return [Point(x) for x in sorted(chosen)]
+
+
+def _stretches(kind: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """First and last index of each stretch of points of one kind; the next stretch begins at the last one."""
+    changes = [int(k) + 1 for k in np.flatnonzero(kind[1:] != kind[:-1])]
+    ends = [0, *changes, len(kind) - 1]
+    return [(first, last) for first, last in pairwise(ends) if first < last]
+
+
+def _arc(part: Coefficients, width: Fraction, points: int, states: Callable[[Sequence[Point]], Sequence[Any]]) -> Arc:
+    """Samples by the local frequency, then halved where the cubic between two isn't good enough."""
+    density = np.maximum(points / float(width), _PER_PERIOD * part.frequency / (2 * np.pi))
+    steps = np.maximum(density[1:], density[:-1]) * np.diff(part.x)
+    reached = np.concatenate([[0.0], np.cumsum(steps)])
+    count = max(2, int(np.ceil(reached[-1])) + 1)
+    _check(count)
+    x = np.interp(np.linspace(0.0, reached[-1], count), reached, part.x)
+    arc = _sampled(np.unique(x), states)
+    doubtful = np.ones(len(arc.x) - 1, dtype=bool)
+    usual = float(np.median(np.abs(arc.y)))
+    for _ in range(_HALVINGS):
+        if not doubtful.any():
+            break
+        arc, doubtful = _halved(arc, doubtful, usual, states)
+    return arc
+
+
+def _halved(
+    arc: Arc, doubtful: NDArray[np.bool_], usual: float, states: Callable[[Sequence[Point]], Sequence[Any]]
+) -> tuple[Arc, NDArray[np.bool_]]:
+    """One more sample in the middle of each doubtful interval; both halves stay doubtful where the cubic missed it."""
+    left = np.flatnonzero(doubtful)
+    right = left + 1
+    h = arc.x[right] - arc.x[left]
+    middles = arc.x[left] + h / 2
+    inside = (middles > arc.x[left]) & (middles < arc.x[right])
+    left, right, h, middles = left[inside], right[inside], h[inside], middles[inside]
+    _check(len(arc.x) + len(middles))
+    new = _sampled(middles, states)
+    cubic = (arc.y[left] + arc.y[right]) / 2 + h * (arc.dy[left] - arc.dy[right]) / 8
+    allowed = _TOLERANCE * np.maximum(np.abs(new.y), usual) + new.radius
+    missed = np.abs(cubic - new.y) > allowed
+    merged = Arc(
+        np.insert(arc.x, right, new.x),
+        np.insert(arc.y, right, new.y),
+        np.insert(arc.dy, right, new.dy),
+        np.insert(arc.radius, right, new.radius),
+    )
+    still = np.zeros(len(merged.x) - 1, dtype=bool)
+    places = right + np.arange(len(right))  # of the new samples
+    still[places[missed] - 1] = True
+    still[places[missed]] = True
+    return merged, still
+
+
+def _envelope(
+    chart: Chart, part: Coefficients, width: Fraction, states: Callable[[Sequence[Point]], Sequence[Any]]
+) -> Envelope:
+    low, high = part.x[0], part.x[-1]
+    count = max(8, int(_ENVELOPE * (high - low) / float(width)))
+    x = np.linspace(low, high, count + 1)
+    here = coefficients(chart, [Point(Fraction(float(at))) for at in x])
+    samples = _sampled(x, states)
+    q = here.frequency
+    velocity = samples.dy + here.beta * samples.y
+    real = np.hypot(samples.y.real, velocity.real / q)
+    imaginary = np.hypot(samples.y.imag, velocity.imag / q)
+    return Envelope(x, real, imaginary, _periods(part.x, part.frequency))
+
+
+def _periods(x: Floats, frequency: Floats) -> float:
+    return float(np.trapezoid(frequency, x) / (2 * np.pi))
+
+
+def _sampled(x: Floats, states: Callable[[Sequence[Point]], Sequence[Any]]) -> Arc:
+    found = states([Point(Fraction(float(at))) for at in x])
+    values = [finite_ball(y) for y, _ in found]
+    slopes = [finite_ball(dy) for _, dy in found]
+    return Arc(
+        x,
+        np.array([complex(ball.mid) for ball in values]),
+        np.array([complex(ball.mid) for ball in slopes]),
+        np.array([float(ball.radius) for ball in values]),
+    )
+
+
+def _check(count: int) -> None:
+    if count > _MOST:
+        raise LimitExceeded(f"the curve needs more than {_MOST} samples", limit="samples")
