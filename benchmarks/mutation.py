@@ -1,7 +1,8 @@
 """Do the tests notice small faults?  Plants them one at a time, runs the tests, and lists the faults that survive.
 
     python benchmarks/mutation.py verify --sample 100           # 100 random faults in kovacic/verify
-    python benchmarks/mutation.py engine galois --again         # all; those that survived an earlier run as well
+    python benchmarks/mutation.py checker --again               # all; those that survived an earlier run as well
+    python benchmarks/mutation.py --prune                       # forget what isn't there any more
 
 A fault is a comparison, an arithmetic or a logical operator changed into its neighbour, a whole number raised by one, a
 condition negated, a refusal left out, or a predicate that is always true or always false.  It is killed when a test fails
@@ -9,9 +10,9 @@ or takes ten times as long as without the fault.  One process collects the tests
 lines each one executes; for a fault it forks, exchanges the code of the function, and runs the tests that come to the
 changed line, the quickest first, up to the first failure.  No file is changed.
 
-Writes benchmarks/results/mutation.md and mutation.json: for each file its SHA-256 and the numbers of the faults that were
-killed and that survived.  A later run adds to them, as long as the file is the same; a change in another file leaves them.
-Survivors that change no answer are listed in mutation_explained.json, with the reason.
+Writes benchmarks/results/mutation.md and mutation.json: for each part the commit, and the faults that were killed and that
+survived, by their names.  A later run at the same commit adds to them, at another one it starts anew.  Survivors that change
+no answer are listed in mutation_explained.json, with the reason.  A test demands that every fault that is named is still there.
 
 Method: R. DeMillo, R. Lipton and F. Sayward, "Hints on test data selection", Computer 11 (1978).
 """
@@ -28,6 +29,7 @@ import multiprocessing
 import os
 import resource
 import signal
+import subprocess
 import sys
 import tempfile
 import time
@@ -55,6 +57,8 @@ PARTS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "verify": (("kovacic/verify/*.py",), ENGINE_TESTS),
     "engine": (("kovacic/engine/*.py",), ENGINE_TESTS),
     "galois": (("kovacic/galois/*.py",), ("tests/test_galois.py", "tests/test_verify.py")),
+    "algebra": (("kovacic/algebra/*.py",), ("tests/test_algebra.py", *ENGINE_TESTS)),
+    "checker": (("kovacic/checker.py",), ("tests/test_checker.py", "tests/test_json.py")),
     "check": (
         ("kovacic/closed_form/check.py", "kovacic/closed_form/real_pair.py"),
         ("tests/test_closed_form*.py",),
@@ -233,15 +237,16 @@ class Runner:
         self.seconds, self.reached = self.reach()
         wanted = [fault for file in self.files for fault in faults(file)]
         Random(self.options.seed).shuffle(wanted)
+        part = self.options.part
         for fault in wanted[: self.options.sample]:
-            done = recorded(fault.file)
-            if fault.number in done["killed"] or (fault.number in done["survived"] and not self.options.again):
+            done = recorded(part)
+            if fault.name in done["killed"] or (fault.name in done["survived"] and not self.options.again):
                 continue
             killed = self.is_killed(fault)
-            done = recorded(fault.file)
-            for key, numbers in (("killed", killed), ("survived", not killed)):
-                done[key] = sorted({*done[key], fault.number} if numbers else {*done[key]} - {fault.number})
-            write(fault.file, done)
+            done = recorded(part)
+            for key, belongs in (("killed", killed), ("survived", not killed)):
+                done[key] = sorted({*done[key], fault.name} if belongs else {*done[key]} - {fault.name})
+            write(part, done)
             print(
                 "." if killed else f"\nsurvives: {fault.name} (line {fault.lines.start})", file=sys.stderr, flush=True
             )
@@ -328,41 +333,74 @@ class Runner:
 
 
 def stored() -> dict[str, Any]:
-    """For each file its SHA-256 and the numbers of the faults that were killed and that survived."""
+    """For each part the commit and the names of the faults that were killed and that survived."""
     path = RESULTS / "mutation.json"
     return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
 
 
-def recorded(file: str) -> dict[str, Any]:
-    """What was found with the file as it is."""
-    digest = hashlib.sha256((ROOT / file).read_bytes()).hexdigest()
-    found = stored().get(file)
-    return found if found and found["sha256"] == digest else {"sha256": digest, "killed": [], "survived": []}
+def commit() -> str:
+    """The commit whose code is read; with a + where the package or the tests were changed after it."""
+
+    def said(*arguments: str) -> str:
+        return subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
+
+    return said("rev-parse", "--short", "HEAD") + ("+" if said("status", "--porcelain", "kovacic", "tests") else "")
 
 
-def write(file: str, found: dict[str, Any]) -> None:
-    rows = sorted({**stored(), file: found}.items())
-    text = ",\n".join(f"{json.dumps(key)}: {json.dumps(value)}" for key, value in rows)
-    (RESULTS / "mutation.json").write_text(f"{{\n{text}\n}}\n", encoding="utf-8")
+def recorded(part: str) -> dict[str, Any]:
+    """What was found at this commit."""
+    found = stored().get(part)
+    return found if found and found["commit"] == commit() else {"commit": commit(), "killed": [], "survived": []}
+
+
+def write(part: str, found: dict[str, Any]) -> None:
+    rows = {**stored(), part: found}
+    ordered = {name: rows[name] for name in PARTS if name in rows}
+    (RESULTS / "mutation.json").write_text(json.dumps(ordered, indent=0) + "\n", encoding="utf-8")
+
+
+def living() -> set[str]:
+    """The names of all faults that can be planted."""
+    return {fault.name for part in PARTS for file in files_of(part) for fault in faults(file)}
+
+
+def named() -> set[str]:
+    """The names of all faults in the records."""
+    in_record = {name for found in stored().values() for key in ("killed", "survived") for name in found[key]}
+    return {*EXPLAINED, *in_record}
+
+
+def prune() -> None:
+    """Forget the faults in lines that were changed since."""
+    there = living()
+    explained = {name: reason for name, reason in EXPLAINED.items() if name in there}
+    text = json.dumps(explained, indent=1, ensure_ascii=False) + "\n"
+    (ROOT / "benchmarks" / "mutation_explained.json").write_text(text, encoding="utf-8")
+    for part, found in stored().items():
+        write(
+            part, {key: value if key == "commit" else [n for n in value if n in there] for key, value in found.items()}
+        )
 
 
 def table() -> Iterator[str]:
     yield "# Planted faults\n\nWritten by `python benchmarks/mutation.py`; see there for what is planted.\n"
-    yield "| part | possible | planted | killed | explained | score |\n|---|---|---|---|---|---|"
+    yield "| part | commit | possible | planted | killed | explained | score |\n|---|---|---|---|---|---|---|"
     survivors = list[str]()
-    for part in PARTS:
-        possible = planted = killed = explained = 0
-        for file in files_of(part):
-            found = recorded(file)
-            names = [faults(file)[number].name for number in found["survived"]]
-            possible, killed = possible + len(faults(file)), killed + len(found["killed"])
-            planted += len(found["killed"]) + len(names)
-            explained += sum(name in EXPLAINED for name in names)
-            survivors += [f"- {name}: {EXPLAINED.get(name, '**not explained**')}" for name in names]
+    for part, found in stored().items():
+        possible = sum(len(faults(file)) for file in files_of(part))
+        killed, names = len(found["killed"]), found["survived"]
+        explained = sum(name in EXPLAINED for name in names)
+        survivors += [f"- {name}: {EXPLAINED.get(name, '**not explained**')}" for name in names]
+        planted = killed + len(names)
         score = killed / max(planted - explained, 1)
-        yield f"| {part} | {possible} | {planted} | {killed} | {explained} | {score:.1%} |"
+        yield f"| {part} | {found['commit']} | {possible} | {planted} | {killed} | {explained} | {score:.1%} |"
     yield "\nThe score leaves out the explained ones, which change no answer.  Survivors:\n"
     yield from survivors
+
+
+def write_table() -> int:
+    (RESULTS / "mutation.md").write_text("\n".join(table()) + "\n", encoding="utf-8")
+    return 0
 
 
 def main() -> int:
@@ -371,15 +409,21 @@ def main() -> int:
     os.environ["HYPOTHESIS_PROFILE"] = "mutation"
     os.chdir(ROOT)
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("part", choices=PARTS)
+    parser.add_argument("part", choices=PARTS, nargs="?")
+    parser.add_argument("--prune", action="store_true", help="forget the faults in lines that were changed since")
     parser.add_argument("--sample", type=int, help="so many random faults; by default all")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--again", action="store_true", help="those that survived an earlier run, too")
     options = parser.parse_args()
+    if options.prune:
+        prune()
+        return write_table()
+    if options.part is None:
+        parser.error("a part, or --prune, is expected")
     tests = [str(path.relative_to(ROOT)) for pattern in PARTS[options.part][1] for path in sorted(ROOT.glob(pattern))]
     arguments = ["-x", "-q", "-s", "-p", "no:cacheprovider", "--no-header", "--tb=no", *tests]
     status = int(pytest.main(arguments, plugins=[Runner(options)]))
-    (RESULTS / "mutation.md").write_text("\n".join(table()) + "\n", encoding="utf-8")
+    write_table()
     return status
 
 
