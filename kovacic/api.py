@@ -35,18 +35,17 @@ def find_answer(
     S: Any = None,
     *,
     a: Any = None,
-    b: Any = 0,
-    c: Any = 0,
-    f: Any = 0,
+    b: Any = None,
+    c: Any = None,
+    f: Any = None,
     var: str | None = None,
     assume: Mapping[Any, Any] | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Answer:
     """What `kovacic.solve` returns, as data: arguments and exceptions are the same."""
     start = time.perf_counter()
-    if (S is None) == (a is None):
-        raise InputError("one equation is expected: S, or the coefficients a=, b=, c=, f=")
-    S, parsed, assume = _read(S, (a, b, c, f), var, assume, limits)
+    coefficients = {"a": a, "b": b, "c": c, "f": f}
+    S, parsed, assume = _read(S, coefficients, var, assume, limits)
     budget = Budget(limits)
     decision, notices, assumed, known = _decided(parsed, S, assume, budget, certify=True)
     try:
@@ -76,19 +75,26 @@ def decide(
     >>> kovacic.decide("-3/(16*x^2) + 1/x").case
     2
     """
-    S, parsed, assume = _read(S, (), var, assume, limits)
+    S, parsed, assume = _read(S, {}, var, assume, limits)
     decision, *_ = _decided(parsed, S, assume, Budget(limits), certify=False)
     return Verdict(decision.status, decision.case, decision.undecided)
 
 
 def _read(
-    S: Any, coefficients: tuple[Any, ...], var: str | None, assume: Mapping[Any, Any] | None, limits: Limits
+    S: Any, coefficients: Mapping[str, Any], var: str | None, assume: Mapping[Any, Any] | None, limits: Limits
 ) -> tuple[Any, Parsed, Mapping[Any, Any] | None]:
     """The input with the values among the assumptions, as given and as it was read, and the other assumptions."""
     from kovacic.reading.read import read_coefficients, read_input
 
+    given = {name: value for name, value in coefficients.items() if value is not None}
     if S is None and coefficients:
-        parsed = read_coefficients(*coefficients, var=var, limits=limits)
+        if "a" not in given:
+            raise InputError("one equation is expected: S, or the coefficients a=, b=, c=, f= with at least a=")
+        a, b, c, f = (given.get(name, 0) for name in "abcf")
+        parsed = read_coefficients(a, b, c, f, var=var, limits=limits)
+    elif given:
+        hint = "write all of it as text, \"y'' = x*y + sin(x)\", or give a=, b=, c= and f= alone"
+        raise InputError(f"one equation is expected, and there are S and {', '.join(given)}", hint=hint)
     else:
         parsed = read_input(S, var=var, limits=limits, exponentials=True)
     if not assume:

@@ -6,8 +6,9 @@ A mathematical "no" is a value, never an exception.  An exhausted budget is a va
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from difflib import get_close_matches
 from functools import partial
 
 from kovacic.shown import visible
@@ -92,6 +93,16 @@ class VerificationFailed(KovacicError):
 
 class MissingExtra(KovacicError, ImportError):
     """A package isn't installed that only some parts of this one need; the message has the command that installs it."""
+
+
+def check_keywords(call: str, given: Iterable[str], known: Iterable[str]) -> None:
+    """For a function that hands its keywords on: raises `TypeError` with its name for one that isn't known, as Python does."""
+    known = list(known)
+    for name in given:
+        if name not in known:
+            near = get_close_matches(name, known, n=1)
+            hint = f". Did you mean {near[0]!r}?" if near else ""
+            raise TypeError(f"{call}() got an unexpected keyword argument {name!r}{hint}")
 
 
 @contextmanager

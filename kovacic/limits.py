@@ -6,11 +6,14 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from fractions import Fraction
 from functools import wraps
-from typing import ParamSpec, TypeVar
+from math import copysign, inf, isfinite, isnan
+from typing import Any, ParamSpec, TypeVar
 
-from kovacic.errors import LimitExceeded
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.exact import exact_real, whole
 from kovacic.numerals import in_a_message
 
 
@@ -37,8 +40,47 @@ class Limits:
     unknown_degree: int = 20_000
     seconds: float | None = None
 
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            given = getattr(self, field.name)
+            if field.name == "seconds":
+                given = seconds_of(given, "the limit seconds")
+            elif type(given) is not int or given < 0:
+                given = whole(given, f"the limit {field.name}")
+            object.__setattr__(self, field.name, given)
+
+
+def seconds_of(given: Any, name: str) -> float | None:
+    """A time as a float, infinity included, or None.  Raises `InputError` for anything else."""
+    if given is None:
+        return None
+    if isinstance(given, float) and not isfinite(given) and not isnan(given):
+        seconds = float(given)
+    else:
+        seconds = _as_float(exact_real(given, name))
+    if seconds < 0:
+        raise InputError(f"{name} = {given}: a time isn't negative")
+    return seconds
+
+
+def _as_float(time: Fraction) -> float:
+    """Infinite beyond the doubles."""
+    return float(time) if abs(time) < 10**300 else copysign(inf, time)
+
 
 DEFAULT_LIMITS = Limits()
+
+
+def limits_of(given: Any) -> Limits:
+    """The limits of a call, the default ones for None.  Raises `InputError` for anything else."""
+    if given is None:
+        return DEFAULT_LIMITS
+    if not isinstance(given, Limits):
+        hint = "limits=kovacic.Limits(seconds=1), for instance"
+        raise InputError(f"limits are a kovacic.Limits, not {type(given).__name__!r}", hint=hint)
+    return given
+
+
 #: Seconds for one equation where the limits don't say.
 DEFAULT_SECONDS = 600.0
 
@@ -168,12 +210,21 @@ _R = TypeVar("_R")
 
 
 def limited(call: Callable[_P, _R]) -> Callable[_P, _R]:
-    """The call, watched: it keeps the limits of its keyword `limits`, or of the object that it is a method of."""
+    """The call, watched: it keeps the limits of its keyword `limits`, or of the object that it is a method of.
+
+    Every public function is one of these.  `limits=None` is as good as no such keyword.
+    """
 
     @wraps(call)
     def within(*arguments: _P.args, **keywords: _P.kwargs) -> _R:
-        given = keywords.get("limits") or (getattr(arguments[0], "limits", None) if arguments else None)
-        with Budget(given if isinstance(given, Limits) else DEFAULT_LIMITS).watched():
+        own = getattr(arguments[0], "limits", None) if arguments else None
+        limits = own if isinstance(own, Limits) else DEFAULT_LIMITS
+        if "limits" in keywords:
+            if keywords["limits"] is None:
+                del keywords["limits"]
+            else:
+                limits = limits_of(keywords["limits"])
+        with Budget(limits).watched():
             return call(*arguments, **keywords)
 
     return within

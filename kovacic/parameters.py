@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any
 
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.parametric import answer
 from kovacic.parametric.api import DEFAULT_DEGREE, find_conditions
 from kovacic.solution import Solution
@@ -25,6 +25,7 @@ class Conditions(answer.Conditions):
         return Solution.of(self.answer_at(values))
 
 
+@limited
 def conditions(
     S: Any,
     *,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from kovacic import derived
 from kovacic.answer import Answer
 from kovacic.api import find_answer
-from kovacic.errors import needs
+from kovacic.errors import check_keywords, needs
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.verify import Verification
 
@@ -94,8 +94,9 @@ class Solution(Answer):
     def at(self, x: Any, *, x0: Any, **options: Any) -> Any:
         """A ball that contains y(x): `y0=` and `dy0=` at x0, or `which="regular"`, or `frobenius=(c1, c2)`; see
         `kovacic.evaluate`.  Only the first of these where coefficients in exp(k x) were given."""
-        from kovacic.enclosure.evaluate import evaluate
+        from kovacic.enclosure.evaluate import Options, evaluate
 
+        check_keywords("at", options, ["derivative", *Options.__annotations__])
         return evaluate(self, x, x0=x0, **options)
 
     @limited
@@ -115,11 +116,13 @@ class Solution(Answer):
             return plot(self, start, stop, **options)
 
     @limited
-    def compare_with_monodromy(self, **options: Any) -> Agreement:
+    def compare_with_monodromy(
+        self, group: Group | None = None, *, digits: int = 15, limits: Limits | None = None
+    ) -> Agreement:
         """Does the monodromy, by analytic continuation, agree with `group`?  See `kovacic.enclosure.agreement`."""
         from kovacic.enclosure.agreement import agrees_with_group
 
-        return agrees_with_group(self, **options)
+        return agrees_with_group(self, group, digits=digits, limits=limits)
 
     @property
     @limited
@@ -134,11 +137,11 @@ class Solution(Answer):
         return derived.verification(self)
 
     @limited
-    def to_json(self, **options: Any) -> str:
-        """The answer as one line of JSON, schema 1."""
+    def to_json(self, *, full: bool = False) -> str:
+        """The answer as one line of JSON, schema 1; `full` adds the group and two solutions in closed form."""
         from kovacic.views.json import dumps
 
-        return dumps(self, **options)
+        return dumps(self, full=full)
 
     @classmethod
     @limited
@@ -191,9 +194,9 @@ def solve(
     S: Any = None,
     *,
     a: Any = None,
-    b: Any = 0,
-    c: Any = 0,
-    f: Any = 0,
+    b: Any = None,
+    c: Any = None,
+    f: Any = None,
     var: str | None = None,
     assume: Mapping[Any, Any] | None = None,
     limits: Limits = DEFAULT_LIMITS,

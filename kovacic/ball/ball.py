@@ -20,6 +20,7 @@ from typing import TypeAlias
 import sympy as sp
 
 from kovacic.errors import InputError, LimitExceeded, NotRational
+from kovacic.exact import exact_real, is_rational
 from kovacic.limits import Limits
 from kovacic.reading import symbolic
 from kovacic.reading.read import read_input
@@ -42,8 +43,9 @@ def exact(value: Scalar, name: str) -> sp.Expr:
     """
     if isinstance(value, str):
         result = read_expression(value, what=f"the number {name}", names={})
-    elif isinstance(value, Fraction | int) and not isinstance(value, bool):
-        result = sp.Rational(value)
+    elif is_rational(value):
+        number = exact_real(value, name)
+        result = sp.Rational(number.numerator, number.denominator)
     elif isinstance(value, sp.Expr) and not value.has(sp.Float):
         result = value.xreplace({symbol: sp.Symbol(symbol.name) for symbol in value.free_symbols})
     else:

@@ -14,10 +14,11 @@ Texts, or files of them, go in; a `Record` with a line of JSON for every one of 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from kovacic.batch.records import Item, Job, Record
+from kovacic.errors import InputError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
 
@@ -49,6 +50,8 @@ def solve_many(
     """
     from kovacic.batch.files import item_from
 
+    if isinstance(equations, str | bytes | Mapping):
+        raise InputError("several equations are expected: a list, or any other iterable", hint='["x^2", "x"]')
     job = Job(
         timeout=timeout, memory=memory, group=group, limits=limits, jobs=jobs, ordered=ordered, backend=backend,
         scheduler=scheduler,

@@ -14,7 +14,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from kovacic.errors import InputError, KovacicError, LimitExceeded, VerificationFailed
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.exact import whole
+from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of, seconds_of
 from kovacic.shown import json_line
 from kovacic.solution import Solution
 from kovacic.views.json import group_dict
@@ -116,16 +117,21 @@ class Job:
     scheduler: str | None = None
 
     def __post_init__(self) -> None:
+        self._set(timeout=seconds_of(self.timeout, "timeout"))
+        self._set(memory=None if self.memory is None else whole(self.memory, "memory, in MiB,", least=1))
+        self._set(jobs=None if self.jobs is None else whole(self.jobs, "jobs", least=1))
+        self._set(limits=limits_of(self.limits))
         if self.timeout is not None and not 0 < self.timeout < 1e8:
             raise InputError(f"a timeout of {self.timeout} s isn't possible", hint="give seconds, above 0")
-        if self.memory is not None and self.memory < 1:
-            raise InputError(f"a memory limit of {self.memory} MiB isn't possible", hint="give MiB, at least 1")
         if self.memory is not None and not os.path.exists("/proc/self/statm"):
             raise InputError("memory limits need a Linux system", hint="leave the memory limit out")
-        if self.jobs is not None and self.jobs < 1:
-            raise InputError(f"{self.jobs} jobs: at least one is needed")
         if self.scheduler is not None and self.backend is None:
             raise InputError("a scheduler needs a backend", hint="backend='dask' (--backend dask)")
+
+    def _set(self, **values: Any) -> None:
+        """A field as it was read, when the object is made."""
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
 
     @property
     def engine_limits(self) -> Limits:

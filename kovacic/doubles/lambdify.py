@@ -30,9 +30,11 @@ from kovacic.doubles.chart import Chart, chart_of
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Measured, Region
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
+from kovacic.enclosure.evaluate import Start
 from kovacic.enclosure.points import as_point, working_precision
 from kovacic.enclosure.precision import AccuracyWarning
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import InputError, LimitExceeded, check_keywords
+from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Limits, bounded_work, limited
 
 TINY, HUGE = 2.0**-960, 2.0**1020
@@ -60,12 +62,13 @@ def lambdify(
     solution: object,
     *,
     interval: tuple[object, object],
-    which: int | str = 0,
+    which: object = 0,
     careful: bool | None = None,
     check: bool = True,
     params: Mapping[str, object] | None = None,
+    x0: object = None,
     limits: Limits | None = None,
-    **start: Any,
+    **given: Any,
 ) -> Function:
     """A solution as a NumPy function on an interval without singular points, with its error measured.
 
@@ -99,8 +102,19 @@ def lambdify(
     >>> print(f"{airy(1.0):.12f}")
     1.172299970058
     """
+    check_keywords("lambdify", given, Start.__annotations__)
+    start: dict[str, Any] = {**given}
     if isinstance(which, str):
-        start["which"], which = which, 0
+        start["which"] = which
+        number = 0
+    else:
+        number = whole(which, "which")
+    if start and x0 is None:
+        raise InputError(f"{', '.join(start)} without a point: x0 is needed", hint="x0=0, y0=1, dy0=0, for instance")
+    if start and number:
+        raise InputError("which= numbers the solutions where no initial values are given")
+    if x0 is not None:
+        start["x0"] = x0
     chart = chart_of(solution, start, params, constants=bool(start))
     problem = chart.problem
     if not start and params and problem.S is not None:
@@ -113,15 +127,15 @@ def lambdify(
         )
     region, candidates = chart.region(interval)
     variants = (careful,) if careful is not None else (False, True) if check else (False,)
-    base = None if start else chart.base(which, candidates)
+    base = None if start else chart.base(number, candidates)
     if base is not None:
-        chart = chart.beginning(which, base)
+        chart = chart.beginning(number, base)
     form: ProductForm | None = None
     found: Measured | str | None
     for variant in variants:
         if base is not None and chart.answer is None and (form is None or form.polynomial is not None):
             with working_precision(_PREC):
-                form = product_form(problem, which, region, base, variant)
+                form = product_form(problem, number, region, base, variant)
         if form is None and not region.is_real:
             raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
         function: Function = (

@@ -19,11 +19,11 @@ plain doubles the error is some 2^-52 of the largest value there.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 from flint import arb, arb_mat, arb_poly, fmpq
@@ -33,9 +33,10 @@ from kovacic.algebra.rationals import to_fmpq
 from kovacic.doubles.chart import Chart, chart_of
 from kovacic.doubles.double_double import Pair, double, folded, halves, horner, scaled, two_sum
 from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks
+from kovacic.enclosure.evaluate import Start
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.points import Point, power_of_two, working_precision
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import InputError, LimitExceeded, check_keywords
 from kovacic.limits import Limits, check_time, limited
 
 _PREC = 300
@@ -119,7 +120,15 @@ class TabulatedFunction:
 
 @limited
 def tabulate(
-    equation: object, start: object, stop: object, *, careful: bool = True, limits: Limits | None = None, **given: Any
+    equation: object,
+    start: object,
+    stop: object,
+    *,
+    x0: object,
+    careful: bool = True,
+    params: Mapping[str, object] | None = None,
+    limits: Limits | None = None,
+    **given: Unpack[Start],
 ) -> TabulatedFunction:
     """One solution on [start, stop] in double precision; the interval must be regular.
 
@@ -136,8 +145,8 @@ def tabulate(
     >>> print(f"{bessel(5.0):.15f}")      # J0(5)
     -0.177596771314338
     """
-    params = given.pop("params", None)
-    return table_of(chart_of(equation, given, params), (start, stop), careful, limits)
+    check_keywords("tabulate", given, Start.__annotations__)
+    return table_of(chart_of(equation, {"x0": x0, **given}, params), (start, stop), careful, limits)
 
 
 def table_of(chart: Chart, interval: tuple[object, object], careful: bool, limits: Limits | None) -> TabulatedFunction:

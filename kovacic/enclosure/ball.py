@@ -26,6 +26,7 @@ from kovacic.algebra.rationals import to_fmpq
 from kovacic.enclosure.constants import as_number, to_ball
 from kovacic.enclosure.points import Point, as_point, working_precision
 from kovacic.errors import InputError, LimitExceeded
+from kovacic.exact import whole
 
 Dyadic = tuple[int, int]  # a dyadic rational (m, e), the number m 2^e; m is odd, or (0, 0) stands for zero
 _DECIMAL_BITS = 10_000  # largest |exponent| that is written out in decimals
@@ -112,7 +113,9 @@ class Ball:
     @classmethod
     def exact(cls, mantissa: int, exponent: int = 0) -> Ball:
         """The exact real number mantissa * 2^exponent."""
-        return cls(dyadic(mantissa, exponent))
+        m = whole(mantissa, "the mantissa", least=None)
+        e = whole(exponent, "the exponent", least=None)
+        return cls(dyadic(m, e))
 
     @classmethod
     def of(cls, value: object) -> Ball:
@@ -159,9 +162,9 @@ class Ball:
         point, (re, im) = as_point(number, "the number"), self.midpoint
         return bool((point - Point(re, im)).norm_squared() <= to_fmpq(_to_fraction(self.rad) ** 2))
 
-    def overlaps(self, other: Ball) -> bool:
-        """True if the two exact values can be equal; False proves that they differ."""
-        return _reaches(self, other, 1)
+    def overlaps(self, other: object) -> bool:
+        """True if the two exact values can be equal; False proves that they differ.  `other` is a ball or a number."""
+        return _reaches(self, other if isinstance(other, Ball) else Ball.of(other), 1)
 
     @property
     def digits(self) -> float:

@@ -20,11 +20,12 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.enclosure.constants import as_number, in_balls, to_ball
 from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.precision import AccuracyWarning, Evaluation, start_bits
+from kovacic.enclosure.precision import AccuracyWarning, Evaluation, number_of_digits, start_bits
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
 from kovacic.equation import Change
 from kovacic.errors import InputError
+from kovacic.limits import limits_of
 from kovacic.reading.symbolic import read_expression
 
 _BALLS = 5000  # bits of what is computed from a slope that is a ball
@@ -59,6 +60,7 @@ def evaluate_in_x(
             raise InputError(
                 f"{name} isn't for equations whose coefficients are functions of x", hint="give y0 and dy0"
             )
+    digits = number_of_digits(digits, limits_of(options.get("limits")))
     t, variable = function_of_x(change, params), sympy.Symbol(change.variable)
     slope, rate = t.diff(variable), t.args[0].diff(variable)
     circle = isinstance(t, sympy.exp) and bool(in_balls(rate, {}).real.is_zero())

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from flint import acb, arb, ctx, fmpq, fmpz_poly
@@ -54,8 +53,6 @@ def as_number(value: Any, name: str) -> Number:
     >>> print(as_number("1 + 2*I", "x"), as_number("sqrt(2)", "x"))
     1 + 2i sqrt(2)
     """
-    if isinstance(value, int | float | complex | Fraction):
-        return as_point(value, name)
     fixed = _given_ball(value)
     if fixed is not None:
         if not fixed.is_finite():

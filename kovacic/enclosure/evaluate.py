@@ -14,30 +14,34 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any, Literal, Required, TypedDict, Unpack, overload
+from typing import Any, Literal, TypedDict, Unpack, overload
 
 from kovacic.enclosure.ball import Ball
 from kovacic.enclosure.precision import AccuracyWarning, Method
 from kovacic.enclosure.states import Path, evaluate_states
-from kovacic.errors import NotRational
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.errors import NotRational, check_keywords
+from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 
 
-class Options(TypedDict, total=False):
-    """The keywords of `evaluate` but `derivative`, for its types."""
+class Start(TypedDict, total=False):
+    """Which solution: the keywords of `evaluate` that say it, beside `x0`, and those of `tabulate` and `lambdify`."""
 
-    x0: Required[object]
     y0: object
     dy0: object
     frobenius: Sequence[object] | None
     which: Literal["regular", "decaying"] | None
+    path: Path
+
+
+class Options(Start, total=False):
+    """The keywords of `evaluate` but `x0` and `derivative`."""
+
     params: Mapping[str, object] | None
     digits: int
     method: Method | None
-    path: Path
     limits: Limits | None
 
 
@@ -46,22 +50,25 @@ _Many = list[Any] | tuple[Any, ...] | range
 
 
 @overload
-def evaluate(equation: object, x: _One, *, derivative: Literal[False] = ..., **options: Unpack[Options]) -> Ball: ...
+def evaluate(
+    equation: object, x: _One, *, x0: object, derivative: Literal[False] = ..., **options: Unpack[Options]
+) -> Ball: ...
 @overload
 def evaluate(
-    equation: object, x: _One, *, derivative: Literal[True], **options: Unpack[Options]
+    equation: object, x: _One, *, x0: object, derivative: Literal[True], **options: Unpack[Options]
 ) -> tuple[Ball, Ball]: ...
 @overload
 def evaluate(
-    equation: object, x: _Many, *, derivative: Literal[False] = ..., **options: Unpack[Options]
+    equation: object, x: _Many, *, x0: object, derivative: Literal[False] = ..., **options: Unpack[Options]
 ) -> tuple[Ball, ...]: ...
 @overload
 def evaluate(
-    equation: object, x: _Many, *, derivative: Literal[True], **options: Unpack[Options]
+    equation: object, x: _Many, *, x0: object, derivative: Literal[True], **options: Unpack[Options]
 ) -> tuple[tuple[Ball, Ball], ...]: ...
 @overload
-def evaluate(equation: object, x: object, *, derivative: bool = ..., **options: Unpack[Options]) -> Any: ...
-def evaluate(equation: object, x: object, *, derivative: bool = False, **options: Unpack[Options]) -> Any:
+def evaluate(equation: object, x: object, *, x0: object, derivative: bool = ..., **options: Unpack[Options]) -> Any: ...
+@limited
+def evaluate(equation: object, x: object, *, x0: object, derivative: bool = False, **options: Unpack[Options]) -> Any:
     """A ball that contains y(x) for one solution y of the equation, given by its start at x0.
 
     `equation` is S of y'' = S y (text, SymPy expression, rational function, or a pair of coefficient lists from low to high),
@@ -103,10 +110,12 @@ def evaluate(equation: object, x: object, *, derivative: bool = False, **options
     >>> print(f"{evaluate(bessel, 1, x0=0, which='regular'):.15f}")      # J0
     0.765197686557967
     """
+    check_keywords("evaluate", options, Options.__annotations__)
+    given: dict[str, Any] = {"x0": x0, **options}
     if getattr(equation, "change", None) is not None:
-        return _in_given_variable(equation, x, derivative, options)
+        return _in_given_variable(equation, x, derivative, given)
     shape = getattr(x, "shape", None)
-    many = shape != () and isinstance(x, Iterable) and not isinstance(x, str)
+    many = shape != () and isinstance(x, Iterable) and not isinstance(x, str | bytes | Mapping | Set)
     points: list[Any] = list(x) if many and not shape else [x]  # type: ignore[call-overload]
     if shape:
         import numpy as np
@@ -114,14 +123,14 @@ def evaluate(equation: object, x: object, *, derivative: bool = False, **options
         points = list(np.asarray(x, dtype=object).flat)
     holes = {i for i, p in enumerate(points) if shape is not None and p != p}
     try:
-        results = evaluate_states(equation, [p for i, p in enumerate(points) if i not in holes], **options)
+        results = evaluate_states(equation, [p for i, p in enumerate(points) if i not in holes], **given)
     except NotRational as reason:  # rational in exp(k x), perhaps
         from kovacic.reading.read import read_input
 
         parsed = read_input(equation, limits=options.get("limits") or DEFAULT_LIMITS, exponentials=True)
         if parsed.equation is None or parsed.equation.change is None:
             raise reason from None
-        return _in_given_variable(parsed, x, derivative, options)
+        return _in_given_variable(parsed, x, derivative, given)
     for result in results:
         if result.note is not None:
             warnings.warn(f"at x = {result.x}: {result.note}", AccuracyWarning, stacklevel=2)

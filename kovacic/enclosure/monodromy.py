@@ -24,12 +24,12 @@ from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.journey import Traveller
 from kovacic.enclosure.matrices import Matrix, fundamental, inverse, multiply
 from kovacic.enclosure.points import Point, as_point, midpoint, power_of_two, to_acb, working_precision
-from kovacic.enclosure.precision import check_digits, start_bits
+from kovacic.enclosure.precision import number_of_digits, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import place_of
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.limits import Budget, Limits, limited, limits_of
 
 BallMatrix = tuple[tuple[Ball, Ball], tuple[Ball, Ball]]
 
@@ -72,6 +72,7 @@ class LocalMonodromy:
             return bool((m * now - one * before).contains(one))
 
 
+@limited
 def connection_matrix(
     equation: object,
     path: Sequence[object],
@@ -98,8 +99,8 @@ def connection_matrix(
 
     Reference: the path and the bases are as in ore_algebra's numerical_transition_matrix.
     """
-    limits = limits or DEFAULT_LIMITS
-    check_digits(digits, limits)
+    limits = limits_of(limits)
+    digits = number_of_digits(digits, limits)
     problem = as_problem(equation, params, constants=True)
     if len(path) < 2:
         raise InputError("a path needs at least two vertices")
@@ -156,6 +157,7 @@ def _connection(
     return found if there is None else multiply(inverse(there), found)
 
 
+@limited
 def monodromy(
     equation: object, *, params: Mapping[str, object] | None = None, digits: int = 15, limits: Limits | None = None
 ) -> tuple[LocalMonodromy, ...]:
@@ -169,7 +171,8 @@ def monodromy(
     >>> [f"{e.mid.real:.6f}" for e in point.exponents], f"{point.trace.mid.real:.6f}", point.is_identity_to_the_power(3)
     (['0.666667', '0.333333'], '-1.000000', True)
     """
-    limits = limits or DEFAULT_LIMITS
+    limits = limits_of(limits)
+    digits = number_of_digits(digits, limits)
     given = as_problem(equation, params, constants=True)
     constants = given.embedded and replace(given.embedded, gauge=None)
     problem = NumericProblem(given.system, embedded=constants)

@@ -1,31 +1,22 @@
-"""Exact points of the complex plane: Gaussian rationals, read from every kind of number; and the precision of balls.
-
-Floats are taken at their exact binary value and decimal text at its exact decimal value ("0.1" is 1/10, 0.1 is
-3602879701896397/36028797018963968): nothing is rounded on the way in.
-"""
+"""Exact points of the complex plane: Gaussian rationals, read from every kind of number; and the precision of balls."""
 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
-from numbers import Rational
 from threading import RLock
 from typing import Any
 
-from flint import acb, arb, ctx, fmpq, fmpz
+from flint import acb, arb, ctx, fmpq
 
 from kovacic.algebra.rationals import to_fmpq, to_fraction
-from kovacic.errors import InputError
+from kovacic.exact import exact
 
-_NUMBER = re.compile(r"\s*([+-]?\d+)\s*/\s*(\d+)\s*|\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
-_MAX_EXPONENT = 100_000
-_MAX_TEXT = 200_000
 _LOCK = RLock()
 
 
@@ -128,73 +119,12 @@ def _short(value: Fraction) -> str:
 
 
 def as_point(value: Any, name: str) -> Point:
-    """The exact Gaussian rational that `value` stands for.
-
-    Accepted: int, Fraction and other rationals, float, complex, Decimal, decimal or p/q text, mpmath mpf and mpc, SymPy
-    numbers a + b I with rational or floating parts, an exact Ball, a Point.  Raises InputError for what isn't a finite
-    number of these kinds (`name` says in the message which argument it was).
+    """The exact point that `value` stands for: a Point, or whatever `kovacic.exact.exact` takes; raises as that.
 
     >>> as_point("0.1", "x"), as_point(1 + 2j, "x")
     (Point(1/10), Point(1 + 2i))
     """
-    if isinstance(value, Point):
-        return value
-    if type(value) is int:
-        return Point(fmpq(value))
-    if isinstance(value, bool):
-        raise InputError(f"{name} is a truth value ({value}), not a number")
-    if isinstance(value, complex):
-        return Point(_real(value.real, name), _real(value.imag, name))
-    if isinstance(value, str):
-        return Point(_text(value, name))
-    if isinstance(value, int | float | Decimal | Rational):
-        return Point(_real(value, name))
-    if isinstance(value, fmpz | fmpq):
-        return Point(fmpq(value))
-    # numbers of mpmath, SymPy, NumPy and our own balls, recognised without importing any of these libraries
-    if hasattr(value, "is_exact") and hasattr(value, "midpoint"):
-        if not value.is_exact():
-            raise InputError(f"{name} is a ball of positive radius; an exact point is needed", hint="use ball.midpoint")
-        return Point(*value.midpoint)
-    module = type(value).__module__.split(".")[0]
-    if module == "numpy" and hasattr(value, "item") and getattr(value, "ndim", 1) == 0:
-        return as_point(value.item(), name)
-    if module == "mpmath" and (hasattr(value, "_mpf_") or hasattr(value, "_mpc_")):
-        return Point(*(_mpf(part, name) for part in getattr(value, "_mpc_", None) or (value._mpf_,)))
-    if module == "sympy" and hasattr(value, "as_real_imag"):
-        parts = value.as_real_imag()
-        if all(part.is_Rational or part.is_Float for part in parts):
-            return Point(*(fmpq(int(p.p), int(p.q)) if p.is_Rational else _mpf(p._mpf_, name) for p in parts))
-    raise InputError(f"{name} isn't a number that is known exactly: {str(value)[:60]!r} ({type(value).__name__})")
-
-
-def _real(value: float | Decimal | Rational, name: str) -> Fraction:
-    if isinstance(value, Decimal) and value.is_finite() and abs(value.adjusted()) > _MAX_EXPONENT:
-        raise InputError(f"{name} = {value} has an exponent beyond {_MAX_EXPONENT}")
-    try:
-        return Fraction(value)
-    except (OverflowError, ValueError):
-        raise InputError(f"{name} = {value} isn't a finite number") from None
-
-
-def _text(text: str, name: str) -> Fraction:
-    match = _NUMBER.fullmatch(text) if len(text) <= _MAX_TEXT else None
-    if match is None:
-        raise InputError(f"{name} isn't a decimal number or a fraction p/q: {text[:60]!r}", hint="e.g. '0.1' or '1/3'")
-    if match[3] is not None:
-        return _real(Decimal(match[3]), name)
-    if int(match[2]) == 0:
-        raise InputError(f"{name} = {text[:60]} divides by zero")
-    return Fraction(int(match[1]), int(match[2]))
-
-
-def _mpf(parts: tuple[int, int, int, int], name: str) -> Fraction:
-    sign, mantissa, exponent, _ = parts
-    if not mantissa and exponent:
-        raise InputError(f"{name} isn't a finite number")
-    if abs(exponent) > 4 * _MAX_EXPONENT:
-        raise InputError(f"{name} has a binary exponent beyond {4 * _MAX_EXPONENT}")
-    return Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** int(exponent)
+    return value if isinstance(value, Point) else Point(*exact(value, name))
 
 
 def to_acb(point: Point) -> acb:

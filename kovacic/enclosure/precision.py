@@ -22,6 +22,7 @@ from kovacic.enclosure.journey import Closed, Journey
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import working_precision
 from kovacic.errors import InputError, LimitExceeded
+from kovacic.exact import short, whole
 from kovacic.limits import Limits
 
 _LOG = logging.getLogger(__name__)
@@ -68,14 +69,12 @@ def start_bits(digits: int) -> int:
     return int(digits * 3.3219280948873626) + 24
 
 
-def check_digits(digits: object, limits: Limits) -> None:
-    """Raise InputError unless this is a number of digits within the limits."""
-    if isinstance(digits, bool) or not isinstance(digits, int):
-        raise InputError(f"digits must be an integer, not {digits!r}")
-    if digits < 1:
-        raise InputError(f"digits = {digits}: at least 1 is needed")
+def number_of_digits(given: object, limits: Limits) -> int:
+    """As Python's integer; raises InputError unless this is a number of digits within the limits."""
+    digits = whole(given, "digits", least=1)
     if digits > limits.digits:
-        raise InputError(f"digits = {digits} is beyond the limit of {limits.digits}", hint="raise limits.digits")
+        raise InputError(f"digits = {short(digits)} is beyond the limit of {limits.digits}", hint="raise limits.digits")
+    return digits
 
 
 def raise_precision(

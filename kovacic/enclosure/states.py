@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from functools import lru_cache
-from typing import Literal
+from typing import Any, Literal
 
 from flint import arb
 
@@ -13,13 +13,13 @@ from kovacic.enclosure.classical import Classical, NotServed
 from kovacic.enclosure.closed_form import ClosedForm, closed_form_of
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.journey import Journey
-from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.precision import METHODS, Evaluation, Method, check_digits, raise_precision
+from kovacic.enclosure.points import Point, as_point, to_acb, working_precision
+from kovacic.enclosure.precision import METHODS, Evaluation, Method, number_of_digits, raise_precision
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import read_start
 from kovacic.errors import InputError
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.limits import Budget, Limits, limits_of
 
 _LOG = logging.getLogger(__name__)
 
@@ -49,12 +49,13 @@ def evaluate_states(
     limits: Limits | None = None,
 ) -> tuple[Evaluation, ...]:
     """As `evaluate`, with y and y' and the circumstances, for each of `points` (no warnings: see `Evaluation.note`)."""
-    limits = limits or DEFAULT_LIMITS
-    check_digits(digits, limits)
+    limits = limits_of(limits)
+    digits = number_of_digits(digits, limits)
     if method is not None and method not in METHODS:
         raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
     problem = as_problem(equation, params, forced=True, constants=True)
-    given = problem, x0, y0, dy0, frobenius, which, path
+    start = [_comparable(value) for value in (x0, y0, dy0)]
+    given = problem, *start, _comparables(frobenius, "frobenius"), which, _comparables(path, "path")
     try:
         hash(given)
     except (TypeError, ValueError):  # lists, FLINT's balls
@@ -74,6 +75,20 @@ def evaluate_states(
                     raise InputError("the closed form doesn't prove its values on this path", hint=_TAYLOR) from None
                 _LOG.info("it doesn't prove its values on this path: Taylor's method")
         return raise_precision(journey, targets, None, digits, limits)
+
+
+def _comparable(value: object) -> object:
+    """A number of NumPy's as a point: SymPy can't compare all of them with its own, when journeys are looked up."""
+    return as_point(value, "a number of the start") if type(value).__module__ == "numpy" else value
+
+
+def _comparables(values: object, name: str) -> Any:
+    """A sequence of numbers as a tuple of such; a word, or None, as it is."""
+    if values is None or isinstance(values, str):
+        return values
+    if isinstance(values, bytes | Mapping | Set) or not isinstance(values, Iterable):
+        raise InputError(f"{name} is a sequence of numbers, not {type(values).__name__!r}")
+    return tuple(map(_comparable, values))
 
 
 @lru_cache(maxsize=32, typed=True)

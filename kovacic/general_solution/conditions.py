@@ -15,6 +15,7 @@ import sympy
 from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError
+from kovacic.exact import exact_text, is_complex
 from kovacic.reading.parser import listed
 
 Expr = Any  # SymPy publishes no types
@@ -216,10 +217,13 @@ def _read(text: str, symbols: Mapping[Expr, Any]) -> Expr:
 
 def _exact(given: Any) -> Expr:
     """A SymPy expression; a float is the decimal that it is written as."""
+    if isinstance(given, sympy.Expr):
+        return exact(given)
+    if is_complex(given):
+        return _exact(given.real) + sympy.I * _exact(given.imag)
     try:
-        value = sympy.Rational(repr(float(given))) if isinstance(given, float) else sympy.sympify(given, strict=True)
-        return exact(value)
-    except (sympy.SympifyError, TypeError, ValueError, AttributeError):
+        return sympy.Rational(exact_text(given, "the value"))
+    except (TypeError, ValueError):
         raise InputError(
             f"the value {given!r} can't be read", hint="give a number, or text such as 'sqrt(2)'"
         ) from None

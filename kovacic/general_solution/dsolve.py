@@ -27,13 +27,14 @@ from kovacic.general_solution.places import limit_points, real_basis_at, real_pa
 from kovacic.general_solution.question import Question, read_question
 from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.written import combination, free_constants, written
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numerals import as_text
 from kovacic.views.sentences import SCREEN
 
 Expr = Any  # SymPy publishes no types
 
 
+@limited
 def dsolve(
     eq: Any,
     func: Any = None,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from random import Random
@@ -18,6 +18,7 @@ from kovacic.decision import Status
 from kovacic.derived import verification
 from kovacic.engine.decide import decide
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
+from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.check import CheckReport, Disagreement, Sampler
@@ -85,8 +86,7 @@ class Conditions:
         natural = [part for part in parts if isinstance(part, Natural)]
         if not natural:
             raise InputError("no condition has a natural number in it")
-        if isinstance(number, bool) or not isinstance(number, int) or number < 0:
-            raise InputError(f"a natural number is expected, not {number!r}")
+        number = whole(number, "the number")
         with Budget(self.limits).watched():
             return tuple(determinant for statement in natural for determinant in statement.determinants(number))
 
@@ -152,6 +152,8 @@ class Conditions:
 
         As far as the time limit allows.
         """
+        samples = whole(samples, "samples")
+        seed = whole(seed, "seed", least=None)
         budget, statements = Budget(self.limits), [region.statement for region in self.regions]
         counts, disagreements = Counter[str](inside=0, outside=0, open=0), list[Disagreement]()
         sampler = Sampler(self.constant, self.parameters, self.assumptions, Random(seed))
@@ -241,13 +243,25 @@ class Conditions:
     def _repr_latex_(self) -> str:
         return f"${self.latex()}$"
 
-    def plot(self, axes: Any = None, **options: Any) -> Any:
+    @limited
+    def plot(
+        self,
+        axes: Any = None,
+        *,
+        parameters: Sequence[str] | None = None,
+        ranges: Sequence[tuple[Any, Any]] | None = None,
+        steps: int = 48,
+        fixed: Mapping[str, Any] | None = None,
+    ) -> Any:
         """A map of two parameters, or a strip for one: see `kovacic.parametric.plot.plot`."""
 
         def label_at(values: Mapping[Any, Any]) -> str:
             return str(self.predicted(self.point(values)) or "S not defined")
 
-        return plot(label_at, self.parameters, f"y'' = {self._right.text}", axes, **options)
+        title = f"y'' = {self._right.text}"
+        return plot(
+            label_at, self.parameters, title, axes, parameters=parameters, ranges=ranges, steps=steps, fixed=fixed
+        )
 
     def text(self, *, all: bool = False) -> str:
         """The partition in lines: regions in a row with the same case are written together, and at most a screen of them.
@@ -291,6 +305,8 @@ def _point(names: tuple[str, ...], values: list[Any], constant: Point, limits: L
             x, terms = sympy.Symbol("x_"), [sympy.sympify(value, strict=True) for value in values]
         except sympy.SympifyError as error:
             raise InputError(f"the values of parameters are numbers, not {error.expr!r}") from None
+        if not all(isinstance(term, sympy.Expr) for term in terms):
+            raise InputError("the values of parameters are numbers")
         together = sum((value * x**k for k, value in enumerate(terms)), sympy.Integer(0))
     else:
         together = " + ".join(f"({number_text(value, limits)})*x_^{k}" for k, value in enumerate(values))

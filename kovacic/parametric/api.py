@@ -13,6 +13,7 @@ from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide
 from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
+from kovacic.exact import whole
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.answer import Conditions
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
@@ -41,9 +42,8 @@ def find_conditions(
         used = f": {parsed.variable} is taken for the variable" if var is None and parsed.S.degree else ""
         what = "every parameter has a value" if parsed is not given else f"S has no parameters{used}"
         raise InputError(what, hint="solve decides equations without parameters; var= says which name is the variable")
-    if isinstance(max_degree, bool) or not isinstance(max_degree, int) or max_degree < 0:
-        raise InputError(f"max_degree is a natural number, not {max_degree!r}")
-    return conditions_of(parsed, read_assumptions(assume, S, names), max_degree, limits)
+    most = whole(max_degree, "max_degree")
+    return conditions_of(parsed, read_assumptions(assume, S, names), most, limits)
 
 
 def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, limits: Limits) -> Conditions:

@@ -7,11 +7,20 @@ from fractions import Fraction
 from typing import Any
 
 from kovacic.errors import InputError
+from kovacic.exact import exact_real, whole
 
 #: What can be known at a point.
 LABELS = ("no Liouvillian solution", "case 1", "case 2", "case 3", "not determined", "S not defined")
 #: Colours that keep apart in print and for colour-blind readers [Okabe & Ito].
 _COLOURS = ("#ffffff", "#0072b2", "#e69f00", "#cc79a7", "#dddddd", "#000000")
+
+
+def _grid(low: Any, high: Any, steps: int) -> list[Fraction]:
+    """So many intervals from one number to another, exactly."""
+    first, last = exact_real(low, "an end of a range"), exact_real(high, "an end of a range")
+    if first >= last:
+        raise InputError(f"the range from {first} to {last} is empty", hint="give the smaller number first")
+    return [first + (last - first) * k / steps for k in range(steps + 1)]
 
 
 def plot(
@@ -21,24 +30,28 @@ def plot(
     axes: Any = None,
     *,
     parameters: Sequence[str] | None = None,
-    ranges: Sequence[tuple[Any, Any]] = ((-4, 4), (-4, 4)),
+    ranges: Sequence[tuple[Any, Any]] | None = None,
     steps: int = 48,
     fixed: Mapping[str, Any] | None = None,
 ) -> Any:
     """Draw the cases, given by their labels, over a grid of exact rational points into matplotlib axes, which are returned.
 
-    `parameters` are the two that vary (by default the first two), `fixed` gives values to the others; `ranges` with `steps`
-    intervals each make the grid, whose points are rational, so that lines such as n - 1/2 in Z are met exactly when the step
-    divides them.  Without `axes` a figure is made with the Agg backend; save it with `axes.figure.savefig`.  Nothing is
-    ever shown on a screen.  With one parameter, a strip is drawn.  Raises `InputError` for names that aren't parameters.
+    `parameters` are the two that vary (by default the first two), `fixed` gives values to the others; `ranges` (by default
+    from -4 to 4) with `steps` intervals each make the grid, whose points are rational, so that lines such as
+    n - 1/2 in Z are met exactly when the step divides them.  Without `axes` a figure is made with the Agg backend; save it
+    with `axes.figure.savefig`.  Nothing is ever shown on a screen.  With one parameter, a strip is drawn.  Raises
+    `InputError` for names that aren't parameters.
     """
     chosen = tuple(parameters or names[:2])
     if len(chosen) not in (1, 2) or any(name not in names for name in chosen):
         raise InputError("a map needs one parameter or two", hint=f"the parameters are {', '.join(names)}")
-    values = [
-        [Fraction(low) + (Fraction(high) - Fraction(low)) * k / steps for k in range(steps + 1)]
-        for (low, high), _ in zip(ranges, chosen, strict=False)
-    ]
+    if any(name in chosen for name in fixed or {}):
+        raise InputError(f"a parameter that is fixed doesn't vary: {', '.join(chosen)}")
+    given = [(-4, 4) for _ in chosen] if ranges is None else list(ranges)
+    if len(given) != len(chosen):
+        raise InputError(f"{len(given)} ranges for {len(chosen)} parameters", hint="ranges=[(0, 1), (-2, 2)]")
+    steps = whole(steps, "steps", least=1)
+    values = [_grid(low, high, steps) for low, high in given]
 
     def colour(*point: Fraction) -> int:
         return LABELS.index(label_at({**(fixed or {}), **dict(zip(chosen, point, strict=True))}))

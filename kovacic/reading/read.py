@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from fractions import Fraction
-from numbers import Rational
-from operator import index
 from typing import Any
 
 from kovacic.algebra.poly import Poly
@@ -14,6 +12,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import DEFAULT_VARIABLE, PI, Equation, Parsed
 from kovacic.errors import InputError, LimitExceeded, NotRational
+from kovacic.exact import exact_real, exact_text, is_rational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.parser import shown
 from kovacic.reading.source import read_source, source_of
@@ -68,9 +67,13 @@ def read_input(
             if found is None:
                 raise
             return found
-    if isinstance(S, RatFunc | int | Fraction):
-        return Parsed(S if isinstance(S, RatFunc) else RatFunc(QQ.poly([S])), variable or DEFAULT_VARIABLE)
+    if is_rational(S):
+        return Parsed(RatFunc(QQ.poly([exact_real(S, "S")])), variable or DEFAULT_VARIABLE)
+    if isinstance(S, RatFunc):
+        return Parsed(S, variable or DEFAULT_VARIABLE)
     if isinstance(S, Equation):
+        if variable not in (None, S.variable):
+            raise InputError(f"the variable of this equation is {S.variable}, not {variable}")
         return Parsed(S.S, S.variable, equation=S)
     if isinstance(S, tuple | list) and len(S) == 2:
         above, below = (_polynomial(*part, limits) for part in zip(S, ("numerator", "denominator"), strict=True))
@@ -91,6 +94,9 @@ def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits
     Raises `InputError` and `LimitExceeded`; positions refer to the equation as it was put together.
     """
     given = (a, b, c, f)
+    for value in given:
+        if _is_sympy(value) and not hasattr(value, "as_numer_denom"):
+            raise InputError(f"a coefficient is a function of the variable, not {value}")
     if any(map(_is_sympy, given)) and not any(isinstance(value, str | RatFunc) for value in given):
         import sympy
 
@@ -99,9 +105,7 @@ def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits
         y = sympy.Function("y" if "y" not in symbols else "y_")(symbols.get(name, sympy.Symbol(name)))
         given = a * y.diff(y.args[0], 2) + b * y.diff() + c * y - f
         return read_source(source_of(given, None, unknown=y, equation=True), limits)
-    numbers = (int, Fraction)  # which Python prints up to 4300 digits only
-    values = [RatFunc(QQ.poly([value])) if isinstance(value, numbers) else value for value in given]
-    texts = [value.to_str() if isinstance(value, RatFunc) else str(value) for value in values]
+    texts = [value.to_str() if isinstance(value, RatFunc) else exact_text(value, "a coefficient") for value in given]
     line = "({})*y'' + ({})*y' + ({})*y = {}".format(*texts)
     return read_input(line, var=var, limits=limits)
 
@@ -136,10 +140,9 @@ def _polynomial(coefficients: Sequence[Any], what: str, limits: Limits) -> Poly:
     return QQ.poly(numbers)
 
 
-def _rational(value: Any, power: int, what: str) -> Fraction | int:
-    if isinstance(value, Rational):  # int, Fraction, numpy's integers; SymPy registers its rationals
-        above, below = index(value.numerator), index(value.denominator)
-        return above if below == 1 else Fraction(above, below)
+def _rational(value: Any, power: int, what: str) -> Fraction:
+    if is_rational(value):
+        return exact_real(value, f"the coefficient of power {power}")
     hint = "give integers, Fraction(1, 2) or sympy.Rational(1, 2)"
     if isinstance(value, float):
         hint = f"give Fraction({value!r}) if exactly this float is meant, or Fraction({str(value)!r}) for the decimal"

@@ -13,6 +13,7 @@ from typing import Any
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import Parsed, parameters_of
 from kovacic.errors import InputError
+from kovacic.exact import exact_text
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.lexer import tokenize
 from kovacic.reading.read import read_input
@@ -55,7 +56,7 @@ class Template:
 
 def number_text(value: Any, limits: Limits = DEFAULT_LIMITS) -> str:
     """The value of a parameter as text: a rational or algebraic number.  Raises `InputError` for anything else."""
-    text = str(value).strip()
+    text = exact_text(value, "the value of a parameter")
     number = read_input(text, var="x_", limits=limits).S
     if number.num.degree > 0 or number.den.degree > 0 or number.field.ground != QQ:
         raise InputError(f"{text!r} isn't a number")

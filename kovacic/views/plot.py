@@ -26,8 +26,10 @@ from kovacic import derived
 from kovacic.answer import Answer
 from kovacic.doubles.chart import Chart, chart_of
 from kovacic.doubles.curve import Arc, Envelope, arcs, coefficients
+from kovacic.enclosure.evaluate import Options
 from kovacic.enclosure.points import Point, as_point, midpoint
-from kovacic.errors import InputError
+from kovacic.errors import InputError, check_keywords
+from kovacic.exact import whole
 from kovacic.limits import limited
 from kovacic.views.sentences import equation_of
 from kovacic.writing.formula import of_sympy
@@ -39,6 +41,8 @@ if TYPE_CHECKING:
 _SHARE, _IRREGULAR_SHARE = Fraction(1, 256), Fraction(1, 16)
 """The curve ends this share of its interval before a singular point."""
 
+#: The keywords of `evaluate` that choose the solution and its accuracy; the path is above the axis.
+_OPTIONS = sorted(Options.__annotations__.keys() - {"path"})
 #: A formula of more characters isn't written into the legend.
 _LONGEST_LABEL = 50
 #: Where the largest value is more than so many times the usual one, the axis is logarithmic beyond the usual one.
@@ -83,9 +87,9 @@ def sample(
 
     Raises InputError if start isn't below stop, and what `evaluate` raises.
     """
+    check_keywords("sample", options, _OPTIONS)
     a, b = _ends(start, stop)
-    if points < 2:
-        raise InputError("at least 2 points are needed")
+    points = whole(points, "points", least=2)
     chart = chart_of(equation, {}, options.pop("params", None))
     intervals = _regular_intervals(chart, a, b)
     if x0 is None:
@@ -167,6 +171,7 @@ def plot(
 
     Returns the matplotlib figure.
     """
+    check_keywords("plot", options, ["x0", "points", *_OPTIONS])
     from matplotlib.figure import Figure as NewFigure
 
     curves = _curves(equation, start, stop, options)

@@ -1,0 +1,227 @@
+"""The numbers that users give, of whatever library: which exact number each of them is.
+
+Floats are taken at their exact binary value and decimal text at its exact decimal value ("0.1" is 1/10, 0.1 is
+3602879701896397/36028797018963968): nothing is rounded on the way in.  Truth values and bytes are no numbers.
+"""
+
+from __future__ import annotations
+
+import re
+from decimal import Decimal
+from fractions import Fraction
+from numbers import Rational
+from operator import index
+from typing import Any
+
+from flint import acb, arb, fmpq, fmpz
+
+from kovacic.errors import InputError
+
+_NUMBER = re.compile(r"\s*([+-]?\d+)\s*/\s*(\d+)\s*|\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
+_MAX_EXPONENT = 100_000
+_MAX_TEXT = 200_000
+
+Parts = tuple[Any, Any]
+"""Real and imaginary part, FLINT's rationals."""
+
+
+def exact(value: Any, name: str) -> Parts:
+    """The exact complex number that `value` stands for.
+
+    Accepted: int, Fraction and other rationals, float, complex, Decimal, decimal or p/q text, NumPy's scalars of these kinds,
+    mpmath mpf and mpc, SymPy numbers a + b I with rational or floating parts, python-flint's numbers and our own balls of
+    radius zero.  Raises `InputError` for what isn't a finite number of these kinds (`name` says which argument it was).
+
+    >>> exact("0.1", "x"), exact(1 + 2j, "x")
+    ((1/10, 0), (1, 2))
+    """
+    if type(value) is int:
+        return fmpq(value), fmpq(0)
+    if isinstance(value, bool):
+        raise InputError(f"{name} is a truth value ({value}), not a number")
+    if isinstance(value, str):
+        return _of_text(value, name), fmpq(0)
+    reader = _READERS.get(_library(value), _of_python)
+    parts = reader(value, name)
+    if parts is None:
+        raise InputError(f"{name} isn't a number that is known exactly: {str(value)[:60]!r} ({type(value).__name__})")
+    return parts
+
+
+def exact_real(value: Any, name: str) -> Fraction:
+    """The same as a fraction; raises `InputError` where the number isn't real."""
+    re, im = exact(value, name)
+    if im != 0:
+        raise InputError(f"{name} isn't a real number: {str(value)[:60]!r}")
+    return Fraction(int(re.p), int(re.q))
+
+
+def whole(value: Any, name: str, *, least: int | None = 0) -> int:
+    """An integer of any library, at least `least`; raises `InputError` for anything else, 3.0 and "3" included."""
+    try:
+        found = None if isinstance(value, bool) or _is_duration(value) else index(value)
+    except TypeError:
+        found = None
+    if found is None:
+        raise InputError(f"{name} must be an integer, not {str(value)[:60]!r} ({type(value).__name__})")
+    if least is not None and found < least:
+        raise InputError(f"{name} = {short(found)}: at least {least} is needed")
+    return found
+
+
+def is_rational(value: Any) -> bool:
+    """Is this an integer or a quotient by its type?  Floats and truth values aren't."""
+    return isinstance(value, Rational | fmpz | fmpq) and not isinstance(value, bool) and not _is_duration(value)
+
+
+def short(value: Any) -> str:
+    """An integer of any length for a message: Python prints 4300 digits only."""
+    text = str(fmpz(value)) if isinstance(value, int) else str(value)
+    return text if len(text) <= 60 else f"{text[:60]}..."
+
+
+def exact_text(value: Any, name: str) -> str:
+    """A value for a place in a formula: text as it is, a float as the decimal that it is written as, others exactly.
+
+    >>> exact_text(0.1, "n"), exact_text("sqrt(2)", "n"), exact_text(Fraction(1, 3), "n")
+    ('0.1', 'sqrt(2)', '1/3')
+    """
+    if isinstance(value, str):
+        return value.strip()
+    if _library(value) == "sympy":
+        return str(value)
+    number = exact_real(value, name)
+    if isinstance(value, float | Decimal) or _kind(value) == "f":
+        return str(value)
+    return str(fmpq(number.numerator, number.denominator))
+
+
+def is_complex(value: Any) -> bool:
+    """Is this a complex number by its type?"""
+    if _library(value) == "mpmath":
+        return hasattr(value, "_mpc_")
+    return isinstance(value, complex | acb) or _kind(value) == "c"
+
+
+def _library(value: Any) -> str:
+    """Whose number it is, recognised without importing the library."""
+    names = (str(cls.__module__).partition(".")[0] for cls in type(value).__mro__)
+    return next((name for name in names if name in _READERS), "")
+
+
+def _kind(value: Any) -> str:
+    """NumPy's letter for the type of a scalar, or of an array without dimensions; empty for anything else."""
+    is_scalar = _library(value) == "numpy" and getattr(value, "ndim", None) == 0
+    return str(value.dtype.kind) if is_scalar else ""
+
+
+def _is_duration(value: Any) -> bool:
+    """NumPy counts its durations among the integers."""
+    return _kind(value) in ("m", "M")
+
+
+def _of_python(value: Any, name: str) -> Parts | None:
+    if isinstance(value, complex):
+        return _real(value.real, name), _real(value.imag, name)
+    if isinstance(value, int | float | Decimal | Rational):
+        return _real(value, name), fmpq(0)
+    return None
+
+
+def _of_numpy(value: Any, name: str) -> Parts | None:
+    kind = _kind(value)
+    if kind == "c":
+        return _real(value.real[()], name), _real(value.imag[()], name)
+    if kind and kind in "iuf":
+        return _real(value[()], name), fmpq(0)
+    if kind and kind in "OU":
+        return exact(value.item(), name)
+    return None
+
+
+def _of_mpmath(value: Any, name: str) -> Parts | None:
+    if hasattr(value, "_mpc_"):
+        real, imaginary = value._mpc_
+        return _mpf(real, name), _mpf(imaginary, name)
+    return (_mpf(value._mpf_, name), fmpq(0)) if hasattr(value, "_mpf_") else None
+
+
+def _of_sympy(value: Any, name: str) -> Parts | None:
+    parts = value.as_real_imag() if getattr(value, "is_number", False) else ()
+    if not parts or not all(part.is_Rational or part.is_Float for part in parts):
+        return None
+    real, imaginary = (fmpq(int(p.p), int(p.q)) if p.is_Rational else _mpf(p._mpf_, name) for p in parts)
+    return real, imaginary
+
+
+def _of_flint(value: Any, name: str) -> Parts | None:
+    if isinstance(value, fmpz | fmpq):
+        return fmpq(value), fmpq(0)
+    if not isinstance(value, arb | acb):
+        return None
+    ball = acb(value)
+    _demand_exact(ball.is_finite() and ball.real.is_exact() and ball.imag.is_exact(), name)
+    (above, e), (aside, k) = ball.real.man_exp(), ball.imag.man_exp()
+    return _power(above, e, name), _power(aside, k, name)
+
+
+def _of_kovacic(value: Any, name: str) -> Parts | None:
+    if not hasattr(value, "is_exact") or not hasattr(value, "midpoint"):
+        return None
+    _demand_exact(value.is_exact(), name)
+    real, imaginary = value.midpoint
+    return _real(real, name), _real(imaginary, name)
+
+
+_READERS = {
+    "numpy": _of_numpy,
+    "mpmath": _of_mpmath,
+    "sympy": _of_sympy,
+    "flint": _of_flint,
+    "kovacic": _of_kovacic,
+}
+
+
+def _demand_exact(is_exact: bool, name: str) -> None:
+    if not is_exact:
+        raise InputError(f"{name} is a ball of positive radius; an exact point is needed", hint="use its midpoint")
+
+
+def _real(value: Any, name: str) -> Any:
+    """Of anything that says which quotient of integers it is."""
+    if isinstance(value, Decimal) and value.is_finite() and abs(value.adjusted()) > _MAX_EXPONENT:
+        raise InputError(f"{name} = {value} has an exponent beyond {_MAX_EXPONENT}")
+    try:
+        if isinstance(value, Rational):
+            above, below = value.numerator, value.denominator
+        else:
+            above, below = value.as_integer_ratio()
+    except (OverflowError, ValueError):
+        raise InputError(f"{name} = {value} isn't a finite number") from None
+    return fmpq(int(above), int(below))
+
+
+def _of_text(text: str, name: str) -> Any:
+    match = _NUMBER.fullmatch(text) if len(text) <= _MAX_TEXT else None
+    if match is None:
+        raise InputError(f"{name} isn't a decimal number or a fraction p/q: {text[:60]!r}", hint="e.g. '0.1' or '1/3'")
+    if match[3] is not None:
+        return _real(Decimal(match[3]), name)
+    above, below = (fmpz(part.lstrip("+")) for part in (match[1], match[2]))  # Python reads 4300 digits only
+    if below == 0:
+        raise InputError(f"{name} = {text[:60]} divides by zero")
+    return fmpq(above, below)
+
+
+def _mpf(parts: tuple[int, int, int, int], name: str) -> Any:
+    sign, mantissa, exponent, _ = parts
+    if not mantissa and exponent:
+        raise InputError(f"{name} isn't a finite number")
+    return _power(-int(mantissa) if sign else int(mantissa), exponent, name)
+
+
+def _power(mantissa: Any, exponent: Any, name: str) -> Any:
+    """mantissa 2^exponent."""
+    if abs(exponent) > 4 * _MAX_EXPONENT:
+        raise InputError(f"{name} has a binary exponent beyond {4 * _MAX_EXPONENT}")
+    return fmpq(mantissa) * fmpq(2) ** int(exponent)

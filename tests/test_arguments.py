@@ -1,0 +1,131 @@
+"""No argument is ignored: what a public function doesn't use it refuses, by its own name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+import sympy
+
+import kovacic
+from kovacic import InputError, Limits
+
+START: dict[str, Any] = {"x0": 0, "y0": 1, "dy0": 0}
+POTENTIAL = kovacic.solve("x^2 + 3")
+CONDITIONS = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+
+#: A public function, positional arguments, keywords that it takes.
+CALLS: dict[str, tuple[Callable[..., object], tuple[Any, ...], dict[str, Any]]] = {
+    "solve": (kovacic.solve, ("x",), {"var": "x", "assume": None, "limits": None}),
+    "decide": (kovacic.decide, ("x",), {"var": "x", "assume": None, "limits": None}),
+    "conditions": (kovacic.conditions, ("n*x^2 + 1",), {"var": "x", "max_degree": 0, "limits": None}),
+    "dsolve": (kovacic.dsolve, ("y'' = y",), {"ics": {"y(0)": 1}, "var": "x", "limits": None}),
+    "solve_riccati": (kovacic.solve_riccati, (1, 0, 1), {"var": "x", "limits": None}),
+    "solve_many": (kovacic.solve_many, ([],), {"var": "x", "jobs": 1, "timeout": 5, "group": True, "limits": None}),
+    "evaluate": (kovacic.evaluate, ("x", 1), {**START, "digits": 5, "method": "taylor", "derivative": True, "limits": None}),
+    "connection_matrix": (kovacic.connection_matrix, ("x", [0, 1]), {"params": None, "digits": 5, "limits": None}),
+    "monodromy": (kovacic.monodromy, ("-2/(9*x^2)",), {"params": None, "digits": 5, "limits": None}),
+    "tabulate": (kovacic.tabulate, ("x", 0, 1), {**START, "careful": False, "params": None, "limits": None}),
+    "at": (POTENTIAL.at, (1,), {**START, "digits": 5, "derivative": True, "path": None, "limits": None}),
+    "lambdify": (POTENTIAL.lambdify, (), {"interval": (0, 1), "which": 0, "check": False, "limits": None}),
+    "plot": (POTENTIAL.plot, (0, 1), {"points": 2, "digits": 5, "x0": 0, "title": "y", "limits": None}),
+    "compare_with_monodromy": (POTENTIAL.compare_with_monodromy, (), {"digits": 5, "limits": None}),
+    "to_json": (POTENTIAL.to_json, (), {"full": False}),
+    "explain": (POTENTIAL.explain, (), {"format": "text", "solutions": False}),
+    "citation": (POTENTIAL.citation, (), {"style": "text"}),
+    "check": (CONDITIONS.check, (1,), {"seed": 2}),
+    "Conditions.plot": (CONDITIONS.plot, (), {"ranges": [(0, 1)], "steps": 2, "fixed": None}),
+}  # fmt: skip
+
+
+def neighbours(word: str) -> set[str]:
+    """With a letter left out, doubled, or changed with the next one."""
+    found = set()
+    for k in range(len(word)):
+        found |= {word[:k] + word[k + 1 :], word[:k] + word[k] + word[k:]}
+        found.add(word[:k] + word[k + 1 : k + 2] + word[k] + word[k + 2 :])
+    return found - {word, ""}
+
+
+@pytest.mark.filterwarnings("ignore::kovacic.AccuracyWarning")
+@pytest.mark.parametrize("name", CALLS)
+def test_a_misspelt_keyword_is_refused_by_the_function_that_was_called(name: str) -> None:
+    function, positional, keywords = CALLS[name]
+    function(*positional, **keywords)
+    for keyword, value in keywords.items():
+        for other in neighbours(keyword) - {*keywords, "a", "b", "c", "f", "x"}:
+            with pytest.raises(TypeError, match=rf"\b{name}\(\) got an unexpected keyword argument '{other}'"):
+                function(*positional, **keywords, **{other: value})
+
+
+@pytest.mark.parametrize("given", [{"seconds": 1}, 1, "seconds=1", {}, Limits])
+@pytest.mark.parametrize("name", [name for name, (_, _, keywords) in CALLS.items() if "limits" in keywords])
+def test_limits_are_limits(name: str, given: object) -> None:
+    function, positional, keywords = CALLS[name]
+    with pytest.raises(InputError, match=r"limits are a kovacic\.Limits"):
+        function(*positional, **{**keywords, "limits": given})
+
+
+@pytest.mark.parametrize("given", ["a", -1, float("nan"), True, b"1", 1j, [1]])
+@pytest.mark.parametrize("name", list(Limits.__slots__))
+def test_a_limit_is_a_number_that_isnt_negative(name: str, given: Any) -> None:
+    with pytest.raises(InputError, match=f"the limit {name}"):
+        Limits(**{name: given})
+
+
+x = sympy.Symbol("x")
+FORMS: dict[str, Any] = {
+    "text": "x",
+    "an equation": "y'' = x*y",
+    "an Eq": sympy.Eq(sympy.Function("y")(x).diff(x, 2), x * sympy.Function("y")(x)),
+    "an expression": x,
+    "lists": ([0, 1], [1]),
+    "a number": 2,
+    "an Equation": kovacic.solve("y'' = x*y").equation,
+}
+
+
+@pytest.mark.parametrize("value", ["x^2", 1, 0, x, "sin(x)"])
+@pytest.mark.parametrize("name", ["b", "c", "f"])
+@pytest.mark.parametrize("form", FORMS)
+def test_coefficients_beside_an_equation_are_refused(form: str, name: str, value: Any) -> None:
+    with pytest.raises(InputError, match=f"one equation is expected, and there are S and {name}"):
+        kovacic.solve(FORMS[form], **{name: value})
+    with pytest.raises(InputError, match="with at least a="):
+        kovacic.solve(**{name: value})
+
+
+UNUSED: dict[str, Callable[[], object]] = {
+    "a text isn't many equations": lambda: kovacic.solve_many("x^2"),
+    "nor are bytes": lambda: kovacic.solve_many(b"x^2"),
+    "nor is one mapping": lambda: kovacic.solve_many({"S": "x^2"}),
+    "the variable of an equation": lambda: kovacic.solve(kovacic.solve("y'' = x*y").equation, var="t"),
+    "parameters that don't occur": lambda: kovacic.evaluate("x", 1, params={"n": 3}, **START),
+    "assumptions on what doesn't occur": lambda: kovacic.solve("x", assume={"n": "integer"}),
+    "a value of what doesn't occur": lambda: kovacic.solve("x", assume={"n": 3}),
+    "two starts": lambda: kovacic.evaluate("-2/(9*x^2)", 1, which="regular", **START),
+    "a slope that decays": lambda: kovacic.evaluate("x", 1, x0=0, y0=1, dy0=1, which="decaying"),
+    "values without a point": lambda: POTENTIAL.lambdify(interval=(0, 1), y0=1, dy0=0),
+    "a number beside values": lambda: POTENTIAL.lambdify(interval=(0, 1), which=1, **START),
+    "a picture of two starts": lambda: kovacic.solve("-2/(9*x^2)").plot(1, 2, x0=0, which="regular", y0=1, points=2),
+    "ranges for other parameters": lambda: CONDITIONS.plot(ranges=[(0, 1), (0, 1)], steps=2),
+    "a fixed parameter that varies": lambda: CONDITIONS.plot(fixed={"n": 1}, steps=2),
+    "keys of a mapping": lambda: kovacic.evaluate("x", {1: 2}, **START),
+    "a scheduler without a backend": lambda: kovacic.solve_many([], scheduler="tcp://127.0.0.1:1"),
+    "no equation": lambda: kovacic.solve(),
+    "None": lambda: kovacic.decide(None),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", UNUSED)
+def test_what_isnt_used_is_refused(case: str) -> None:
+    with pytest.raises(InputError):
+        UNUSED[case]()
+
+
+def test_the_decaying_solution_is_drawn_with_the_value_that_was_given() -> None:
+    from kovacic.views.plot import sample
+
+    once, thrice = (sample("x", 0, 1, x0=0, which="decaying", y0=y0, points=2).arcs[0].y[0] for y0 in (1, 3))
+    assert abs(thrice - 3 * once) < 1e-7
