@@ -86,7 +86,7 @@ class Conditions:
         natural = [part for part in parts if isinstance(part, Natural)]
         if not natural:
             raise InputError("no condition has a natural number in it")
-        number = whole(number, "the number")
+        number = whole(number, "the natural number d")
         with Budget(self.limits).watched():
             return tuple(determinant for statement in natural for determinant in statement.determinants(number))
 
