@@ -16,6 +16,7 @@ from typing import Any
 from flint import acb, arb, fmpq, fmpz
 
 from kovacic.errors import InputError
+from kovacic.numerals import in_a_message
 
 _NUMBER = re.compile(r"\s*([+-]?\d+)\s*/\s*(\d+)\s*|\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
 _MAX_EXPONENT = 100_000
@@ -65,19 +66,13 @@ def whole(value: Any, name: str, *, least: int | None = 0) -> int:
     if found is None:
         raise InputError(f"{name} must be an integer, not {str(value)[:60]!r} ({type(value).__name__})")
     if least is not None and found < least:
-        raise InputError(f"{name} = {short(found)}: at least {least} is needed")
+        raise InputError(f"{name} = {in_a_message(found)}: at least {least} is needed")
     return found
 
 
 def is_rational(value: Any) -> bool:
     """Is this an integer or a quotient by its type?  Floats and truth values aren't."""
     return isinstance(value, Rational | fmpz | fmpq) and not isinstance(value, bool) and not _is_duration(value)
-
-
-def short(value: Any) -> str:
-    """An integer of any length for a message: Python prints 4300 digits only."""
-    text = str(fmpz(value)) if isinstance(value, int) else str(value)
-    return text if len(text) <= 60 else f"{text[:60]}..."
 
 
 def exact_text(value: Any, name: str) -> str:

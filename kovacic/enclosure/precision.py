@@ -22,8 +22,9 @@ from kovacic.enclosure.journey import Closed, Journey
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import working_precision
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.exact import short, whole
+from kovacic.exact import whole
 from kovacic.limits import Limits
+from kovacic.numerals import in_a_message
 
 _LOG = logging.getLogger(__name__)
 
@@ -73,7 +74,9 @@ def number_of_digits(given: object, limits: Limits) -> int:
     """As Python's integer; raises InputError unless this is a number of digits within the limits."""
     digits = whole(given, "digits", least=1)
     if digits > limits.digits:
-        raise InputError(f"digits = {short(digits)} is beyond the limit of {limits.digits}", hint="raise limits.digits")
+        raise InputError(
+            f"digits = {in_a_message(digits)} is beyond the limit of {limits.digits}", hint="raise limits.digits"
+        )
     return digits
 
 
