@@ -12,17 +12,19 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+import workers
 from hypothesis import given
 from hypothesis import strategies as st
 from processes import started
 
 import kovacic
 from kovacic.batch.files import answers, count_items, guess_format, item_from, read_items, take_up
-from kovacic.batch.pool import _START, GRACE_SECONDS, Pool
+from kovacic.batch.pool import GRACE_SECONDS, Pool
 from kovacic.batch.records import LABELS, Item, Job, Record, Summary
 from kovacic.batch.worker import solve_item
 from kovacic.errors import InputError, KovacicError
@@ -284,40 +286,29 @@ def _kill_later(pool: Pool, times: int) -> None:
     threading.Thread(target=kill, daemon=True).start()
 
 
-def test_an_unexpected_exception_is_reported_once_and_costs_nobody_else_an_answer(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    broken = (
-        "import kovacic; real = kovacic.solve; kovacic.solve = lambda S, **o: real(S, **o) if S != 'x^7' else 1/0; "
-    )
-    start = "from kovacic.batch.worker import main; main()"
-    monkeypatch.setattr("kovacic.batch.pool._START", _START.replace(start, broken + start))
-    with Pool(2, Job()) as pool:
-        found = list(pool.run(items([*QUICK, "x^7", *QUICK])))
+def test_an_unexpected_exception_is_reported_once_and_costs_nobody_else_an_answer() -> None:
+    with Pool(2, Job(), workers.divides_by_zero) as pool:
+        found = list(pool.run(items([*QUICK, workers.FATAL, *QUICK])))
         assert pool.replaced == 1
     assert [record.case for record in found] == [*QUICK_CASES, None, *QUICK_CASES]
     assert found[5].label == "failed"
     assert "ZeroDivisionError" in (found[5].error or "")
 
 
-_MISSING = ("SIGALRM", "SIGKILL", "setitimer", "ITIMER_REAL")
-
-
-@pytest.mark.parametrize("end", ["1/0", "os._exit(1)", "os.kill(os.getpid(), 15)", "os.kill(os.getpid(), 40)"])
+@pytest.mark.parametrize("end", ["exception", "exit", "signal 15", "signal 40"])
 def test_a_worker_that_dies_is_reported_where_a_system_lacks_signals(monkeypatch: pytest.MonkeyPatch, end: str) -> None:
     """As on Windows, in both processes; timeouts hold there, too."""
-    known = [one for one in signal.Signals if one.name not in _MISSING]
+    known = [one for one in signal.Signals if one.name not in workers.MISSING_SIGNALS]
     monkeypatch.setattr("kovacic.batch.pool.signal", SimpleNamespace(Signals=known))
-    monkeypatch.delattr(os, "sched_getaffinity", raising=False)
-    lacking = f"import os, signal; [delattr(signal, name) for name in {_MISSING}]; sys.modules['resource'] = None; "
-    broken = (
-        f"import kovacic; real = kovacic.solve; kovacic.solve = lambda S, **o: real(S, **o) if S != 'x^7' else {end}; "
-    )
-    start = "from kovacic.batch.worker import main; main()"
-    monkeypatch.setattr("kovacic.batch.pool._START", _START.replace(start, lacking + broken + start))
-    records = list(kovacic.solve_many(["x", "x^7", "x^2 + 3", SLOW, "x"], timeout=1.0))
+    with Pool(1, Job(timeout=1.0), partial(workers.without_signals, end)) as pool:
+        records = list(pool.run(items(["x", workers.FATAL, "x^2 + 3", SLOW, "x"])))
     assert [record.label for record in records] == ["none", "failed", "case 1", "undecided", "none"]
-    assert "the worker process ended with" in records[1].error
+    assert "the worker process ended with" in (records[1].error or "")
+
+
+def test_a_system_that_does_not_say_how_many_cores_there_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delattr(os, "sched_getaffinity", raising=False)
+    assert [record.label for record in kovacic.solve_many(["x"])] == ["none"]
 
 
 def test_memory_limits_are_refused_where_the_system_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -327,9 +318,8 @@ def test_memory_limits_are_refused_where_the_system_has_none(monkeypatch: pytest
         kovacic.solve_many(["x"], memory=100)
 
 
-def test_a_worker_that_cannot_start_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kovacic.batch.pool._START", "import sys; sys.exit('no such module')")
-    with Pool(1, Job()) as pool, pytest.raises(KovacicError, match="no such module"):
+def test_a_worker_that_cannot_start_is_an_error() -> None:
+    with Pool(1, Job(), workers.cannot_start) as pool, pytest.raises(KovacicError, match="no such module"):
         list(pool.run(items(["x"])))
 
 

@@ -12,7 +12,6 @@ from typing import Any
 from flint import fmpq, fmpq_poly, fmpz, fmpz_poly, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
-from kovacic.algebra.apart import last_of
 from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.lifting import Residues, inverse_by_primes, primes
 from kovacic.algebra.poly import Field, Poly, Scalar
@@ -321,6 +320,8 @@ def _factored_apart(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...]
 
     The last ones are kept, since the kernel and the views ask for them again.
     """
+    from kovacic.process import last_of
+
     found = last_of(_yield_factors, coefficients, seconds=watched_seconds(inf))
     check_time()
     return next(_yield_factors(coefficients)) if found is None else found  # where no process can be started

@@ -9,34 +9,27 @@ A process that is over its time is killed, and its item gets a record.  So does 
 exception; one whose process was killed by somebody else gets another one, up to three times.  What waited behind the item
 goes back to the front.
 
-A separate interpreter is started instead of a fork or of `multiprocessing`: it works in programs with threads, in notebooks
-and in scripts without a main guard, and it can be killed at any moment without harm to the parent.
+The processes are those of `kovacic.process`, and what they do is `kovacic.batch.worker.serve`.
 """
 
 from __future__ import annotations
 
-import json
 import math
 import pickle
 import re
 import signal
-import subprocess
-import sys
-import tempfile
 import threading
 import time
 from collections import Counter, deque
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import AbstractContextManager, suppress
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import AbstractContextManager
 from queue import Empty, Queue, SimpleQueue
-from typing import IO, NamedTuple, cast
+from typing import NamedTuple
 
+from kovacic.batch import worker
 from kovacic.batch.records import Item, Job, ProcessLost, Record, refused, stopped
 from kovacic.errors import KovacicError
-
-# The interpreter looks for modules where this one does, and not in the current directory.
-_START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.batch.worker import main; main()"
-_SHOWN_ERROR_BYTES = 20_000
+from kovacic.process import Channel, Process
 
 # A process has so many seconds beyond the timeout to end by itself, with an answer that says what it has excluded.
 GRACE_SECONDS = 0.25
@@ -61,6 +54,9 @@ _BYTES_AT_ONCE = 30_000
 # The last words of Python, GMP, flint and the C++ library.
 _OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_alloc", re.IGNORECASE)
 
+
+# What a worker process does.
+Serve = Callable[[Channel], None]
 
 # A record of a child, or None at its end; in place of the pair None, where an item of a stream has arrived.
 Event = tuple["Child", Record | None] | None
@@ -133,22 +129,15 @@ class Source:
 class Child:
     """A worker process, and the items that it hasn't answered; it works on the first one."""
 
-    def __init__(self, job: Job, events: SimpleQueue[Event]) -> None:
+    def __init__(self, job: Job, serve: Serve, events: SimpleQueue[Event]) -> None:
         self.items: deque[Item] = deque()
         self.ready = False
         self.busy_since = time.monotonic()
-        self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed by kill()
-        self._process = subprocess.Popen(
-            [sys.executable, "-P", "-c", _START, json.dumps(sys.path)],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=self._errors,
-        )
+        self._process = Process(serve)
         self.pid = self._process.pid
-        self._to, self._from = cast("IO[bytes]", self._process.stdin), cast("IO[bytes]", self._process.stdout)
         self._reader = threading.Thread(target=self._read, args=(events,), daemon=True)
         self._reader.start()
-        self._send(pickle.dumps(job))
+        self._process.send(job)
 
     @property
     def idle(self) -> bool:
@@ -159,42 +148,30 @@ class Child:
         """What the process has to do next."""
         self.items.extend(items)
         self.busy_since = time.monotonic()
-        self._send(b"".join(map(_packed, items)))
+        self._process.write(b"".join(map(_packed, items)))
 
     def kill(self) -> None:
         """End the process at once and wait for it; its reader thread ends as well."""
         self._process.kill()
-        self._process.wait()
         self._reader.join()
-        self._from.close()
-        with suppress(OSError):  # something was still waiting to be written
-            self._to.close()
-        self._errors.close()
+        self._process.close()
 
     def last_words(self) -> tuple[int, str]:
         """The exit status (negative: a signal) and the end of the standard error of a process that has ended."""
-        status = self._process.wait()
-        size = self._errors.seek(0, 2)
-        self._errors.seek(max(0, size - _SHOWN_ERROR_BYTES))
-        return status, self._errors.read().decode("utf-8", errors="replace").strip()
-
-    def _send(self, data: bytes) -> None:
-        with suppress(OSError):  # a broken pipe: the end of the process arrives as an event
-            self._to.write(data)
-            self._to.flush()
+        return self._process.last_words()
 
     def _read(self, events: SimpleQueue[Event]) -> None:
         try:
             while True:
-                events.put((self, Record(*pickle.load(self._from))))
-        except (EOFError, pickle.UnpicklingError):  # the end of the process, perhaps while it wrote
+                events.put((self, Record(*self._process.receive())))
+        except EOFError:
             pass
         finally:
             events.put((self, None))
 
 
 class Pool(AbstractContextManager["Pool"]):
-    """`jobs` worker processes for one job; a context manager, which kills them at the end.
+    """`jobs` worker processes for one job, which `serve` it; a context manager, which kills them at the end.
 
     >>> from kovacic.batch.records import Item, Job
     >>> with Pool(1, Job(timeout=60)) as pool:
@@ -202,8 +179,9 @@ class Pool(AbstractContextManager["Pool"]):
     ['case 1', 'none', 'bad input']
     """
 
-    def __init__(self, jobs: int, job: Job) -> None:
+    def __init__(self, jobs: int, job: Job, serve: Serve = worker.serve) -> None:
         self.job = job
+        self._serve = serve
         self._jobs = jobs
         self._events: SimpleQueue[Event] = SimpleQueue()
         self._children: list[Child] = []
@@ -256,7 +234,7 @@ class Pool(AbstractContextManager["Pool"]):
         """The records as they come; the feed gives None where there is no item for the moment."""
         source = Source(feed)
         while len(self._children) < self._jobs:
-            self._children.append(Child(self.job, self._events))
+            self._children.append(Child(self.job, self._serve, self._events))
         while True:
             lots = self._hand_out(source)
             for lot in lots:
@@ -389,7 +367,7 @@ class Pool(AbstractContextManager["Pool"]):
         source.give_back(child.items)
         child.kill()
         place = self._children.index(child)
-        self._children[place] = Child(self.job, self._events)
+        self._children[place] = Child(self.job, self._serve, self._events)
         self.replaced += 1
 
 

@@ -1,0 +1,182 @@
+"""The one way to run what must be killed: a separate interpreter, with which one talks in pickles.
+
+    process = Process(serve)          serve(channel) runs there, a function of a module
+    process.send(3)                   channel.receive() is 3
+    process.receive()                 what it gives to channel.send(); EOFError at its end
+
+It is an interpreter of its own instead of a fork or of `multiprocessing`: that works in programs with threads, in notebooks and
+in scripts without a main guard, and it can be killed at any moment without harm to the parent.  It ends when `serve` returns,
+and soon after its parent is gone.  What anything prints there goes to its error stream, which is kept for `last_words`.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from typing import IO, Any, cast
+
+# The interpreter looks for modules where this one does, and not in the current directory.
+_START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.process import main; main()"
+_SHOWN_ERROR_BYTES = 20_000
+_PARENT_CHECK_SECONDS = 1.0
+_LONGEST_SECONDS = 1e8
+
+
+class Channel:
+    """The child's end: objects that pickle, in their order."""
+
+    def __init__(self, source: IO[bytes], target: IO[bytes]) -> None:
+        self._source = source
+        self._target = target
+
+    def receive(self) -> Any:
+        """What the parent has sent next; raises EOFError once it sends no more."""
+        return pickle.load(self._source)
+
+    def send(self, value: object) -> None:
+        """An answer, which arrives at once."""
+        self._target.write(pickle.dumps(value))
+        self._target.flush()
+
+
+class Process:
+    """The parent's end.  Raises OSError where no process can be started.
+
+    >>> from kovacic.process import Process, echo
+    >>> process = Process(echo)
+    >>> process.send("x^2 + 3")
+    >>> process.receive()
+    'x^2 + 3'
+    >>> process.close()
+    """
+
+    def __init__(self, serve: Callable[[Channel], None]) -> None:
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed by close()
+        self._process = subprocess.Popen(
+            [sys.executable, "-P", "-c", _START, json.dumps(sys.path)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=self._errors,
+        )
+        self.pid = self._process.pid
+        self._to = cast("IO[bytes]", self._process.stdin)
+        self._from = cast("IO[bytes]", self._process.stdout)
+        self.send(serve)
+
+    def send(self, value: object) -> None:
+        self.write(pickle.dumps(value))
+
+    def write(self, pickled: bytes) -> None:
+        """Objects that are pickled already, one after the other.  A broken pipe is no error: the end arrives at `receive`."""
+        with suppress(OSError):
+            self._to.write(pickled)
+            self._to.flush()
+
+    def receive(self) -> Any:
+        """The next answer; raises EOFError at the end of the process, perhaps in the middle of one."""
+        try:
+            return pickle.load(self._from)
+        except pickle.UnpicklingError:
+            raise EOFError from None
+
+    def kill(self) -> None:
+        """End the process at once, and wait for it."""
+        self._process.kill()
+        self._process.wait()
+
+    def close(self) -> None:
+        """Kill the process, and close the pipes, from which nobody may be reading."""
+        self.kill()
+        self._from.close()
+        with suppress(OSError):  # something was still waiting to be written
+            self._to.close()
+        self._errors.close()
+
+    def last_words(self) -> tuple[int, str]:
+        """The exit status (negative: a signal) and the end of the error stream of a process that has ended."""
+        status = self._process.wait()
+        size = self._errors.seek(0, 2)
+        self._errors.seek(max(0, size - _SHOWN_ERROR_BYTES))
+        return status, self._errors.read().decode("utf-8", errors="replace").strip()
+
+
+def last_of(function: Callable[..., Iterator[Any]], *arguments: Any, seconds: float) -> Any:
+    """The last value that a generator function of a module yields within so many seconds; None without one.
+
+    Arguments and values must be picklable.  An exception of the function ends it.
+    """
+    if seconds <= 0:
+        return None
+    seconds = min(seconds, _LONGEST_SECONDS)
+    try:
+        process = Process(_yield_values)
+    except OSError:  # no process can be started here
+        return None
+    timer = threading.Timer(seconds, process.kill)
+    timer.daemon = True
+    timer.start()
+    value = None
+    try:
+        process.send((function, arguments, seconds))
+        while True:
+            value = process.receive()
+    except EOFError:
+        return value
+    finally:
+        timer.cancel()
+        process.close()
+
+
+def _yield_values(channel: Channel) -> None:
+    function, arguments, seconds = channel.receive()
+    set_alarm(seconds + 1)
+    for value in function(*arguments):
+        channel.send(value)
+
+
+def echo(channel: Channel) -> None:
+    """Gives back what it gets."""
+    while True:
+        channel.send(channel.receive())
+
+
+def set_alarm(seconds: float) -> None:
+    """Let the system end this process if its parent, which kills it earlier, can't; 0 takes it back.
+
+    The default action isn't Python's, which would wait for the end of a call of C.
+    """
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+
+
+def main() -> None:
+    """What the interpreter runs that `Process` starts."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's affair
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    _leave_with_parent()
+    channel = Channel(sys.stdin.buffer, answers)
+    with suppress(EOFError):
+        serve = channel.receive()
+        serve(channel)
+
+
+def _leave_with_parent() -> None:
+    """End this process soon after its parent is gone, even in the middle of a long computation."""
+    parent = os.getppid()
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(_PARENT_CHECK_SECONDS)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()

@@ -1,0 +1,44 @@
+"""What worker processes do in tests: the usual, but for one equation at which they end."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from functools import partial
+from typing import Any
+
+import kovacic
+from kovacic.batch import worker
+from kovacic.process import Channel
+
+FATAL = "x^7"
+MISSING_SIGNALS = ("SIGALRM", "SIGKILL", "setitimer", "ITIMER_REAL")
+
+
+def divides_by_zero(channel: Channel) -> None:
+    _serve(lambda: 1 / 0, channel)
+
+
+def without_signals(end: str, channel: Channel) -> None:
+    """As on Windows, and it ends in one of several ways."""
+    for name in MISSING_SIGNALS:
+        delattr(signal, name)
+    sys.modules["resource"] = None  # type: ignore[assignment]
+    ends: dict[str, Any] = {
+        "exception": lambda: 1 / 0,
+        "exit": partial(os._exit, 1),
+        "signal 15": partial(os.kill, os.getpid(), 15),
+        "signal 40": partial(os.kill, os.getpid(), 40),
+    }
+    _serve(ends[end], channel)
+
+
+def cannot_start(_: Channel) -> None:
+    sys.exit("no such module")
+
+
+def _serve(end: Any, channel: Channel) -> None:
+    solve = kovacic.solve
+    kovacic.solve = lambda S, **options: solve(S, **options) if S != FATAL else end()  # type: ignore[misc,assignment]
+    worker.serve(channel)
