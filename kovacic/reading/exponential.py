@@ -15,6 +15,8 @@ Continuous Dynamical Systems B 10 (2008) 265-293 (Hamiltonian algebrization).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from contextlib import suppress
 from math import gcd
 from typing import Any
 
@@ -52,6 +54,9 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     if max(found, default=0) != 2:
         raise NotLinear("a linear equation of second order is expected")
     rewritten = [_in_exponentials(found.get(k, sympy.Integer(0)), x) for k in (2, 1, 0, REST)]
+    if all(part.is_rational_function(x) for part in rewritten[:3]):
+        with suppress(NotRational):
+            return _without_exponentials(rewritten, source, limits)
     exponentials = {e for part in rewritten for e in part.atoms(sympy.exp) if e.has(x)}
     if not exponentials:
         return None
@@ -126,6 +131,17 @@ def _is_exponential_and_one(e: Any) -> bool:
 def _hyperbolic(e: Any) -> Any:
     half = e.args[1].exp / 2
     return 2 * sympy.exp(half) * (sympy.cosh(half) if e.args[0] == 1 else sympy.sinh(half))
+
+
+def _without_exponentials(parts: Sequence[Any], source: Source, limits: Limits) -> Parsed:
+    """What is left where everything that isn't rational cancels or has the factor zero: 0*sech(x)^2 - 1."""
+    a, b, c, rest = parts
+    if not source.unknown:
+        return read_source(source_of(-c, source.variable, limits), limits)
+    x = sympy.Symbol(source.variable)
+    y = sympy.Function(source.unknown)(x)
+    equation = a * y.diff(x, 2) + b * y.diff(x) + c * y + rest
+    return read_source(source_of(equation, source.variable, limits, unknown=y, equation=True), limits)
 
 
 def _in_exponentials(expression: Any, x: Any) -> Any:

@@ -16,6 +16,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.equation import over
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import Limits, check_duration
 from kovacic.reading.arithmetic import Arithmetic, Term
@@ -74,6 +75,8 @@ class LinearArithmetic(Arithmetic):
         if isinstance(value, Term):
             return sympy.Rational(value.coefficient) * sympy.Symbol(self.variable) ** value.power
         function = self.rational(value)
+        if function:  # above and below may be over different fields: a/x^2
+            function = over(function, (function.num * function.den).field)
         bits = max(function.num.height_bits(), function.den.height_bits())
         if bits > _LARGEST_BITS:
             raise LimitExceeded(f"coefficients of {bits} bits, above the limit of {_LARGEST_BITS}", limit="bits")

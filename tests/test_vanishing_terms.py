@@ -1,0 +1,51 @@
+"""Terms that aren't rational and vanish: they cancel, or have the factor zero.  What is left is read."""
+
+from __future__ import annotations
+
+import pytest
+
+import kovacic
+
+FUNCTIONS = ["exp(x)", "sech(x)^2", "sin(2*x)", "tanh(x)^3", "exp(-x)/(1 + exp(x))", "2^x", "log(x)"]
+RATIONAL = ["-1", "x", "x^2 + 3", "a/x^2 + 1"]
+
+
+@pytest.mark.parametrize("f", FUNCTIONS)
+@pytest.mark.parametrize("rational", RATIONAL)
+def test_what_is_left_is_solved(f: str, rational: str) -> None:
+    plain = kovacic.solve(rational)
+    for S in (f"(0)*{f} + {rational}", f"{f} - {f} + {rational}", f"{rational} + ({f})*x - x*{f}"):
+        assert kovacic.solve(S).decision == plain.decision
+    plain = kovacic.solve(f"y'' = 2*y' + ({rational})*y")
+    for equation in (
+        f"y'' = 2*y' + ({rational})*y + {f}*y - {f}*y",
+        f"y'' = 2*y' + ({rational})*y + {f}*y' - {f}*y'",
+        f"y'' + {f}*y'' - {f}*y'' = 2*y' + ({rational})*y + 0*{f}*y",
+    ):
+        found = kovacic.solve(equation)
+        assert found.decision == plain.decision
+        assert found.equation == plain.equation
+
+
+def test_a_scan_keeps_the_free_particle() -> None:
+    from kovacic.batch import Job, run_items
+    from kovacic.batch.scan import parse_grid, scan_items
+
+    items = scan_items("-(l*(l+1))*sech(x)^2 - 1", [parse_grid("l=-1,0,1")])
+    assert [record.case for record in run_items(items, Job(jobs=1))] == [1, 1, 1]
+
+
+@pytest.mark.parametrize(
+    "equation",
+    [
+        "y'' = (x^(2*g) + a/x^2)*y",
+        "y'' + y'/x + (x^(2*g-2) - n^2/x^2)*y = 0",
+        "y'' = (x^(2*g) + 1/(a*x))*y",
+        "y'' = (x^g + (a + b*x)/(x^2 + c))*y",
+        "x^(2*g)",
+    ],
+)
+def test_a_symbol_in_an_exponent_beside_parameters_is_refused(equation: str) -> None:
+    for call in (kovacic.solve, kovacic.conditions, kovacic.dsolve):
+        with pytest.raises(kovacic.InputError):
+            call(equation)
