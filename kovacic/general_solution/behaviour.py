@@ -83,6 +83,7 @@ class _Expander:
     def __init__(self, t: Expr, depth: int) -> None:
         self.depth = depth
         self.known: dict[Expr, Expansion] = {t: Expansion({Monomial(e=_ONE): _ONE})}
+        self.variables = {t}  # t, and what stands for functions of t
 
     def __call__(self, e: Expr) -> Expansion:
         found = self.known.get(e)
@@ -91,7 +92,7 @@ class _Expander:
         return found
 
     def _expanded(self, e: Expr) -> Expansion:
-        if not e.free_symbols & self.known.keys():
+        if not e.free_symbols & self.variables:
             return Expansion.constant(e)
         if e.is_Add:
             total = Expansion({})
@@ -112,7 +113,7 @@ class _Expander:
         return self._function(e)
 
     def _power(self, e: Expr) -> Expansion:
-        if not e.exp.free_symbols & self.known.keys():
+        if not e.exp.free_symbols & self.variables:
             return self(e.base).power(e.exp, self.depth)
         return self(e.exp * log(e.base)).exp(self.depth)
 
@@ -141,7 +142,7 @@ class _Expander:
     def _argument(self, e: Expr) -> Expansion:
         """That of the last argument, the only one in which t occurs."""
         *parameters, last = e.args
-        if any(p.free_symbols & self.known.keys() for p in parameters) or isinstance(e, sympy.Integral | sympy.RootSum):
+        if any(p.free_symbols & self.variables for p in parameters) or isinstance(e, sympy.Integral | sympy.RootSum):
             raise UnknownBehaviour(f"how {e.func.__name__} behaves there isn't known")
         return self(last)
 
@@ -168,6 +169,7 @@ class _Expander:
             raise UnknownBehaviour(f"how {e.func.__name__} behaves there isn't known")
         main, errors = rule(parameters, z, self.depth)
         self.known[z] = inner
+        self.variables.add(z)
         total = self(main)
         beside = [self(error) for error in errors]
         return total + Expansion({}, [m for error in beside for m in (*error.terms, *error.errors)])
@@ -385,6 +387,49 @@ def _confluent_at_minus_infinity(parameters: Sequence[Any], z: Expr, n: int) -> 
     return sympy.expand_mul(exp(-z) * main), [sympy.expand_mul(exp(-z) * error) for error in errors]
 
 
+def _tricomi(parameters: Sequence[Any], z: Expr, n: int) -> tuple[Expr, list[Expr]]:
+    """2F0(a, b; -z) for large z: w^a U(a, c, w), w = 1/z, c = a - b + 1; DLMF 13.2.9 and 13.2.42."""
+    top, bottom = parameters
+    if len(top) != 2 or bottom:
+        raise UnknownBehaviour("how the hypergeometric function behaves at infinity isn't known")
+    a, b = top
+    c = sympy.expand(a - b + 1)
+    if c.is_Integer and c <= 0:
+        a, b, c = b, a, 2 - c  # the function is symmetric in a and b
+    w = 1 / z
+    if not c.is_integer:
+        first, _ = _hyper_series(((a,), (c,)), w, n)
+        second, _ = _hyper_series(((a - c + 1,), (2 - c,)), w, n)
+        main = gamma(1 - c) / gamma(a - c + 1) * first + gamma(c - 1) / gamma(a) * w ** (1 - c) * second
+        return w**a * main, [w ** (a + n), w ** (a + 1 - c + n)]
+    if not c.is_Integer:
+        raise UnknownBehaviour(f"whether {c} is positive isn't known")
+    m = int(c) - 1
+    terms = []
+    for k in range(n):
+        shift = polygamma(0, a + k) - polygamma(0, k + 1) - polygamma(0, m + k + 1)
+        terms.append(rf(a, k) / (rf(m + 1, k) * factorial(k)) * w**k * (log(w) + shift))
+    finite = [factorial(k - 1) * rf(1 - a + k, m - k) / factorial(m - k) * w**-k for k in range(1, m + 1)]
+    whole = Rational(-1) ** (m + 1) / (factorial(m) * gamma(a - m)) * sympy.Add(*terms)
+    return w**a * (whole + sympy.Add(*finite) / gamma(a)), [w ** (a + n) * log(w)]
+
+
+def _tricomi_on_the_cut(parameters: Sequence[Any], z: Expr, n: int) -> tuple[Expr, list[Expr]]:
+    """2F0(a, b; z) for large z, where log(-1/z) has two values: what both have in common."""
+    main, errors = _tricomi(parameters, z, n)
+    a, b = parameters[0]
+    leading = [*errors, z ** (-sympy.expand(a)), z ** (-sympy.expand(b))]
+    return main, leading
+
+
+def _hyper_at_infinity(parameters: Sequence[Any], z: Expr, n: int) -> tuple[Expr, list[Expr]]:
+    return (_confluent_at_infinity if parameters[1] else _tricomi_on_the_cut)(parameters, z, n)
+
+
+def _hyper_at_minus_infinity(parameters: Sequence[Any], z: Expr, n: int) -> tuple[Expr, list[Expr]]:
+    return (_confluent_at_minus_infinity if parameters[1] else _tricomi)(parameters, z, n)
+
+
 def _one_and_one(top: Any, bottom: Any) -> tuple[Any, Any]:
     if len(top) != 1 or len(bottom) != 1:
         raise UnknownBehaviour("how the hypergeometric function behaves at infinity isn't known")
@@ -475,7 +520,7 @@ _AT_INFINITY: dict[Any, Rule] = {
     sympy.besselk: _decaying,
     sympy.airyai: _airy(-1),
     sympy.airybi: _airy(1),
-    sympy.hyper: _confluent_at_infinity,
+    sympy.hyper: _hyper_at_infinity,
     sympy.Si: _sine_integral_at_infinity,
     sympy.Ci: _cosine_integral_at_infinity,
     sympy.erf: _error_function(1),
@@ -486,7 +531,7 @@ _AT_MINUS_INFINITY: dict[Any, Rule] = {
     sympy.atan: _arc(-1),
     sympy.airyai: _oscillating_airy(-pi / 4),
     sympy.airybi: _oscillating_airy(pi / 4),
-    sympy.hyper: _confluent_at_minus_infinity,
+    sympy.hyper: _hyper_at_minus_infinity,
     sympy.erf: _error_function(-1),
     sympy.erfi: _imaginary_error_function(-1),
     sympy.Ei: _exponential_integral_at_infinity(-1),

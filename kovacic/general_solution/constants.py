@@ -92,13 +92,20 @@ def _best_minor(rows: Sequence[Row], wronskian: Expr | None) -> tuple[Expr, tupl
     best = _ZERO, (nothing, nothing), Zero.ALWAYS
     if wronskian is not None:
         return wronskian, (rows[0], rows[1]), Zero.NEVER
+    undecided: NotImplementedError | None = None
     for first, second in combinations(rows, 2):
         minor = first.u * second.v - first.v * second.u
-        when = when_zero(minor)
+        try:
+            when = when_zero(minor)
+        except NotImplementedError as reason:
+            undecided = reason
+            continue
         if when is Zero.NEVER:
             return minor, (first, second), when
         if when is Zero.SOMETIMES and best[2] is Zero.ALWAYS:
             best = minor, (first, second), when
+    if undecided is not None:
+        raise undecided
     return best
 
 

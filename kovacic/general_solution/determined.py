@@ -10,7 +10,7 @@ the oscillating ones are zero as well, and the constant term is v.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,14 +28,15 @@ from kovacic.general_solution.zero import agree
 
 Expr = Any  # SymPy publishes no types
 _ZERO = sympy.Integer(0)
+Growth = tuple[tuple[Expr, Expr], ...]
 
 
 @dataclass(frozen=True)
 class Limit:
-    """The rows of a condition on a limit; `uncertain`: the solutions (0, 1) of which too little is known to be part of y."""
+    """The rows of a condition on a limit; `uncertain`: which solutions (0, 1) mustn't be part of y, as far as is known."""
 
     rows: tuple[Row, ...]
-    uncertain: frozenset[int]
+    uncertain: Mapping[int, str]
 
 
 def constants_of(
@@ -47,18 +48,19 @@ def constants_of(
     """
     functions = [question.own(e) for e in (basis.y1, basis.y2, particular)]
     rows: list[Row] = []
-    uncertain: set[int] = set()
+    uncertain: dict[int, str] = {}
     for condition in question.conditions:
         place = _limit_place(condition, limits)
         if place is None:
             rows.append(_row(condition, functions, question.x))
         else:
-            found = _limit(condition, functions, question.x, place)
+            found = _limit(condition, functions, basis, question, place)
             rows += found.rows
             uncertain |= found.uncertain
     generic, others = determine(rows, names, _wronskian(question, basis, rows, limits))
-    if generic.outcome is Outcome.SOLUTIONS and any(generic.values[k] != 0 for k in uncertain):
-        raise NotImplementedError("undecided: too little is known of how the solutions behave at the singular points")
+    for k, reason in uncertain.items():
+        if generic.outcome is Outcome.SOLUTIONS and generic.values[k] != 0:
+            raise NotImplementedError(f"undecided: {reason}")
     return generic, others
 
 
@@ -106,19 +108,33 @@ def _limit_place(condition: Condition, limits: dict[Expr, Place]) -> Place | Non
     return limits[at_limits[0].point]
 
 
-def _limit(condition: Condition, functions: Sequence[Expr], x: Expr, place: Place) -> Limit:
+def _limit(condition: Condition, functions: Sequence[Expr], basis: Basis, question: Question, place: Place) -> Limit:
+    """`functions` are y1, y2, y0 in the user's symbols."""
     (term,) = condition.terms
+    x = question.x
     try:
         found = [behaviour(e.diff(x) if term.order else e, x, place) for e in functions]
         rows = [_coefficients(m, found, _ZERO) for m in _forbidden(found, oscillating=condition.value is not None)]
-        uncertain = [k for k, expansion in enumerate(found) if _is_uncertain(expansion, found, condition)]
     except UnknownBehaviour as unknown:
         raise NotImplementedError(f"undecided: the solutions' behaviour at {place.point}: {unknown}") from None
-    if 2 in uncertain:
-        raise NotImplementedError(f"undecided: the behaviour of a particular solution at {place.point}")
+    is_irregular = any(m.growth for expansion in found for m in (*expansion.terms, *expansion.errors))
+    whole = _growth(question.own(basis.wronskian), x, place) if is_irregular else None
+    reasons = [_uncertainty(expansion, whole, condition) for expansion in found]
+    if reasons[2]:
+        raise NotImplementedError(f"undecided: the behaviour of a particular solution at {place.point}: {reasons[2]}")
     if condition.value is not None:
         rows.append(_coefficients(CONSTANT, found, condition.value))
-    return Limit(tuple(rows), frozenset(uncertain))
+    t = "1/|x|" if place.is_infinite else f"|x - {place.point}|"
+    said = {k: f"the solutions' behaviour, t = {t}: {reason}" for k, reason in enumerate(reasons) if reason}
+    return Limit(tuple(rows), said)
+
+
+def _growth(wronskian: Expr, x: Expr, place: Place) -> Growth | None:
+    """The exponential part of the Wronskian, None where it isn't known."""
+    try:
+        return behaviour(wronskian, x, place).leading()[0].growth
+    except (UnknownBehaviour, NotImplementedError):
+        return None
 
 
 def _coefficients(m: Monomial, found: Sequence[Expansion], value: Expr) -> Row:
@@ -134,7 +150,7 @@ def _forbidden(found: Sequence[Expansion], *, oscillating: bool) -> Iterator[Mon
     least = 0 if oscillating else 1
     seen = []
     for expansion in found:
-        large = [m for m in expansion.terms if not m.is_constant and m.size >= least]
+        large = [m for m in expansion.terms if not m.is_constant and _is_large(m, least) is True]
         for m in large:
             smaller = m.growth_sign > 0 and any(_is_before(other, m) for other in large)
             if not smaller and m not in seen:
@@ -142,21 +158,31 @@ def _forbidden(found: Sequence[Expansion], *, oscillating: bool) -> Iterator[Mon
                 yield m
 
 
+def _is_large(m: Monomial, least: int) -> bool | None:
+    """Is it unbounded (1), or not small (0)?  None where the assumptions don't tell."""
+    try:
+        return m.size >= least
+    except UnknownBehaviour:
+        return None
+
+
 def _is_before(first: Monomial, second: Monomial) -> bool:
     return first != second and first.growth == second.growth and second.is_below(first)
 
 
-def _is_uncertain(expansion: Expansion, found: Sequence[Expansion], condition: Condition) -> bool:
-    """Is there an error that may not tend to 0, beside exponentials whose series follow from their first terms?"""
-    growing = {m.growth for other in found[:2] for m in (*other.terms, *other.errors)}
+def _uncertainty(expansion: Expansion, whole: Growth | None, condition: Condition) -> str | None:
+    """Why the expansion may have other terms that don't tend to 0; None if it hasn't.
+
+    A solution is the sum of two series, each after an exponential, whose product is that of the Wronskian (`whole`).  If
+    these differ, a series is 0 where its first term is.
+    """
     known = {m.growth for m in expansion.terms}
+    least = 1 if condition.value is None else 0
     for error in expansion.errors:
-        determined = error.growth in known and len(growing) > 1 and error.growth
-        if determined and error.growth_sign > 0:
+        is_simple = whole is not None and Monomial(error.growth).power(sympy.Integer(2)).growth != whole
+        if is_simple and error.growth in known and _is_large(Monomial(error.growth), 1):
             continue
-        try:
-            if error.size >= (1 if condition.value is None else 0):
-                return True
-        except UnknownBehaviour:
-            return True
-    return False
+        if _is_large(error, least) is not False:
+            return f"terms beyond {error} aren't known"
+    unknown = [m for m in expansion.terms if _is_large(m, least) is None]
+    return f"whether {unknown[0]} is bounded isn't known" if unknown else None

@@ -19,6 +19,7 @@ from warnings import warn
 
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded
+from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.constants import Case, Outcome, condition_of
 from kovacic.general_solution.determined import constants_of
 from kovacic.general_solution.homogeneous import find_basis, no_solution
@@ -115,7 +116,9 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
     if not question.conditions:
         particular = particular_solution(basis, None, budget)
         constants = free_constants(question, basis, particular)
-        return written(question, combination(question, basis, particular, constants)), notices
+        value = combination(question, basis, particular, constants)
+        check_answer(question, value, None, ())
+        return written(question, value), notices
     limits = limit_points(question)
     start = start_of(question, limits)
     basis = real_basis_at(question, basis, solution, start)
@@ -129,6 +132,7 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
         at = f" (a singular point of the equation is {singular})" if singular else ""
         raise InputError(f"there is no solution with these values: the conditions contradict one another{at}{unless}")
     value = combination(question, basis, particular, generic.values)
+    check_answer(question, value, start, tuple(limits))
     notices += [f"this holds unless {said}" for said in exceptions]
     return written(question, value), notices
 

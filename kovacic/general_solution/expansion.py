@@ -51,6 +51,11 @@ class Monomial:
     e: Expr = _ZERO
     k: int = 0
 
+    def __str__(self) -> str:
+        """In t > 0."""
+        t = sympy.Symbol("t", positive=True)
+        return str(sympy.exp(sympy.Add(*(a / t**p for p, a in self.growth))) * t**self.e * sympy.log(t) ** self.k)
+
     def __mul__(self, other: Monomial) -> Monomial:
         return Monomial(_added(self.growth, other.growth), sympy.expand(self.e + other.e), self.k + other.k)
 

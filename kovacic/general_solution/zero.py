@@ -56,6 +56,9 @@ def when_zero(value: Expr) -> Zero:
         return Zero.ALWAYS if value == 0 else Zero.NEVER
     if is_nowhere_zero(value):
         return Zero.NEVER
+    by_parity = _by_parity(value)
+    if by_parity and all(is_nowhere_zero(part) for part in by_parity):
+        return Zero.NEVER
     if any(differs_from_zero(value, sample) for sample in islice(samples(value.free_symbols), _SAMPLES)):
         return Zero.SOMETIMES if value.free_symbols else Zero.NEVER
     if is_identically_zero(value):
@@ -81,9 +84,25 @@ def _is_nonzero(factor: Expr) -> bool:
         order, z = base.args
         has_zeros = isinstance(base, sympy.besseli) and not order.is_nonnegative
         return bool(order.is_real and z.is_positive and not has_zeros)
-    if isinstance(base, sympy.gamma | sympy.cosh):
-        return bool(base.args[0].is_real and exponent.is_Integer and exponent > 0)
+    if isinstance(base, sympy.gamma):
+        argument = sympy.expand(base.args[0])
+        return bool(argument.is_positive or argument.is_integer is False)
+    if isinstance(base, sympy.cosh):
+        return bool(base.args[0].is_real)
     return base.is_zero is False and exponent.is_finite is not False
+
+
+def _by_parity(value: Expr) -> list[Expr]:
+    """The value for even and for odd n, where n/2 for an integer n occurs in a wave or a gamma function; else nothing."""
+    functions = value.atoms(sympy.sin, sympy.cos, sympy.gamma)
+    halved = {n for f in functions for n in f.free_symbols if n.is_integer and n.is_odd is None}
+    if len(halved) != 1:
+        return []
+    (n,) = halved
+    even = sympy.Dummy(integer=True, positive=n.is_positive, nonnegative=n.is_nonnegative)
+    odd = sympy.Dummy(integer=True, nonnegative=n.is_nonnegative)
+    parts = [sympy.expand(value.subs(n, other)) for other in (2 * even, 2 * odd + 1)]
+    return [sympy.factor_terms(sympy.powsimp(part)) for part in parts]
 
 
 def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
