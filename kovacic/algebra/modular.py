@@ -12,6 +12,7 @@ from typing import Any
 from flint import fmpz, fmpz_mod_poly_ctx, nmod_mat, nmod_poly
 
 from kovacic.algebra.homomorphism import BadPrimeError
+from kovacic.limits import check_duration, check_time
 
 
 def translate(polynomial: Any, point: int) -> Any:
@@ -99,13 +100,17 @@ def rational_function_from_series(series: Any, order: int, top: int) -> tuple[An
     Reference: J. von zur Gathen and J. Gerhard, Modern Computer Algebra, sections 5.7 and 12.3.
     """
     p, size = series.modulus(), order - top - 1
+    check_duration(_RECURRENCE_SECONDS * size, f"a recurrence of {size} terms")
     terms = series.truncate(order).left_shift(max(size - top - 1, 0)).coeffs()[max(top + 1 - size, 0) :]
     recurrence = fmpz_mod_poly_ctx(p).minpoly([int(c) for c in terms] + [0] * (2 * size - len(terms)))
+    check_time()
     B = nmod_poly([int(c) for c in recurrence.coeffs()][::-1], p)
     A = series.mul_low(B, order)
     return (A, B) if B.degree() <= size and A.degree() <= top else None
 
 
+#: FLINT's time for the shortest recurrence, per term; it is one call, which can't be interrupted.
+_RECURRENCE_SECONDS = 4e-5
 #: Terms of a solution that are computed one by one before their share of all later ones is added.
 _BLOCK = 64
 
@@ -140,6 +145,7 @@ def series_solution(second: Any, first: Any, zeroth: Any, order: int) -> Any:
             twice_weighted.append(j * (j - 1) * value % p)
 
     def extend(start: int, end: int) -> None:
+        check_time()
         if end - start <= _BLOCK:
             extend_one_by_one(start, end)
             return

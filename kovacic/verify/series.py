@@ -12,6 +12,10 @@ from typing import Any
 from flint import nmod_mat, nmod_poly
 
 from kovacic.algebra.homomorphism import BadPrimeError
+from kovacic.limits import check_time
+
+#: Terms of a series between two looks at the clock.
+_LOOK = 64
 
 
 def solutions_at_ordinary_point(num: Any, den: Any, count: int) -> tuple[Any, Any]:
@@ -50,6 +54,8 @@ def solution_at_singular_point(second: Any, first: Any, zeroth: Any, count: int)
     width = max(map(len, (of_second, of_first, of_zeroth)))
     u, once, twice = [1], [0], [0]  # u_k, k u_k and k (k - 1) u_k
     for j in range(1, count):
+        if j % _LOOK == 0:
+            check_time()
         indicial = j * ((j - 1) * int(second[1]) + int(first[0])) % p
         if not indicial:
             raise BadPrimeError(f"{p} divides an indicial factor")
@@ -80,6 +86,8 @@ def square_root(series: Any, root: int, count: int) -> Any:
     half = pow(2 * root, -1, p)
     r = [root]
     for k in range(1, count):
+        if k % _LOOK == 0:
+            check_time()
         rest = int(series[k]) - sum(r[i] * r[k - i] for i in range(1, k))
         r.append(rest * half % p)
     return nmod_poly(r, p)
@@ -106,6 +114,7 @@ def rational_candidate(series: Any, count: int, top: int) -> tuple[Any, Any]:
     before, A = nmod_poly([1], p).left_shift(count), series.truncate(count)
     B_before, B = nmod_poly([], p), nmod_poly([1], p)
     while A.degree() > top:
+        check_time()
         quotient, remainder = divmod(before, A)
         before, A = A, remainder
         B_before, B = B, B_before - quotient * B
