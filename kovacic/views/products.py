@@ -15,7 +15,7 @@ from kovacic.algebra.rationals import QQ, square_part
 from kovacic.closed_form.primitive import OpenPrimitive, RationalPrimitive, normalised_constant
 from kovacic.closed_form.product import Factor, Product, grouped, merged
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, Triangular
-from kovacic.numerals import digits
+from kovacic.numerals import as_text, digits
 
 
 def written(structure: ClosedStructure, variable: str) -> tuple[str, str] | None:
@@ -91,7 +91,8 @@ def _power(bases: list[str], exponent: Fraction) -> str:
     if exponent == Fraction(1, 2):
         return f"sqrt({body})"
     inner = body if body.isidentifier() else f"({body})"
-    return f"{inner}^{exponent}" if exponent.denominator == 1 else f"{inner}^({exponent})"
+    power = as_text(exponent)
+    return f"{inner}^{power}" if exponent.denominator == 1 else f"{inner}^({power})"
 
 
 def _factor(text: str) -> str:
