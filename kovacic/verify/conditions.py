@@ -19,15 +19,24 @@ _ORDERS = {Structure.TETRAHEDRAL: {1, 2, 3}, Structure.OCTAHEDRAL: {1, 2, 3, 4},
 
 
 def condition_fails(item: NecessaryCondition, structure: Structure, points: list[Point]) -> bool:
-    """Is the condition one that this structure implies, and does it fail at the places that are named?"""
+    """Is the condition one that this structure implies, and does it fail at one of the places that are named?"""
     if item.rule is Rule.TOO_FEW_BRANCH_POINTS:
-        branches = sum(point.factor.degree for point in points if point.can_branch)
-        return structure is Structure.IMPRIMITIVE and branches < 2
-    named = [point for point in points if point.name in item.places]
-    if not named or len(named) != len(item.places):
+        return structure is Structure.IMPRIMITIVE and _branch_points(points) < 2
+    concerns, fails = _RULES[item.rule]
+    if not concerns(structure):
         return False
-    concerned, fails = _RULES[item.rule]
-    return concerned(structure) and any(fails(point, structure) for point in named)
+    return any(fails(point, structure) for point in _named(item, points))
+
+
+def _branch_points(points: list[Point]) -> int:
+    """The number of points at which the square root of an invariant of degree 4 can branch."""
+    return sum(point.factor.degree for point in points if point.can_branch)
+
+
+def _named(item: NecessaryCondition, points: list[Point]) -> list[Point]:
+    """The singular points that are named; none if a name is that of no point."""
+    named = [point for point in points if point.name in item.places]
+    return named if len(named) == len(item.places) else []
 
 
 def _is_ramified(point: Point, structure: Structure) -> bool:

@@ -114,8 +114,15 @@ class Inspector:
             return False
         if item.prime is None or counts.largest < 0:
             return item.prime is None and counts.largest < 0
-        named = [point for point in self.points if point.name == item.place and point.tells_solutions_apart]
-        return bool(named) and _under_some(self._at(item.prime), lambda h: self._no_omega_at(named[0], h, counts))
+
+        def has_none(h: Homomorphism) -> bool:
+            return any(self._no_omega_at(place, h, counts) for place in self._telling(item.place))
+
+        return _under_some(self._at(item.prime), has_none)
+
+    def _telling(self, name: str) -> list[Point]:
+        """The place of this name, if it tells the solutions apart."""
+        return [point for point in self.points if point.name == name and point.tells_solutions_apart]
 
     def _no_omega_at(self, place: Point, h: Homomorphism, counts: ZeroCounts) -> bool:
         """At the least root of the place under a homomorphism, if it has one."""

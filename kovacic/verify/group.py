@@ -29,13 +29,16 @@ _Named = tuple[str, int | None]
 def group_holds(inspector: Inspector, decision: Decision, claim: GroupClaim) -> bool | None:
     """Is this the group?  None for one of which no more is said than that it is imprimitive, where that doesn't decide it."""
     f, riccati = decision.semi_invariant, decision.riccati
-    if decision.structure is Structure.REDUCIBLE and f is not None and riccati is not None:
+    if decision.undecided is not None:
+        return False
+    if f is None or riccati is None:  # there is no solution
+        return (claim.family, claim.n) == ("SL2", None)
+    if decision.structure is Structure.REDUCIBLE:
         F = decision.invariant or claim.form
         return _reducible(inspector, f, riccati, F) == (claim.family, claim.n)
-    if decision.structure is Structure.IMPRIMITIVE and f is not None and riccati is not None:
+    if decision.structure is Structure.IMPRIMITIVE:
         return _imprimitive(inspector, f, riccati, claim)
-    name = "SL2" if decision.structure is None else decision.structure.value
-    return decision.undecided is None and (claim.family, claim.n) == (name, None)
+    return decision.structure is not None and (claim.family, claim.n) == (decision.structure.value, None)
 
 
 # ------------------------------------------------------------------------------------------- reducible groups
@@ -153,27 +156,31 @@ def _has_conjugates(f: SemiInvariant) -> bool:
 
 
 def _curve(inspector: Inspector, f: SemiInvariant) -> Curve | None:
-    """From the valuations of g = f^2 at the singular points; None if they aren't whole numbers, or g has other zeros or poles.
+    """None if the valuations of g = f^2 aren't whole numbers, or g has zeros or poles that aren't singular points.
 
-    The valuations of g, as a form of degree 4, add up to 4.  P, with its zeros at ordinary points, has simple ones there, where
-    the difference is 1.
+    P has simple zeros at ordinary points, where the difference is 1.
     """
-    residues = dict(rational_residues(f.theta) or [])
-    valuations = [2 * residues.pop(point.factor, Fraction(0)) for point in inspector.points[:-1]]
-    if residues:
-        return None
-    rest = Fraction(4 - 2 * f.P.degree)
-    for valuation, point in zip(valuations, inspector.points, strict=False):
-        rest -= valuation * point.factor.degree
-    valuations.append(rest)
-    if any(valuation.denominator > 1 for valuation in valuations):
+    valuations = _valuations_of_square(inspector, f)
+    if valuations is None:
         return None
     pairs = [*zip(inspector.points, valuations, strict=True)]
     branches = sum(point.factor.degree for point, valuation in pairs if valuation % 2)
-    differences = {point.difference for point, valuation in pairs if valuation == 2 and point.difference is not None}
+    differences = {point.difference for point, valuation in pairs if valuation == 2}
     if f.P.degree:
         differences.add(Fraction(1))
-    return Curve(branches, frozenset(differences))
+    return Curve(branches, frozenset(d for d in differences if d is not None))
+
+
+def _valuations_of_square(inspector: Inspector, f: SemiInvariant) -> list[int] | None:
+    """Of g = f^2 at all singular points, from the residues of theta; at infinity by their sum, 4 for a form of degree 4."""
+    residues = dict(rational_residues(f.theta) or [])
+    finite = inspector.points[:-1]
+    valuations = [2 * residues.pop(point.factor, Fraction(0)) for point in finite]
+    degree = sum(value * point.factor.degree for value, point in zip(valuations, finite, strict=True))
+    valuations.append(Fraction(4 - 2 * f.P.degree) - degree)
+    if residues or any(value.denominator > 1 for value in valuations):
+        return None
+    return [int(value) for value in valuations]
 
 
 def _on_curve_of_positive_genus(

@@ -53,17 +53,20 @@ class ZeroCounts:
 
         None, too, for irrational exponents over another field than Q, of which `choices` has the first coordinate only.
         """
-        halves = [half for other, half in self.choices if other is point]
-        others = [half for other, half in self.choices if other is not point]
-        is_irrational = point.difference is None and point.factor.field != QQ
-        if not halves or point.factor.degree > 1 or is_irrational:
+        own = [half for other, half in self.choices if other is point]
+        if not own or not _is_one_rational_point(point):
             return None
-        possible = []
-        for half in (halves[0], -halves[0]):
-            bound = largest_natural_sum(self.total - half, others)
-            if bound >= 0:
-                possible.append((Fraction(_double_mean(point), 2) + half, bound))
-        return possible
+        others = [half for other, half in self.choices if other is not point]
+        half = own[0]
+        possible = [(half, largest_natural_sum(self.total - half, others))]
+        possible.append((-half, largest_natural_sum(self.total + half, others)))
+        mean = Fraction(_double_mean(point), 2)
+        return [(mean + shift, bound) for shift, bound in possible if bound >= 0]
+
+
+def _is_one_rational_point(point: Point) -> bool:
+    """Does the place stand for one point, with exponents that `choices` has exactly?"""
+    return point.factor.degree == 1 and (point.difference is not None or point.factor.field == QQ)
 
 
 def zero_counts(all_points: list[Point]) -> ZeroCounts | None:
