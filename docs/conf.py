@@ -35,6 +35,7 @@ exclude_patterns = ["build", "_build"]
 suppress_warnings = ["myst.strikethrough"]
 
 default_role = "code"
+smartquotes = False  # snippets are to be pasted
 autodoc_typehints = "none"
 autodoc_preserve_defaults = True
 autodoc_member_order = "bysource"

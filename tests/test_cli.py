@@ -544,7 +544,7 @@ def test_h_is_help_everywhere(command: list[str], capsys: pytest.CaptureFixture[
     [("s", {"solve", "scan", "schema"}), ("solve --la", {"--latex"}), ("ds", {"dsolve"})],
 )
 def test_the_shell_completes(words: str, offered: set[str]) -> None:
-    """As the README says, by click's own mechanism."""
+    """By click's own mechanism."""
     env = {
         "COMP_WORDS": f"kovacic {words}",
         "COMP_CWORD": str(len(words.split())),

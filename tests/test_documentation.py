@@ -99,9 +99,9 @@ def test_the_textbook_problems_have_the_figures_of_their_file() -> None:
     assert shown["can't be checked, not solved, no answer in time"] == [
         count.total() - sum(count[key] for key in rest) for count in counts
     ]
-    readme = " ".join(README.read_text("utf-8").split())
+    page = " ".join((ROOT / "docs" / "comparison.md").read_text("utf-8").split())
     right, sympys = counts[0]["right"], counts[1]["right"]
-    assert f"{right} come out right and one with an integral left, SymPy's `dsolve` has {sympys}" in readme
+    assert f"{right} come out right and one with an integral left, SymPy's `dsolve` has {sympys}" in page
     assert counts[0]["right with integrals"] == 1
 
 
