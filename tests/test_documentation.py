@@ -9,7 +9,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from documents import PAGES, README, ROOT, check_command, check_links, check_python, sessions
+from documents import PAGES, ROOT, check_command, check_links, check_python, sessions
 
 import kovacic
 
