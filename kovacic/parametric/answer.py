@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import islice
 from random import Random
 from typing import Any
@@ -17,6 +17,7 @@ from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.derived import verification
 from kovacic.engine.decide import decide
+from kovacic.equation import Equation
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
@@ -25,7 +26,7 @@ from kovacic.parametric.check import CheckReport, Disagreement, Sampler
 from kovacic.parametric.functions import Point
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
-from kovacic.parametric.record import Reader, constant_data, constant_from
+from kovacic.parametric.record import Reader, constant_data, constant_from, equation_data, equation_from
 from kovacic.parametric.regions import Condition, Verdict, in_one_line
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.statements import both
@@ -45,7 +46,9 @@ class Conditions:
 
     `generic` holds where no region's statement does; the regions are tried in their order.  `complete` is True where the
     list is proven to be complete, else a sentence such as "up to degree 12 (...)".  All of it holds for values with the
-    `assumptions`.  `constant` is the value of the algebraic constant in S, which is a parameter of `S` here.
+    `assumptions`.  `constant` is the value of the algebraic constant in S, which is a parameter of `S` here.  `equation` is the
+    equation of which y'' = S y is the normal form, maybe in a function of the user's variable, its `change`; None where S
+    itself was given.  Solutions of the regions solve that equation, and S speaks of the normal form.
     """
 
     S: RatFunc
@@ -55,10 +58,11 @@ class Conditions:
     regions: tuple[Condition, ...]
     complete: bool | str
     theory: str
-    limits: Limits
+    limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
     notices: tuple[str, ...] = ()
     assumptions: Assumptions = NOTHING_ASSUMED
     constant: Point = NO_CONSTANT
+    equation: Equation | None = None
 
     @property
     def within_limits(self) -> bool:
@@ -67,9 +71,10 @@ class Conditions:
 
     def region_at(self, values: Mapping[Any, Any]) -> Condition | None:
         """The region that contains a point; None for the generic one."""
-        return self._region(self.point(values))
+        return self.region_of(self.point(values))
 
-    def _region(self, point: Point) -> Condition | None:
+    def region_of(self, point: Point) -> Condition | None:
+        """The same for a point of `self.point`."""
         return next((region for region in self.regions if region.statement.holds(point)), None)
 
     def determinant(self, number: int) -> tuple[Determinant, ...]:
@@ -128,7 +133,7 @@ class Conditions:
             point.restricted(self.S)
         except ZeroDivisionError:
             return None
-        region = self._region(point)
+        region = self.region_of(point)
         if region is not None:
             return region.verdict if region.defined else None
         return self.generic if self.complete is True else Verdict(self.generic.structure, known=False)
@@ -186,6 +191,7 @@ class Conditions:
             "complete": self.complete,
             "theory": self.theory,
             "notices": list(self.notices),
+            "equation": equation_data(self.equation),
             **constant_data(self.constant),
         }
 
@@ -212,7 +218,7 @@ class Conditions:
                 Condition(
                     reader.statement(region["statement"]),
                     Verdict.from_dict(region["verdict"]),
-                    **{name: region[name] for name in ("complete", "defined", "omega")},
+                    **{name: region[name] for name in ("complete", "defined")},
                     determinants=tuple(region.get("determinants", ())),
                 )
                 for region in data["regions"]
@@ -220,7 +226,8 @@ class Conditions:
             claim = (Verdict.from_dict(data["generic"]["verdict"]), regions, data["complete"], data["theory"])
             known = read_assumptions(data["assumptions"], None, names) if data["assumptions"] else NOTHING_ASSUMED
             S, notices = reader.function(data["S"], variable), tuple(data["notices"])
-            return cls(S, variable, names, *claim, DEFAULT_LIMITS, notices, known, constant)
+            equation = equation_from(data.get("equation"), variable, names)
+            return cls(S, variable, names, *claim, DEFAULT_LIMITS, notices, known, constant, equation)
         except (KeyError, TypeError, ValueError, AttributeError, IndexError, RecursionError) as error:
             raise InputError(f"this isn't the JSON of conditions: {error}") from None
 
@@ -286,9 +293,10 @@ class Conditions:
         lines = [self.text(all=True)]
         for region in self.regions:
             lines += ["", f"{region.statement.text()}: {region.verdict if region.defined else region.group}"]
-            known = [s for d in (None, *range(len(region.determinants))) for s in region.solution(d)]
-            shown = [*([region.omega] if region.omega else []), *known]
-            lines += [f"  {line}" for line in shown or ([region.why_no_solution] if region.case == 1 else [])]
+            known = [str(solution) for d in (None, *range(len(region.determinants))) for solution in region.solution(d)]
+            if not known and region.case == 1:
+                known = [region.why_no_solution]
+            lines += [f"  {line}" for line in known]
         return visible("\n".join(lines))
 
     def __str__(self) -> str:

@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.function_field import FunctionField
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide
-from kovacic.equation import Parsed, parameters_of
+from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import whole
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.answer import Conditions
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
+from kovacic.parametric.functions import Point
 from kovacic.parametric.natural import Natural
-from kovacic.parametric.partition import Settings, partition
+from kovacic.parametric.partition import Partition, Settings, partition, together
 from kovacic.parametric.regions import Condition, Verdict, without_empty
-from kovacic.parametric.restriction import reduced, with_free_constant
+from kovacic.parametric.restriction import over_all, reduced, with_free_constant
+from kovacic.parametric.solutions import Given
+from kovacic.parametric.statements import Statement
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import with_values
 
@@ -53,39 +58,82 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     bounded = limits if limits.seconds is not None else replace(limits, seconds=DEFAULT_SECONDS)
     budget = Budget(bounded)
     with budget.watched():
-        result = partition(lifted, Settings(budget, parsed.variable, only_theorems=max_degree is None))
-    names = (parsed.variable, *parameters_of(lifted.field))
-    different: dict[str, Condition] = {}
-    for region in result.regions:
-        statement = reduced(region.statement, constant).avoiding(names, constant.names)
-        different.setdefault(statement.text(), replace(region, statement=statement))
+        found = partition(lifted, Settings(budget, parsed.variable, only_theorems=max_degree is None))
+    field = lifted.field.ground
+    assert isinstance(field, FunctionField)
+    regions = _distinct(found.regions, field, constant, parsed.variable, budget)
+    result = _under(assumptions, replace(found, regions=tuple(regions)), parsed.S, budget)
+    regions = [_finished(region, parsed.equation, max_degree, budget) for region in result.regions]
+    return Conditions(
+        shown,
+        parsed.variable,
+        parameters_of(parsed.S.field),
+        result.generic,
+        tuple(regions),
+        result.complete,
+        result.theory,
+        limits,
+        _notices(parsed, constant),
+        known,
+        constant,
+        parsed.equation,
+    )
+
+
+def _distinct(
+    regions: Iterable[Condition], field: FunctionField, constant: Point, variable: str, budget: Budget
+) -> list[Condition]:
+    """The regions with statements about all parameters, each statement once, and without those that earlier ones cover."""
+    names = (variable, *field.names)
+    different: dict[Statement, Condition] = {}
+    for region in regions:
+        statement = reduced(over_all(region.statement, field), constant).avoiding(names, constant.names)
+        different.setdefault(statement, replace(region, statement=statement))
     distinct = [*different.values()]
     with budget.watched(), suppress(LimitExceeded):
         distinct = without_empty(distinct)
-    generic, complete, regions = result.generic, result.complete, list[Condition]()
-    for region in distinct:
+    return distinct
+
+
+def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budget) -> Partition:
+    """What is left to say where the assumptions hold."""
+    generic, complete = found.generic, found.complete
+    regions: list[Condition] = []
+    for region in found.regions:
         decided = region.statement.decided(assumptions)
         if decided is True:
-            generic = region.verdict if region.verdict.known else Verdict.of(decide(parsed.S, budget, certify=False))
-            complete = next((r.complete for r in (*regions, region) if r.complete is not True), True)
+            generic = region.verdict if region.verdict.known else Verdict.of(decide(S, budget, certify=False))
+            complete = together([*regions, region])
             break
         if decided is None:
             regions.append(replace(region, statement=region.statement.narrowed(assumptions)))
-    while complete is True and regions and regions[-1].plain and regions[-1].verdict == generic == Verdict(None):
-        regions.pop()
-    for k, region in enumerate(regions if max_degree is not None else ()):
-        determinants: list[str] = []
-        if isinstance(region.statement, Natural) and region.statement.m == 1:
-            with budget.watched(), suppress(LimitExceeded):  # as far as time allows
-                determinants.extend(region.statement.shown_determinant(d) for d in range((max_degree or 0) + 1))
-        regions[k] = replace(region, determinants=tuple(determinants))
+    nothing = Verdict(None)
+    if complete is True and generic == nothing:
+        while regions and regions[-1].plain and regions[-1].verdict == nothing:
+            regions.pop()
+    return Partition(generic, complete, found.theory, tuple(regions))
+
+
+def _finished(region: Condition, equation: Equation | None, max_degree: int | None, budget: Budget) -> Condition:
+    """With its first determinants, and solutions of the equation that was given."""
+    if region.origin is not None and equation is not None:
+        region = replace(region, origin=Given(region.origin, equation))
+    statement = region.statement
+    if max_degree is None or not isinstance(statement, Natural) or statement.m > 1:
+        return region
+    determinants: list[str] = []
+    with budget.watched(), suppress(LimitExceeded):  # as far as time allows
+        determinants.extend(map(statement.shown_determinant, range(max_degree + 1)))
+    return replace(region, determinants=tuple(determinants))
+
+
+def _notices(parsed: Parsed, constant: Point) -> tuple[str, ...]:
+    """What was noticed at reading, with the constant's own name among the parameters."""
     notices = [notice for notice in parsed.notices if "parameter" not in notice]
-    if isinstance(constant.field, AlgebraicField):  # the constant has another name among the parameters, maybe
-        notices = [re.sub(rf"\b{re.escape(constant.field.name)}\b", constant.names[0], notice) for notice in notices]
-    claim = (generic, tuple(regions), complete, result.theory)
-    return Conditions(
-        shown, parsed.variable, parameters_of(parsed.S.field), *claim, limits, tuple(notices), known, constant
-    )
+    if isinstance(constant.field, AlgebraicField):
+        name = rf"\b{re.escape(constant.field.name)}\b"
+        notices = [re.sub(name, constant.names[0], notice) for notice in notices]
+    return tuple(notices)
 
 
 def under_assumptions(

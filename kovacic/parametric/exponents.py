@@ -2,28 +2,29 @@
 
 At a regular place theta has the residue (1 +- Delta)/2; at an irregular one its polar part is that of +- sqrt S, with a residue
 that follows [Kovacic 1986, sec. 3.1].  With theta = R/D, D P'' + 2 R P' + ((R' D - R D' + R^2 - T)/D) P = 0 is a system for the
-coefficients of P; at values with a solution P follows from its first coefficient.  In the same way the valuations at all places
-leave a system for the P of a rational form of degree m in the solutions.
+coefficients of P.  The roots Delta and sqrt S need lie in no field that is given: conjugate poles are split, and square roots
+adjoined, one after the other.  A system over such an extension is one over the field below for the coordinates of P, and it has
+a solution where one of the conjugate systems has one; which of them is told by P itself, whose coefficients follow from the
+highest one.  In the same way the valuations at all places leave a system for the P of a rational form of degree m.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
-from typing import Any
 
-from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
-from kovacic.algebra.function_field import FunctionField
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.extension import AlgebraicField, adjoined_square_root
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.invariants import bounds
-from kovacic.engine.places import Kind, Place, Problem
+from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.engine.riccati import Form, singular_part
-from kovacic.parametric.ranks import RankConditions, rank_conditions
+from kovacic.parametric.ranks import RankConditions, has_kernel, rank_conditions
 
-#: Q(t), or Q(t) with one square root.
-Roots = FunctionField | AlgebraicField
+#: The degree of the extension that the exponents may need, and singular points up to which all choices are tried.
+_DEGREE, _POINTS = 16, 8
 
 
 @dataclass(frozen=True)
@@ -44,9 +45,10 @@ class LocalPart:
 
 @dataclass(frozen=True)
 class Exponents:
-    """A choice at each place, over Q(t), or with one square root."""
+    """A choice at each point of the `problem`, whose singular points are rational over the field of the choice."""
 
-    field: Roots
+    problem: Problem
+    field: Field
     parts: tuple[LocalPart, ...]
 
     @property
@@ -54,66 +56,143 @@ class Exponents:
         """That of P."""
         return 1 - sum((part.exponent for part in self.parts), self.field.poly([]))
 
-    def images(self, problem: Problem, d: int) -> Iterator[Poly]:
+    def images(self, d: int) -> list[Poly]:
         """The images of 1, x, ..., x^d under D P'' + 2 R P' + ((R' D - R D' + R^2 - T)/D) P, theta = R/D."""
-        D = problem.D.over(self.field)
+        D, x = self.problem.D.over(self.field), self.field.poly([0, 1])
         R = (sum((part.theta for part in self.parts), RatFunc(0 * D)) * D).num
-        for k in range(d + 1):
-            yield 2 * Form(1, R, self.field.poly([0, 1]) ** k).numerators(problem)[-1] // D
+        return [2 * Form(1, R, x**k).numerators(self.problem)[-1] // D for k in range(d + 1)]
 
-    def polynomial(self, problem: Problem, d: int) -> Poly | None:
-        """The only monic P of degree d that can solve the equation: its coefficients from the highest one down.
+    def polynomial(self, d: int) -> tuple[Poly, Poly] | None:
+        """The only monic P of degree d that can solve the equation, and what is left of its image: where that is 0, it does.
 
-        None where they don't follow from one another.
+        The coefficients follow from the highest one down; None where they don't.
         """
-        images = [*self.images(problem, d)]
+        images = self.images(d)
         shift = max(image.degree - k for k, image in enumerate(images))
         P, rest = self.field.poly([0] * d + [1]), images[d]
         for k in range(d - 1, -1, -1):
             if not images[k][k + shift]:
                 return None
             factor = rest[k + shift] / images[k][k + shift]
-            P, rest = P - self.field.poly([0] * k + [factor]), rest - images[k] * factor
-        return P
+            P = P - self.field.poly([0] * k + [factor])
+            rest = rest - images[k] * factor
+        return P, rest
 
 
-def with_degree(problem: Problem, d: int) -> list[tuple[Exponents, RankConditions]] | None:
-    """The choices that give this degree, each with the conditions for a P; None where one square root isn't enough."""
+def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:
+    """The choices that give P this degree; None where there are too many, or their roots need too large an extension."""
     chosen = _choices(problem)
     if chosen is None:
         return None
+    return [exponents for exponents in chosen if exponents.field.rational_value(exponents.degree) == d]
+
+
+def with_degree(problem: Problem, d: int) -> list[tuple[Exponents, RankConditions]] | None:
+    """The same with the conditions, over the field of the problem, for a P."""
+    chosen = choices_of_degree(problem, d)
+    if chosen is None:
+        return None
+    return [(e, rank_conditions(_coordinates(e.images(d), e.field, problem.field), problem.field)) for e in chosen]
+
+
+def has_solution(problem: Problem, d: int) -> bool | None:
+    """Over a field of numbers: is there a solution with a P of this degree?  None as in `choices_of_degree`."""
+    chosen = choices_of_degree(problem, d)
+    if chosen is None:
+        return None
+    return any(has_kernel(_coordinates(e.images(d), e.field, problem.field.ground)) for e in chosen)
+
+
+def _coordinates(images: Sequence[Poly], field: Field, below: Field) -> list[Poly]:
+    """The images under the same map over the field below: those of the basis of the extension times 1, x, ...
+
+    The coordinates of an image are put into one polynomial, one behind the other for each power.
+    """
+    basis = [field.poly([1])]
+    level = field
+    while level != below:
+        assert isinstance(level, AlgebraicField)
+        basis = [element * level.generator**k for k in range(level.dimension) for element in basis]
+        level = level.base
+    if len(basis) == 1:
+        return list(images)
     found = []
-    for exponents in (e for e in chosen if e.field.rational_value(e.degree) == d):
-        field = exponents.field
-        basis = [field.poly([1]), *([] if isinstance(field, FunctionField) else [field.generator])]
-        images = [image * root for image in exponents.images(problem, d) for root in basis]
-        found.append((exponents, rank_conditions(images, problem)))
+    for image in images:
+        for element in basis:
+            parts = _parts(image * element, below)
+            size = max(part.degree for part in parts) + 1
+            found.append(below.poly([part[k] for k in range(size) for part in parts]))
     return found
 
 
-def _choices(problem: Problem) -> list[Exponents] | None:
-    """All choices of exponents; None where a place isn't rational or one square root isn't enough.
+def _parts(polynomial: Poly, below: Field) -> list[Poly]:
+    """The coordinates of a polynomial over a field below its own."""
+    if polynomial.field == below:
+        return [polynomial]
+    return [leaf for part in polynomial.parts for leaf in _parts(part, below)]
 
-    The exponents at a place differ by a root: the exponent difference, or the root of the leading coefficient.
-    """
-    base, roots = problem.field, list[tuple[Place, Poly]]()
-    assert isinstance(base, FunctionField)
-    field: Roots = base
-    for place in (place for place in problem.places if place.kind is not Kind.ORDINARY):
-        if place.degree > 1:
+
+def _choices(problem: Problem) -> list[Exponents] | None:
+    """All choices of exponents, which differ by a root: the exponent difference, or the root of a leading coefficient."""
+    split = _with_rational_points(problem)
+    if split is None:
+        return None
+    singular = [place for place in split.places if place.kind is not Kind.ORDINARY]
+    if len(singular) > _POINTS:
+        return None
+    field = split.field
+    roots: list[Poly] = []
+    for place in singular:
+        root = _square_root(_square(place, split.S).over(field), field)
+        field = root.field
+        if _degree_over(field, problem.field) > _DEGREE:
             return None
-        square = place.delta_squared if place.kind is Kind.REGULAR else _at_infinity(place, problem.S).lc
-        assert square is not None  # at a single point
-        root = field.sqrt(square.over(field))
-        if root is None and field == base:
-            field = AlgebraicField(base, base.poly([-square, 0, 1]), "root")
-            root = field.generator
-        if root is None:
+        roots.append(root)
+    S = RatFunc(split.S.num.over(field), split.S.den.over(field))
+    parts = [_local_parts(place, S, root.over(field)) for place, root in zip(singular, roots, strict=True)]
+    return [Exponents(split, field, choice) for choice in product(*parts)]
+
+
+def _with_rational_points(problem: Problem) -> Problem | None:
+    """The same problem over an extension over which its singular points are rational; None where that is too large."""
+    base = problem.field
+    while True:
+        factor = next((place.factor for place in problem.finite_places if place.degree > 1), None)
+        if factor is None:
+            return problem
+        field = problem.field
+        if factor.degree == 2:
+            extension = _square_root(factor[1] * factor[1] - 4 * factor[0], field).field
+        else:
+            extension = AlgebraicField(field, factor, "point")
+        if _degree_over(extension, base) > _DEGREE:
             return None
-        roots.append((place, root))
-    S = RatFunc(problem.S.num.over(field), problem.S.den.over(field))
-    parts = [_local_parts(place, S, root.over(field)) for place, root in roots]
-    return [Exponents(field, choice) for choice in product(*parts)]
+        S = RatFunc(problem.S.num.over(extension), problem.S.den.over(extension))
+        problem = analyse(S, problem.budget)
+
+
+def _degree_over(field: Field, base: Field) -> int:
+    return field.absolute_degree // base.absolute_degree
+
+
+def _square_root(square: Poly, field: Field) -> Poly:
+    """A square root of a constant; one that has to be adjoined is called so that it is written as a radical."""
+    root = field.sqrt(square)
+    if root is not None:
+        return root
+    outer, inner = field.poly([1]), square
+    if isinstance(square, FunctionPoly):
+        outer, inner = square.square_part()
+    if isinstance(square, FunctionPoly) or field.ground != field:
+        return AlgebraicField(field, field.poly([-inner, 0, 1]), f"sqrt({inner.to_str()})").generator * outer
+    return adjoined_square_root(field, square)
+
+
+def _square(place: Place, S: RatFunc) -> Poly:
+    """The square of the exponent difference at a rational point, or the leading coefficient at an irregular one."""
+    square = place.delta_squared if place.kind is Kind.REGULAR else _at_infinity(place, S).lc
+    assert square is not None  # at a single point
+    return square
 
 
 def _at_infinity(place: Place, S: RatFunc) -> Poly:
@@ -125,10 +204,11 @@ def _at_infinity(place: Place, S: RatFunc) -> Poly:
 
 
 def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
-    """The two local parts of theta."""
+    """The two local parts of theta; one where the exponents are equal."""
     x, factor = root.field.poly([0, 1]), None if place.at_infinity else place.factor.over(root.field)
     if place.kind is Kind.REGULAR:
-        return [LocalPart(factor, (1 + sign * root) / 2, 0 * x) for sign in (1, -1)]
+        signs = (1, -1) if root else (1,)
+        return [LocalPart(factor, (1 + sign * root) / 2, 0 * x) for sign in signs]
     n, quotient = place.order // 2 - 2, _at_infinity(place, S)
     main = root * x**n  # S - main^2 = b x^(n-1) + ..., and omega = +-main + e/x + ... with e = (+-b/a - n)/2
     for k in range(1, n + 1):
@@ -137,67 +217,26 @@ def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
     return [LocalPart(factor, 1 - (sign * ratio - n) / 2, sign * main) for sign in (1, -1)]
 
 
+def form_images(problem: Problem, m: int) -> list[Poly] | None:
+    """The images of 1, x, ..., x^N under the map whose kernel has the P of the rational forms of degree m.
+
+    Whether or not there are logarithms at special values.  None where there can be no such form.
+    """
+    bound = bounds(problem, m, logarithms=False)
+    if bound is None:
+        return None
+    valuations, N = bound
+    x, R0 = problem.field.poly([0, 1]), singular_part(problem, valuations[:-1])
+    return [Form(m, R0, x**j).numerators(problem)[-1] for j in range(N + 1)]
+
+
 def form_conditions(problem: Problem, m: int) -> RankConditions:
     """Where there are more rational forms of degree m than generically."""
-    bound = bounds(problem, m, logarithms=False)  # whether or not there is a logarithm at special values
-    if bound is None:
-        return RankConditions()
-    (valuations, N), x = bound, problem.field.poly([0, 1])
-    R0 = singular_part(problem, valuations[:-1])
-    return rank_conditions([Form(m, R0, x**j).numerators(problem)[-1] for j in range(N + 1)], problem)
+    images = form_images(problem, m)
+    return RankConditions() if images is None else rank_conditions(images, problem.field)
 
 
-@dataclass(frozen=True)
-class PolynomialSolution:
-    """y solves y'' = S y where `degree` is a natural number; SymPy expressions in the variable and the parameters.
-
-    `where` says what else has to hold.
-    """
-
-    y: Any
-    degree: Any
-    where: str = ""
-
-    def __str__(self) -> str:
-        return f"y = {self.y} where {self.where or f'{self.degree} is a natural number'}"
-
-
-def solution_of_degree(
-    problem: Problem, exponents: Exponents, d: int, variable: str, where: str
-) -> PolynomialSolution | None:
-    """exp(int theta) P for one choice of exponents, valid where Delta_d = 0; None where P isn't determined by its degree."""
-    import sympy
-
-    P = exponents.polynomial(problem, d)
-    if P is None:
-        return None
-    x, field = sympy.Symbol(variable), exponents.field
-    square = -field.modulus[0] if isinstance(field, AlgebraicField) else field.poly([1])
-    c = sympy.sqrt(sympy.factor(square.to_sympy(x)))
-
-    def expression(polynomial: Poly) -> Any:
-        parts = polynomial.parts if isinstance(polynomial, ExtensionPoly) else [polynomial]
-        return sum(part.to_sympy(x) * c**k for k, part in enumerate(parts))
-
-    y = expression(P)
-    for part in exponents.parts:
-        exponential = sympy.integrate(sympy.expand(expression(part.main)), x)
-        if part.factor is None:
-            y *= sympy.exp(exponential)
-        else:
-            u = expression(part.factor)
-            y *= u ** sympy.factor(expression(part.exponent)) * sympy.exp(exponential.subs(x, 1 / u))
-    return PolynomialSolution(y, sympy.Integer(d), where)
-
-
-def may_be_natural(degree: Any) -> bool:
-    """Is it a natural number, or can it be one for some values of the parameters?"""
-    return bool(degree.free_symbols or (degree.is_Integer and degree >= 0))
-
-
-def root(square: Poly) -> Any:
-    """The square root of a constant, up to its sign."""
-    import sympy
-
-    root, x = square.field.sqrt(square), sympy.Symbol("x")
-    return sympy.sqrt(sympy.factor(square.to_sympy(x))) if root is None else sympy.expand(root.to_sympy(x))
+def has_form(problem: Problem, m: int) -> bool:
+    """Over a field of numbers: is there a rational form of degree m in the solutions?"""
+    images = form_images(problem, m)
+    return images is not None and has_kernel(_coordinates(images, problem.field, problem.field.ground))

@@ -3,7 +3,7 @@
 The exponents leave finitely many polynomials over Q(t), and d, the degree of P (or the number of zeros of an invariant), is a
 natural root of one of them.  Where d is given, P exists exactly where a determinant Delta_d vanishes: that of a banded system
 for its coefficients.  There are infinitely many of them; each is computed on demand, and at a point with a natural root the
-equation itself is decided.
+system has numbers for entries, and its rank decides.
 
 References: P. Acosta-Humanez & D. Blazquez-Sanz, DCDS-B 10 (2008); A. V. Turbiner, Comm. Math. Phys. 118 (1988) 467.
 """
@@ -19,15 +19,15 @@ from functools import cached_property, lru_cache
 from random import Random
 
 from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Field
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.decision import Status, Structure
-from kovacic.engine.decide import decide
-from kovacic.engine.places import analyse
+from kovacic.decision import Structure
+from kovacic.engine.places import Problem, analyse
 from kovacic.errors import LimitExceeded
-from kovacic.limits import Budget, Limits
+from kovacic.limits import Budget
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.exponents import PolynomialSolution, form_conditions, solution_of_degree, with_degree
+from kovacic.parametric.exponents import choices_of_degree, form_conditions, has_form, has_solution, with_degree
 from kovacic.parametric.formulas import equation_written, shown, text_of, written
 from kovacic.parametric.functions import (
     Coset,
@@ -40,13 +40,12 @@ from kovacic.parametric.functions import (
 from kovacic.parametric.integers import LETTERS, free_letter, rational_roots
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import Hypersurface, hypersurface
+from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
 from kovacic.parametric.spectra import Notation, alternatives
 from kovacic.parametric.statements import Statement
 
 #: The largest number that is tried for an example.
 _EXAMPLES = 3
-#: For the decision at one point.
-_SECONDS = 60.0
 #: Characters up to which the equations for d are written out.
 _WRITTEN_OUT = 300
 
@@ -56,26 +55,36 @@ class Determinant:
     """Delta_d where the exponents give d: P exists exactly where it vanishes.
 
     `exponents` vanishes where d is the degree.  `factors` are the irreducible factors of Delta_d: none where it is 1, and P
-    exists nowhere.  Where there are more equations than unknowns, `system` has the polynomials that all have to vanish.  Both
-    are None where they weren't computed.
+    exists nowhere, or only where all of the polynomials in `system` vanish, since there are more equations than unknowns.
+    `factors` is None where it wasn't computed: the exponents need too large an extension.
     """
 
     exponents: FunctionPoly
     factors: tuple[FunctionPoly, ...] | None = None
-    system: tuple[FunctionPoly, ...] | None = None
+    system: tuple[FunctionPoly, ...] = ()
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Determinant:
         """The same about other parameters, which `change` puts into its polynomials."""
-        factors, system = (
-            functions and tuple(g for f in functions for g in (irreducible_factors(change(f)) if f else [f]))
-            for functions in (self.factors, self.system)
-        )
-        return replace(self, factors=factors, system=system)
+        if self.factors is None:
+            return self
+        factors = tuple(g for f in self.factors for g in (irreducible_factors(change(f)) if f else [f]))
+        return replace(self, factors=factors, system=tuple(map(change, self.system)))
+
+    def holds(self, point: Point) -> bool:
+        """Is d the degree at the point, and does P exist there?"""
+        if self.factors is None or point.at(self.exponents):
+            return False
+        in_system = bool(self.system) and not any(point.at(function) for function in self.system)
+        return in_system or any(not point.at(factor) for factor in self.factors)
 
     def __str__(self) -> str:
         if self.factors is None:
-            return "not computed" if self.system is None else f"({', '.join(map(shown, self.system))})"
-        return " * ".join(f"({shown(f)})" if len(self.factors) > 1 else shown(f) for f in self.factors) or "1"
+            return "not computed"
+        single = len(self.factors) == 1 and not self.system
+        parts = [shown(f) if single else f"({shown(f)})" for f in self.factors]
+        if self.system:
+            parts.append(f"gcd({', '.join(map(shown, self.system))})")
+        return " * ".join(parts) or "1"
 
 
 @dataclass(frozen=True)
@@ -83,7 +92,7 @@ class Natural(Statement):
     """For a natural number that the exponents allow, an invariant of degree m with so many zeros exists.
 
     The number is a root of one of the `factors`.  m = 1 is a solution with a rational omega, whose zeros are those of P.
-    `structure` is that of the group where the invariant exists, tetrahedral standing for every primitive finite one.
+    `structure` is that of the group where the invariant exists and no structure before it has been found.
     """
 
     S: RatFunc
@@ -106,13 +115,14 @@ class Natural(Statement):
         return sorted(int(root) for root in roots if root.denominator == 1 and root >= 0)
 
     def _holds(self, point: Point) -> bool:
-        """Decided by the engine where the exponents allow a natural number: `LimitExceeded` where that takes too long."""
-        if not self.numbers_at(point):
+        """Decided by the rank of the systems at the point."""
+        numbers = self.numbers_at(point)
+        if not numbers:
             return False
-        return self._is_shown_by(_structure_at(self.S, point))
-
-    def _is_shown_by(self, structure: Structure | None) -> bool:
-        return structure is self.structure or (structure is not None and structure.case == self.structure.case == 3)
+        S = point.restricted(self.S)
+        if self.m > 1:
+            return _has_form(S, self.m)
+        return any(_has_solution(S, number) for number in numbers)
 
     def _given(self, number: int) -> Iterator[tuple[FunctionPoly, Hypersurface, RatFunc]]:
         """Where the exponents give the number: a polynomial, its zeros, and S there."""
@@ -123,39 +133,38 @@ class Natural(Statement):
 
     def determinants(self, number: int) -> list[Determinant]:
         """Delta for one natural number, for each way in which the exponents give it."""
-        determinants: list[Determinant] = []
+        found: list[Determinant] = []
         for exponents, surface, S in self._given(number):
-            zero, m, found = exponents - exponents, self.m, [RankConditions(complete=False)]
-            if S.field == QQ:
-                exists = self._is_shown_by(decide(S, Budget(), certify=False).structure)
-                found = [RankConditions((zero,) if exists else ())]
-            elif isinstance(S.num, FunctionPoly):
-                problem = analyse(S, Budget())
-                of_degree = with_degree(problem, number) if m == 1 else [(None, form_conditions(problem, m))]
-                found = found if of_degree is None else [c for _, c in of_degree]
-            for c in found:
-                factors = (zero,) if c.deficient and m == 1 else c.polynomials if c.complete else None
-                determinant = Determinant(exponents, factors, c.system or None if factors is None else None)
-                determinants.append(determinant.rewritten(surface.back) if surface.curve else determinant)
-        return determinants
+            problem = analyse(S, Budget())
+            for conditions in self._conditions(problem, number):
+                determinant = _determinant(exponents, conditions, deficient=conditions.deficient and self.m == 1)
+                determinant = determinant.rewritten(_back(surface, exponents.field))
+                if determinant not in found:
+                    found.append(determinant)
+        return found
+
+    def _conditions(self, problem: Problem, number: int) -> list[RankConditions]:
+        """One for each choice of exponents."""
+        if self.m > 1:
+            return [form_conditions(problem, self.m)]
+        if problem.field.ground == QQ:  # no parameter is left
+            return [RankConditions(deficient=_has_solution(problem.S, number))]
+        found = with_degree(problem, number)
+        return [RankConditions(system=None)] if found is None else [conditions for _, conditions in found]
 
     def solutions(self, variable: str, number: int | None) -> tuple[PolynomialSolution, ...]:
         """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""
-        found: list[PolynomialSolution | None] = []
         if number is None or self.m > 1:
             return ()
+        found: dict[PolynomialSolution, None] = {}
         for exponents, surface, S in self._given(number):
-            if not isinstance(S.num, FunctionPoly) or surface.curve:
+            if surface.curve:
                 continue
-            problem = analyse(S, Budget())
-            for choice, c in with_degree(problem, number) or ():
-                one_of = " = 0 or ".join(map(shown, c.polynomials))
-                conditions = [*map(shown, c.system)] if c.system and not c.complete else [one_of] if one_of else []
-                if c.deficient or conditions:
-                    zero = [] if c.deficient else [f"{condition} = 0" for condition in conditions]
-                    where = ", ".join([equation_written(exponents), *zero])
-                    found.append(solution_of_degree(problem, choice, number, variable, where))
-        return tuple(solution for solution in found if solution is not None)
+            for choice in choices_of_degree(analyse(S, Budget()), number) or ():
+                solution = solution_of_degree(choice, number, variable, exponents)
+                if solution is not None:
+                    found[solution] = None
+        return tuple(found)
 
     def shown_determinant(self, number: int) -> str:
         """In one line: one polynomial where it is the same for all exponents that give the number."""
@@ -177,7 +186,7 @@ class Natural(Statement):
         if not found:
             return [over_parameters(factor(Fraction(number)))]
         chosen = random.choice(found)
-        return [chosen.exponents, *([random.choice(chosen.factors)] if chosen.factors else chosen.system or ())]
+        return [chosen.exponents, *([random.choice(chosen.factors)] if chosen.factors else chosen.system)]
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         return None if self._possible(assumptions) else False
@@ -211,10 +220,36 @@ class Natural(Statement):
         return f"{which}, `{d} in N`, and `Delta_{d} = 0`{'' if m == 1 else f' for an invariant of degree {m}'}"
 
 
-@lru_cache(maxsize=64)
-def _structure_at(S: RatFunc, point: Point) -> Structure | None:
-    """What the engine says at a point, which several statements ask for."""
-    decision = decide(point.restricted(S), Budget(Limits(seconds=_SECONDS)), certify=False)
-    if decision.status is Status.UNDECIDED:
-        raise LimitExceeded(str(decision.undecided), limit="seconds")
-    return decision.structure
+def _determinant(exponents: FunctionPoly, conditions: RankConditions, *, deficient: bool) -> Determinant:
+    if deficient:
+        return Determinant(exponents, (exponents - exponents,))
+    if conditions.system is None:
+        return Determinant(exponents)
+    return Determinant(exponents, conditions.polynomials, conditions.system)
+
+
+def _back(surface: Hypersurface, field: Field) -> Callable[[FunctionPoly], FunctionPoly]:
+    """From functions on a hypersurface to functions of all parameters."""
+
+    def change(function: FunctionPoly) -> FunctionPoly:
+        if surface.curve:
+            return surface.back(function)
+        values = [field.generator(name) for name in function.field.names]  # type: ignore[attr-defined]
+        return over_parameters(function.value_at(values, field))
+
+    return change
+
+
+@lru_cache(maxsize=256)
+def _has_solution(S: RatFunc, number: int) -> bool:
+    """Is there a solution with a P of this degree?  Several statements ask for the same."""
+    found = has_solution(analyse(S, Budget()), number)
+    if found is None:
+        raise LimitExceeded(f"the exponents of y'' = ({S}) y need too large an extension", limit="degree")
+    return found
+
+
+@lru_cache(maxsize=256)
+def _has_form(S: RatFunc, m: int) -> bool:
+    """Is there a rational form of degree m in the solutions?"""
+    return has_form(analyse(S, Budget()), m)

@@ -12,7 +12,7 @@ defined, one in case 2 is in case 1 or 2, and one that has Liouvillian solutions
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -27,20 +27,15 @@ from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget
 from kovacic.parametric import restriction
-from kovacic.parametric.functions import degrees, denominators, irreducible_factors, union
-from kovacic.parametric.regions import OMEGAS, Condition, Theorem, Verdict
-from kovacic.parametric.restriction import hypersurface
+from kovacic.parametric.functions import denominators, irreducible_factors, union
+from kovacic.parametric.regions import Condition, Theorem, Verdict
+from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.search import Findings, search
+from kovacic.parametric.solutions import solutions_there
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
-from kovacic.writing.formula import Formulas
-from kovacic.writing.omega import omega_lines
 
-#: The degree of an algebraic number up to which its equation is solved, although it is known to be reducible.
-_WRITTEN_OUT = 2
 _UNKNOWN = Verdict(None, known=False)
-#: Characters of an omega that is written out.
-_LONGEST_OMEGA = 300
 
 
 @dataclass(frozen=True)
@@ -100,10 +95,10 @@ def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
         regions = [region for region in regions if not region.defined]
     if expected.known and expected.case != always.case:
         raise AssertionError(f"{theorem.name}: case {always.case} contradicts the generic answer, case {expected.case}")
-    return Partition(always, _together(regions), theorem.name, tuple(regions))
+    return Partition(always, together(regions), theorem.name, tuple(regions))
 
 
-def _together(regions: list[Condition]) -> bool | str:
+def together(regions: Sequence[Condition]) -> bool | str:
     """True where everything is complete, else the first sentence that says what isn't."""
     return next((r.complete for r in regions if r.complete is not True), True)
 
@@ -134,8 +129,8 @@ def _by_candidates(problem: Problem, expected: Verdict, settings: Settings) -> P
         if structure is not expected.structure and (expected.structure is None or structure is Structure.REDUCIBLE):
             primitive = "binary tetrahedral, octahedral or icosahedral" if structure.case == 3 else None
             verdict, origin = Verdict(structure, family=primitive), partial(statement.solutions, settings.variable)
-            regions.append(Condition(statement, verdict, omega=OMEGAS[structure], origin=origin))
-    return Partition(expected, _together(regions) if complete is True else complete, findings.theory, tuple(regions))
+            regions.append(Condition(statement, verdict, origin=origin))
+    return Partition(expected, together(regions) if complete is True else complete, findings.theory, tuple(regions))
 
 
 def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:
@@ -203,33 +198,55 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
     """The regions where a polynomial vanishes, except for the points that `missed` is about; the last one is all the rest."""
     statement, surface = Vanishes(function), hypersurface(function)
     try:
-        S = surface.restricted(S)
+        restricted = surface.restricted(S)
     except ZeroDivisionError:
         return [Condition(statement, _UNKNOWN, defined=False)]
-    inner, field = partition(S, settings), surface.field
-    verdict, complete, omega = inner.generic, inner.complete, None
-    is_algebraic = isinstance(field, AlgebraicField) and field.ground != QQ  # no parameter can be eliminated
-    if is_algebraic and complete is not True:
-        complete = f"except for special values with {statement.text()}"
-    elif verdict.structure is not None:
-        omega = OMEGAS[verdict.structure]
-        if not is_algebraic or max(degrees(function)) <= _WRITTEN_OUT:
-            decision = decide(S, settings.budget)
-            if decision.riccati is not None:
-                lines = omega_lines(decision.riccati, Formulas(settings.variable, S.field))
-                text = " ".join(line.strip() for line in lines)
-                omega = text if len(text) <= _LONGEST_OMEGA else omega
-            if field.ground == QQ and not decision.undecided:
-                verdict = replace(verdict, family=str(group_of(S, decision)))
-    if field.ground != QQ and complete is not True:
-        verdict = replace(verdict, known=False)
-    elsewhere = {str(factor) for factor in surface.leading}  # as texts: of fewer parameters, maybe
-    firsts = ((region, both(region.statement).parts[0]) for region in inner.regions)
-    special = [r for r, first in firsts if not (isinstance(first, Vanishes) and str(first.function) in elsewhere)]
-    if surface.curve:
-        omega = None
-        without = ((r, r.statement.rewritten(surface.back)) for r in special)
-        special = [replace(r, statement=statement, omega=None, origin=None) for r, statement in without]
-    while special and special[-1].defined and (special[-1].verdict, special[-1].complete) == (verdict, complete):
+    inner = partition(restricted, settings)
+    rest = _rest(statement, surface, restricted, inner, settings)
+    special = _special(inner.regions, surface)
+    while (
+        special and special[-1].defined and (special[-1].verdict, special[-1].complete) == (rest.verdict, rest.complete)
+    ):
         special.pop()
-    return [*_also(special, statement), Condition(statement, verdict, complete, omega=omega)]
+    return [*_also(special, statement), rest]
+
+
+def _rest(statement: Vanishes, surface: Hypersurface, S: RatFunc, inner: Partition, settings: Settings) -> Condition:
+    """The region of all values on a hypersurface for which nothing else is said; S is the one there."""
+    field, verdict, complete = surface.field, inner.generic, inner.complete
+    if field.ground == QQ:
+        return _at_a_value(statement, S, verdict, complete, settings)
+    if complete is not True:
+        verdict = replace(verdict, known=False)
+        if isinstance(field, AlgebraicField):  # no parameter can be eliminated
+            complete = f"except for special values with {statement.text()}"
+    origin = None
+    if verdict.known and verdict.case == 1 and not surface.curve:
+        origin = partial(solutions_there, S, settings.variable)
+    return Condition(statement, verdict, complete, origin=origin)
+
+
+def _at_a_value(
+    statement: Vanishes, S: RatFunc, verdict: Verdict, complete: bool | str, settings: Settings
+) -> Condition:
+    """The region of one value, or of conjugate ones, of the only parameter, with the group there."""
+    decision = decide(S, settings.budget)
+    if decision.structure is None or decision.undecided:
+        return Condition(statement, verdict, complete)
+    verdict = replace(verdict, family=str(group_of(S, decision)))
+    origin = partial(solutions_there, S, settings.variable) if decision.case == 1 else None
+    return Condition(statement, verdict, complete, origin=origin)
+
+
+def _special(regions: Iterable[Condition], surface: Hypersurface) -> list[Condition]:
+    """The regions on a hypersurface, in the original parameters, without those that it doesn't cover."""
+    elsewhere = {str(factor) for factor in surface.leading}  # as texts: of fewer parameters, maybe
+    special: list[Condition] = []
+    for region in regions:
+        first = both(region.statement).parts[0]
+        if isinstance(first, Vanishes) and str(first.function) in elsewhere:
+            continue
+        if surface.curve:
+            region = replace(region, statement=region.statement.rewritten(surface.back), origin=None)
+        special.append(region)
+    return special

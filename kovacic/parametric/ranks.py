@@ -12,53 +12,132 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
-from math import gcd
+from itertools import combinations
+from math import comb, gcd
 from operator import mul
 from random import Random
 from typing import Any
 
-from flint import nmod_mat
+from flint import fmpq_mat, nmod_mat, nmod_poly
 
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.sparse import by_power
-from kovacic.engine.places import Problem
 from kovacic.limits import check_time
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
 
-#: Determinants whose common factors are taken.
-_DETERMINANTS = 3
+#: Determinants whose common factors are taken, and minors up to which all of them are computed.
+_DETERMINANTS, _MINORS = 3, 60
 _PRIME = 2**61 - 1
 
 
 @dataclass(frozen=True)
 class RankConditions:
-    """Irreducible polynomials that vanish where a rank drops; `complete` False where it may drop elsewhere too.
+    """Where a rank drops: where one of the irreducible `polynomials` vanishes, or all of the `system`.
 
-    With several parameters the minors may have common zeros where their common divisor doesn't vanish, unless there is one
-    minor only.  Where one unknown is left, the rank drops exactly at the common zeros of the `system`.  `deficient`: the
-    polynomials are linearly dependent for all values.
+    The system is empty where that happens nowhere else, and None where it wasn't computed.  `deficient`: the images are
+    linearly dependent for all values.
     """
 
     polynomials: tuple[FunctionPoly, ...] = ()
-    complete: bool = True
-    system: tuple[FunctionPoly, ...] = ()
+    system: tuple[FunctionPoly, ...] | None = ()
     deficient: bool = False
 
+    @property
+    def complete(self) -> bool:
+        return self.system is not None
 
-def rank_conditions(images: Sequence[Poly], problem: Problem) -> RankConditions:
-    """Where do the polynomials over Q(t), or the coordinates of those over an extension, span less than generically?"""
-    field = problem.field
+
+def has_kernel(images: Sequence[Poly]) -> bool:
+    """Are polynomials over Q linearly dependent?"""
+    width = max((image.degree for image in images), default=-1) + 1
+    if width < len(images):
+        return True
+    entries = [_padded(image.rational_coefficients(), width) for image in images]
+    return bool(fmpq_mat(entries).rank() < len(images))
+
+
+def _padded(row: Sequence[Any], width: int) -> list[Any]:
+    return [*row, *[0] * (width - len(row))]
+
+
+def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
+    """Where do polynomials span less than generically, over Q(t) or, on a hypersurface in parameter space, over its field?
+
+    On a hypersurface the algebraic parameter is one more parameter, and the conditions are said modulo its equation.
+    """
+    surface = None
+    if isinstance(field, AlgebraicField):
+        surface = _Surface.of(field)
+        images = [surface.lifted(image) for image in images]
+        field = surface.field
     assert isinstance(field, FunctionField)
     rows, eliminated = without_constant_pivots([*map(_column, images)])
     rows = [*{tuple(map(str, row)): row for row in map(_normalised, rows)}.values()]
     # The rank at a random point is a lower bound, and the generic rank but for a probability of about 1/_PRIME.
-    point = [Random(k).randrange(_PRIME) for k in range(len(field.names))]
+    point = _random_point(field, surface)
     entries = [int(entry(0, *point)) % _PRIME for row in rows for entry in row]
     rank = int(nmod_mat(len(rows), len(rows[0]), entries, _PRIME).rank()) if rows else 0
     deficient = eliminated + rank < len(images)
     if rank == 0:
         return RankConditions(deficient=deficient)
+    is_square = len(rows) == len(rows[0]) == rank
+    if is_square or (surface is None and len(field.names) == 1):
+        return _common_factors(field, rows, rank, deficient)
+    if rank < len(rows[0]) or comb(len(rows), rank) > _MINORS:
+        common = () if surface else _common_factors(field, rows, rank, deficient).polynomials
+        return RankConditions(common, None, deficient)
+    minors = [_determinant([[*row] for row in chosen]) for chosen in combinations(rows, rank)]
+    minors = [minor for minor in minors if not minor.is_zero()]
+    if surface is not None:
+        return RankConditions((), tuple(element(field, minor) for minor in minors), deficient)
+    return _common_zeros(field, minors, deficient)
+
+
+@dataclass(frozen=True)
+class _Surface:
+    """A hypersurface: `field` has its algebraic parameter as the last one, and `equation` vanishes on it."""
+
+    field: FunctionField
+    equation: Any
+
+    @classmethod
+    def of(cls, field: AlgebraicField) -> _Surface:
+        base = field.base
+        assert isinstance(base, FunctionField)
+        larger = FunctionField((*base.names, field.name))
+        values = [larger.generator(name) for name in base.names]
+        modulus = over_parameters(field.modulus).value_at(values, larger)
+        return cls(larger, over_parameters(modulus(larger.generator(field.name))).num)
+
+    def lifted(self, image: Poly) -> FunctionPoly:
+        """The polynomial of the lowest degree in the algebraic parameter that is equal to the image there."""
+        values = [self.field.generator(name) for name in self.field.names]
+        total = self.field.poly([])
+        for power, part in enumerate(image.parts):
+            total = total + over_parameters(part).value_at(values[:-1], self.field) * values[-1] ** power
+        return over_parameters(total)
+
+
+def _random_point(field: FunctionField, surface: _Surface | None) -> list[int]:
+    """Values of the parameters modulo the prime, on the surface if there is one."""
+    random = Random(1)
+    while True:
+        point = [random.randrange(_PRIME) for _ in field.names]
+        if surface is None:
+            return point
+        coefficients = {
+            power: int(part(0, *point[:-1], 1)) for power, part in by_power(surface.equation, len(point)).items()
+        }
+        values = [coefficients.get(power, 0) for power in range(max(coefficients) + 1)]
+        roots = nmod_poly(values, _PRIME).roots()
+        if roots:
+            return [*point[:-1], int(roots[0][0])]
+
+
+def _common_factors(field: FunctionField, rows: list[list[Any]], rank: int, deficient: bool) -> RankConditions:
+    """The irreducible factors that all minors of the size of the rank have in common."""
     single = len(rows) == len(rows[0]) == rank
     zero = common = field.context.constant(0)
     random = Random(20240229)
@@ -68,9 +147,18 @@ def rank_conditions(images: Sequence[Poly], problem: Problem) -> RankConditions:
         if determinant.is_constant() and not determinant.is_zero():
             return RankConditions(deficient=deficient)
         common = common.gcd(determinant)
-    system = tuple(element(field, row[0]) for row in rows) if len(rows[0]) == 1 else ()
-    complete = single or len(field.names) == 1
-    return RankConditions(tuple(irreducible_factors(element(field, common))), complete, system, deficient)
+    return RankConditions(tuple(irreducible_factors(element(field, common))), deficient=deficient)
+
+
+def _common_zeros(field: FunctionField, minors: list[Any], deficient: bool) -> RankConditions:
+    """Common factors, and the system of what is left of the minors."""
+    common = reduce(lambda a, b: a.gcd(b), minors)
+    factors = tuple(irreducible_factors(element(field, common)))
+    rest = [irreducible_factors(element(field, minor // common)) for minor in minors]
+    if [] in rest:
+        return RankConditions(factors, deficient=deficient)
+    products = dict.fromkeys(reduce(mul, parts) for parts in rest)
+    return RankConditions(factors, tuple(sorted(products, key=lambda f: (len(f.num), str(f)))), deficient)
 
 
 def _normalised(row: list[Any]) -> list[Any]:
@@ -81,15 +169,9 @@ def _normalised(row: list[Any]) -> list[Any]:
 
 
 def _column(image: Poly) -> dict[int, Any]:
-    """The coefficients of the coordinates of a polynomial over Q(t) or an extension, without denominators."""
+    """The coefficients of a polynomial over Q(t), without denominators."""
     check_time()
-    leaves = [over_parameters(leaf) for leaf in image.leaves()]
-    common = reduce(lambda m, leaf: m * (leaf.den // m.gcd(leaf.den)), leaves[1:], leaves[0].den)
-    return {
-        power * len(leaves) + k: coefficient
-        for k, leaf in enumerate(leaves)
-        for power, coefficient in by_power(leaf.num * (common // leaf.den), 0).items()
-    }
+    return by_power(over_parameters(image).num, 0)
 
 
 def without_constant_pivots(columns: list[dict[int, Any]]) -> tuple[list[list[Any]], int]:

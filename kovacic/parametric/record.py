@@ -8,7 +8,7 @@ has a root among these integers; and an invariant of the degree exists there), "
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -17,7 +17,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
-from kovacic.equation import parameters_of
+from kovacic.equation import Change, Equation, parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.numerals import as_text, for_json, fraction
@@ -29,6 +29,7 @@ from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_with
+from kovacic.reading.read import read_input
 
 #: What was written by the package was within its limits.
 _LIMITS = Limits(degree=10**6, bits=10**8, digits=10**7, text_length=10**8, exponent=10**6)
@@ -65,6 +66,46 @@ def statement_data(statement: Statement) -> dict[str, Any]:
 
 def _number(value: Fraction) -> int | str:
     return for_json(int(value)) if value.denominator == 1 else as_text(value)
+
+
+def equation_data(equation: Equation | None) -> dict[str, Any] | None:
+    """The equation that was given, as text, and the function of the user's variable that its variable is."""
+    if equation is None:
+        return None
+    change = equation.change
+    shown = None if change is None else {"variable": change.variable, "expression": change.expression}
+    return {"text": equation.text(caret=False), "unknown": equation.unknown, "change": shown}
+
+
+def equation_from(data: Mapping[str, Any] | None, variable: str, names: tuple[str, ...]) -> Equation | None:
+    """What `equation_data` wrote, over the field of parameters with these names."""
+    if data is None:
+        return None
+    read = read_input(data["text"], var=variable, unknown=data["unknown"], limits=_LIMITS, equation=True).equation
+    if read is None:
+        raise InputError(f"{data['text']!r} isn't an equation")
+    change = data["change"] and Change(data["change"]["variable"], data["change"]["expression"])
+    return replace(
+        read,
+        a=_in_order(read.a, names),
+        b=_in_order(read.b, names),
+        c=_in_order(read.c, names),
+        f=_in_order(read.f, names),
+        change=change,
+    )
+
+
+def _in_order(function: RatFunc, names: tuple[str, ...]) -> RatFunc:
+    """The same function with the parameters in this order."""
+    field = function.field
+    base = field.base if isinstance(field, AlgebraicField) else field
+    if not isinstance(base, FunctionField) or base.names == names:
+        return function
+    if base is not field:
+        raise InputError("the parameters of an equation with an algebraic constant are in another order")
+    ordered = FunctionField(names)
+    values = [ordered.generator(name) for name in base.names]
+    return RatFunc(*(over_parameters(part).value_at(values, ordered) for part in (function.num, function.den)))
 
 
 def constant_data(constant: Point) -> dict[str, Any]:

@@ -6,7 +6,7 @@ earlier regions state is decided for these functions.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import count, groupby
@@ -16,19 +16,17 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.decision import Decision, Status, Structure
 from kovacic.limits import check_time
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
-from kovacic.parametric.exponents import PolynomialSolution
 from kovacic.parametric.functions import Point, irreducible_factors, over_parameters
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.record import statement_data
 from kovacic.parametric.restriction import hypersurface
+from kovacic.parametric.solutions import Origin, PolynomialSolution
 from kovacic.parametric.spectra import families
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both, either
 
 #: Characters up to which statements share a line.
 _LINE = 100
-#: From the degree d, if there is one to be chosen.
-Origin = Callable[[int | None], tuple[PolynomialSolution, ...]]
 
 
 @dataclass(frozen=True)
@@ -78,14 +76,6 @@ _GROUPS = {
     Structure.ICOSAHEDRAL: "binary icosahedral, order 120",
     None: "SL2(C)",
 }
-#: What omega is where a group has the structure, as far as that can be said for all.
-OMEGAS = {
-    Structure.REDUCIBLE: "omega = theta + P'/P, theta from the exponents and the polynomial part of sqrt(S), P a polynomial",
-    Structure.IMPRIMITIVE: "y1 y2 = sqrt of a rational function; omega of degree 2",
-    Structure.TETRAHEDRAL: "a rational invariant of degree 6; omega of degree 4",
-    Structure.OCTAHEDRAL: "a rational invariant of degree 8; omega of degree 6",
-    Structure.ICOSAHEDRAL: "a rational invariant of degree 12; omega of degree 12",
-}
 
 
 @dataclass(frozen=True)
@@ -94,14 +84,13 @@ class Condition:
 
     `case` is Kovacic's case (None: no Liouvillian solution), `group` the family of the Galois group, `complete` True where it
     is proven that the statement describes all such values and nothing else, else what isn't proven.  `defined` is False where
-    S isn't defined.  `omega` shows what becomes possible, `determinants` the first ones of a statement with a natural number.
+    S isn't defined.  `determinants` has the first ones of a statement with a natural number.
     """
 
     statement: Statement
     verdict: Verdict
     complete: bool | str = True
     defined: bool = True
-    omega: str | None = None
     determinants: tuple[str, ...] = ()
     origin: Origin | None = field(default=None, compare=False)
 
@@ -153,7 +142,7 @@ class Condition:
 
     def to_dict(self) -> dict[str, Any]:
         """The region's part of the JSON object."""
-        names = ("case", "group", "complete", "defined", "omega")
+        names = ("case", "group", "complete", "defined")
         data = {"condition": self.statement.text()} | {name: getattr(self, name) for name in names}
         data |= {"statement": statement_data(self.statement), "verdict": self.verdict.to_dict()}
         return data | ({"determinants": list(self.determinants)} if self.determinants else {})
@@ -183,8 +172,7 @@ def _mirrored(regions: Sequence[Condition]) -> Iterator[Condition]:
     for first, group in groupby(regions, key=lambda region: both(region.statement).parts[0]):
         block = [replace(region, statement=Both(both(region.statement).parts[1:])) for region in group]
         firsts, last = merged[-1] if merged else ([], [])
-        said = [[replace(region, omega=None) for region in regions] for regions in (block, last)]
-        if firsts and isinstance(first, Vanishes) and isinstance(firsts[-1], Vanishes) and said[0] == said[1]:
+        if firsts and isinstance(first, Vanishes) and isinstance(firsts[-1], Vanishes) and block == last:
             firsts.append(first)
         else:
             merged.append(([first], block))

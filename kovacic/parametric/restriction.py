@@ -218,6 +218,17 @@ def _free(polynomial: Poly, larger: FunctionField) -> Poly:
     return total
 
 
+def over_all(statement: Statement, field: FunctionField) -> Statement:
+    """The same statement with functions of all parameters, those on hypersurfaces among them."""
+    values = [field.generator(name) for name in field.names]
+
+    def change(function: FunctionPoly) -> FunctionPoly:
+        chosen = [values[field.names.index(name)] for name in function.field.names]
+        return over_parameters(function.value_at(chosen, field))
+
+    return statement.rewritten(change)
+
+
 def reduced(statement: Statement, constant: Point) -> Statement:
     """The same statement, with high powers of the constant replaced by means of its minimal polynomial."""
     return statement.rewritten(lambda function: _reduced(function, constant)) if constant.names else statement

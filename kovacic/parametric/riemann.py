@@ -169,19 +169,6 @@ def difference_squared(place: Place) -> Poly:
     return (1 + 4 * place.num * cofactor.inverse_modulo(p)) % p
 
 
-def omega(problem: Problem, variable: str) -> str:
-    """What a solution of case 1 looks like: its exponents, and the degree of its polynomial part."""
-    general = f"omega = sum of (1 +- Delta_c)/(2 ({variable} - c)) + P'/P"
-    differences = _differences(squares_of_differences(problem))
-    if len(differences) != 3:
-        return f"{general}, P a polynomial"
-    return f"{general} with signs for which deg P = (-1{''.join(map(with_sign, differences))})/2 is a natural number"
-
-
-def with_sign(term: str) -> str:
-    return f" +- ({term})" if " " in term else f" +- {term}"
-
-
 def group(problem: Problem, structure: Structure) -> str | None:
     """The family of the groups with this structure; None where the structure is all there is to say.
 

@@ -17,7 +17,7 @@ from itertools import product
 from math import lcm, prod
 
 from kovacic.algebra.extension import AlgebraicField, norm
-from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.decision import Structure
 from kovacic.engine.degree_bound import irregular_difference_squared
@@ -26,9 +26,10 @@ from kovacic.engine.places import Kind, Problem
 from kovacic.errors import LimitExceeded
 from kovacic.parametric import riemann
 from kovacic.parametric.exponents import form_conditions, with_degree
-from kovacic.parametric.functions import over_parameters
+from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import RankConditions
+from kovacic.parametric.restriction import hypersurface
 
 #: Combinations of exponents above which invariants aren't examined.
 _COMBINATIONS = 400
@@ -46,9 +47,22 @@ class Findings:
     unproven: list[str] = field(default_factory=list)
 
     def add(self, found: RankConditions) -> bool:
-        """The candidates that a matrix gives; False where there can be more special values."""
+        """The candidates that a matrix gives; False where there can be more special values.
+
+        Where all functions of a system vanish, one of them does: its zeros are examined as a whole.
+        """
         self.candidates += found.polynomials
-        return found.complete
+        if found.system is None:
+            return False
+        solvable = (irreducible_factors(function) for function in found.system)
+        chosen = next((factors for factors in solvable if all(map(_is_eliminated, factors))), None)
+        self.candidates += chosen or ()
+        return chosen is not None or not found.system
+
+
+def _is_eliminated(function: FunctionPoly) -> bool:
+    """Does its vanishing leave rational functions of fewer parameters, so that everything on it is found?"""
+    return isinstance(hypersurface(function).field, FunctionField) or sum(map(bool, degrees(function))) == 1
 
 
 def search(problem: Problem) -> Findings:

@@ -55,17 +55,20 @@ from itertools import chain, product
 from math import gcd
 from typing import Any
 
+import sympy
+
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.parametric import restriction, riemann
-from kovacic.parametric.exponents import PolynomialSolution, may_be_natural, root
-from kovacic.parametric.formulas import root_written, shifted
+from kovacic.parametric.formulas import shifted
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
-from kovacic.parametric.regions import OMEGAS, Condition, Theorem, Verdict
+from kovacic.parametric.regions import Condition, Theorem, Verdict
+from kovacic.parametric.solutions import PolynomialSolution, jacobi, may_be_natural, root
 from kovacic.parametric.statements import NEVER, Statement, both
+from kovacic.reading.symbolic import read_expression
 
 
 @dataclass(frozen=True)
@@ -117,13 +120,10 @@ def kimura(problem: Problem, variable: str) -> Theorem | None:
     ):
         if riemann.is_fuchsian(equation) and riemann.singular_points(equation) <= 3:
             points = "singular points" if coordinate.n == 1 else f"singular points in {coordinate}"
-            omegas, origin = dict(OMEGAS), partial(jacobi_solutions, equation, coordinate, variable)
-            if coordinate.n == 1:
-                omegas[Structure.REDUCIBLE] = riemann.omega(problem, variable)
+            origin = partial(jacobi_solutions, equation, coordinate, variable)
             regions = (
-                replace(region, omega=omegas[structure], origin=origin if region.case == 1 else None)
+                replace(region, origin=origin if region.case == 1 else None)
                 for region in structures(equation, coordinate.n)
-                if (structure := region.verdict.structure)
             )
             name = f"at most three regular {points}: Kimura's theorem"
             return Theorem(name, restriction.confluence(problem), regions)
@@ -149,10 +149,6 @@ def jacobi_solutions(
     problem: Problem, coordinate: Coordinate, variable: str, _: int | None = None
 ) -> tuple[PolynomialSolution, ...]:
     """Equation (1), for all signs for which d can be a natural number; () where three singular points are conjugate."""
-    import sympy
-
-    from kovacic.reading.symbolic import read_expression
-
     x, n = sympy.Symbol(variable), coordinate.n
     base, weight = map(read_expression, (coordinate.base, coordinate.weight))
     points: list[tuple[Any, Any]] = []
@@ -173,16 +169,34 @@ def jacobi_solutions(
         return ()
     (c, first), (c1, second), (c2, third) = points
     z = base**n
-    w = (z - c) / (c1 - c) if c2 is None else (z - c) * (c1 - c2) / ((z - c2) * (c1 - c))
-    jacobian = weight * (1 if c2 is None else z - c2) / (base ** sympy.Rational(n - 1, 2))
+    if c2 is None:
+        argument, last = 1 - 2 * (z - c) / (c1 - c), sympy.Integer(1)
+    else:
+        argument, last = 1 - 2 * (z - c) * (c1 - c2) / ((z - c2) * (c1 - c)), z - c2
     found = []
     for f, g, h in product((1, -1), repeat=3):
         degree = sympy.expand((-1 - f * first - g * second - h * third) / 2)
-        if may_be_natural(degree):
-            powers = w ** sympy.expand((1 + f * first) / 2) * (1 - w) ** sympy.expand((1 + g * second) / 2)
-            polynomial = sympy.jacobi(degree, f * first, g * second, 1 - 2 * w)
-            found.append(PolynomialSolution(jacobian * powers * polynomial, degree))
+        if not may_be_natural(degree):
+            continue
+        e, e1 = sympy.expand((1 + f * first) / 2), sympy.expand((1 + g * second) / 2)
+        powers = (
+            _power(base, n, c, e, -sympy.Rational(n - 1, 2)) * _positive(z, c1) ** e1 * last ** sympy.expand(1 - e - e1)
+        )
+        y = weight * powers * jacobi(degree, f * first, g * second, argument)
+        found.append(PolynomialSolution(y, degree))
     return tuple(dict.fromkeys(found))
+
+
+def _power(base: Any, n: int, c: Any, exponent: Any, own: Any) -> Any:
+    """(base^n - c)^exponent base^own up to a constant factor."""
+    if c == 0:
+        return base ** sympy.expand(n * exponent + own)
+    return _positive(base**n, c) ** exponent * base**own
+
+
+def _positive(z: Any, c: Any) -> Any:
+    """z - c, or c - z for a positive number c: what is positive at small z."""
+    return c - z if c.is_positive else z - c
 
 
 def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> Statement:
@@ -210,29 +224,9 @@ class Confluent:
     r: Poly
     q: Poly
 
-    @property
-    def omega(self) -> str:
-        """What the solutions look like in the coordinate s of the form (2)."""
-        n, base = self.coordinate.n, self.coordinate.base
-        z, where = (base, "") if base.isidentifier() else ("s", f", s = {base}")
-        if not self.q:
-            return f"omega of degree 2, rational in {z} and sqrt({z}){where}"
-        power = "" if n == 1 else f" {z}" if n == 2 else f" {z}^{n - 1}"
-        squares = self.q, self.r * self.r / self.q, 1 + 4 * self.b
-        rate, beta, difference = (riemann.with_sign(root_written(f)) if f else "" for f in squares)
-        natural = "a natural number" if n == 1 else f"a natural multiple of {n}"
-        return (
-            f"omega ={rate}{power} + (1{difference})/(2 {z}) + P'/P{where}, with signs for which "
-            f"deg P = (-{n}{beta}{difference})/2 is {natural}"
-        )
-
 
 def laguerre_solutions(form: Confluent, variable: str, _: int | None = None) -> tuple[PolynomialSolution, ...]:
     """Equation (3), for all signs for which d can be a natural number."""
-    import sympy
-
-    from kovacic.reading.symbolic import read_expression
-
     if not form.q:
         return ()
     x, s, weight = sympy.Symbol(variable), *map(read_expression, (form.coordinate.base, form.coordinate.weight))
@@ -270,6 +264,6 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     if q:
         family = "Borel group, or G_m where both exponential factors occur" if r else "G_m"
         verdict = Verdict(Structure.REDUCIBLE, family=family)
-    region = Condition(statement, verdict, omega=form.omega, origin=origin)
+    region = Condition(statement, verdict, origin=origin)
     name = f"{'Whittaker' if q else 'Bessel'}'s equation in {coordinate}: Martinet & Ramis"
     return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(q or r)], [region])

@@ -102,7 +102,9 @@ def in_terms_of(change: Change, expression: Any, variable: str) -> Any:
     result = result.replace(
         lambda e: e.func is sympy.log and e.args[0].func is sympy.exp, lambda e: e.args[0].exp
     ).replace(_is_exponential_and_one, _hyperbolic)
-    powers = result.replace(lambda e: e.is_Pow and e.base.is_Mul, lambda e: sympy.expand_power_base(e, force=True))
+    powers = result.replace(
+        lambda e: e.is_Pow and e.base.is_Mul and e.base.has(x), lambda e: sympy.expand_power_base(e, force=True)
+    )
     powers = powers.replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
     return sympy.powsimp(powers, combine="exp")
 

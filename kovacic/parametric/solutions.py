@@ -1,0 +1,232 @@
+"""Solutions for all parameters of a region at once, as SymPy expressions in the user's equation and variable.
+
+They have a polynomial of Jacobi or Laguerre in them whose degree has to be a natural number, or a polynomial of given degree
+whose coefficients are functions of the parameters.  Square roots of parameters are SymPy's, of which one value is meant, and
+the conditions say for which of the two signs y is a solution.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import reduce
+from typing import Any
+
+import sympy
+
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.closed_form.atoms import Atoms, display
+from kovacic.closed_form.product import product
+from kovacic.engine.decide import decide
+from kovacic.equation import Equation
+from kovacic.limits import Budget
+from kovacic.parametric.exponents import Exponents
+from kovacic.parametric.formulas import equation_written
+from kovacic.parametric.functions import element, irreducible_factors, over_parameters
+from kovacic.reading.exponential import solution_in_terms_of
+from kovacic.writing.formula import caret
+
+
+class jacobi(sympy.Function):  # type: ignore[misc]  # noqa: N801
+    """Jacobi's polynomial P_n^(a, b)(z), for all a and b: a sum of n + 1 terms where n is a natural number.
+
+    P_n^(a, b)(z) = sum over s of binomial(n + a, n - s) binomial(n + b, s) ((z - 1)/2)^s ((z + 1)/2)^(n - s)  [DLMF 18.5.8].
+    SymPy's function of this name becomes 0, nan or an error where a or b is a negative integer or a + b = 0.  The polynomial
+    vanishes identically where a and b are negative integers with -n <= a, b and a + b < -n, and nowhere else.
+
+    >>> x = sympy.Symbol("x")
+    >>> sympy.expand(jacobi(2, -1, 0, x))
+    3*x**2/4 - x/2 - 1/4
+    """
+
+    @classmethod
+    def eval(cls, n: Any, a: Any, b: Any, z: Any) -> Any:
+        if not (n.is_Integer and n >= 0):
+            return None
+        terms = [
+            _binomial(n + a, n - s) * _binomial(n + b, s) * ((z - 1) / 2) ** s * ((z + 1) / 2) ** (n - s)
+            for s in range(int(n) + 1)
+        ]
+        return sympy.Add(*terms)
+
+    def fdiff(self, argindex: int = 4) -> Any:
+        """The derivative with respect to z [DLMF 18.9.15]."""
+        n, a, b, z = self.args
+        if argindex != 4:
+            raise sympy.core.function.ArgumentIndexError(self, argindex)
+        return (n + a + b + 1) / 2 * jacobi(n - 1, a + 1, b + 1, z)
+
+    def _latex(self, printer: Any, exp: str | None = None) -> str:
+        n, a, b, z = map(printer.doprint, self.args)
+        power = "" if exp is None else f"^{{{exp}}}"
+        return rf"P_{{{n}}}^{{\left({a}, {b}\right)}}\left({z}\right){power}"
+
+
+def _binomial(top: Any, k: Any) -> Any:
+    """The polynomial top (top - 1) ... (top - k + 1)/k!."""
+    factors = [(top - j) / (j + 1) for j in range(int(k))]
+    return sympy.Mul(*factors)
+
+
+@dataclass(frozen=True)
+class PolynomialSolution:
+    """y solves the equation where `degree` is a natural number and all of the `conditions` vanish.
+
+    SymPy expressions in the variable and the parameters; `where` says the same in words.  Jacobi's polynomials can vanish
+    identically, see `jacobi`; where they do, another solution of the region doesn't.
+    """
+
+    y: Any
+    degree: Any
+    conditions: tuple[Any, ...] = ()
+    where: str = ""
+
+    def __str__(self) -> str:
+        """`y = x*exp(x^2/2)*assoc_laguerre(n, 1/2, -x^2) where n is a natural number`."""
+        return f"y = {caret(str(self.y))} where {self.where or f'{caret(str(self.degree))} is a natural number'}"
+
+
+#: From the degree d, if there is one to be chosen.
+Origin = Callable[[int | None], tuple[PolynomialSolution, ...]]
+
+
+@dataclass(frozen=True)
+class Given:
+    """The solutions of a normal form as those of the equation of which it is one."""
+
+    origin: Origin
+    equation: Equation
+
+    def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
+        return tuple(replace(solution, y=self.translated(solution.y)) for solution in self.origin(number))
+
+    def translated(self, y: Any) -> Any:
+        """Times the gauge factor, and in the user's variable."""
+        equation = self.equation
+        if equation.gauge:
+            y = y * display(product(equation.gauge), Atoms(sympy.Symbol(equation.variable)))
+        if equation.change is not None:
+            y = solution_in_terms_of(equation.change, y, equation.variable)
+        return y
+
+
+def solution_of_degree(exponents: Exponents, d: int, variable: str, given: FunctionPoly) -> PolynomialSolution | None:
+    """exp(int theta) P for one choice of exponents, where `given` vanishes and P exists.
+
+    None where P doesn't follow from its degree, where it exists for no values, and where a root isn't a radical.
+    """
+    if not _has_radicals(exponents.field):
+        return None
+    found = exponents.polynomial(d)
+    if found is None:
+        return None
+    P, rest = found
+    alternatives = [_conditions(coefficient) for coefficient in rest if coefficient]
+    if [] in alternatives:
+        return None
+    x = sympy.Symbol(variable)
+    y = P.to_sympy(x)
+    for part in exponents.parts:
+        y *= _local_factor(part.factor, part.exponent, part.main, x)
+    zero = [" or ".join(f"{_text(f)} = 0" for f in factors) for factors in dict.fromkeys(map(tuple, alternatives))]
+    conditions = [given.to_sympy(x), *(sympy.Mul(*(f.to_sympy(x) for f in factors)) for factors in alternatives)]
+    return PolynomialSolution(y, sympy.Integer(d), tuple(conditions), ", ".join([equation_written(given), *zero]))
+
+
+def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[PolynomialSolution, ...]:
+    """A solution with a rational omega where S has some, by the engine; its `degree` is that of the P in it.
+
+    () where the constants in it are no square roots, or the exponents at conjugate points differ.
+    """
+    riccati = decide(S, Budget()).riccati
+    if riccati is None or riccati.degree > 1:
+        return ()
+    omega = -riccati.coefficients[0]
+    x = sympy.Symbol(variable)
+    constant = _constant(omega.field, S.field)
+    y = product(omega)
+    if constant is None or y.roots:
+        return ()
+
+    def shown(polynomial: Poly) -> Any:
+        if polynomial.field == S.field:
+            return polynomial.to_sympy(x)
+        return sympy.Add(*(part.to_sympy(x) * constant**k for k, part in enumerate(polynomial.parts)))
+
+    factors = [shown(power.base) ** sympy.factor(shown(power.exponent)) for power in y.powers]
+    exponential = sympy.exp(sympy.expand(shown(y.exponential.num) / shown(y.exponential.den)))
+    degree = sympy.Integer(max(riccati.P.degree, 0))
+    return (PolynomialSolution(sympy.Mul(*factors, exponential), degree, (), "the region's statement holds"),)
+
+
+def _constant(field: Field, below: Field) -> Any:
+    """The generator of an extension by a square root as a radical, 0 where there is no extension; None for any other.
+
+    Its name isn't used: it can be that of a parameter.
+    """
+    if field == below:
+        return sympy.Integer(0)
+    assert isinstance(field, AlgebraicField)
+    if field.base != below or field.dimension > 2:
+        return None
+    x = sympy.Symbol("x")
+    half, rest = (field.modulus[1] / 2).to_sympy(x), field.modulus[0].to_sympy(x)
+    return sympy.sqrt(sympy.factor(half**2 - rest)) - half
+
+
+def _local_factor(u: Poly | None, exponent: Poly, main: Poly, x: Any) -> Any:
+    """exp(int theta) for the part of theta at one point."""
+    integral = sympy.integrate(sympy.expand(main.to_sympy(x)), x)
+    if u is None:
+        return sympy.exp(integral)
+    base = u.to_sympy(x)
+    return base ** sympy.factor(exponent.to_sympy(x)) * sympy.exp(integral.subs(x, 1 / base))
+
+
+def _has_radicals(field: Field) -> bool:
+    """Are all extensions square roots, or the parameter that is algebraic on a hypersurface?"""
+    while isinstance(field, AlgebraicField):
+        if field.name == "point":
+            return False
+        field = field.base
+    return True
+
+
+def _conditions(value: Poly) -> list[Poly]:
+    """Functions of which one has to vanish so that a constant other than 0 does; [] where it is a number.
+
+    Over an extension: common factors of the coordinates, and the rest.
+    """
+    if value.field.ground == QQ:
+        return []
+    if isinstance(value, FunctionPoly):
+        return list(irreducible_factors(value))
+    leaves = [over_parameters(leaf) for leaf in value.leaves() if leaf]
+    denominator = reduce(lambda m, leaf: m * (leaf.den // m.gcd(leaf.den)), leaves, leaves[0].den)
+    numerators = [leaf.num * (denominator // leaf.den) for leaf in leaves]
+    content = reduce(lambda a, b: a.gcd(b), numerators)
+    field = leaves[0].field
+    factors: list[Poly] = list(irreducible_factors(element(field, content)))
+    rest = value * element(field, denominator) / element(field, content)
+    is_product_of_roots = len(leaves) == 1
+    return factors if is_product_of_roots else [*factors, rest]
+
+
+def _text(function: Poly) -> str:
+    """A polynomial in the parameters, and maybe square roots."""
+    return caret(str(function.to_sympy(sympy.Symbol("x"))))
+
+
+def may_be_natural(degree: Any) -> bool:
+    """Is it a natural number, or can it be one for some values of the parameters?"""
+    return bool(degree.free_symbols or (degree.is_Integer and degree >= 0))
+
+
+def root(square: Poly) -> Any:
+    """The square root of a constant, up to its sign."""
+    inside, x = square.field.sqrt(square), sympy.Symbol("x")
+    return sympy.sqrt(sympy.factor(square.to_sympy(x))) if inside is None else sympy.expand(inside.to_sympy(x))

@@ -1,0 +1,98 @@
+"""What the formulas of `conditions` mean, by SymPy and mpmath alone: points as numbers, solutions put into equations."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import mpmath
+import sympy
+
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.parametric.answer import Conditions
+from kovacic.parametric.check import Sampler
+from kovacic.parametric.functions import Point
+from kovacic.parametric.natural import Natural
+from kovacic.parametric.regions import Condition
+from kovacic.parametric.statements import both
+from tests.parametric_cases import FAMILIES
+
+_PUBLISHED = Path(__file__).parent / "data" / "families.jsonl"
+#: The digits that are computed, and those that have to agree.
+_DIGITS, _AGREE = 50, 25
+
+
+def all_families() -> dict[str, str]:
+    """S by name: those with a theory in `parametric_cases`, and those of the literature."""
+    found = {family.name: family.S for family in FAMILIES}
+    for line in _PUBLISHED.read_text(encoding="utf-8").splitlines():
+        row = json.loads(line)
+        found[f"{row['name']}, published"] = row["S"]
+    return found
+
+
+def points_in(answer: Conditions, region: Condition, number: int, seed: int = 1) -> Iterator[Point]:
+    """Points that belong to this region and to none before, at most so many."""
+    sampler = Sampler(answer.constant, answer.parameters, answer.assumptions, Random(seed))
+    found, points = 0, sampler.points([region.statement])
+    for attempt in range(6 * number):
+        point = next(points)
+        if attempt % 2 or point is None or answer.region_of(point) is not region:
+            continue
+        found += 1
+        yield point
+        if found == number:
+            return
+
+
+def numbers_in(point: Point, region: Condition) -> list[int | None]:
+    """The degrees to be asked for: those that the exponents allow at the point, and None where there is none to choose."""
+    natural = [part for part in both(region.statement).parts if isinstance(part, Natural) and part.m == 1]
+    return [number for part in natural for number in part.numbers_at(point)] if natural else [None]
+
+
+def as_sympy(point: Point) -> dict[Any, Any] | None:
+    """The values by symbol, exact ones where they are rational, else numbers; None where no root is meant."""
+    field = point.field
+    if not isinstance(field, AlgebraicField):
+        return {
+            sympy.Symbol(n): value.to_sympy(sympy.Symbol("x"))
+            for n, value in zip(point.names, point.values, strict=True)
+        }
+    if field.height > 1:
+        return None
+    t = sympy.Symbol("t")
+    root = sympy.Poly(field.modulus.to_sympy(t), t).nroots(n=_DIGITS + 20, maxsteps=500)[0]
+    values = {}
+    for name, value in zip(point.names, point.values, strict=True):
+        value = value.over(field)
+        parts = [part.to_sympy(sympy.Symbol("x")) for part in value.parts]
+        exact = not any(parts[1:])
+        total = sum(part * root**k for k, part in enumerate(parts))
+        values[sympy.Symbol(name)] = parts[0] if exact else sympy.N(total, _DIGITS + 10)
+    return values
+
+
+def vanishes(expression: Any) -> bool:
+    """Is a constant zero, to as many digits as are compared?"""
+    with mpmath.workdps(_DIGITS):
+        return abs(complex(sympy.N(expression, _DIGITS))) < 10**-_AGREE
+
+
+def is_natural(degree: Any) -> bool:
+    degree = sympy.nsimplify(sympy.simplify(degree)) if degree.is_number else degree
+    return bool(degree.is_Integer and degree >= 0)
+
+
+def residual(y: Any, equation: tuple[Any, Any, Any], x: Any, at: Any) -> tuple[Any, Any]:
+    """|a y'' + b y' + c y| relative to its largest term at a point, and y there."""
+    with mpmath.workdps(_DIGITS):
+        function = sympy.lambdify(x, y, "mpmath")
+        value, slope, half = mpmath.taylor(function, at, 2)
+        a, b, c = (sympy.lambdify(x, part, "mpmath")(at) for part in equation)
+        terms = [2 * a * half, b * slope, c * value]
+        largest = max(map(abs, terms))
+        return (abs(sum(terms)) / largest if largest else mpmath.mpf(0)), value
