@@ -301,21 +301,20 @@ def test_the_group_of_a_region_is_that_of_its_points(family: Family, answers: di
             assert group.kind is Kind.DICYCLIC  # the exponents at these points are rational
 
 
-def test_omega_of_a_single_value_is_written_out() -> None:
+def test_the_solution_at_a_single_value_is_written_out() -> None:
     lame = "(5*x^4 + 4*B*x^3 - 98*x^2 + (-28*B + 192)*x + 24*B - 147)/(16*(x^3-7*x+6)^2)"
     answer = kovacic.conditions(lame, var="x")
     region = answer.region_at({"B": 2})
     assert region is not None
-    text = str(region.omega).removeprefix("omega = ")
+    (solution,) = region.solution()
     x = sympy.Symbol("x")
-    omega, S = sympy.sympify(text.replace("^", "**")), sympy.sympify(lame.replace("^", "**")).subs("B", 2)
+    S = sympy.sympify(lame.replace("^", "**")).subs("B", 2)
+    omega = sympy.cancel(sympy.expand_log(sympy.log(solution.y.subs("B", 2)), force=True).diff(x))
     assert sympy.cancel(omega.diff(x) + omega**2 - S) == 0
 
 
-def test_the_coordinate_of_the_omega_is_the_users() -> None:
+def test_the_coordinate_of_the_theorem_is_the_users() -> None:
     answer = kovacic.conditions("z^2 + 2*a*z + b", var="z")
-    (region,) = answer.regions
-    assert "s = z + a" in str(region.omega)
     assert "Whittaker's equation in (z + a)^2" in answer.theory
 
 
@@ -616,7 +615,6 @@ def test_the_answer_at_a_point_has_its_omega(answers: dict[str, Conditions]) -> 
     answer = answers["quartic"].solve_at({"mu": 2})
     assert answer.verified
     assert str(answer.omega) in {"-x**2", "x**2", "(x**3 + 1)/x", "(-x**3 + 1)/x"}
-    assert "deg P" in str(answers["quartic"].regions[0].omega)
 
 
 def test_integer_symbols_of_sympy() -> None:
