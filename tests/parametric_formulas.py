@@ -23,6 +23,8 @@ from tests.parametric_cases import FAMILIES
 _PUBLISHED = Path(__file__).parent / "data" / "families.jsonl"
 #: The digits that are computed, and those that have to agree.
 _DIGITS, _AGREE = 50, 25
+#: The largest degree of a polynomial that is written out.
+_LARGEST = 8
 
 
 def all_families() -> dict[str, str]:
@@ -96,3 +98,50 @@ def residual(y: Any, equation: tuple[Any, Any, Any], x: Any, at: Any) -> tuple[A
         terms = [2 * a * half, b * slope, c * value]
         largest = max(map(abs, terms))
         return (abs(sum(terms)) / largest if largest else mpmath.mpf(0)), value
+
+
+def equation_of(answer: Conditions) -> tuple[Any, Any, Any]:
+    """The coefficients of the equation whose normal form was given, as SymPy reads them."""
+    names = {name: sympy.Symbol(name) for name in (*answer.parameters, answer.variable)}
+    S = sympy.sympify(answer.S.to_str(answer.variable), locals=names)
+    return sympy.Integer(1), sympy.Integer(0), -S
+
+
+def wrong_solutions(answer: Conditions, equation: tuple[Any, Any, Any], x: Any, points: int) -> tuple[int, list[str]]:
+    """How many solutions were put into the equation, and those that don't solve it, or points without one."""
+    tried = 0
+    wrong: list[str] = []
+    for region in answer.regions:
+        if region.case != 1 or not region.defined:
+            continue
+        for point in points_in(answer, region, points):
+            values = as_sympy(point)
+            if values is None:
+                continue
+            number, alarms = _tried_at(point, values, region, equation, x)
+            tried += number
+            wrong += [f"{region.statement.text()}: {alarm}" for alarm in alarms]
+    return tried, wrong
+
+
+def _tried_at(
+    point: Point, values: dict[Any, Any], region: Condition, equation: tuple[Any, Any, Any], x: Any
+) -> tuple[int, list[str]]:
+    there = tuple(sympy.sympify(part).subs(values) for part in equation)
+    tried, wrong, offered = 0, list[str](), False
+    for number in numbers_in(point, region):
+        if number is not None and number > _LARGEST:
+            return 0, []
+        for solution in region.solution(number):
+            offered = True
+            meant = all(vanishes(condition.subs(values)) for condition in solution.conditions)
+            if not meant or not is_natural(solution.degree.subs(values)):
+                continue
+            y = solution.y.subs(values)
+            if y == 0:
+                continue  # one of Jacobi's polynomials: another solution has to do
+            error, _ = residual(y, there, x, mpmath.mpf(13) / 7)
+            tried += 1
+            if error > mpmath.mpf(10) ** -20:
+                wrong.append(f"{solution} at {point}")
+    return tried, wrong if tried or not offered else [f"no solution at {point}"]

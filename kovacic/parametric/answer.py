@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from itertools import islice
 from random import Random
@@ -162,17 +163,20 @@ class Conditions:
         budget, statements = Budget(self.limits), [region.statement for region in self.regions]
         counts, disagreements = Counter[str](inside=0, outside=0, open=0), list[Disagreement]()
         sampler = Sampler(self.constant, self.parameters, self.assumptions, Random(seed))
-        for point in filter(None, islice(sampler.points(statements), 20 * samples)):
-            if counts.total() >= samples or not budget.seconds_left:
-                break
-            predicted = self.predicted(point)
-            if predicted is None:
-                continue
-            inside = predicted.known and any(statement.holds(point) for statement in statements)
-            counts["inside" if inside else "outside" if predicted.known else "open"] += 1
-            decision = decide(point.restricted(self.S), budget, certify=False) if predicted.known else None
-            if decision and decision.status is not Status.UNDECIDED and decision.case != predicted.case:
-                disagreements.append(Disagreement(str(point), predicted.case, decision.case))
+        points = (point for point in islice(sampler.points(statements), 20 * samples) if point is not None)
+        with budget.watched(), suppress(LimitExceeded):
+            while counts.total() < samples and (point := next(points, None)) is not None:
+                predicted = self.predicted(point)
+                if predicted is None:
+                    continue
+                if not predicted.known:
+                    counts["open"] += 1
+                    continue
+                is_inside = self.region_of(point) is not None
+                counts["inside" if is_inside else "outside"] += 1
+                decision = decide(point.restricted(self.S), budget, certify=False)
+                if decision.status is not Status.UNDECIDED and decision.case != predicted.case:
+                    disagreements.append(Disagreement(str(point), predicted.case, decision.case))
         return CheckReport(**counts, disagreements=tuple(disagreements))
 
     def to_json(self) -> str:

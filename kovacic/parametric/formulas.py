@@ -174,11 +174,18 @@ def _polynomial(polynomial: Any, names: Sequence[str]) -> str:
 def _term(term: _Term, names: Sequence[str]) -> str:
     top = _pieces(abs(term.number.numerator), term.top, term.root, names)
     bottom = _pieces(term.number.denominator, term.bottom, term.under, names)
-    sign, above, below = "-" if term.number < 0 else "", "*".join(top) or "1", "*".join(bottom)
-    if not bottom:
-        single = len(top) == 1 and not sign and above.startswith("(") and above.endswith(")")
-        return above[1:-1] if single else sign + above
-    return f"{sign}{above}/{f'({below})' if '*' in re.sub(r'[(].*[)]', '', below) else below}"
+    sign = "-" if term.number < 0 else ""
+    above = "*".join(top) or "1"
+    if bottom:
+        return f"{sign}{above}/{_divisor(bottom)}"
+    is_sum_alone = len(top) == 1 and not sign and above.startswith("(") and above.endswith(")")
+    return above[1:-1] if is_sum_alone else sign + above
+
+
+def _divisor(factors: list[str]) -> str:
+    """A product behind a slash: in parentheses, unless it is a single name, number, power or sum in parentheses."""
+    alone = len(factors) == 1 and ("*" not in factors[0] or factors[0].startswith(("(", "sqrt(")))
+    return factors[0] if alone else f"({'*'.join(factors)})"
 
 
 def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[str]) -> list[str]:

@@ -13,15 +13,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from itertools import combinations
-from math import comb, gcd
+from math import comb, gcd, lcm
 from operator import mul
 from random import Random
 from typing import Any
 
-from flint import fmpq_mat, nmod_mat, nmod_poly
+from flint import fmpz_mat, nmod_mat, nmod_poly
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.sparse import by_power
 from kovacic.limits import check_time
@@ -50,16 +51,24 @@ class RankConditions:
 
 
 def has_kernel(images: Sequence[Poly]) -> bool:
-    """Are polynomials over Q linearly dependent?"""
+    """Are polynomials over Q linearly dependent?
+
+    A rank modulo a prime can only be smaller: where it is full there, it is full.
+    """
     width = max((image.degree for image in images), default=-1) + 1
     if width < len(images):
         return True
-    entries = [_padded(image.rational_coefficients(), width) for image in images]
-    return bool(fmpq_mat(entries).rank() < len(images))
+    rows = [_integers(image, width) for image in images]
+    modular = nmod_mat(len(rows), width, [entry % _PRIME for row in rows for entry in row], _PRIME)
+    return bool(modular.rank() < len(rows) and fmpz_mat(rows).rank() < len(rows))
 
 
-def _padded(row: Sequence[Any], width: int) -> list[Any]:
-    return [*row, *[0] * (width - len(row))]
+def _integers(image: Poly, width: int) -> list[int]:
+    """The coefficients of a multiple, padded."""
+    coefficients = image.rational_coefficients()
+    common = lcm(*(int(c.q) for c in coefficients))
+    numbers = [int(c.p) * (common // int(c.q)) for c in coefficients]
+    return [*numbers, *[0] * (width - len(numbers))]
 
 
 def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
@@ -76,9 +85,9 @@ def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
     rows, eliminated = without_constant_pivots([*map(_column, images)])
     rows = [*{tuple(map(str, row)): row for row in map(_normalised, rows)}.values()]
     # The rank at a random point is a lower bound, and the generic rank but for a probability of about 1/_PRIME.
-    point = _random_point(field, surface)
-    entries = [int(entry(0, *point)) % _PRIME for row in rows for entry in row]
-    rank = int(nmod_mat(len(rows), len(rows[0]), entries, _PRIME).rank()) if rows else 0
+    p, point = _random_point(field, surface)
+    entries = [int(entry(0, *point)) % p for row in rows for entry in row]
+    rank = int(nmod_mat(len(rows), len(rows[0]), entries, p).rank()) if rows else 0
     deficient = eliminated + rank < len(images)
     if rank == 0:
         return RankConditions(deficient=deficient)
@@ -120,20 +129,20 @@ class _Surface:
         return over_parameters(total)
 
 
-def _random_point(field: FunctionField, surface: _Surface | None) -> list[int]:
-    """Values of the parameters modulo the prime, on the surface if there is one."""
+def _random_point(field: FunctionField, surface: _Surface | None) -> tuple[int, list[int]]:
+    """A prime, and values of the parameters modulo the prime, on the surface if there is one."""
     random = Random(1)
-    while True:
-        point = [random.randrange(_PRIME) for _ in field.names]
+    for p in primes():  # a surface such as a^2 + 1 = 0 has points for every other one
+        check_time()
+        point = [random.randrange(p) for _ in field.names]
         if surface is None:
-            return point
-        coefficients = {
-            power: int(part(0, *point[:-1], 1)) for power, part in by_power(surface.equation, len(point)).items()
-        }
-        values = [coefficients.get(power, 0) for power in range(max(coefficients) + 1)]
-        roots = nmod_poly(values, _PRIME).roots()
+            return p, point
+        columns = by_power(surface.equation, len(point))
+        values = [int(columns[k](0, *point[:-1], 1)) % p if k in columns else 0 for k in range(max(columns) + 1)]
+        roots = nmod_poly(values, p).roots()
         if roots:
-            return [*point[:-1], int(roots[0][0])]
+            return p, [*point[:-1], int(roots[0][0])]
+    raise AssertionError("the sequence of primes is infinite")
 
 
 def _common_factors(field: FunctionField, rows: list[list[Any]], rank: int, deficient: bool) -> RankConditions:

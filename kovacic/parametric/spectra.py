@@ -163,8 +163,8 @@ def _spectrum(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: 
     for factor, _ in f.field.factor(f.den) if f.den.degree else ():
         root = f.field.rational_value(-factor[0]) if factor.degree == 1 else None
         value = None if root is None or not possible(root) else over_parameters(f.num(root))
-        if value is not None and value.field.rational_value(value) is None:
-            zeros = [n.function(zero) for zero in irreducible_factors(value)]
+        zeros = [] if value is None else [n.function(zero) for zero in irreducible_factors(value)]
+        if zeros:
             zero = zeros[0] if len(zeros) == 1 else f"({')*('.join(zeros)})"
             notes.append(f"`{zero} = 0` where `{n.letter} = {root}`")
     note = f" ({', '.join(notes)})" if notes else ""

@@ -1,0 +1,125 @@
+"""Formulas of `conditions` mean what they say: solutions solve the equation, Delta_d is a rank, JSON is read back."""
+
+from __future__ import annotations
+
+import pytest
+import sympy
+
+import kovacic
+from kovacic.parameters import Conditions
+from tests.parametric_formulas import all_families, equation_of, wrong_solutions
+
+x = sympy.Symbol("x")
+FAMILIES = all_families()
+#: Of the families, some of each theory; all of them are tried by the long tests.
+SOME = [
+    "coulomb, in the energy",
+    "irr_c, published",
+    "quartic_abc, published",
+    "x6_b, published",
+    "shifted_whit, published",
+    "rosenmorse, published",
+    "posch_E, published",
+    "P_conj, published",
+    "heun_qa, published",
+    "whittaker_hill, published",
+]
+#: General Heun, with six parameters, takes minutes.
+ALL = [name for name in FAMILIES if not name.startswith("heun_gen")]
+
+
+def solutions_are_right(name: str, points: int) -> None:
+    answer = kovacic.conditions(FAMILIES[name], var="x", max_degree=0)
+    _, wrong = wrong_solutions(answer, equation_of(answer), x, points)
+    assert not wrong, wrong[:3]
+
+
+@pytest.mark.parametrize("name", SOME)
+def test_solutions_solve_the_equation(name: str) -> None:
+    solutions_are_right(name, 3)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ALL)
+def test_all_solutions_solve_the_equation(name: str) -> None:
+    solutions_are_right(name, 20)
+
+
+@pytest.mark.parametrize("S", ["1 + D/x + q/x^2 + a/x^4", "x^2 + l/x^6 - E", "x^2 + a/x^4 + b/x^3 + c/x^2 - E"])
+def test_a_root_of_a_parameter_has_the_sign_that_solves_the_equation(S: str) -> None:
+    answer = kovacic.conditions(S, var="x", max_degree=0)
+    tried, wrong = wrong_solutions(answer, equation_of(answer), x, 12)
+    assert tried > 12
+    assert not wrong, wrong[:3]
+
+
+def test_the_sign_of_q_chooses_the_root_of_a() -> None:
+    region = kovacic.conditions("1 + D/x + q/x^2 + a/x^4", var="x").regions[-1]
+    D, q, a = sympy.symbols("D q a")
+    there = {D: 2, q: 4, a: 4}
+    meant = [s for s in region.solution(0) if not any(condition.subs(there) for condition in s.conditions)]
+    assert [s.y.subs(there) for s in meant] == [x * sympy.exp(x) * sympy.exp(-2 / x)]
+
+
+EQUATIONS = {
+    "Bessel": ("x^2*y'' + x*y' + (x^2 - n^2)*y = 0", (x**2, x, x**2 - sympy.Symbol("n") ** 2)),
+    "Kummer": ("x*y'' + (c - x)*y' - a*y = 0", (x, sympy.Symbol("c") - x, -sympy.Symbol("a"))),
+    "Hermite": ("y'' - 2*x*y' + 2*n*y = 0", (1, -2 * x, 2 * sympy.Symbol("n"))),
+    "Legendre": (
+        "(1 - x^2)*y'' - 2*x*y' + n*(n + 1)*y = 0",
+        (1 - x**2, -2 * x, sympy.Symbol("n") * (sympy.Symbol("n") + 1)),
+    ),
+    "Jacobi": (
+        "(1 - x^2)*y'' + (b - a - (a + b + 2)*x)*y' + n*(n + a + b + 1)*y = 0",
+        sympy.sympify("(1 - x**2, b - a - (a + b + 2)*x, n*(n + a + b + 1))"),
+    ),
+    "Morse": (
+        "y'' = (A^2*exp(-2*x) - B*exp(-x) - E)*y",
+        (1, 0, sympy.sympify("-(A**2*exp(-2*x) - B*exp(-x) - E)", {"E": sympy.Symbol("E")})),
+    ),
+    "Poeschl-Teller": (
+        "y'' = (-l*(l + 1)/cosh(x)^2 - E)*y",
+        (1, 0, sympy.sympify("l*(l + 1)/cosh(x)**2 + E", {"E": sympy.Symbol("E")})),
+    ),
+    "Eckart": (
+        "y'' = (a*(a - 1)/sinh(x)^2 - 2*b*coth(x) - E)*y",
+        (1, 0, sympy.sympify("-(a*(a - 1)/sinh(x)**2 - 2*b*coth(x) - E)", {"E": sympy.Symbol("E")})),
+    ),
+    "trigonometric Poeschl-Teller": (
+        "y'' = (l*(l - 1)/sin(x)^2 - E)*y",
+        (1, 0, sympy.sympify("-(l*(l - 1)/sin(x)**2 - E)", {"E": sympy.Symbol("E")})),
+    ),
+    "Razavy": (
+        "y'' = (b^2*cosh(2*x)^2/4 - (k + 1)*b*cosh(2*x) - E)*y",
+        (1, 0, sympy.sympify("-(b**2*cosh(2*x)**2/4 - (k + 1)*b*cosh(2*x) - E)", {"E": sympy.Symbol("E")})),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", EQUATIONS)
+def test_solutions_are_those_of_the_equation_that_was_given(name: str) -> None:
+    text, equation = EQUATIONS[name]
+    answer = kovacic.conditions(text, var="x", max_degree=0)
+    tried, wrong = wrong_solutions(answer, tuple(map(sympy.sympify, equation)), x, 5)  # type: ignore[arg-type]
+    assert tried
+    assert not wrong, wrong[:3]
+    assert Conditions.from_json(answer.to_json()) == answer
+
+
+@pytest.mark.parametrize("name", SOME)
+def test_answers_are_read_back(name: str) -> None:
+    answer = kovacic.conditions(FAMILIES[name], var="x", max_degree=0)
+    assert Conditions.from_json(answer.to_json()) == answer
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ALL)
+def test_all_answers_are_read_back(name: str) -> None:
+    test_answers_are_read_back(name)
+
+
+def test_a_determinant_without_parameters_is_that_of_its_degree() -> None:
+    """Case 1 at E = 3 as well, by a solution of another degree."""
+    answer = kovacic.conditions("x^2 + 8*(2*x^2-1)/(2*x^2+1)^2 - E", var="x", max_degree=0)
+    vanishing = [str(delta.exponents) for delta in answer.determinant(0) if delta.factors]
+    assert vanishing == ["E + 3"]
