@@ -83,7 +83,7 @@ class Determinant:
         single = len(self.factors) == 1 and not self.system
         parts = [shown(f) if single else f"({shown(f)})" for f in self.factors]
         if self.system:
-            parts.append(f"gcd({', '.join(map(shown, self.system))})")
+            parts.append(f"({', '.join(map(shown, self.system))})")
         return " * ".join(parts) or "1"
 
 
