@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any
 
-from kovacic.limits import DEFAULT_LIMITS, Limits, limited
+from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of
 from kovacic.parametric import answer
 from kovacic.parametric.api import DEFAULT_DEGREE, find_conditions
 from kovacic.solution import Solution
@@ -25,7 +25,6 @@ class Conditions(answer.Conditions):
         return Solution.of(self.answer_at(values))
 
 
-@limited
 def conditions(
     S: Any,
     *,
@@ -55,4 +54,5 @@ def conditions(
     References: T. Kimura, Funkcial. Ekvac. 12 (1969); J. Martinet & J.-P. Ramis (1989); A. Duval & M. Loday-Richaud,
     AAECC 3 (1992).
     """
+    limits = limits_of(limits)
     return Conditions.of(find_conditions(S, var=var, assume=assume, max_degree=max_degree, limits=limits))

@@ -8,7 +8,6 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
@@ -122,10 +121,8 @@ def test_a_scheduler_that_is_not_there_is_an_error() -> None:
         address = f"tcp://127.0.0.1:{free.getsockname()[1]}"
     import dask
 
-    start = time.monotonic()
     with (
         dask.config.set({"distributed.comm.timeouts.connect": "1s"}),
         pytest.raises(InputError, match="can't be reached"),
     ):
         list(kovacic.solve_many(["x"], backend="dask", scheduler=address))
-    assert time.monotonic() - start < 30

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import time
 from fractions import Fraction
 from itertools import count
 from typing import Any
@@ -219,18 +218,6 @@ def test_the_measured_error_chooses_the_arithmetic(S: str, interval: Any, carefu
     assert function.careful is careful
     plain = lambdify(solution, interval=interval, careful=False, check=False)
     assert measure(plain, solution).keeps_the_promise is not careful
-
-
-def test_plain_arithmetic_is_much_faster() -> None:
-    solution, x = kovacic.solve("x^2 - 101"), np.linspace(-5, 5, 8 * BLOCK)
-    careful, plain = (lambdify(solution, interval=(-5, 5), careful=c, check=False) for c in (True, False))
-
-    def seconds(function: Any) -> float:
-        start = time.process_time()
-        function(x)
-        return time.process_time() - start
-
-    assert min(seconds(plain) for _ in range(5)) * 4 < min(seconds(careful) for _ in range(3))
 
 
 def test_initial_values_choose_the_solution() -> None:
