@@ -18,10 +18,10 @@ import json
 import os
 import resource
 import signal
-import subprocess
 import sys
 import tempfile
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -145,42 +145,27 @@ def with_fault(fault: mutation.Fault, given: list[Any]) -> list[str]:
         return [line.rstrip("\n") for line in store if line.endswith("\n")]
 
 
-def commit() -> str:
-    """The commit that was measured."""
-    done = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True)
-    return done.stdout.strip()
-
-
-def measure(part: str, sample: int | None, seed: int) -> dict[str, Any]:
-    """Plant the faults of a part, or so many random ones."""
+def measure(part: str, sample: int | None, seed: int) -> Iterator[dict[str, Any]]:
+    """Plant the faults of a part, or so many random ones; what was found is yielded after each."""
     given = equations()
     names = [equation if isinstance(equation, str) else str(equation)[:60] for equation in given]
     right = [answer(equation) for equation in given]
     for file in PARTS[part]:
         mutation.module_of(file)
     wanted = [fault for file in PARTS[part] for fault in mutation.faults(file)]
-    possible = len(wanted)
+    row: dict[str, Any] = {"commit": mutation.commit(), "equations": len(given), "possible": len(wanted)}
+    row |= {"planted": 0, "unchanged": 0, "refused": 0, "answers refused": 0, "passed": []}
     Random(seed).shuffle(wanted)
-    kinds = Counter[str]()
-    passed = []
     for fault in wanted[:sample]:
         found = outcome(right, with_fault(fault, given), names)
-        kinds[found.kind] += 1
-        kinds["answers refused"] += found.refused
+        row["planted"] += 1
+        row["answers refused"] += found.refused
         if found.wrong:
-            passed.append({"fault": fault.name, "answers": len(found.wrong), "first": found.wrong[0]})
+            row["passed"].append({"fault": fault.name, "answers": len(found.wrong), "first": found.wrong[0]})
             print(f"passed: {fault.name}: {found.wrong[:2]}", file=sys.stderr, flush=True)
-    planted = kinds["unchanged"] + kinds["refused"] + kinds["passed"]
-    return {
-        "commit": commit(),
-        "equations": len(given),
-        "possible": possible,
-        "planted": planted,
-        "unchanged": kinds["unchanged"],
-        "refused": kinds["refused"],
-        "answers refused": kinds["answers refused"],
-        "passed": passed,
-    }
+        else:
+            row[found.kind] += 1
+        yield row
 
 
 def table(found: dict[str, Any]) -> str:
@@ -201,6 +186,15 @@ def table(found: dict[str, Any]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def keep(part: str, row: dict[str, Any]) -> None:
+    path = RESULTS / "wrong_answers.json"
+    stored = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    stored[part] = row
+    found = {name: stored[name] for name in PARTS if name in stored}
+    path.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    (RESULTS / "wrong_answers.md").write_text(table(found), encoding="utf-8")
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("part", choices=PARTS)
@@ -208,13 +202,8 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     os.chdir(ROOT)
-    measured = measure(options.part, options.sample, options.seed)
-    path = RESULTS / "wrong_answers.json"
-    stored = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
-    stored[options.part] = measured
-    found = {part: stored[part] for part in PARTS if part in stored}
-    path.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-    (RESULTS / "wrong_answers.md").write_text(table(found), encoding="utf-8")
+    for row in measure(options.part, options.sample, options.seed):
+        keep(options.part, row)
     return 0
 
 
