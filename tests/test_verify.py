@@ -7,6 +7,8 @@ import random
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
+from itertools import islice, product
+from operator import mul
 from typing import Any
 
 import pytest
@@ -14,7 +16,7 @@ import strategies
 import textbook
 import transform
 from flint import nmod_poly
-from forged import forged_evidence
+from forged import forged_evidence, primes_with_a_root
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
@@ -32,9 +34,10 @@ from kovacic.galois.jacobian import Jacobian
 from kovacic.limits import Budget, Limits
 from kovacic.verify import GroupClaim, verify
 from kovacic.verify.evidence import Inspector
+from kovacic.verify.identity import form_numerators
 from kovacic.verify.residue import exponent_difference_squared
 from kovacic.verify.torsion import order_holds
-from kovacic.verify.zeros import zero_counts
+from kovacic.verify.zeros import largest_natural_sum, zero_counts
 
 X = RatFunc(QQ.poly([0, 1]))
 PRIMES = [101, 10007, (1 << 61) - 1]
@@ -486,6 +489,65 @@ def test_a_rational_omega_is_found_from_every_place(omega: RatFunc) -> None:
             evidence = (NoInvariant(2, prime, 3, 0), NoRationalOmega(counts.largest, prime, point.name))
             assert not inspector._no_rational_omega(evidence[1]), point.name
             assert not inspector.excludes(Structure.REDUCIBLE, evidence)
+
+
+@pytest.mark.parametrize(
+    "omega",
+    [
+        (X + 1) / (X**2 - 2),
+        (X + 1) / (X**2 - 3) + 1,
+        (2 * X + 3) / (X**2 + 1) + 1 / (X - 1),
+        (X**2 - 5) / (X**3 - 2) + X,
+    ],
+    ids=str,
+)
+def test_a_rational_omega_is_found_from_conjugate_places(omega: RatFunc) -> None:
+    """Its residues there are irrational, and conjugate: no prime with a root makes a proof against it."""
+    inspector = Inspector(omega.derivative() + omega**2, Budget())
+    counts = inspector.zero_counts
+    assert counts is not None
+    for point in inspector.points:
+        for prime in islice(primes_with_a_root(point.factor), 3 if point.factor.degree > 1 else 0):
+            assert not inspector._no_rational_omega(NoRationalOmega(counts.largest, prime, point.name))
+
+
+@given(
+    st.fractions(-5, 5, max_denominator=12),
+    st.lists(st.fractions(-3, 3, max_denominator=12), max_size=6),
+)
+def test_the_largest_natural_sum_is_that_of_all_signs(total: Fraction, choices: list[Fraction]) -> None:
+    sums = [total + sum(map(mul, choices, signs)) for signs in product((1, -1), repeat=len(choices))]
+    natural = [int(value) for value in sums if value.denominator == 1 and value >= 0]
+    assert largest_natural_sum(total, choices) == max(natural, default=-1)
+
+
+def test_a_sum_with_too_many_fractional_parts_is_bounded() -> None:
+    primes = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43]
+    choices = [Fraction(p + 1, p) for p in primes]
+    assert largest_natural_sum(Fraction(1, 3), choices) == int(Fraction(1, 3) + sum(choices))
+    assert largest_natural_sum(Fraction(-20), choices) == -1
+
+
+@pytest.mark.parametrize("text", ["1/x^3", "1/x^3 + 1/(3*x^2)", "1/(x-1)^3 + 1/x^3", "x", "1/x^5"])
+def test_ramified_points_of_every_order(text: str) -> None:
+    """The irregular points have order 3 or 5, nothing else excludes the finite groups."""
+    answer = kovacic.solve(text)
+    assert answer.case is None
+    assert answer.verified
+
+
+def test_a_denominator_that_is_zero_proves_nothing() -> None:
+    """With D = 0 every identity would hold; no form has the degree 0."""
+    answer = kovacic.solve("x^2 + 3")
+    decision, S = answer.decision, kovacic.solve("x^2 + 4").S
+    f, riccati, zero = decision.semi_invariant, decision.riccati, QQ.poly([])
+    assert f is not None
+    assert riccati is not None
+    assert form_numerators(answer.S, f, riccati.D) == [*riccati.numerators]
+    assert form_numerators(S, f, zero) is None
+    assert form_numerators(answer.S, replace(f, P=zero), riccati.D) is None
+    assert form_numerators(answer.S, replace(f, degree=0), riccati.D) is None
+    assert not verify(S, replace(decision, riccati=replace(riccati, D=zero, numerators=(f.P, zero))))
 
 
 @pytest.mark.parametrize(
