@@ -39,7 +39,7 @@ def enclosure(row: Row) -> dict[str, Any]:
     """Route (b) at x, against the reference."""
     import mpmath
 
-    from kovacic.enclosure.points import Point
+    from kovacic.enclosure.points import ExactPoint
     from kovacic.enclosure.states import evaluate_states
     from kovacic.errors import KovacicError
     from kovacic.limits import Limits
@@ -52,7 +52,13 @@ def enclosure(row: Row) -> dict[str, Any]:
         begin = time.perf_counter()
         try:
             (state,) = evaluate_states(
-                row.S, [Point(end)], x0=Point(start), y0=y0, dy0=dy0, digits=DIGITS, limits=Limits(seconds=SECONDS)
+                row.S,
+                [ExactPoint(end)],
+                x0=ExactPoint(start),
+                y0=y0,
+                dy0=dy0,
+                digits=DIGITS,
+                limits=Limits(seconds=SECONDS),
             )
         except KovacicError as error:
             return {
@@ -172,14 +178,14 @@ def product_of_zeros(function: Any, k: int) -> Any:
     from flint import arb, ctx
 
     from kovacic.doubles.double_double import Complex, Pair
-    from kovacic.doubles.product_form import Factor, ProductForm, RationalFunction
+    from kovacic.doubles.product_form import ProductForm, RationalFunction, RootFactor
 
     one, quarter = Complex(Pair(1.0)), Complex(Pair(0.25))
     with ctx.workprec(200):
         zeros = [Pair.of((arb.pi() * (2 * j - 1) / (2 * k)).cos()) for j in range(1, k + 1)]
         scale = Pair.of(arb(2).log() * (k - 1))  # T_k = 2^(k-1) x^k + ...
-    factors = [Factor(Complex(z), one, one, False) for z in zeros]
-    factors += [Factor(Complex(Pair(z)), quarter, one, False) for z in (1.0, -1.0)]
+    factors = [RootFactor(Complex(z), one, one, False) for z in zeros]
+    factors += [RootFactor(Complex(Pair(z)), quarter, one, False) for z in (1.0, -1.0)]
     constant = RationalFunction((Complex(scale),))
     return ProductForm(function.region, function.base, tuple(factors), constant, is_real=True)
 

@@ -17,7 +17,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from kovacic.limits import Budget, Limits
 from kovacic.reading.read import read_input
-from kovacic.special.answer import find, special_functions
+from kovacic.special.search import find, special_functions
 from tests.special_cases import KINDS, pull_backs
 
 

@@ -14,7 +14,7 @@ import time
 import sympy as sp
 
 import kovacic
-from kovacic.ball import Ball, InRoots, closed_form
+from kovacic.ball import InRoots, RollingBall, closed_form
 from kovacic.ball.derivation import holds
 from kovacic.ball.paper import R1, R, equations_of, explained
 from kovacic.ball.theorems import theorem
@@ -49,7 +49,7 @@ def main() -> int:
         good = good and agrees
         print(f"  {label:<30} R/R1 = {place.ratio!s:<9} {answer.group.name:<22} {said}: {agrees}")
 
-    example = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
+    example = RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
     print("\nOne ball: m = R = 1, a = 1/5, A1 = 1/4, A3 = 1/3 on R1 = 3")
     print(f"  {equations_of(example)['12'].text}\n  omega_3 = {closed_form(example).omega_3}")
     everything = good and reproduced and all(derived.values())
@@ -57,11 +57,11 @@ def main() -> int:
     return 0 if everything else 1
 
 
-def _balls() -> list[tuple[str, Ball, str | None]]:
-    general = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3")
-    linear = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/4")
-    even = Ball(m=1, R=1, a=0, A1="2/5", A3="2/5")
-    double = Ball(m=1, R=1, a="1/4", A1=sp.Rational(1, 3) - sp.Rational(1, 64), A3="1/3")
+def _balls() -> list[tuple[str, RollingBall, str | None]]:
+    general = RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3")
+    linear = RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/4")
+    even = RollingBall(m=1, R=1, a=0, A1="2/5", A3="2/5")
+    double = RollingBall(m=1, R=1, a="1/4", A1=sp.Rational(1, 3) - sp.Rational(1, 64), A3="1/3")
     return [
         ("two roots", general, "2"),
         ("two roots, R1 = R", general, "1"),

@@ -16,7 +16,7 @@ from kovacic.verify import Verification, verify
 if TYPE_CHECKING:
     from kovacic.closed_form.form import ClosedForm
     from kovacic.galois import EquationGroup, Group
-    from kovacic.special.answer import SpecialFunctions
+    from kovacic.special.search import SpecialFunctions
 
 
 @computed_once
@@ -85,7 +85,7 @@ def special(answer: Answer) -> SpecialFunctions:
 
     What was assumed about parameters is used: hermite(n, x) for natural n.  An exhausted limit is a value, `stopped`.
     """
-    from kovacic.special.answer import special_functions
+    from kovacic.special.search import special_functions
 
     symbols = answer.known.symbols() if answer.known else {}
     found = special_functions(answer.S, answer.gauge, answer.variable, Budget(answer.limits), symbols=symbols)
@@ -99,7 +99,7 @@ def _in_given_variable(answer: Answer, found: Any) -> Any:
     """The same with y1 and y2 in the user's variable."""
     if answer.change is None or found.y1 is None:
         return found
-    from kovacic.reading.exponential import solution_in_terms_of
+    from kovacic.reading.change_of_variable import solution_in_terms_of
 
     y1, y2 = (solution_in_terms_of(answer.change, y, answer.variable) for y in (found.y1, found.y2))
     return replace(found, y1=y1, y2=y2)

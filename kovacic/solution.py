@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from kovacic.enclosure.problem import NumericProblem
     from kovacic.galois import EquationGroup, Group
     from kovacic.parametric.restriction import GenericConditions
-    from kovacic.special.answer import SpecialFunctions
+    from kovacic.special.search import SpecialFunctions
 
 
 class Solution(Answer):

@@ -25,7 +25,7 @@ for the icosahedral group), nu = 1/4 or 1/5, n = 12 or 30, a = (1/6 - nu)/2, b =
 forms have zeros at ordinary points, but those in a pair that are raised to fractions vanish only where its argument is
 infinite: each pair is analytic where its argument z = J, 1 - J, 1/J keeps away from [1, infinity).  Every J is good for
 one of the three, so a leg is cut into pieces on which z of one pair is proven to do so; there the matrix is
-Y(b) Y(a)^-1.  No branch of F is chosen, and the powers are followed by `kovacic.enclosure.exponential`.
+Y(b) Y(a)^-1.  No branch of F is chosen, and the powers are followed by `kovacic.enclosure.log_derivative`.
 
 References: F. Klein, Vorlesungen ueber das Ikosaeder (1884); see also `kovacic.closed_form.klein`.
 """
@@ -46,10 +46,10 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.klein import covariants
 from kovacic.decision import SemiInvariant, Structure
-from kovacic.enclosure.closed_form import ClosedForm, closed_form_of
-from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, integral
+from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of
+from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, integral
 from kovacic.enclosure.matrices import Matrix, adjugate, fundamental, multiply, product
-from kovacic.enclosure.points import Point, as_point, to_acb
+from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.problem import as_problem
 from kovacic.limits import check_time
 
@@ -82,11 +82,11 @@ def transition(solution: Solution, vertices: Sequence[object], prec: int) -> Mat
 class Piece:
     """The straight piece from a to b."""
 
-    a: Point
-    b: Point
+    a: ExactPoint
+    b: ExactPoint
 
     @property
-    def middle(self) -> Point:
+    def middle(self) -> ExactPoint:
         """(a + b)/2."""
         return (self.a + self.b).scaled(Fraction(1, 2))
 
@@ -123,7 +123,7 @@ def values(poly: acb_poly, x: acb) -> acb:
     return value
 
 
-def quadrature_leg(closed: ClosedForm, a: acb, b: acb) -> Matrix:
+def quadrature_leg(closed: CaseOneForm, a: acb, b: acb) -> Matrix:
     """Case 1, whatever E is."""
     theta, B = LogDerivative.make(closed.first.theta, None), Quotient.make(closed.reduction[1], None)
     P, A = embed(closed.first.P, None), embed(closed.reduction[0], None)
@@ -170,7 +170,7 @@ def unknown() -> Matrix:
     return nothing, nothing, nothing, nothing
 
 
-def pair_leg(S: RatFunc, f: SemiInvariant, a: Point, b: Point) -> list[Matrix]:
+def pair_leg(S: RatFunc, f: SemiInvariant, a: ExactPoint, b: ExactPoint) -> list[Matrix]:
     """Case 2, equation (2): the leg is cut into pieces with a fixed sign."""
     pair = Pair.make(S, f, to_acb(a))
     pieces = cut(Piece(a, b), pair.sign_on)
@@ -294,7 +294,7 @@ def charts(S: RatFunc, structure: Structure, invariant: Any) -> tuple[Chart, Cha
     )
 
 
-def klein_leg(pairs: tuple[Chart, ...], a: Point, b: Point) -> list[Matrix]:
+def klein_leg(pairs: tuple[Chart, ...], a: ExactPoint, b: ExactPoint) -> list[Matrix]:
     """The matrices of the pieces of the leg from a to b, in order."""
     arguments = {chart: Quotient.make(chart.z, None) for chart in pairs}
 

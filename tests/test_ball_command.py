@@ -11,8 +11,8 @@ import time
 import pytest
 import sympy as sp
 
-from kovacic.ball import Ball, X
-from kovacic.ball.ball import InRoots
+from kovacic.ball import RollingBall, X
+from kovacic.ball.body import InRoots
 from kovacic.ball.theorems import read_ratio
 from kovacic.errors import InputError
 
@@ -160,7 +160,7 @@ def test_command_refuses(run, arguments, message):
     assert message in output.err
 
 
-@pytest.mark.parametrize("call", [read_ratio, Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere])
+@pytest.mark.parametrize("call", [read_ratio, RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere])
 @pytest.mark.parametrize("text", ["print('executed') or 1#", "__import__('os').getcwd()"])
 def test_text_is_never_executed(call, text, capsys):
     with pytest.raises(InputError):
@@ -173,9 +173,9 @@ def test_bodies_refuse_what_is_not_exact_real_and_finite(value):
     possible = {"m": 1, "R": 1, "a": 0, "A1": "1/4", "A3": "1/4"}
     for name in possible:
         with pytest.raises(InputError):
-            Ball(**{**possible, name: value})
+            RollingBall(**{**possible, name: value})
     with pytest.raises(InputError):
-        Ball(**possible).on_sphere(value)
+        RollingBall(**possible).on_sphere(value)
 
 
 _BODY = ("--mass", "1", "--radius", "1", "--offset", "1/5", "--A1", "1/4", "--A3", "1/3")

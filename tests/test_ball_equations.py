@@ -10,22 +10,22 @@ import pytest
 import sympy as sp
 from _pytest.mark import ParameterSet
 
-from kovacic.ball import Ball, U, X, derivation
-from kovacic.ball.ball import A1, A3, InRoots, exact, x1, x2
+from kovacic.ball import RollingBall, U, X, derivation
+from kovacic.ball.body import A1, A3, InRoots, exact, x1, x2
 from kovacic.ball.derivation import holds, vanishes
 from kovacic.ball.paper import PRINTED, R1, D, R, a, equations_of, explained, m
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.writing.breaking import breakable
 
-GENERAL = Ball(m=m, R=R, a=a, A1=A1, A3=A3)
+GENERAL = RollingBall(m=m, R=R, a=a, A1=A1, A3=A3)
 SYSTEM = ("a1", "a2", "b1", "b2")
 
 
-def with_roots() -> Ball:
+def with_roots() -> RollingBall:
     """The general ball in terms of the roots x1, x2 of D, instead of m and a."""
     offset = -R * (A3 - A1) * (x1 + x2) / (2 * A3)
     mass = A1 * A3 / (R**2 * (A3 - A1) * x1 * x2 - A1 * R**2 - A3 * offset**2)
-    return Ball(m=mass, R=R, a=offset, A1=A1, A3=A3)
+    return RollingBall(m=mass, R=R, a=offset, A1=A1, A3=A3)
 
 
 def test_every_printed_formula_is_derived_for_all_parameters():
@@ -107,7 +107,7 @@ def test_constant_coefficients_and_the_semi_invariant():
 
 
 def test_plane_is_the_limit_of_large_spheres():
-    ball = Ball(m=2, R=1, a="1/5", A1="1/3", A3="1/4")
+    ball = RollingBall(m=2, R=1, a="1/5", A1="1/3", A3="1/4")
     plane, general = ball.on_plane(), ball.on_sphere(R1)
     pairs = zip((*plane.linear_system, plane.S), (*general.linear_system, general.S), strict=True)
     for flat, curved in pairs:
@@ -116,14 +116,14 @@ def test_plane_is_the_limit_of_large_spheres():
 
 
 def test_rolling_inside_is_a_negative_radius():
-    ball = Ball(m=2, R=1, a="1/5", A1="1/3", A3="1/4")
+    ball = RollingBall(m=2, R=1, a="1/5", A1="1/3", A3="1/4")
     inside, general = ball.on_sphere(-3), ball.on_sphere(R1)
     for found, symbolic in zip(inside.linear_system, general.linear_system, strict=True):
         assert sp.cancel(symbolic.subs(R1, -3) - found) == 0
 
 
 def test_equations_print():
-    found = equations_of(Ball(m=1, R=1, a=0, A1="1/4", A3="1/3").on_sphere(2))
+    found = equations_of(RollingBall(m=1, R=1, a=0, A1="1/4", A3="1/3").on_sphere(2))
     assert found["12"].text == "omega_3''(x) + (3*x/(x**2 + 4))*omega_3'(x) + (3/(4*(x**2 + 4)))*omega_3(x) = 0"
     assert found["13"].latex.startswith("y'' = ")
     assert found["11"].latex.endswith("= 0")
@@ -144,8 +144,8 @@ def test_the_paper_s_equations_print_under_its_numbers():
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex isn't installed")
 def test_latex_compiles_without_overfull_boxes(tmp_path):
     """The derivation as `--explain --latex` prints it, and the equations of balls as `--latex` does."""
-    odd = Ball(m="2.718281828", R="1.41421356", a="0.3333", A1="0.31", A3="0.42").on_sphere("3.1415926")
-    ball = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3")
+    odd = RollingBall(m="2.718281828", R="1.41421356", a="0.3333", A1="0.31", A3="0.42").on_sphere("3.1415926")
+    ball = RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3")
     places = [GENERAL.on_sphere(R1), odd, ball.on_sphere("sqrt(2)"), ball.on_plane()]
     formulas = [math.latex for place in (*places, InRoots(sp.Symbol("r"))) for math in equations_of(place).values()]
     body = "".join(rf"\hangindent2em$\displaystyle {breakable(latex)}$\par" for latex in formulas)
@@ -173,20 +173,20 @@ def test_latex_compiles_without_overfull_boxes(tmp_path):
 )
 def test_impossible_bodies_are_refused_with_the_inequality(changes, inequality):
     possible = {"m": 1, "R": 1, "a": "1/5", "A1": "1/4", "A3": "1/3"}
-    Ball(**possible)
+    RollingBall(**possible)
     with pytest.raises(InputError, match=inequality):
-        Ball(**{**possible, **changes})
+        RollingBall(**{**possible, **changes})
 
 
 def test_two_mass_points_are_the_limit_that_is_still_possible():
     """Rings on the surface reach equality in A1 + A3/2 <= m (R^2 - a^2)."""
-    Ball(m=1, R=1, a=0, A1="1/2", A3=1)
+    RollingBall(m=1, R=1, a=0, A1="1/2", A3=1)
     with pytest.raises(InputError, match="A1"):
-        Ball(m=1, R=1, a=0, A1="501/1000", A3=1)
+        RollingBall(m=1, R=1, a=0, A1="501/1000", A3=1)
 
 
 def test_spheres_that_are_refused():
-    ball = Ball(m=1, R=1, a=0, A1="1/4", A3="1/4")
+    ball = RollingBall(m=1, R=1, a=0, A1="1/4", A3="1/4")
     with pytest.raises(InputError, match="other than 0"):
         ball.on_sphere(0)
     for radius in (-1, "-1/2"):

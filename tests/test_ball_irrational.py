@@ -6,8 +6,8 @@ import pytest
 import sympy as sp
 
 import kovacic
-from kovacic.ball import Ball, closed_form
-from kovacic.ball.ball import settled, sign
+from kovacic.ball import RollingBall, closed_form
+from kovacic.ball.body import settled, sign
 from kovacic.ball.theorems import theorem
 from kovacic.errors import InputError, LimitExceeded
 
@@ -39,7 +39,7 @@ DEGENERATE = {
 
 def rolling(values):
     *body, R1, group = values
-    ball = Ball(**dict(zip(("m", "R", "a", "A1", "A3"), body, strict=True)))
+    ball = RollingBall(**dict(zip(("m", "R", "a", "A1", "A3"), body, strict=True)))
     return ball.on_plane() if R1 is None else ball.on_sphere(R1), group
 
 
@@ -61,13 +61,13 @@ def test_degenerate_balls_are_recognised(name):
 def test_inequalities_are_decided_exactly():
     """A3 = 2 A1 is possible, 10^-70 more isn't."""
     body = {"m": 9, "R": 1, "a": 0, "A1": "sqrt(3-2*sqrt(2))/2"}
-    assert Ball(**body, A3="sqrt(2)-1").A3 == sp.sqrt(2) - 1
+    assert RollingBall(**body, A3="sqrt(2)-1").A3 == sp.sqrt(2) - 1
     with pytest.raises(InputError, match="A3 <= 2 A1 fails"):
-        Ball(**body, A3="sqrt(2)-1+1e-70")
+        RollingBall(**body, A3="sqrt(2)-1+1e-70")
     with pytest.raises(InputError, match="A1 > 0 fails"):
-        Ball(**{**body, "A1": "sqrt(3-2*sqrt(2))-sqrt(2)+1"}, A3=1)
+        RollingBall(**{**body, "A1": "sqrt(3-2*sqrt(2))-sqrt(2)+1"}, A3=1)
     with pytest.raises(InputError, match="doesn't fit"):
-        Ball(m=1, R="sqrt(3+2*sqrt(2))", a=0, A1="1/4", A3="1/3").on_sphere("-1-sqrt(2)")
+        RollingBall(m=1, R="sqrt(3+2*sqrt(2))", a=0, A1="1/4", A3="1/3").on_sphere("-1-sqrt(2)")
 
 
 def test_a_number_that_is_not_algebraic_has_equations_but_no_decision():

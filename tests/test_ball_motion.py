@@ -13,31 +13,31 @@ import sympy as sp
 from ball_quadratures import quadratures
 from numpy.polynomial import chebyshev
 
-from kovacic.ball import Ball, U
+from kovacic.ball import RollingBall, U
 from kovacic.ball.dynamics import Dynamics, Force, as_float, potential_of
 from kovacic.ball.motion import State, solve_motion
-from kovacic.ball.plot import draw
+from kovacic.ball.picture import draw
 from kovacic.errors import InputError, LimitExceeded
 
 POTENTIAL = sp.Rational(3, 2) * sp.cos(U)
 START = State(u=1.0, du=0.5, dv=0.3, n=2.0, v=0.1, theta=0.3, u1=1.2, v1=0.2)
 BALLS = {
-    "l > 0": Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3"),
-    "l < 0": Ball(m=1, R=1, a="1/5", A1="1/3", A3="1/4"),
-    "A1 = A3": Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/4"),
+    "l > 0": RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3"),
+    "l < 0": RollingBall(m=1, R=1, a="1/5", A1="1/3", A3="1/4"),
+    "A1 = A3": RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/4"),
 }
 SPHERE = BALLS["l > 0"].on_sphere(3)
 
 
 def random_body(generator):
-    """m, R, a, A1, A3 within the inequalities that `Ball` demands."""
+    """m, R, a, A1, A3 within the inequalities that `RollingBall` demands."""
     m, R = generator.uniform(0.5, 2, 2)
     a = generator.uniform(-0.6, 0.6) * R
     room = m * (R**2 - a**2)
     A1 = generator.uniform(0.1, 0.55) * room
     A3 = 0.95 * min(2 * A1, generator.uniform(0.2, 1.0) * 2 * (room - A1))
     m, R, a, A1, A3 = (Fraction(round(1000 * value), 1000) for value in (m, R, a, A1, A3))
-    return Ball(m=m, R=R, a=a, A1=A1, A3=A3)
+    return RollingBall(m=m, R=R, a=a, A1=A1, A3=A3)
 
 
 def random_place(generator, place, R):
@@ -145,7 +145,7 @@ STARTS = {
 def test_every_start_has_its_motion(name):
     a, R1, (u, du, dv, n) = STARTS[name]
     moments = {"A1": "2/5", "A3": "2/5"} if a == 0 else {"A1": "1/4", "A3": "1/3"}
-    sphere = put(Ball(m=1, R=1, a=a, **moments), R1)
+    sphere = put(RollingBall(m=1, R=1, a=a, **moments), R1)
     start, times = State(u, du, dv, n), np.linspace(0, 5, 21)
     motion = solve_motion(sphere, start)
     errors = differences(motion, reference(sphere, start, times), times)
@@ -374,13 +374,13 @@ def test_what_is_refused():
             solve_motion(SPHERE, replace(START, u=wrong))
     with pytest.raises(InputError, match="the potential can't contain q"):
         solve_motion(SPHERE, START, potential=sp.Symbol("q") * sp.cos(U))
-    symbolic = Ball(m=sp.Symbol("m"), R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
+    symbolic = RollingBall(m=sp.Symbol("m"), R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
     with pytest.raises(InputError, match="numbers are needed"):
         solve_motion(symbolic, START)
     for value in (np.nan, np.inf, 1e60):
         with pytest.raises(InputError, match="can start with"):
             solve_motion(SPHERE, replace(START, du=value))
-    heavy = Ball(m=10**60, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
+    heavy = RollingBall(m=10**60, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
     with pytest.raises(InputError, match="choose units"):
         solve_motion(heavy, START)
     with pytest.raises(InputError, match="either"):
@@ -474,7 +474,7 @@ def test_motion_under_other_potentials(potential):
 
 
 def test_parameters_and_starts_may_be_irrational():
-    ball = Ball(m="sqrt(2)", R=1, a="1/5", A1="sqrt(2)/4", A3="sqrt(2)/3")
+    ball = RollingBall(m="sqrt(2)", R=1, a="1/5", A1="sqrt(2)/4", A3="sqrt(2)/3")
     sphere = ball.on_sphere("2*sqrt(2)")
     start = State("sqrt(2)/2", "1/2", Fraction(-3, 10), sp.sqrt(3))
     motion = solve_motion(sphere, start, potential="sqrt(2)*cos(u)")

@@ -12,15 +12,15 @@ import sympy as sp
 import kovacic
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.ball import Ball, X, closed_form, theorems
-from kovacic.ball import ball as rolling
-from kovacic.ball.ball import A1, A3, InRoots, x1, x2
+from kovacic.ball import RollingBall, X, closed_form, theorems
+from kovacic.ball import body as rolling
+from kovacic.ball.body import A1, A3, InRoots, x1, x2
 from kovacic.ball.derivation import vanishes
 from kovacic.ball.paper import R1, R, a, m
 from kovacic.ball.theorems import (
     C1,
     C2,
-    ClosedForm,
+    BallSolution,
     theorem,
 )
 from kovacic.errors import InputError
@@ -51,7 +51,7 @@ KINDS = {
 
 
 def ball(name):
-    return Ball(**dict(zip(("m", "R", "a", "A1", "A3"), BALLS[name], strict=True)))
+    return RollingBall(**dict(zip(("m", "R", "a", "A1", "A3"), BALLS[name], strict=True)))
 
 
 def places(name):
@@ -115,7 +115,7 @@ def rate(product):
     return sum(exponent * sp.diff(base, X) / base for base, exponent in product.as_powers_dict().items())
 
 
-def satisfies(form: ClosedForm, place, chart: Chart) -> bool:
+def satisfies(form: BallSolution, place, chart: Chart) -> bool:
     """The linear system, (13) and the Riccati equation, exactly and for all values of the symbols, for c1 and for c2."""
     (a1, a2, b1, b2), S = place.linear_system, place.S
     identities = [sp.diff(omega, X) + omega**2 - S for omega in form.omega]
@@ -144,7 +144,7 @@ def test_both_theorems_by_the_engine_for_all_radii_and_roots():
 
 def test_both_theorems_for_every_physical_parameter():
     """m, R, a, A1, A3, R1 all symbolic: the whole statement with its degenerate balls, proven to be complete."""
-    statement = kovacic.conditions(Ball(m=m, R=R, a=a, A1=A1, A3=A3).on_sphere(R1).S, var="x")
+    statement = kovacic.conditions(RollingBall(m=m, R=R, a=a, A1=A1, A3=A3).on_sphere(R1).S, var="x")
     assert statement.complete is True
     assert statement.generic.case == 2
     general = {"m": 1, "R": 1, "a": Fraction(1, 5), "A1": Fraction(1, 4), "A3": Fraction(1, 3)}
@@ -171,7 +171,7 @@ def test_a_wrong_sign_in_a_closed_form_is_seen(part):
             "n": -good.n,
         }
         parts = {name: getattr(good, name) for name in ("omega", "y", "omega_3", "n")}
-        bad = ClosedForm(**{**parts, part: turned[part]})
+        bad = BallSolution(**{**parts, part: turned[part]})
         assert not bad.solves(InRoots(rho))
         assert not satisfies(bad, InRoots(rho), IN_ROOTS)
         assert good.solves(InRoots(rho))
@@ -180,7 +180,7 @@ def test_a_wrong_sign_in_a_closed_form_is_seen(part):
 def test_the_formula_in_E_for_all_parameters():
     """The closed form of a ball whose parameters are symbols, with l = s^2: A3 = A1 + s^2/(m R^2)."""
     s = sp.Symbol("s")
-    sphere = Ball(m=m, R=R, a=a, A1=A1, A3=A1 + s**2 / (m * R**2)).on_sphere(R1)
+    sphere = RollingBall(m=m, R=R, a=a, A1=A1, A3=A1 + s**2 / (m * R**2)).on_sphere(R1)
     form, D = closed_form(sphere), sphere.D
     half = sp.diff(D, X) / 2
     constant = sp.expand(half**2 - s**2 * D)  # E times its conjugate
@@ -255,7 +255,7 @@ def test_theorem_1_printed_solutions():
 def test_rational_omega_beyond_what_is_written_out():
     form = closed_form(InRoots(sp.Integer(9)))
     assert satisfies(
-        ClosedForm(form.omega, form.y, form.omega_3, form.n),
+        BallSolution(form.omega, form.y, form.omega_3, form.n),
         InRoots(sp.Integer(9)),
         IN_ROOTS,
     )
@@ -310,7 +310,7 @@ def test_what_the_theorems_say():
 
 def test_R1_is_R_has_a_constant_omega_3():
     """For all balls: omega_3 = 1 with the n that its own linear equation demands satisfies the other one."""
-    rolling = Ball(m=m, R=R, a=a, A1=A1, A3=A3)
+    rolling = RollingBall(m=m, R=R, a=a, A1=A1, A3=A3)
     a1, a2, b1, b2 = rolling.on_sphere(R).linear_system
     n = -b2 / b1
     assert sp.cancel(sp.diff(n, X) + a1 * n + a2) == 0
@@ -382,7 +382,7 @@ def test_normalised_equation_is_the_general_one():
 
 
 def test_symbolic_parameters_leave_the_case_open():
-    assert theorem(Ball(m=m, R=R, a=a, A1=A1, A3=A3).on_sphere(R1))[1] is None
+    assert theorem(RollingBall(m=m, R=R, a=a, A1=A1, A3=A3).on_sphere(R1))[1] is None
 
 
 @pytest.mark.parametrize("text", ["0", "-1", "-3/2", "x1", "c1", "u", "A3", "k+1", "1/0"])

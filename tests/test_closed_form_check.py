@@ -21,7 +21,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution, residual, value_at
 from kovacic.closed_form.curve import CurveIntegral
-from kovacic.closed_form.exponential import ExponentialPrimitive
+from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
 from kovacic.closed_form.primitive import RationalPrimitive
 from kovacic.closed_form.product import product
 from kovacic.closed_form.real_pair import is_real_pair

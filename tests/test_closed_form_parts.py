@@ -23,7 +23,7 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution
 from kovacic.closed_form.curve import integrate_on_curve, unit
 from kovacic.closed_form.curve_display import curve_integral
-from kovacic.closed_form.exponential import ExponentialPrimitive
+from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
 from kovacic.closed_form.form import ClosedForm, solutions
 from kovacic.closed_form.integrals import logarithms
 from kovacic.closed_form.jets import jet

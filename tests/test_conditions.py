@@ -20,7 +20,7 @@ import kovacic
 from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
-from kovacic.galois.group import Kind
+from kovacic.galois.group import GroupKind
 from kovacic.limits import Limits
 from kovacic.parameters import Conditions
 from kovacic.parametric.integers import Congruence
@@ -279,16 +279,16 @@ def test_the_group_of_a_region_is_that_of_its_points(family: Family, answers: di
     """The names of groups that a family's text doesn't mention don't occur."""
     answer = answers[family.name]
     words = {
-        Kind.MULTIPLICATIVE: "G_m",
-        Kind.BOREL: "Borel",
-        Kind.CYCLIC: "mu_",
-        Kind.ADDITIVE: "G_a",
-        Kind.INFINITE_DIHEDRAL: "infinite dihedral",
-        Kind.DICYCLIC: "dicyclic",
-        Kind.TETRAHEDRAL: "tetrahedral",
-        Kind.OCTAHEDRAL: "octahedral",
-        Kind.ICOSAHEDRAL: "icosahedral",
-        Kind.SL2: "SL2(C)",
+        GroupKind.MULTIPLICATIVE: "G_m",
+        GroupKind.BOREL: "Borel",
+        GroupKind.CYCLIC: "mu_",
+        GroupKind.ADDITIVE: "G_a",
+        GroupKind.INFINITE_DIHEDRAL: "infinite dihedral",
+        GroupKind.DICYCLIC: "dicyclic",
+        GroupKind.TETRAHEDRAL: "tetrahedral",
+        GroupKind.OCTAHEDRAL: "octahedral",
+        GroupKind.ICOSAHEDRAL: "icosahedral",
+        GroupKind.SL2: "SL2(C)",
     }
     for values in family.points:
         point = dict(zip(family.parameters, values, strict=True))
@@ -298,7 +298,7 @@ def test_the_group_of_a_region_is_that_of_its_points(family: Family, answers: di
         assert group is not None
         assert words[group.kind] in text or text.startswith("reducible"), (point, text, group.name)
         if "dicyclic where" in text:
-            assert group.kind is Kind.DICYCLIC  # the exponents at these points are rational
+            assert group.kind is GroupKind.DICYCLIC  # the exponents at these points are rational
 
 
 def test_the_solution_at_a_single_value_is_written_out() -> None:

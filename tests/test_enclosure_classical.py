@@ -17,7 +17,7 @@ from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.classical import NotServed, classical_of
 from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.matrices import product
-from kovacic.enclosure.points import Point
+from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
@@ -63,7 +63,7 @@ def a_pullback(kind: str, rng: random.Random) -> Pullback:
     return Pullback(Gauss(*map(constant, squares)), f)
 
 
-def compare(pullback: Pullback, a: Point, b: Point, bits: int) -> bool:
+def compare(pullback: Pullback, a: ExactPoint, b: ExactPoint, bits: int) -> bool:
     """Do both routes agree on the leg?  False where it isn't served; Taylor steps refuse it, too, or go another way."""
     with ctx.workprec(bits):
         try:
@@ -78,8 +78,10 @@ def compare(pullback: Pullback, a: Point, b: Point, bits: int) -> bool:
     return True
 
 
-def places(rng: random.Random, real: bool) -> tuple[Point, Point]:
-    a, b = (Point(Fraction(rng.randint(-40, 40), 8), 0 if real else Fraction(rng.randint(-24, 24), 8)) for _ in "ab")
+def places(rng: random.Random, real: bool) -> tuple[ExactPoint, ExactPoint]:
+    a, b = (
+        ExactPoint(Fraction(rng.randint(-40, 40), 8), 0 if real else Fraction(rng.randint(-24, 24), 8)) for _ in "ab"
+    )
     return a, b
 
 
@@ -105,7 +107,7 @@ def test_a_leg_from_to_and_through_an_ordinary_zero_of_the_function(
     # f = x^k (1 + slope x) and exponents 1/2 +- 1/(2 k) at 0: the first solution has a slope at 0 unless that is 0
     constants = [QQ.poly([v]) for v in (1, 0, Fraction(1, 4 * order**2) - Fraction(1, 4))]
     x = RatFunc(QQ.poly([0, 1]))
-    a, b = (Point(Fraction(end)) for end in ends)
+    a, b = (ExactPoint(Fraction(end)) for end in ends)
     assert compare(Pullback(Confluent(*constants), x**order * (1 + x * slope)), a, b, 120)
 
 
@@ -235,7 +237,7 @@ def test_where_both_functions_are_the_same_polynomial_the_leg_is_left_to_taylor_
     found = classical_of(rational)
     assert found is not None
     with ctx.workprec(200), pytest.raises(NotServed):
-        found.leg(Point(Fraction(1, 2)), Point(Fraction(1, 3)))
+        found.leg(ExactPoint(Fraction(1, 2)), ExactPoint(Fraction(1, 3)))
 
 
 def test_a_leg_over_a_cut_is_left_to_taylor_steps_or_followed() -> None:

@@ -12,7 +12,7 @@ from flint import acb, acb_poly, arb
 
 from kovacic.enclosure.frame import Parts, make_frame, shift
 from kovacic.enclosure.frobenius import Majorant
-from kovacic.enclosure.points import Point, working_precision
+from kovacic.enclosure.points import ExactPoint, working_precision
 from kovacic.enclosure.system import System
 from kovacic.enclosure.taylor import _cut, _proven_defect, _recurrence, error_radii, expand
 
@@ -91,17 +91,17 @@ def test_bits_that_are_cut_off_are_counted(which: str, is_complex: bool, start: 
 
 
 @pytest.mark.parametrize("prec", [60, 400])
-@pytest.mark.parametrize("centre", [Point(Fraction(1, 2)), Point(Fraction(1, 4), Fraction(3, 8))])
+@pytest.mark.parametrize("centre", [ExactPoint(Fraction(1, 2)), ExactPoint(Fraction(1, 4), Fraction(3, 8))])
 @pytest.mark.parametrize(
     "system",
     [System.make((0, 1), (1,)), System.make((3, 0, -1), (2, 1, 1)), System.make((10**30 + 1, 7), (10**40 + 3, 0, 5))],
     ids=["Airy", "poles", "long coefficients"],
 )
-def test_expansions_know_their_defect(system: System, centre: Point, prec: int) -> None:
+def test_expansions_know_their_defect(system: System, centre: ExactPoint, prec: int) -> None:
     frame = make_frame(system, centre, -2)
     assert frame is not None
     expansion = expand(frame, prec)
-    p, q = shift(system, centre, Point(frame.scale))
+    p, q = shift(system, centre, ExactPoint(frame.scale))
     assert (frame.p, frame.q) == (p, q)
     for (re, im), defect in zip(expansion.columns, expansion.defect, strict=True):
         size = max(len(re), 0 if im is None else len(im))
@@ -115,10 +115,10 @@ def test_expansions_know_their_defect(system: System, centre: Point, prec: int) 
 def test_the_error_of_values_and_slopes(k: Fraction, e: int) -> None:
     """e'' = k^2 e + rho, e(0) = e'(0) = 0: e = rho (cosh(k x) - 1)/k^2 and e' = rho sinh(k x)/k are reached."""
     square = Fraction(k) ** 2
-    system, centre = System.make((square.numerator,), (square.denominator,)), Point(Fraction(0))
+    system, centre = System.make((square.numerator,), (square.denominator,)), ExactPoint(Fraction(0))
     frame = make_frame(system, centre, e)
     assert frame is not None
-    q_0 = shift(system, centre, Point(frame.scale))[1][0][0]
+    q_0 = shift(system, centre, ExactPoint(frame.scale))[1][0][0]
     with working_precision(80):
         value, slope = error_radii(arb(q_0), frame)  # the defect's coefficients have the sum q_0: rho = 1
     k_u = float(k) * 2.0**e  # in the scaled coordinate u, x = 2^e u

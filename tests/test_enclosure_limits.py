@@ -19,7 +19,7 @@ from kovacic.enclosure.ball import Ball, ball_to_flint
 from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.frame import least_growth
 from kovacic.enclosure.monodromy import connection_matrix, monodromy
-from kovacic.enclosure.points import Point
+from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.states import evaluate_states
 from kovacic.enclosure.system import System, check_segment
@@ -34,7 +34,7 @@ START: dict[str, Any] = {"y0": 1, "dy0": 0}
 def test_a_number_beyond_all_doubles_is_named() -> None:
     with pytest.raises(LimitExceeded, match=r"from 0 to 1.0*e\+399, which takes"):
         evaluate("1/(x+10^400)", 10**399, x0=0, method="taylor", **START)
-    assert str(Point(Fraction(7**1000, 3))) == "4.17752213321906e+844"
+    assert str(ExactPoint(Fraction(7**1000, 3))) == "4.17752213321906e+844"
 
 
 @pytest.mark.parametrize(
@@ -66,18 +66,18 @@ def test_no_path_takes_fewer_steps_than_the_bound(seed: int) -> None:
     rng = Random(seed)
     num = tuple(rng.randrange(-9, 10) * 10 ** rng.randrange(0, 6) for _ in range(rng.randrange(1, 4)))
     system = System.make((*num, 1), (1, 0, 1) if rng.random() < 0.5 else (1,))
-    a, b = (Point(Fraction(rng.randrange(-40, 41), 4), Fraction(rng.randrange(2, 9), 8)) for _ in "ab")
+    a, b = (ExactPoint(Fraction(rng.randrange(-40, 41), 4), Fraction(rng.randrange(2, 9), 8)) for _ in "ab")
     steps = len(list(cover(system, a, b, 60)))
     assert least_growth(system, a, b) <= 2 * 110 * math.log(2) * steps
 
 
 def test_the_growth_is_the_integral_of_the_root() -> None:
     airy = System.make((0, 1), (1,))
-    assert least_growth(airy, Point(Fraction(0)), Point(Fraction(100))) == pytest.approx(2000 / 3, rel=0.03)
-    assert least_growth(airy, Point(Fraction(0)), Point(Fraction(100))) < 2000 / 3
+    assert least_growth(airy, ExactPoint(Fraction(0)), ExactPoint(Fraction(100))) == pytest.approx(2000 / 3, rel=0.03)
+    assert least_growth(airy, ExactPoint(Fraction(0)), ExactPoint(Fraction(100))) < 2000 / 3
     euler = System.make((1,), (0, 0, 1))
-    assert least_growth(euler, Point(Fraction(2)), Point(Fraction(1))) == pytest.approx(math.log(2), rel=0.03)
-    assert least_growth(System.make((), (1,)), Point(Fraction(2)), Point(Fraction(1))) == 0
+    assert least_growth(euler, ExactPoint(Fraction(2)), ExactPoint(Fraction(1))) == pytest.approx(math.log(2), rel=0.03)
+    assert least_growth(System.make((), (1,)), ExactPoint(Fraction(2)), ExactPoint(Fraction(1))) == 0
 
 
 @pytest.mark.long
@@ -138,7 +138,7 @@ def test_a_singular_point_has_its_exact_name(den: tuple[int, ...], a: Any, b: An
     ends = [kovacic.enclosure.points.as_point(v, "x") for v in (a, b)]
     with pytest.raises(InputError, match=name):
         check_segment(System.make((1,), den), *ends)
-    check_segment(System.make((1,), den), *(end + Point(Fraction(0), Fraction(9)) for end in ends))
+    check_segment(System.make((1,), den), *(end + ExactPoint(Fraction(0), Fraction(9)) for end in ends))
 
 
 def test_balls_of_any_exponents_are_compared_exactly() -> None:
@@ -163,6 +163,6 @@ def test_a_detour_around_an_irregular_singular_point_is_as_wide_as_it_can_be(sid
 def test_growth_is_foreseen_for_numerators_of_any_degree() -> None:
     high = System.make((0,) * 200 + (1,), (1,))
     exact = (Fraction(3) ** 101 - Fraction(2) ** 101) / 101  # int x^100
-    assert float(exact) / 3 < least_growth(high, Point(2), Point(3)) < float(exact)
+    assert float(exact) / 3 < least_growth(high, ExactPoint(2), ExactPoint(3)) < float(exact)
     with pytest.raises(LimitExceeded, match=r"grow or oscillate by exp\(.*e\+44\) on the way from 2 to 3"):
         evaluate("x^200/(x^3-1)^2", 3, x0=2, y0=1, dy0=0)

@@ -20,14 +20,14 @@ from kovacic.enclosure.agreement import agrees_with_group, compare, is_fuchsian
 from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.closed_form import closed_form_of
 from kovacic.enclosure.evaluate import evaluate
-from kovacic.enclosure.exponential import integral
+from kovacic.enclosure.log_derivative import integral
 from kovacic.enclosure.matrices import identity, multiply
 from kovacic.enclosure.monodromy import connection_matrix, monodromy
 from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.galois import Ground, Group, Kind
+from kovacic.galois import Ground, Group, GroupKind
 from kovacic.limits import Budget, Limits
 
 PRIMITIVE = {
@@ -261,7 +261,7 @@ def test_the_group_of_an_equation_with_an_algebraic_constant_agrees() -> None:
     assert local.multiplicity == 2
     assert [k for k in range(1, 9) if local.is_identity_to_the_power(k)] == [4, 8]
     assert kovacic.solve("-3/(16*(x-sqrt(2))^2)").compare_with_monodromy().verdict is True
-    assert agrees_with_group(kovacic.solve("-3/(16*(x-sqrt(2))^2)"), claimed(Kind.CYCLIC, 2)).verdict is False
+    assert agrees_with_group(kovacic.solve("-3/(16*(x-sqrt(2))^2)"), claimed(GroupKind.CYCLIC, 2)).verdict is False
 
 
 def test_a_logarithm_has_infinite_order_and_a_polynomial_has_no_monodromy() -> None:
@@ -312,13 +312,13 @@ def test_the_monodromy_of_published_equations_agrees_with_their_groups(name: str
     assert agreement.verdict is True, agreement.reason
 
 
-def claimed(kind: Kind, n: int | None = None) -> Group:
+def claimed(kind: GroupKind, n: int | None = None) -> Group:
     return Group(kind, Ground.UNDETERMINED, n)
 
 
-FINITE = [claimed(Kind.CYCLIC, n) for n in (1, 2, 3, 4, 24)]
-FINITE += [claimed(Kind.DICYCLIC, n) for n in (2, 3, 6)]
-FINITE += [claimed(kind) for kind in (Kind.TETRAHEDRAL, Kind.OCTAHEDRAL, Kind.ICOSAHEDRAL)]
+FINITE = [claimed(GroupKind.CYCLIC, n) for n in (1, 2, 3, 4, 24)]
+FINITE += [claimed(GroupKind.DICYCLIC, n) for n in (2, 3, 6)]
+FINITE += [claimed(kind) for kind in (GroupKind.TETRAHEDRAL, GroupKind.OCTAHEDRAL, GroupKind.ICOSAHEDRAL)]
 
 
 @pytest.mark.parametrize("name", sorted(GROUPS))
@@ -333,12 +333,21 @@ def test_a_wrong_finite_group_is_disproved(name: str) -> None:
 @pytest.mark.parametrize(
     ("id", "wrong"),
     [
-        ("schwarz-II", [claimed(Kind.BOREL), claimed(Kind.MULTIPLICATIVE), claimed(Kind.INFINITE_DIHEDRAL)]),
-        ("kimura-parity-fail-V", [claimed(Kind.BOREL), claimed(Kind.IMPRIMITIVE, 2), claimed(Kind.ADDITIVE, 6)]),
-        ("chebyshev-sqrt2", [claimed(Kind.BOREL), claimed(Kind.MULTIPLICATIVE)]),
-        ("kimura-red-2", [claimed(Kind.ADDITIVE, n) for n in (3, 5, 30, 7)] + [claimed(Kind.MULTIPLICATIVE)]),
-        ("legendre-1", [claimed(Kind.ADDITIVE, n) for n in (1, 4, 6)]),
-        ("kovacic-c2-1", [claimed(Kind.CYCLIC, 4), claimed(Kind.TETRAHEDRAL)]),
+        (
+            "schwarz-II",
+            [claimed(GroupKind.BOREL), claimed(GroupKind.MULTIPLICATIVE), claimed(GroupKind.INFINITE_DIHEDRAL)],
+        ),
+        (
+            "kimura-parity-fail-V",
+            [claimed(GroupKind.BOREL), claimed(GroupKind.IMPRIMITIVE, 2), claimed(GroupKind.ADDITIVE, 6)],
+        ),
+        ("chebyshev-sqrt2", [claimed(GroupKind.BOREL), claimed(GroupKind.MULTIPLICATIVE)]),
+        (
+            "kimura-red-2",
+            [claimed(GroupKind.ADDITIVE, n) for n in (3, 5, 30, 7)] + [claimed(GroupKind.MULTIPLICATIVE)],
+        ),
+        ("legendre-1", [claimed(GroupKind.ADDITIVE, n) for n in (1, 4, 6)]),
+        ("kovacic-c2-1", [claimed(GroupKind.CYCLIC, 4), claimed(GroupKind.TETRAHEDRAL)]),
     ],
 )
 def test_a_wrong_infinite_group_is_disproved(id: str, wrong: list[Group]) -> None:
@@ -351,7 +360,7 @@ def test_matrices_that_cannot_tell_say_so() -> None:
     airy = kovacic.solve("x").compare_with_monodromy()
     assert airy.verdict is None
     assert "trivial" in airy.reason
-    larger = agrees_with_group(kovacic.solve(PRIMITIVE["octahedral"]), claimed(Kind.SL2))
+    larger = agrees_with_group(kovacic.solve(PRIMITIVE["octahedral"]), claimed(GroupKind.SL2))
     assert larger.verdict is None
 
 

@@ -16,7 +16,7 @@ from kovacic.enclosure import frobenius
 from kovacic.enclosure.ball import Ball, ball_to_flint
 from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.monodromy import connection_matrix
-from kovacic.enclosure.points import Point
+from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError
@@ -254,8 +254,8 @@ def test_the_tail_is_below_its_bound(seed: int, monkeypatch: pytest.MonkeyPatch)
     n, d = ([rng.randint(-9, 9) for _ in range(3)] for _ in range(2))
     equation = f"({n[0]} + {n[1]}*x + {n[2]}*x^2)/(x^2*({d[0] or 1} + {d[1]}*x + {d[2]}*x^2))"
     problem = as_problem(equation)
-    place = Singular.at(problem, Point(Fraction(0)))
-    x = Point(Fraction(rng.choice([-1, 1]), 16), Fraction(rng.randint(-1, 1), 16))
+    place = Singular.at(problem, ExactPoint(Fraction(0)))
+    x = ExactPoint(Fraction(rng.choice([-1, 1]), 16), Fraction(rng.randint(-1, 1), 16))
     found = []
     for prec in (30, 400):
         with ctx.workprec(prec + 40):

@@ -18,7 +18,7 @@ from kovacic.enclosure.evaluate import evaluate
 from kovacic.enclosure.frame import Frame, make_frame
 from kovacic.enclosure.matrices import Matrix, product
 from kovacic.enclosure.monodromy import connection_matrix
-from kovacic.enclosure.points import Point
+from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.splitting import LEAF, Recurrence, bit_burst, is_split, make_block, split_legs
 from kovacic.enclosure.states import evaluate_states
@@ -33,7 +33,7 @@ LEGENDRE = System.make((-13, 0, 4), (9, 0, -18, 0, 9))  # nu = 1/3: S = -(4/9 (1
 DIGITS = 5000
 
 
-def both_ways(system: System, path: list[Point], prec: int) -> tuple[Matrix, Matrix]:
+def both_ways(system: System, path: list[ExactPoint], prec: int) -> tuple[Matrix, Matrix]:
     """The transition matrix term by term, and by splitting."""
     matrices = []
     with flint.ctx.workprec(prec + 40), pytest.MonkeyPatch.context() as patch:
@@ -80,19 +80,19 @@ def equations(draw: st.DrawFn) -> Recurrence:
     return Recurrence(p, q)
 
 
-def coefficients(equation: Recurrence, start: int, count: int) -> list[Point]:
+def coefficients(equation: Recurrence, start: int, count: int) -> list[ExactPoint]:
     """b_0, ..., b_(count-1) one by one, exactly."""
     P, Q = (
-        [Point(Fraction(x), Fraction(y)) for x, y in zip(re, im or [0] * len(re), strict=True)]
+        [ExactPoint(Fraction(x), Fraction(y)) for x, y in zip(re, im or [0] * len(re), strict=True)]
         for re, im in (equation.P, equation.Q)
     )
-    b = [Point(Fraction(1 - start)), Point(Fraction(start))]
+    b = [ExactPoint(Fraction(1 - start)), ExactPoint(Fraction(start))]
     for m in range(2, count):
-        total = Point(Fraction(0))
+        total = ExactPoint(Fraction(0))
         for j, c in enumerate(P):
-            total += c * b[m - 2 - j] if m - 2 - j >= 0 else Point(Fraction(0))
+            total += c * b[m - 2 - j] if m - 2 - j >= 0 else ExactPoint(Fraction(0))
         for j, c in enumerate(Q[1:], 1):
-            total -= (c * b[m - j]).scaled(Fraction((m - j) * (m - 1 - j))) if m - j >= 0 else Point(Fraction(0))
+            total -= (c * b[m - j]).scaled(Fraction((m - j) * (m - 1 - j))) if m - j >= 0 else ExactPoint(Fraction(0))
         b.append(total.scaled(1 / (Q[0].re * m * (m - 1))))
     return b
 
@@ -103,24 +103,24 @@ def test_a_run_gives_the_same_sums_as_step_by_step(equation: Recurrence, leaves:
     r, count = equation.order, 2 + leaves * LEAF
     for start in (0, 1):
         b = coefficients(equation, start, count)
-        state = [Point(Fraction(0))] * (r - 2) + b[:2]
+        state = [ExactPoint(Fraction(0))] * (r - 2) + b[:2]
         for matrix, expected in ((run.C, b[-r:]), (run.R, sums_from_2(b, mirror))):
             found = [product_row(matrix, i, state).scaled(Fraction(1, int(run.D))) for i in range(matrix[0].nrows())]
             assert found == expected
 
 
-def product_row(matrix: tuple[flint.fmpz_mat, flint.fmpz_mat | None], i: int, state: list[Point]) -> Point:
+def product_row(matrix: tuple[flint.fmpz_mat, flint.fmpz_mat | None], i: int, state: list[ExactPoint]) -> ExactPoint:
     re, im = matrix
-    row = [Point(Fraction(int(re[i, k])), Fraction(0 if im is None else int(im[i, k]))) for k in range(len(state))]
-    return sum((x * y for x, y in zip(row, state, strict=True)), Point(Fraction(0)))
+    row = [ExactPoint(Fraction(int(re[i, k])), Fraction(0 if im is None else int(im[i, k]))) for k in range(len(state))]
+    return sum((x * y for x, y in zip(row, state, strict=True)), ExactPoint(Fraction(0)))
 
 
-def sums_from_2(b: list[Point], mirror: bool) -> list[Point]:
+def sums_from_2(b: list[ExactPoint], mirror: bool) -> list[ExactPoint]:
     """sum b_m v^m and sum m b_m v^(m-1) over m >= 2 at v = 1 (and at v = -1)."""
     return [
         sum(
             (b[m].scaled(Fraction(v**m if slope == 0 else m * v ** (m - 1))) for m in range(2, len(b))),
-            Point(Fraction(0)),
+            ExactPoint(Fraction(0)),
         )
         for v in ((1, -1) if mirror else (1,))
         for slope in (0, 1)
@@ -129,12 +129,12 @@ def sums_from_2(b: list[Point], mirror: bool) -> list[Point]:
 
 # --- both ways --------------------------------------------------------------------------------------------------------
 
-points = st.builds(Point, fractions(3, (1, 2, 7, 10**9)), fractions(2, (1, 3, 8)))
+points = st.builds(ExactPoint, fractions(3, (1, 2, 7, 10**9)), fractions(2, (1, 3, 8)))
 
 
 @settings(max_examples=8)
 @given(examples().filter(lambda example: example.size <= 5), points, points)
-def test_both_ways_agree_for_equations_of_every_case(example: Example, a: Point, b: Point) -> None:
+def test_both_ways_agree_for_equations_of_every_case(example: Example, a: ExactPoint, b: ExactPoint) -> None:
     m, n = both_ways(as_problem(example.S).system, [a, b], 300)
     assert overlap(m, n)
     assert lost_bits(n, 300) <= max(8, lost_bits(m, 300))
@@ -151,9 +151,9 @@ def test_both_ways_agree_at_a_thousand_digits_with_end_points_of_any_length(seed
     rng = random.Random(seed)
     system, denominator = random_system(rng), (7, 10**16, 10**1000)[seed % 3]
 
-    def end() -> Point:
+    def end() -> ExactPoint:
         re, im = (Fraction(rng.randint(-denominator, denominator), denominator) for _ in (0, 1))
-        return Point(re, im if seed % 2 else Fraction(0))
+        return ExactPoint(re, im if seed % 2 else Fraction(0))
 
     a = end()
     b = a + end().scaled(Fraction(1, 4))
@@ -166,16 +166,16 @@ def test_both_ways_agree_at_a_thousand_digits_with_end_points_of_any_length(seed
 
 
 @pytest.fixture(params=["real", "complex"])
-def disc(request: pytest.FixtureRequest) -> Iterator[tuple[Frame, Point]]:
+def disc(request: pytest.FixtureRequest) -> Iterator[tuple[Frame, ExactPoint]]:
     """A disc for Legendre's equation and a point near its edge."""
     im = Fraction(request.param == "complex", 4)
     with flint.ctx.workprec(3000):
-        frame = make_frame(LEGENDRE, Point(Fraction(1, 8), im), -2)
+        frame = make_frame(LEGENDRE, ExactPoint(Fraction(1, 8), im), -2)
         assert frame is not None
-        yield frame, Point(Fraction(5, 16), im)
+        yield frame, ExactPoint(Fraction(5, 16), im)
 
 
-def test_mirrored_legs_are_two_legs(disc: tuple[Frame, Point]) -> None:
+def test_mirrored_legs_are_two_legs(disc: tuple[Frame, ExactPoint]) -> None:
     frame, target = disc
     other = frame.centre + frame.centre - target
     there, back = split_legs(LEGENDRE, frame, target, 2500, mirror=True)
@@ -186,9 +186,9 @@ def test_mirrored_legs_are_two_legs(disc: tuple[Frame, Point]) -> None:
 
 
 @pytest.mark.parametrize("tiny", [Fraction(1, 3**40), Fraction(1, 10**400), Fraction(3**250, 7**350)])
-def test_a_chain_of_doubling_steps_is_one_step(disc: tuple[Frame, Point], tiny: Fraction) -> None:
+def test_a_chain_of_doubling_steps_is_one_step(disc: tuple[Frame, ExactPoint], tiny: Fraction) -> None:
     frame, target = disc
-    target = target + Point(tiny, tiny if frame.centre.im else Fraction(0))
+    target = target + ExactPoint(tiny, tiny if frame.centre.im else Fraction(0))
     (alone,) = split_legs(LEGENDRE, frame, target, 2500)
     chain = bit_burst(LEGENDRE, frame, target, 2500)
     matrix = product(chain)
@@ -199,7 +199,11 @@ def test_a_chain_of_doubling_steps_is_one_step(disc: tuple[Frame, Point], tiny: 
 
 
 def test_the_slopes_of_the_short_last_steps_of_a_chain_lose_nothing() -> None:
-    frame, target, prec = make_frame(AIRY, Point(Fraction(0)), 0), Point(Fraction(7**8000, 7**8001 + 1)), 30_000
+    frame, target, prec = (
+        make_frame(AIRY, ExactPoint(Fraction(0)), 0),
+        ExactPoint(Fraction(7**8000, 7**8001 + 1)),
+        30_000,
+    )
     assert frame is not None
     with flint.ctx.workprec(prec + 40):
         chain = bit_burst(AIRY, frame, target, prec)
@@ -208,14 +212,14 @@ def test_the_slopes_of_the_short_last_steps_of_a_chain_lose_nothing() -> None:
     assert all(lost_bits(matrix, prec) <= 0 for matrix in chain)
 
 
-def test_points_outside_of_the_bounds_of_a_disc_are_refused(disc: tuple[Frame, Point]) -> None:
+def test_points_outside_of_the_bounds_of_a_disc_are_refused(disc: tuple[Frame, ExactPoint]) -> None:
     """Rounded to 16 bits, a point of the disc may lie outside by 2^-17 in both parts; there the bounds hold."""
     frame, _ = disc
-    corner = Point(Fraction(3, 5) + Fraction(1, 1 << 17), Fraction(4, 5) + Fraction(1, 1 << 17))
+    corner = ExactPoint(Fraction(3, 5) + Fraction(1, 1 << 17), Fraction(4, 5) + Fraction(1, 1 << 17))
     assert corner.norm_squared() > 1
     frame.seen(frame.centre + corner.scaled(frame.scale))
-    outside = frame.centre + Point(0, 1 + Fraction(1, 1 << 15)).scaled(frame.scale)
-    for beyond in (outside, outside + Point(Fraction(1, 3**60))):
+    outside = frame.centre + ExactPoint(0, 1 + Fraction(1, 1 << 15)).scaled(frame.scale)
+    for beyond in (outside, outside + ExactPoint(Fraction(1, 3**60))):
         with pytest.raises(ArithmeticError, match="outside of its disc"):
             bit_burst(LEGENDRE, frame, beyond, 2500)
         with pytest.raises(ArithmeticError, match="outside of its disc"):
@@ -223,7 +227,7 @@ def test_points_outside_of_the_bounds_of_a_disc_are_refused(disc: tuple[Frame, P
 
 
 def test_a_disc_smaller_than_any_double_keeps_its_error_bound() -> None:
-    frame = make_frame(LEGENDRE, Point(Fraction(0)), -1400)
+    frame = make_frame(LEGENDRE, ExactPoint(Fraction(0)), -1400)
     assert frame is not None
     assert frame.bound.gain > 0
     assert frame.bound.slope_gain > 0

@@ -21,11 +21,11 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint
 from kovacic.enclosure.evaluate import evaluate
-from kovacic.enclosure.exponential import _principal_part
 from kovacic.enclosure.frame import make_frame, shift
+from kovacic.enclosure.log_derivative import _principal_part
 from kovacic.enclosure.matrices import product
 from kovacic.enclosure.monodromy import connection_matrix
-from kovacic.enclosure.points import Point, as_point
+from kovacic.enclosure.points import ExactPoint, as_point
 from kovacic.enclosure.precision import AccuracyWarning, Method
 from kovacic.enclosure.states import evaluate_states
 from kovacic.enclosure.system import System, check_segment, distance_lower
@@ -99,10 +99,10 @@ def test_numbers_of_every_kind_are_read_exactly() -> None:
 
     third = Fraction(1, 3)
     same = [third, "1/3", sympy.Rational(1, 3), flint.fmpq(1, 3)]
-    assert {as_point(v, "x") for v in same} == {Point(third)}
+    assert {as_point(v, "x") for v in same} == {ExactPoint(third)}
     assert as_point("0.1", "x").re == as_point(Decimal("0.1"), "x").re == Fraction(1, 10)
     assert as_point(0.1, "x").re == as_point(np.float64(0.1), "x").re == Fraction(0.1) != Fraction(1, 10)
-    assert as_point(mpmath.mpf("0.5"), "x") == as_point(sympy.Float(0.5), "x") == Point(Fraction(1, 2))
+    assert as_point(mpmath.mpf("0.5"), "x") == as_point(sympy.Float(0.5), "x") == ExactPoint(Fraction(1, 2))
     assert as_point(mpmath.mpc(1, 2), "x") == as_point(1 + 2 * sympy.I, "x") == as_point(1 + 2j, "x")
 
 
@@ -148,26 +148,26 @@ def test_the_shifted_equation_is_the_equation(
 ) -> None:
     system = System.make(tuple(num), den)
     re, im = Fraction(round(re * 64), 64), Fraction(round(im * 64), 64)
-    centre = Point(re, im)
-    scale = Point(step, turn)
+    centre = ExactPoint(re, im)
+    scale = ExactPoint(step, turn)
     if system.is_singular(centre) or not scale.norm_squared():
         return
     p, q = shift(system, centre, scale)
 
-    def at(parts: tuple[list[int], list[int] | None], u: Point) -> Point:
-        total = Point(Fraction(0))
+    def at(parts: tuple[list[int], list[int] | None], u: ExactPoint) -> ExactPoint:
+        total = ExactPoint(Fraction(0))
         imaginary = parts[1] or [0] * len(parts[0])
         for a, b in zip(reversed(parts[0]), reversed(imaginary), strict=True):
-            total = total * u + Point(Fraction(a), Fraction(b))
+            total = total * u + ExactPoint(Fraction(a), Fraction(b))
         return total
 
-    def original(coefficients: tuple[int, ...], x: Point) -> Point:
-        total = Point(Fraction(0))
+    def original(coefficients: tuple[int, ...], x: ExactPoint) -> ExactPoint:
+        total = ExactPoint(Fraction(0))
         for c in reversed(coefficients):
-            total = total * x + Point(Fraction(c))
+            total = total * x + ExactPoint(Fraction(c))
         return total
 
-    u = Point(Fraction(2, 5), Fraction(1, 7))
+    u = ExactPoint(Fraction(2, 5), Fraction(1, 7))
     x = centre + u * scale
     left = at(p, u) * original(system.den, x)
     right = at(q, u) * original(system.num, x) * scale * scale
@@ -192,7 +192,7 @@ def test_the_principal_part_at_a_pole(part: list[int], rest: list[int], at: int)
 def test_the_bounds_of_a_disc_hold_along_a_ray(seed: int) -> None:
     rng = random.Random(seed)
     system = random_system(rng)
-    centre = Point(Fraction(rng.randint(-16, 16), 8), Fraction(rng.randint(-16, 16), 8))
+    centre = ExactPoint(Fraction(rng.randint(-16, 16), 8), Fraction(rng.randint(-16, 16), 8))
     if system.is_singular(centre):
         return
     frame = make_frame(system, centre, rng.randint(-6, 0))
@@ -307,7 +307,7 @@ def random_system(rng: random.Random) -> System:
 def test_higher_precision_lies_inside_and_the_determinant_is_one(seed: int) -> None:
     rng = random.Random(seed)
     system = random_system(rng)
-    polygon = [Point(Fraction(rng.randint(-30, 30), 7), Fraction(rng.randint(-30, 30), 11)) for _ in range(3)]
+    polygon = [ExactPoint(Fraction(rng.randint(-30, 30), 7), Fraction(rng.randint(-30, 30), 11)) for _ in range(3)]
     try:
         rough, fine = (connection_matrix(system, polygon, digits=digits) for digits in (8, 30))
     except InputError:
@@ -325,10 +325,10 @@ def test_higher_precision_lies_inside_and_the_determinant_is_one(seed: int) -> N
 def test_a_contractible_loop_is_the_identity(seed: int) -> None:
     rng = random.Random(1000 + seed)
     system = random_system(rng)
-    start = Point(Fraction(rng.randint(-30, 30), 7), Fraction(rng.randint(1, 30), 11))
+    start = ExactPoint(Fraction(rng.randint(-30, 30), 7), Fraction(rng.randint(1, 30), 11))
     near = distance_lower(system, start)
     size = Fraction(1) if near is None else Fraction(float(near) / 3)
-    polygon = [start, start + Point(size), start + Point(Fraction(0), size), start]
+    polygon = [start, start + ExactPoint(size), start + ExactPoint(Fraction(0), size), start]
     (a, b), (c, d) = connection_matrix(system, polygon, digits=20)
     assert a.contains(1)
     assert d.contains(1)
@@ -341,7 +341,7 @@ def test_large_denominators_dont_cost_precision() -> None:
     # 40 double poles on the circle |x| = 3: absolute values of the coefficients of 1/den would lose 2^40 in every disc
     system = System.make((1,), (-(3**40), *[0] * 39, 1))
     with flint.ctx.workprec(140):
-        m = product(piece_matrices(system, Point(Fraction(0)), Point(Fraction(5, 2)), 100))
+        m = product(piece_matrices(system, ExactPoint(Fraction(0)), ExactPoint(Fraction(5, 2)), 100))
         assert min(m[k].rel_accuracy_bits() for k in (0, 1, 3)) > 90
 
 
@@ -374,9 +374,9 @@ def test_wrong_input_is_refused(arguments: dict[str, object], words: str) -> Non
 def test_an_irrational_singular_point_on_the_path_is_found_and_a_near_miss_isnt() -> None:
     system = System.make((1,), (-2, 0, 1))  # +-sqrt 2
     with pytest.raises(InputError, match=r"1\.41421356"):
-        check_segment(system, Point(Fraction(0)), Point(Fraction(2)))
+        check_segment(system, ExactPoint(Fraction(0)), ExactPoint(Fraction(2)))
     tiny = Fraction(1, 10**40)
-    check_segment(system, Point(Fraction(0), tiny), Point(Fraction(2), tiny))
+    check_segment(system, ExactPoint(Fraction(0), tiny), ExactPoint(Fraction(2), tiny))
 
 
 def test_an_exhausted_limit_is_an_error_when_nothing_is_known() -> None:
@@ -469,7 +469,7 @@ def test_poles_of_the_first_coefficient_are_singular_even_where_the_normal_form_
 # --- numbers of discs --------------------------------------------------------------------------------------------------
 
 
-def discs(pole: Fraction, a: Point, b: Point) -> int:
+def discs(pole: Fraction, a: ExactPoint, b: ExactPoint) -> int:
     system = System.make((3,), (-pole.numerator, pole.denominator))
     with Budget(Limits(seconds=5)).watched():
         return sum(1 for _ in cover(system, a, b, 74))
@@ -481,8 +481,10 @@ def discs_stay_few(rng: random.Random, count: int) -> None:
         pole = rng.choice([Fraction(0), Fraction(1), Fraction(1, 3)])
         near = Fraction(rng.randint(1, 9), 10 ** rng.randint(0, 9))
         length = rng.choice([Fraction(1), Fraction(2), Fraction(4), Fraction(1, 2), Fraction(1, 4), Fraction(7, 5)])
-        turn = rng.choice([Point(Fraction(1)), Point(Fraction(-1)), Point(Fraction(3, 5), Fraction(4, 5))])
-        ends = [Point(pole) + turn.scaled(near), Point(pole) + turn.scaled(near + length)]
+        turn = rng.choice(
+            [ExactPoint(Fraction(1)), ExactPoint(Fraction(-1)), ExactPoint(Fraction(3, 5), Fraction(4, 5))]
+        )
+        ends = [ExactPoint(pole) + turn.scaled(near), ExactPoint(pole) + turn.scaled(near + length)]
         rng.shuffle(ends)
         assert discs(pole, ends[0], ends[1]) <= 3 + 1.5 * math.log2((near + length) / near)
 
@@ -709,8 +711,8 @@ def test_a_right_hand_side_that_cannot_be_is_refused() -> None:
 @pytest.mark.parametrize("k", range(12))
 def test_a_complex_path_comes_to_its_end(k: int) -> None:
     """Where the rest of the way is just longer than the disc that was tried, the next one has to be larger."""
-    a, b = Point(Fraction(59, 64), Fraction(47, 64)), Point(Fraction(-63, 64), Fraction(13, 32))
-    ends = [Point(p.re + Fraction(k, 97), p.im).scaled(Fraction(2) ** (k - 3)) for p in (a, b)]
+    a, b = ExactPoint(Fraction(59, 64), Fraction(47, 64)), ExactPoint(Fraction(-63, 64), Fraction(13, 32))
+    ends = [ExactPoint(p.re + Fraction(k, 97), p.im).scaled(Fraction(2) ** (k - 3)) for p in (a, b)]
     system = System.make((0, 1), (1,))
     with Budget(Limits(seconds=5)).watched():
         assert sum(1 for _ in cover(system, ends[0], ends[1], 223)) < 400

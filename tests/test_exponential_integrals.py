@@ -12,7 +12,7 @@ import kovacic
 from kovacic.algebra.factors import combination
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.exponential import integrate_exponential
+from kovacic.closed_form.exponential_integrals import integrate_exponential
 
 X = RatFunc(QQ.poly([0, 1]))
 x = sympy.Symbol("x")

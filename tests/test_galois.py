@@ -21,7 +21,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind as PlaceKind
 from kovacic.engine.places import analyse
 from kovacic.equation import Equation
-from kovacic.galois import Ground, Group, Kind
+from kovacic.galois import Ground, Group, GroupKind
 from kovacic.galois.gauged import _residues_on_curve, _torus
 from kovacic.galois.imprimitive import curve_of, form_of_order
 from kovacic.galois.jacobian import Jacobian
@@ -90,7 +90,7 @@ def test_a_unique_omega_with_rational_residues(factors: list, data: st.DataObjec
     omega = sum((r * RatFunc(p.derivative(), p) for r, p in zip(exponents, factors, strict=True)), X * 0)
     n = lcm(*(r.denominator for r in exponents))
     group = kovacic.solve(transform.from_omega(omega)).group
-    assert group.kind in (Kind.CYCLIC, Kind.ADDITIVE)
+    assert group.kind in (GroupKind.CYCLIC, GroupKind.ADDITIVE)
     assert group.n == n
 
 
@@ -99,7 +99,7 @@ def test_a_unique_omega_with_rational_residues(factors: list, data: st.DataObjec
 def test_an_exponential_omega(factors: list, slope: int, data: st.DataObject) -> None:
     exponents = [data.draw(strategies.fractions(3)) for _ in factors]
     omega = sum((r * RatFunc(p.derivative(), p) for r, p in zip(exponents, factors, strict=True)), X * 0) + slope
-    assert kovacic.solve(transform.from_omega(omega)).group.kind in (Kind.BOREL, Kind.MULTIPLICATIVE)
+    assert kovacic.solve(transform.from_omega(omega)).group.kind in (GroupKind.BOREL, GroupKind.MULTIPLICATIVE)
 
 
 @settings(max_examples=25)
@@ -107,8 +107,8 @@ def test_an_exponential_omega(factors: list, slope: int, data: st.DataObject) ->
 def test_a_rational_product_of_solutions_with_irrational_wronskian(F: RatFunc, w: int) -> None:
     """y1 y2 = F: the group is diagonal, and finite only if the residues of w/F are rational."""
     group = kovacic.solve(transform.from_product(F, w)).group
-    assert group.kind in (Kind.CYCLIC, Kind.MULTIPLICATIVE)
-    assert group.kind is Kind.MULTIPLICATIVE or group.n is not None
+    assert group.kind in (GroupKind.CYCLIC, GroupKind.MULTIPLICATIVE)
+    assert group.kind is GroupKind.MULTIPLICATIVE or group.n is not None
 
 
 @pytest.mark.parametrize("n", [2, 3, 4, 5, 6, 7, 12])
@@ -163,7 +163,7 @@ def test_a_differential_of_the_first_kind() -> None:
 def test_an_order_beyond_the_limits_is_not_guessed() -> None:
     S = transform.from_squared_product(((X**3 + X + 1) ** 2 - 3) / (3 * X**2 + 1) ** 2, Fraction(4, 1009**2))
     group = kovacic.solve(S).group
-    assert group.kind is Kind.IMPRIMITIVE
+    assert group.kind is GroupKind.IMPRIMITIVE
     assert group.finite is None
     assert group.order is None
     assert group.order_at_least == 4 * 1009
@@ -179,12 +179,12 @@ def test_local_monodromies_lie_in_the_group(example: strategies.Example) -> None
         if place.kind is PlaceKind.ORDINARY:
             continue
         if place.logarithm:
-            assert group.kind in (Kind.ADDITIVE, Kind.BOREL)
+            assert group.kind in (GroupKind.ADDITIVE, GroupKind.BOREL)
         elif place.delta is None:
             assert not group.finite
-        elif group.kind is Kind.CYCLIC:
+        elif group.kind is GroupKind.CYCLIC:
             assert (group.n if group.n % 2 else group.n // 2) % place.delta.denominator == 0
-        elif group.kind is Kind.DICYCLIC:
+        elif group.kind is GroupKind.DICYCLIC:
             assert place.delta.denominator == 2 or group.n % place.delta.denominator == 0
 
 
@@ -199,9 +199,9 @@ def test_primitive_groups(example: strategies.Example) -> None:
 
 @pytest.mark.parametrize(
     "group",
-    [Group(Kind.CYCLIC, Ground.RESIDUES, n) for n in (1, 2, 3, 4, 7)]
-    + [Group(Kind.DICYCLIC, Ground.INVARIANT, n) for n in (2, 3, 4, 5)]
-    + [Group(kind, Ground.PRIMITIVE) for kind in (Kind.TETRAHEDRAL, Kind.OCTAHEDRAL, Kind.ICOSAHEDRAL)],
+    [Group(GroupKind.CYCLIC, Ground.RESIDUES, n) for n in (1, 2, 3, 4, 7)]
+    + [Group(GroupKind.DICYCLIC, Ground.INVARIANT, n) for n in (2, 3, 4, 5)]
+    + [Group(kind, Ground.PRIMITIVE) for kind in (GroupKind.TETRAHEDRAL, GroupKind.OCTAHEDRAL, GroupKind.ICOSAHEDRAL)],
     ids=lambda group: group.name,
 )
 def test_the_matrices_generate_a_group_of_the_right_order(group: Group) -> None:
@@ -451,7 +451,7 @@ def test_a_normal_form_with_parameters_has_its_group() -> None:
 def test_a_curve_of_genus_one_beside_a_parameter_ends() -> None:
     """Lame's equation with n = 1: no prime field takes the parameter, so orders modulo primes decide nothing."""
     group = kovacic.solve("(4*x^3 - 28*x + 24)*y'' + (6*x^2 - 14)*y' = (2*x + B)*y", var="x").group
-    assert group.kind in (Kind.IMPRIMITIVE, Kind.INFINITE_DIHEDRAL)
+    assert group.kind in (GroupKind.IMPRIMITIVE, GroupKind.INFINITE_DIHEDRAL)
     assert group.order is None
 
 
@@ -468,7 +468,7 @@ def test_orders_without_small_primes() -> None:
     for n in (2, 3):
         S = transform.pull_back(transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, n)), X**13 + X + 1)
         group = kovacic.solve(S).group
-        assert (group.kind, group.n, group.ground) == (Kind.DICYCLIC, n, Ground.INVARIANT)
+        assert (group.kind, group.n, group.ground) == (GroupKind.DICYCLIC, n, Ground.INVARIANT)
 
 
 @pytest.mark.parametrize("shift", range(7))

@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic import Ball, InputError, Limits
 from kovacic.algebra.rationals import to_fmpq
-from kovacic.ball import Ball as Body
+from kovacic.ball import RollingBall as Body
 from kovacic.exact import exact
 from kovacic.solution import Solution
 

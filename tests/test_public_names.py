@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
+
+import pytest
 
 import kovacic
+import kovacic.ball
+from kovacic import galois
 
 STUB = Path(kovacic.__file__).with_suffix(".pyi")
 
@@ -23,6 +28,21 @@ def test_type_checkers_see_the_public_names() -> None:
 def test_dir_shows_the_public_names_only() -> None:
     assert dir(kovacic) == sorted([*kovacic.__all__, "__version__"])
     assert len(set(kovacic.__all__)) == sum(map(len, kovacic._NAMES.values()))
+
+
+@pytest.mark.parametrize(
+    ("module", "former", "now"),
+    [
+        (kovacic.ball, "Ball", "RollingBall"),
+        (kovacic.ball, "ClosedForm", "BallSolution"),
+        (galois, "Kind", "GroupKind"),
+    ],
+)
+def test_former_names_are_there_with_a_warning(module: Any, former: str, now: str) -> None:
+    with pytest.warns(DeprecationWarning, match=f"{former} is called {now} now"):
+        assert getattr(module, former) is getattr(module, now)
+    with pytest.raises(AttributeError):
+        module.SomethingElse  # noqa: B018
 
 
 if __name__ == "__main__":

@@ -24,8 +24,8 @@ from kovacic.general_solution.variation import special_wronskian as wronskian
 from kovacic.limits import Budget, Limits
 from kovacic.reading.read import read_input
 from kovacic.special import confluent, gauss
-from kovacic.special.answer import find, special_functions
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
+from kovacic.special.search import find, special_functions
 from kovacic.special.writer import Writer
 from kovacic.views.sentences import SCREEN
 from kovacic.views.text import solution_lines

@@ -1,11 +1,24 @@
 """The ball on the sphere: Woronetz's equations, Theorems 1 and 2 by the engine, and the motion.
 
-In goes a body, `Ball(...).on_sphere(R1)`, or one ratio of the radii for all bodies, `InRoots(rho)`; out come its equations
-(`equations`, derived from the definitions), the closed forms of omega_3 and n (`theorems`), and its motion (`motion`, `plot`,
-imported by name, for they need NumPy).  Read `ball` first.
+In goes a body, `RollingBall(...).on_sphere(R1)`, or one ratio of the radii for all bodies, `InRoots(rho)`; out come its
+equations (`derivation`, from the definitions), the closed forms of omega_3 and n (`theorems`), and its motion (`motion`,
+`picture`, imported by name, for they need NumPy).  Read `body` first.
 """
 
-from kovacic.ball.ball import Ball, BallOnSphere, InRoots, U, X
-from kovacic.ball.theorems import ClosedForm, closed_form
+import warnings
 
-__all__ = ["Ball", "BallOnSphere", "ClosedForm", "InRoots", "U", "X", "closed_form"]
+from kovacic.ball.body import BallOnSphere, InRoots, RollingBall, U, X
+from kovacic.ball.theorems import BallSolution, closed_form
+
+__all__ = ["BallOnSphere", "BallSolution", "InRoots", "RollingBall", "U", "X", "closed_form"]
+
+_FORMER_NAMES = {"Ball": RollingBall, "ClosedForm": BallSolution}
+
+
+def __getattr__(name: str) -> type:
+    """The names of version 0.2."""
+    if name not in _FORMER_NAMES:
+        raise AttributeError(f"module 'kovacic.ball' has no attribute {name!r}")
+    found = _FORMER_NAMES[name]
+    warnings.warn(f"kovacic.ball.{name} is called {found.__name__} now", DeprecationWarning, stacklevel=2)
+    return found

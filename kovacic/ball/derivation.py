@@ -16,7 +16,7 @@ from typing import Any
 import sympy as sp
 from sympy import cos, sin
 
-from kovacic.ball.ball import A1, A3, InRoots, x1, x2
+from kovacic.ball.body import A1, A3, InRoots, x1, x2
 from kovacic.ball.paper import (
     K11,
     K22,

@@ -1,6 +1,6 @@
 """The equations of motion of the ball in its own axes, where they have no singularity, the forces, the closed form in numbers.
 
-Symbols as in `kovacic.ball.ball`; x = cos u.  With s the unit vector from the centre to the contact point, omega the angular
+Symbols as in `kovacic.ball.body`; x = cos u.  With s the unit vector from the centre to the contact point, omega the angular
 velocity, r = R s + a e_3 (from the centre of mass to the contact point), and b such that the centre of mass has the
 acceleration -(omega' x r) - b, Euler's equations about the contact point are
     (1 + rho) s' = s x omega,   J omega' - m r x (r x omega') = J omega x omega - m r x b + V_x/(1 + rho) s x e_3,
@@ -20,7 +20,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from kovacic.ball.ball import BallOnSphere, Scalar, U, exact, read_expression
+from kovacic.ball.body import BallOnSphere, Scalar, U, exact, read_expression
 from kovacic.errors import InputError
 
 Array = NDArray[np.float64]
@@ -122,7 +122,7 @@ class Dynamics:
         return self.R * self.kappa
 
     def D(self, x: Any) -> Any:
-        """D(x) of `kovacic.ball.ball`."""
+        """D(x) of `kovacic.ball.body`."""
         return self.A1 * (self.A3 + self.m * self.R**2 * (1 - x * x)) + self.A3 * self.m * (self.R * x + self.a) ** 2
 
     def acceleration(self, s: Vector, omega: Vector) -> tuple[Any, Any, Any]:
@@ -153,7 +153,7 @@ class Dynamics:
         return [*domega, *(p / (1 + self.rho) for p in ds), *(p for row in moved for p in row), *way]
 
     def transport(self, x: Array, x0: float, omega_3: float, n: float) -> tuple[Array, Array]:
-        """(omega_3, n) at x from their values at x0 = cos u0: the closed form of `kovacic.ball.ball`, on either sign of l."""
+        """(omega_3, n) at x from their values at x0 = cos u0: the closed form of `kovacic.ball.body`, on either sign of l."""
 
         def half(x: Any) -> Any:  # D'/2
             return self.m * self.R * ((self.A3 - self.A1) * self.R * x + self.A3 * self.a)

@@ -1,6 +1,6 @@
 """The motion of the ball from any start: u(t), omega_3(t), n(t), the contact point, the attitude, the reaction.
 
-Symbols as in `kovacic.ball.ball`; x = cos u.  With omega_3(x) and n(x) in closed form the motion is a quadrature,
+Symbols as in `kovacic.ball.body`; x = cos u.  With omega_3(x) and n(x) in closed form the motion is a quadrature,
 t = int dx/sqrt(W(x)), which is singular at turning points, near the poles of the ball and where the motion is steady.
 In the ball's own axes the same motion has no singularity (`kovacic.ball.dynamics`): it is integrated over one oscillation of
 x, to about 5e-14.  One period T later the ball is where it was, but for a rotation: s and omega are turned
@@ -20,7 +20,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from kovacic.ball.ball import BallOnSphere, Scalar
+from kovacic.ball.body import BallOnSphere, Scalar
 from kovacic.ball.dynamics import (
     Array,
     Dynamics,
@@ -212,8 +212,8 @@ def solve_motion(
     unstable steady motion, depend on digits that floats don't have: they are followed up to `Motion.determined`.
     Raises `InputError` for symbolic parameters, numbers out of range and potentials that aren't smooth.
 
-    >>> from kovacic.ball.ball import Ball
-    >>> sphere = Ball(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
+    >>> from kovacic.ball.body import RollingBall
+    >>> sphere = RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
     >>> motion = solve_motion(sphere, State(u=1, du="1/2", dv=0, n=2))
     >>> bool(motion.turning_points[0] < 1 < motion.turning_points[1])
     True

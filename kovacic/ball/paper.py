@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy import cos, sin
 
-from kovacic.ball.ball import A1, A3, InRoots, Rolling, U, X
+from kovacic.ball.body import A1, A3, InRoots, Rolling, U, X
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, say
 from kovacic.writing.formula import Math
 

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import mpmath
 import sympy as sp
 
-from kovacic.ball.ball import A1, A3, InRoots, Rolling, X, exact, sign, x1, x2
+from kovacic.ball.body import A1, A3, InRoots, Rolling, X, exact, sign, x1, x2
 from kovacic.errors import InputError
 
 C1, C2 = sp.symbols("c1 c2")
@@ -44,7 +44,7 @@ def theorem(place: Rolling) -> tuple[str, int | None]:
 
 
 @dataclass(frozen=True, slots=True)
-class ClosedForm:
+class BallSolution:
     """omega = y'/y for a solution y or two; the general y, omega_3 and n with constants c1, c2, as functions of x = cos u."""
 
     omega: tuple[sp.Expr, ...]
@@ -72,16 +72,16 @@ class ClosedForm:
             return bool(max(map(abs, found[3:])) < 1e-30 * max(1, *map(abs, found[:3])))
 
 
-def closed_form(place: Rolling) -> ClosedForm:
+def closed_form(place: Rolling) -> BallSolution:
     """The general solution of the linear equations of a ball, degenerate balls and the plane included; real on [-1, 1].
 
     Sines and cosines where l is known to be negative; undecided symbolic parameters are taken as generic.  For an integer
     N = 2 rho, omega is written in the roots x1, x2.  On the plane y is what belongs to omega_3.  y = D^(3/4) omega_3, but for
     a constant D (A1 = A3 and a = 0), where its power is left out: y = omega_3 = c1 + c2 x.
 
-    >>> from kovacic.ball.ball import Ball
-    >>> closed_form(Ball(m=1, R=1, a=0, A1="1/4", A3="1/4").on_sphere(2)).n
-    -c2/2
+    >>> from kovacic.ball.body import RollingBall
+    >>> closed_form(RollingBall(m=1, R=1, a=0, A1="1/4", A3="1/4").on_sphere(2)).n
+    -5*c2/2
     >>> print(closed_form(InRoots(sp.Rational(3, 2))).omega_3)
     c1*(4*x - x1 - 3*x2)/sqrt(x - x2) + c2*(4*x - 3*x1 - x2)/sqrt(x - x1)
     """
@@ -96,7 +96,7 @@ def closed_form(place: Rolling) -> ClosedForm:
     elif lead == 0 and half == 0:
         # D is constant, and its powers go into c1 and c2, of y too.
         n = -C2 * D / rho / place.weight
-        return ClosedForm((share, 1 / X), C1 + C2 * X, C1 + C2 * X, n)
+        return BallSolution((share, 1 / X), C1 + C2 * X, C1 + C2 * X, n)
     elif lead == 0:
         # D' is constant; zeta = -(half/rho) c2 by the first of the two equations.
         eta = C1 + C2 * root
@@ -124,10 +124,10 @@ def closed_form(place: Rolling) -> ClosedForm:
     if (2 * rho).is_Integer and rho != 0 and len(place.roots) == 2:
         omega = _in_roots(InRoots(rho)).omega
     omega_3 = sum(term / root for term in eta.args) if rho == 1 else eta / quarter**2  # c1 by itself
-    return ClosedForm(omega, quarter * eta, omega_3, n / place.weight, E)
+    return BallSolution(omega, quarter * eta, omega_3, n / place.weight, E)
 
 
-def _in_roots(place: InRoots) -> ClosedForm:
+def _in_roots(place: InRoots) -> BallSolution:
     """For an integer N both solutions are polynomials times powers of sqrt(x - x1) and sqrt(x - x2), written so up to |N| = 12.
 
     Beyond, the polynomials are longer than a page: omega is written as a quotient, and the solutions as powers.
@@ -152,7 +152,7 @@ def _in_roots(place: InRoots) -> ClosedForm:
         y = sum(part * quarter**3 for part in omega_3.args)
         if N == 1:
             omega.reverse()
-        return ClosedForm(tuple(omega), y, omega_3, spin / -place.weight)
+        return BallSolution(tuple(omega), y, omega_3, spin / -place.weight)
     r, s, steps = sp.sqrt(alpha) + sp.sqrt(beta), sp.sqrt(alpha) - sp.sqrt(beta), (rho / root, -rho / root)
     if N.is_Integer:  # r' = r/(2 root), s' = -s/(2 root): these two are rational
         quotient = (r ** (2 * rho) - s ** (2 * rho)) / (r ** (2 * rho) + s ** (2 * rho))
@@ -160,7 +160,7 @@ def _in_roots(place: InRoots) -> ClosedForm:
     eta = C1 * r ** (2 * rho) + C2 * r ** (-2 * rho)
     n = (C1 * r ** (2 + 2 * rho) + C2 * (x1 - x2) ** 2 * r ** (-2 - 2 * rho)) / (-2 * root * place.weight)
     omega = [(1 / alpha + 1 / beta) / 4 + step for step in steps]
-    return ClosedForm(tuple(omega), quarter * eta, eta / root, n)
+    return BallSolution(tuple(omega), quarter * eta, eta / root, n)
 
 
 def read_ratio(text: str) -> sp.Expr:

@@ -69,7 +69,7 @@ class Lot(NamedTuple):
     refusals: list[Record]
 
 
-class Source:
+class ItemSource:
     """Where items come from: those that a lost process has left, then the input, which may be silent for the moment."""
 
     def __init__(self, feed: Iterator[Item | None]) -> None:
@@ -232,7 +232,7 @@ class Pool(AbstractContextManager["Pool"]):
 
     def _records(self, feed: Iterator[Item | None]) -> Iterator[Record]:
         """The records as they come; the feed gives None where there is no item for the moment."""
-        source = Source(feed)
+        source = ItemSource(feed)
         while len(self._children) < self._jobs:
             self._children.append(Child(self.job, self._serve, self._events))
         while True:
@@ -248,7 +248,7 @@ class Pool(AbstractContextManager["Pool"]):
             yield from self._take_up(events, source)
             yield from self._end(late, source)
 
-    def _hand_out(self, source: Source) -> list[Lot]:
+    def _hand_out(self, source: ItemSource) -> list[Lot]:
         """Give each process that has nothing to do a lot, as long as there are items; the lots."""
         lots: list[Lot] = []
         for child in self._children:
@@ -291,7 +291,7 @@ class Pool(AbstractContextManager["Pool"]):
             return math.inf
         return child.busy_since + self.job.timeout + GRACE_SECONDS
 
-    def _take_up(self, events: list[Event], source: Source) -> Iterator[Record]:
+    def _take_up(self, events: list[Event], source: ItemSource) -> Iterator[Record]:
         """The records that these events bring.  An item of a stream brings none, nor does a process that was replaced."""
         for event in events:
             if event is None:
@@ -321,7 +321,7 @@ class Pool(AbstractContextManager["Pool"]):
         heard = [event[0] for event in events if event is not None]
         return [child for child in self._children if child not in heard and self._deadline(child) <= now]
 
-    def _end(self, late: list[Child], source: Source) -> Iterator[Record]:
+    def _end(self, late: list[Child], source: ItemSource) -> Iterator[Record]:
         """Kill processes that are over their time; the records of what they worked on."""
         for child in late:
             if not child.items:
@@ -331,7 +331,7 @@ class Pool(AbstractContextManager["Pool"]):
             reason = f"the time limit of {self.job.timeout:g} s is used up (process killed)"
             yield stopped(item, reason, time.monotonic() - child.busy_since)
 
-    def _died(self, child: Child, source: Source) -> Iterator[Record]:
+    def _died(self, child: Child, source: ItemSource) -> Iterator[Record]:
         """What follows from the end of a process: another one, and a record for its item, or another attempt."""
         status, words = child.last_words()
         if not child.ready:
@@ -362,7 +362,7 @@ class Pool(AbstractContextManager["Pool"]):
             return f"the time limit of {self.job.timeout:g} s is used up (process ended)"
         return None
 
-    def _replace(self, child: Child, source: Source) -> None:
+    def _replace(self, child: Child, source: ItemSource) -> None:
         """Kill a process, give back what it hasn't begun, and start another one."""
         source.give_back(child.items)
         child.kill()

@@ -14,7 +14,7 @@ from kovacic.shown import json_line
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from kovacic.ball.ball import Rolling
+    from kovacic.ball.body import Rolling
 
 #: Points in time at which a motion is looked at: so many, and so many more for each oscillation, up to a limit.
 _SAMPLES, _PER_OSCILLATION, _MOST = 1200, 60, 60_000
@@ -129,8 +129,8 @@ def _explain_all(*, as_json: bool, latex: bool) -> None:
 
 def _place(*, ratio: str | None, mass: str | None, radius: str | None, sphere: str | None, **given: Any) -> Rolling:
     """The ball that is meant; raises `click.UsageError` for options that don't belong together."""
-    from kovacic.ball import Ball
-    from kovacic.ball.ball import InRoots, exact
+    from kovacic.ball import RollingBall
+    from kovacic.ball.body import InRoots, exact
     from kovacic.ball.theorems import read_ratio
 
     if ratio is not None:
@@ -145,7 +145,7 @@ def _place(*, ratio: str | None, mass: str | None, radius: str | None, sphere: s
         raise click.UsageError("a ball with --offset isn't homogeneous: give its moments too, --A1 and --A3")
     standard = exact(mass, "m") * exact(radius, "R") ** 2 * 2 / 5
     A1, A3 = (standard if given[name] is None else given[name] for name in ("a1", "a3"))
-    ball = Ball(m=mass, R=radius, a=given["offset"], A1=A1, A3=A3)
+    ball = RollingBall(m=mass, R=radius, a=given["offset"], A1=A1, A3=A3)
     return ball.on_plane() if sphere == "plane" else ball.on_sphere(sphere)
 
 
@@ -210,7 +210,7 @@ def _simulate(sphere: Any, *, start: Sequence[str], end: str, plot: Path | None,
 
         from kovacic.ball.dynamics import as_float
         from kovacic.ball.motion import State, solve_motion
-        from kovacic.ball.plot import draw
+        from kovacic.ball.picture import draw
 
     if (time := as_float(end, "the time")) <= 0:
         raise InputError(f"the time must be positive, not {time:g}")

@@ -15,7 +15,7 @@ from kovacic.closed_form.atoms import Atoms, Expr, display, factors, rational
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.curve_display import curve_integral
 from kovacic.closed_form.elliptic import elliptic
-from kovacic.closed_form.exponential import ExponentialPrimitive
+from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
 from kovacic.closed_form.primitive import (
     OpenPrimitive,
     Primitive,
@@ -141,7 +141,7 @@ def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, at
 
 
 def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scaled:
-    """int t^power exp(beta t^n) dt: equation (1) of `kovacic.closed_form.exponential`."""
+    """int t^power exp(beta t^n) dt: equation (1) of `kovacic.closed_form.exponential_integrals`."""
     beta = atoms.constant(factor)
     s = (power + 1) / n
     if s == 0:

@@ -1,8 +1,8 @@
 """int y^-2 dx for a product y: the second solution y int y^-2 of a reducible equation.
 
 With h = y^-2 = r k, r rational and k the part that isn't, the integral is W k plus what no W k can express: logarithms for
-k = 1, the integrals (2) of `kovacic.closed_form.curve` for k = 1/sqrt(g), and those of `kovacic.closed_form.exponential` for
-k = t^alpha exp(E).
+k = 1, the integrals (2) of `kovacic.closed_form.curve` for k = 1/sqrt(g), and those of
+`kovacic.closed_form.exponential_integrals` for k = t^alpha exp(E).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from kovacic.algebra.partial_fractions import Decomposition, decompose
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
-from kovacic.closed_form.exponential import ExponentialPrimitive, integrate_exponential, monomial
+from kovacic.closed_form.exponential_integrals import ExponentialPrimitive, integrate_exponential, monomial
 from kovacic.closed_form.product import Product
 from kovacic.closed_form.torsion import completed
 

@@ -32,7 +32,7 @@ from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Problem, analyse, rational_square_root
 from kovacic.engine.riccati import residue
 from kovacic.errors import LimitExceeded
-from kovacic.galois.group import Kind
+from kovacic.galois.group import GroupKind
 from kovacic.galois.imprimitive import imprimitive_group
 from kovacic.limits import Budget, Limits, watched_seconds
 
@@ -79,9 +79,9 @@ def _decide(integral: CurveIntegral) -> Unit | str:
     try:
         problem = analyse(S, Budget(Limits(seconds=watched_seconds(SECONDS))))
         group = imprimitive_group(problem, SemiInvariant(2, phi, field.poly([1])))
-        if group.kind is Kind.INFINITE_DIHEDRAL:
+        if group.kind is GroupKind.INFINITE_DIHEDRAL:
             return NOT_TORSION
-        if group.kind is not Kind.DICYCLIC or group.n is None:
+        if group.kind is not GroupKind.DICYCLIC or group.n is None:
             return UNDECIDED
         return _unit(problem, integral, phi, group.n, kappa_squared)
     except LimitExceeded:

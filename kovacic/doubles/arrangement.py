@@ -29,13 +29,13 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import integrate_on_curve
 from kovacic.closed_form.structure import curve_of
 from kovacic.doubles.double_double import Complex, Pair
-from kovacic.doubles.product_form import Conic, Factor, ProductForm, RationalFunction, Shape
+from kovacic.doubles.product_form import Conic, ProductForm, RationalFunction, RootFactor, Shape
 from kovacic.doubles.region import Region
 from kovacic.doubles.tabulate import GROWTH, Cell, Variant, polynomial_table
 from kovacic.enclosure.closed_form import Exponential, certified, exponentials, omega, value
-from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, zeros
 from kovacic.enclosure.frame import least_growth
-from kovacic.enclosure.points import Point, as_point, to_acb, working_precision
+from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, zeros
+from kovacic.enclosure.points import ExactPoint, as_point, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.limits import check_time
 
@@ -53,7 +53,9 @@ _HIGHEST = 1 << 15
 Powers = list[tuple[acb, acb]]  # (zeta, exponent)
 
 
-def product_form(problem: NumericProblem, which: int, region: Region, base: Point, careful: bool) -> ProductForm | None:
+def product_form(
+    problem: NumericProblem, which: int, region: Region, base: ExactPoint, careful: bool
+) -> ProductForm | None:
     """The solution number `which` as a product, at a working precision of some 200 bits; None where there is no such form.
 
     None means case 3, case 2 on a curve of positive genus or for complex arguments, and polynomials of degree above 60 where
@@ -66,7 +68,7 @@ def product_form(problem: NumericProblem, which: int, region: Region, base: Poin
 
 
 def _exponential(
-    problem: NumericProblem, branch: Exponential, region: Region, base: Point, careful: bool
+    problem: NumericProblem, branch: Exponential, region: Region, base: ExactPoint, careful: bool
 ) -> ProductForm | None:
     c, degree, table = branch.constant(), branch.P.degree, None
     if degree > _FEW_ZEROS and region.is_real and any(region.singular):
@@ -88,7 +90,7 @@ def _exponential(
 
 
 def _expansion(
-    problem: NumericProblem, branch: Exponential, base: Point
+    problem: NumericProblem, branch: Exponential, base: ExactPoint
 ) -> Callable[[Cell, Variant], list[Any] | None]:
     """The Taylor series of P/P(base) on a piece, by the recurrence of its equation a P'' + b P' + c P = 0 in balls, which loses
     digits beside singular points; None if the piece won't do."""
@@ -151,7 +153,7 @@ def _exponent(theta: LogDerivative) -> RationalFunction:
     return _rational(theta.primitive, poles)
 
 
-def _factors(powers: Powers, base: acb, is_real: bool) -> tuple[Factor, ...]:
+def _factors(powers: Powers, base: acb, is_real: bool) -> tuple[RootFactor, ...]:
     """The factors (t - zeta)^power; for a real function, those of the closed upper half-plane, with their conjugates."""
     found = []
     for zeta, power in powers:
@@ -160,7 +162,7 @@ def _factors(powers: Powers, base: acb, is_real: bool) -> tuple[Factor, ...]:
         d = base - zeta
         turn = acb(1) if d.contains(0) else d / abs(d)
         paired = is_real and not zeta.imag.contains(0)
-        found.append(Factor(Complex.of(zeta), Complex.of(power), Complex.of(turn), paired))
+        found.append(RootFactor(Complex.of(zeta), Complex.of(power), Complex.of(turn), paired))
     return tuple(found)
 
 
@@ -193,7 +195,7 @@ def conic_of(g: acb_poly, middle: arb) -> Conic | None:
     return Conic(Shape.HYPERBOLA if sigma > 0 else Shape.ELLIPSE, sigma, vertex, m, ends)
 
 
-def _on_curve(problem: NumericProblem, which: int, region: Region, base: Point) -> ProductForm | None:
+def _on_curve(problem: NumericProblem, which: int, region: Region, base: ExactPoint) -> ProductForm | None:
     """Equation (1), or None."""
     decision, S = certified(problem), problem.S
     assert decision.semi_invariant is not None

@@ -20,10 +20,10 @@ from kovacic.doubles.region import Region, region_of
 from kovacic.enclosure.ball import ball_from_flint, ball_to_flint
 from kovacic.enclosure.closed_form import Exponential, exponentials, finite_base, omega
 from kovacic.enclosure.constants import in_balls
-from kovacic.enclosure.exponential import LogDerivative, embed
 from kovacic.enclosure.forcing import Forcing, forcing_of
+from kovacic.enclosure.log_derivative import LogDerivative, embed
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import Point, as_point, midpoint, power_of_two, to_acb, to_double, working_precision
+from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb, to_double, working_precision
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.states import evaluate_states
@@ -40,7 +40,7 @@ _NOISE = 2.0**-40
 
 
 @dataclass(frozen=True)
-class Chart:
+class PieceChart:
     """The equation a y'' + b y' + c y = f, and which solution: the options of `evaluate`.
 
     Where `answer`, the equation or solution in x, has a change of variable, the problem is that in t; else t = x.
@@ -71,23 +71,23 @@ class Chart:
         t, at = self._functions
         return at(t, x), at(t.diff(), x)
 
-    def region(self, interval: tuple[object, object]) -> tuple[Region, list[Point]]:
+    def region(self, interval: tuple[object, object]) -> tuple[Region, list[ExactPoint]]:
         """See `region_of`; raises InputError, with the reason, where t isn't known to be real and monotone."""
         found = region_of(self.problem if self.answer is None else None, interval)
         if self.answer is not None and self.given:
             self.states([as_point(end.real, "x") for end in (found[0].low, found[0].high)], 3, None)
         return found
 
-    def _in_t(self, x: Point) -> Point:
+    def _in_t(self, x: ExactPoint) -> ExactPoint:
         with working_precision(_SLOPE_BITS + 200):
             return x if self.answer is None else midpoint(self._values(acb(x.x))[0])
 
-    def base(self, which: int, candidates: list[Point]) -> Point:
+    def base(self, which: int, candidates: list[ExactPoint]) -> ExactPoint:
         """The first of the points where the logarithmic derivative number `which` is finite."""
         points = [self._in_t(x) for x in candidates]
         return candidates[points.index(finite_base(self.problem, which, points))]
 
-    def beginning(self, which: int, base: Point) -> Chart:
+    def beginning(self, which: int, base: ExactPoint) -> PieceChart:
         """The solution with this logarithmic derivative, 1 at the base."""
         branches = exponentials(self.problem) if self.answer is None else []
         if branches:
@@ -97,7 +97,7 @@ class Chart:
             slope *= self._values(to_acb(base))[1]
         return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope)})
 
-    def states(self, points: Sequence[Point], digits: int, limits: Limits | None, **options: Any) -> list[State]:
+    def states(self, points: Sequence[ExactPoint], digits: int, limits: Limits | None, **options: Any) -> list[State]:
         """y and dy/dx, to so many digits where they can be had."""
         if self.branch is not None:
             return self._closed(self.branch, points, digits)
@@ -110,10 +110,10 @@ class Chart:
         found = evaluate_in_x(self.answer, self.answer.equation.change, [*points], **options)
         return [(ball_to_flint(y), ball_to_flint(dy)) for y, dy in found]
 
-    def _closed(self, branch: Exponential, points: Sequence[Point], digits: int) -> list[State]:
+    def _closed(self, branch: Exponential, points: Sequence[ExactPoint], digits: int) -> list[State]:
         """y = exp(int theta) P/P(base) and y' from the certificate: without the zeros of P, and without an integration of the
         equation, in which the dominant solution would grow."""
-        goal, prec, found = start_bits(digits) - 24, 2 * start_bits(digits) + branch.P.degree, dict[Point, State]()
+        goal, prec, found = start_bits(digits) - 24, 2 * start_bits(digits) + branch.P.degree, dict[ExactPoint, State]()
         while True:
             with working_precision(prec):
                 c, z = branch.constant(), to_acb(self.given["x0"])
@@ -141,7 +141,7 @@ class Chart:
         return self.problem.equation if self.problem.embedded is None else self.problem.embedded.equation()
 
     @cached_property
-    def singular(self) -> list[Point]:
+    def singular(self) -> list[ExactPoint]:
         """The midpoints of enclosures; values beyond one are refused where there is a change of variable."""
         return self.problem.singular_points(128) if self.answer is None else []
 
@@ -161,7 +161,7 @@ class Chart:
                 found[np.abs(x - to_double(point)) + _NOISE * np.abs(x) < 4 * h] = np.inf
             return found
 
-    def local(self, centre: Point, e: int, terms: int) -> list[list[arb]]:
+    def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
         """a, H b and H^2 c over a(c), so many terms in u; not numbers where a(c) may be zero."""
         if self.answer is not None:
             return self._changed(centre, e, terms)
@@ -171,7 +171,7 @@ class Chart:
         factors = [arb((1, k * e)) / found[0][0] for k in range(3)]
         return [[v * factor for v in part] for part, factor in zip(found, factors, strict=True)]
 
-    def _changed(self, centre: Point, e: int, terms: int) -> list[list[arb]]:
+    def _changed(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
         """Equation (1); not numbers where a(c) or t'(c) may be zero.  Raises InputError where it isn't real."""
         (t, at), cap = self._functions, ctx.cap
         ctx.cap = terms + 2  # FLINT's series end there
@@ -188,7 +188,7 @@ class Chart:
             raise InputError("a table needs an equation that is real for real x", hint="evaluate has its values")
         return [[arb(1)], *([v.real for v in part] for part in found)]
 
-    def source(self, centre: Point, e: int, u: arb) -> arb:
+    def source(self, centre: ExactPoint, e: int, u: arb) -> arb:
         """t'^2 f/a at u."""
         assert self.forcing is not None
         t, slope = self._values(acb(centre.x) + acb(u) * acb(arb((1, e))))
@@ -197,19 +197,19 @@ class Chart:
 
 def chart_of(
     equation: object, given: dict[str, Any], params: Mapping[str, object] | None, *, constants: bool = True
-) -> Chart:
+) -> PieceChart:
     """The chart of an equation, as `evaluate` takes it; right-hand sides and constants only where a solution is `given`."""
     answer: Any = equation
     if getattr(equation, "change", None) is None:
         try:
-            return Chart(_real_problem(equation, params, constants), given)
+            return PieceChart(_real_problem(equation, params, constants), given)
         except NotRational as reason:
             answer = read_input(equation, exponentials=True)
             if answer.equation is None or answer.equation.change is None:
                 raise reason from None
     plain = replace(answer.equation, change=None)
     inner = replace(answer, equation=plain) if hasattr(answer, "decision") else plain
-    return Chart(_real_problem(inner, params, constants), given, None, answer, params)
+    return PieceChart(_real_problem(inner, params, constants), given, None, answer, params)
 
 
 def _real_problem(equation: object, params: Mapping[str, object] | None, constants: bool) -> NumericProblem:

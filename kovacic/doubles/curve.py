@@ -21,9 +21,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kovacic.doubles.chart import Chart
+from kovacic.doubles.chart import PieceChart
 from kovacic.enclosure.ball import finite_ball
-from kovacic.enclosure.points import Point, to_double
+from kovacic.enclosure.points import ExactPoint, to_double
 from kovacic.errors import LimitExceeded
 
 Floats = NDArray[np.float64]
@@ -90,25 +90,25 @@ class Coefficients:
         return np.sqrt(np.maximum(-self.S, 0.0))
 
 
-def coefficients(chart: Chart, points: Sequence[Point]) -> Coefficients:
+def coefficients(chart: PieceChart, points: Sequence[ExactPoint]) -> Coefficients:
     """By y'' + b y' + c y = f/a at each point, divided by a: S = b'/2 + b^2/4 - c."""
     rows = [_at(chart, point) for point in points]
     beta, S = np.array(rows).T
     return Coefficients(np.array([float(point.re) for point in points]), beta, S)
 
 
-def _at(chart: Chart, point: Point) -> tuple[float, float]:
+def _at(chart: PieceChart, point: ExactPoint) -> tuple[float, float]:
     a, b, c = ([float(v.mid()) for v in part] + [0.0, 0.0] for part in chart.local(point, 0, 2))
     slope_of_b = b[1] - b[0] * a[1]
     return b[0] / 2, slope_of_b / 2 + b[0] ** 2 / 4 - c[0]
 
 
 def arcs(
-    chart: Chart,
+    chart: PieceChart,
     interval: tuple[Fraction, Fraction],
     width: Fraction,
     points: int,
-    states: Callable[[Sequence[Point]], Sequence[Any]],
+    states: Callable[[Sequence[ExactPoint]], Sequence[Any]],
 ) -> list[Arc | Envelope]:
     """The curve over an interval without singular points, of a picture of this width with at least so many samples across it.
 
@@ -133,7 +133,7 @@ def arcs(
     return found
 
 
-def _grid(chart: Chart, interval: tuple[Fraction, Fraction], width: Fraction) -> list[Point]:
+def _grid(chart: PieceChart, interval: tuple[Fraction, Fraction], width: Fraction) -> list[ExactPoint]:
     """Where S is looked at: equidistant points, and, beside singular points near the axis, nearer and nearer ones."""
     low, high = interval
     count = max(8, round(_GRID * (high - low) / width))
@@ -145,7 +145,7 @@ def _grid(chart: Chart, interval: tuple[Fraction, Fraction], width: Fraction) ->
                 if low < x < high:
                     chosen.add(Fraction(x))
             distance *= 1.5
-    return [Point(x) for x in sorted(chosen)]
+    return [ExactPoint(x) for x in sorted(chosen)]
 
 
 def _stretches(kind: NDArray[np.bool_]) -> list[tuple[int, int]]:
@@ -155,7 +155,9 @@ def _stretches(kind: NDArray[np.bool_]) -> list[tuple[int, int]]:
     return [(first, last) for first, last in pairwise(ends) if first < last]
 
 
-def _arc(part: Coefficients, width: Fraction, points: int, states: Callable[[Sequence[Point]], Sequence[Any]]) -> Arc:
+def _arc(
+    part: Coefficients, width: Fraction, points: int, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]
+) -> Arc:
     """Samples by the local frequency, then halved where the cubic between two isn't good enough."""
     density = np.maximum(points / float(width), _PER_PERIOD * part.frequency / (2 * np.pi))
     steps = np.maximum(density[1:], density[:-1]) * np.diff(part.x)
@@ -174,7 +176,7 @@ def _arc(part: Coefficients, width: Fraction, points: int, states: Callable[[Seq
 
 
 def _halved(
-    arc: Arc, doubtful: NDArray[np.bool_], usual: float, states: Callable[[Sequence[Point]], Sequence[Any]]
+    arc: Arc, doubtful: NDArray[np.bool_], usual: float, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]
 ) -> tuple[Arc, NDArray[np.bool_]]:
     """One more sample in the middle of each doubtful interval; both halves stay doubtful where the cubic missed it."""
     left = np.flatnonzero(doubtful)
@@ -202,12 +204,12 @@ def _halved(
 
 
 def _envelope(
-    chart: Chart, part: Coefficients, width: Fraction, states: Callable[[Sequence[Point]], Sequence[Any]]
+    chart: PieceChart, part: Coefficients, width: Fraction, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]
 ) -> Envelope:
     low, high = part.x[0], part.x[-1]
     count = max(8, int(_ENVELOPE * (high - low) / float(width)))
     x = np.linspace(low, high, count + 1)
-    here = coefficients(chart, [Point(Fraction(float(at))) for at in x])
+    here = coefficients(chart, [ExactPoint(Fraction(float(at))) for at in x])
     samples = _sampled(x, states)
     q = here.frequency
     velocity = samples.dy + here.beta * samples.y
@@ -220,8 +222,8 @@ def _periods(x: Floats, frequency: Floats) -> float:
     return float(np.trapezoid(frequency, x) / (2 * np.pi))
 
 
-def _sampled(x: Floats, states: Callable[[Sequence[Point]], Sequence[Any]]) -> Arc:
-    found = states([Point(Fraction(float(at))) for at in x])
+def _sampled(x: Floats, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]) -> Arc:
+    found = states([ExactPoint(Fraction(float(at))) for at in x])
     values = [finite_ball(y) for y, _ in found]
     slopes = [finite_ball(dy) for _, dy in found]
     return Arc(

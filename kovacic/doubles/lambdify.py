@@ -26,11 +26,11 @@ from flint import acb
 
 from kovacic.api import find_answer
 from kovacic.doubles.arrangement import product_form
-from kovacic.doubles.chart import Chart, chart_of
+from kovacic.doubles.chart import PieceChart, chart_of
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Measured, Region
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
-from kovacic.enclosure.evaluate import Start
+from kovacic.enclosure.evaluate import StartOptions
 from kovacic.enclosure.points import as_point, working_precision
 from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.errors import InputError, LimitExceeded, check_keywords
@@ -102,7 +102,7 @@ def lambdify(
     >>> print(f"{airy(1.0):.12f}")
     1.172299970058
     """
-    check_keywords("lambdify", given, Start.__annotations__)
+    check_keywords("lambdify", given, StartOptions.__annotations__)
     start: dict[str, Any] = {**given}
     if isinstance(which, str):
         start["which"] = which
@@ -173,7 +173,7 @@ def measure(
     Points where the solution is 0 or beyond the range of doubles don't count; a wrong 0, inf or NaN does.  Raises
     LimitExceeded where the reference isn't found within the limits.
     """
-    chart = equation if isinstance(equation, Chart) else chart_of(equation, dict(start or {}), None)
+    chart = equation if isinstance(equation, PieceChart) else chart_of(equation, dict(start or {}), None)
     if not chart.given:
         assert function.base is not None
         chart = chart.beginning(which, function.base)

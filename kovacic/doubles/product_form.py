@@ -46,7 +46,7 @@ from kovacic.doubles.double_double import (
 )
 from kovacic.doubles.region import Measured, Region, in_blocks
 from kovacic.doubles.tabulate import TabulatedFunction
-from kovacic.enclosure.points import Point
+from kovacic.enclosure.points import ExactPoint
 
 _MULTIPLIED_OUT = 8
 """Powers up to here are multiplied out, if they are integers."""
@@ -92,7 +92,7 @@ class Conic:
 
 
 @dataclass(frozen=True)
-class Factor:
+class RootFactor:
     """((t - zeta)/turn)^power; a natural power up to 8 stands without its turn.
 
     `paired` stands for the product with the complex conjugate factor, which is positive for real t.
@@ -140,8 +140,8 @@ class ProductForm:
     """
 
     region: Region
-    base: Point
-    factors: tuple[Factor, ...]
+    base: ExactPoint
+    factors: tuple[RootFactor, ...]
     exponent: RationalFunction
     is_real: bool
     sheet: RationalFunction = RationalFunction()
@@ -221,7 +221,7 @@ class _Product:
         self.binary: Any = 0
         self.bits, self.degree_bits = 0.0, math.log2(reach + 2.0)
 
-    def multiply(self, f: Factor, growth: list[Complex | None]) -> None:
+    def multiply(self, f: RootFactor, growth: list[Complex | None]) -> None:
         """One factor more."""
         d, power, whole = self.t - f.zeta, f.power, f.whole
         d, e = split(d) if self.careful else (d, 0)

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from kovacic.enclosure.points import Point, as_point, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, as_point, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.system import name_of
 from kovacic.errors import InputError
@@ -94,7 +94,7 @@ def in_blocks(function: Callable[[Any], Any], points: Any, block: int = BLOCK) -
     return result.reshape(points.shape)
 
 
-def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -> tuple[Region, list[Point]]:
+def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -> tuple[Region, list[ExactPoint]]:
     """The region in doubles, inside the exact one, and some points near its middle.
 
     Raises InputError if it is empty, or contains a singular point of the problem other than its two ends.
@@ -104,7 +104,7 @@ def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -
     except (TypeError, ValueError):
         raise InputError("the interval must be a pair of numbers") from None
     a, b = (as_point(v, "an end of the interval") for v in (first, second))
-    low, high = Point(min(a.re, b.re), min(a.im, b.im)), Point(max(a.re, b.re), max(a.im, b.im))
+    low, high = ExactPoint(min(a.re, b.re), min(a.im, b.im)), ExactPoint(max(a.re, b.re), max(a.im, b.im))
     if a == b or (a.is_real() and b.is_real() and a != low):
         raise InputError("the interval is empty", hint="give two real numbers, the smaller one first")
     singular = (False, False)
@@ -118,7 +118,7 @@ def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -
     return Region(complex(left, bottom), complex(right, top), singular), near
 
 
-def _singular_ends(problem: NumericProblem, low: Point, high: Point) -> tuple[bool, bool]:
+def _singular_ends(problem: NumericProblem, low: ExactPoint, high: ExactPoint) -> tuple[bool, bool]:
     at_low, at_high, a, b = False, False, to_acb(low), to_acb(high)
     for system in (problem.system, problem.gauge_poles):
         for root, _ in system.roots("den", _PREC):

@@ -30,12 +30,12 @@ from flint import arb, arb_mat, arb_poly, fmpq
 from numpy.polynomial import chebyshev
 
 from kovacic.algebra.rationals import to_fmpq
-from kovacic.doubles.chart import Chart, chart_of
+from kovacic.doubles.chart import PieceChart, chart_of
 from kovacic.doubles.double_double import Pair, double, folded, halves, horner, scaled, two_sum
 from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks
-from kovacic.enclosure.evaluate import Start
+from kovacic.enclosure.evaluate import StartOptions
 from kovacic.enclosure.frame import log2
-from kovacic.enclosure.points import Point, power_of_two, working_precision
+from kovacic.enclosure.points import ExactPoint, power_of_two, working_precision
 from kovacic.errors import InputError, LimitExceeded, check_keywords
 from kovacic.limits import Limits, check_time, limited
 
@@ -76,7 +76,7 @@ class TabulatedFunction:
     """
 
     region: Region
-    base: Point | None
+    base: ExactPoint | None
     edges: Any
     centres: Any
     exponents: Any
@@ -128,7 +128,7 @@ def tabulate(
     careful: bool = True,
     params: Mapping[str, object] | None = None,
     limits: Limits | None = None,
-    **given: Unpack[Start],
+    **given: Unpack[StartOptions],
 ) -> TabulatedFunction:
     """One solution on [start, stop] in double precision; the interval must be regular.
 
@@ -145,11 +145,13 @@ def tabulate(
     >>> print(f"{bessel(5.0):.15f}")      # J0(5)
     -0.177596771314338
     """
-    check_keywords("tabulate", given, Start.__annotations__)
+    check_keywords("tabulate", given, StartOptions.__annotations__)
     return table_of(chart_of(equation, {"x0": x0, **given}, params), (start, stop), careful, limits)
 
 
-def table_of(chart: Chart, interval: tuple[object, object], careful: bool, limits: Limits | None) -> TabulatedFunction:
+def table_of(
+    chart: PieceChart, interval: tuple[object, object], careful: bool, limits: Limits | None
+) -> TabulatedFunction:
     """As `tabulate`, within a budget that is watched."""
     region, _ = chart.region(interval)
     if not region.is_real:
@@ -169,7 +171,7 @@ def table_of(chart: Chart, interval: tuple[object, object], careful: bool, limit
     if chart.forcing is not None:
         coefficients += scaled(series[:, 2, None], -powers)
     x0 = chart.given.get("x0")
-    return _assembled(region, x0 if isinstance(x0, Point) else None, cells, coefficients, powers, variant)
+    return _assembled(region, x0 if isinstance(x0, ExactPoint) else None, cells, coefficients, powers, variant)
 
 
 def polynomial_table(
@@ -184,7 +186,7 @@ def polynomial_table(
 
 
 def _assembled(
-    region: Region, base: Point | None, cells: list[Cell], coefficients: Pair, powers: Any, variant: Variant
+    region: Region, base: ExactPoint | None, cells: list[Cell], coefficients: Pair, powers: Any, variant: Variant
 ) -> TabulatedFunction:
     """The table with the highest terms lowered, from an array of terms, parts and pieces."""
     lowered = np.tensordot(_lowering(len(coefficients.hi), variant.kept), coefficients.hi[variant.kept :], 1)
@@ -236,10 +238,10 @@ def _pieces(
     return [cell for cell, _ in done], [item for _, item in done]
 
 
-def _series(chart: Chart, cells: list[Cell], variant: Variant) -> list[Any]:
+def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]:
     """y1, y2, and beside a right-hand side y3, on each of these pieces that will do: high and low halves, terms, series."""
     terms, count, size = variant.terms, 2 if chart.forcing is None else 3, len(cells)
-    found = [chart.local(Point(centre), e, terms) for centre, e in cells]
+    found = [chart.local(ExactPoint(centre), e, terms) for centre, e in cells]
     length = max(2, *(len(part) + i for local in found for i, part in enumerate(local)))
     numbers, source, z = (np.zeros((2, *shape, size)) for shape in ((3, length), (terms, count), (terms, count)))
     for k, ((centre, e), local) in enumerate(zip(cells, found, strict=True)):
@@ -247,7 +249,7 @@ def _series(chart: Chart, cells: list[Cell], variant: Variant) -> list[Any]:
             numbers[:, i, i : i + len(part), k] = halves(part)
         if chart.forcing is not None:
             nodes, inverse = _interpolation(terms)
-            values = [[chart.source(Point(centre), e, u) * arb_poly(local[0])(u)] for u in nodes]
+            values = [[chart.source(ExactPoint(centre), e, u) * arb_poly(local[0])(u)] for u in nodes]
             source[:, :, 2, k] = halves((inverse * arb_mat(values)).entries())
     a, b, c = (Pair(*numbers[:, i]) for i in range(3))
     z[0, 0, 0] = z[0, 1, 1] = 1.0
@@ -284,7 +286,9 @@ def _lowering(terms: int, kept: int) -> Any:
     return np.array([np.pad(row, (0, kept - len(row))) for row in rows]).T
 
 
-def _states(chart: Chart, cells: list[Cell], series: Pair, variant: Variant, limits: Limits | None) -> tuple[Pair, Any]:
+def _states(
+    chart: PieceChart, cells: list[Cell], series: Pair, variant: Variant, limits: Limits | None
+) -> tuple[Pair, Any]:
     """(y, H y') at the centres over powers of two, an array of both, parts and pieces; and these powers.
 
     Enclosures, rounded; in the plain variant, without a right-hand side, of every 24th centre: the series carry the state on to
@@ -294,7 +298,7 @@ def _states(chart: Chart, cells: list[Cell], series: Pair, variant: Variant, lim
     v, powers, lost = np.zeros((2, 2, 2, size)), np.zeros(size, dtype=int), np.full(size, np.inf)
 
     def enclose(which: Any) -> None:
-        balls = chart.states([Point(cells[k][0]) for k in which], variant.digits, limits)
+        balls = chart.states([ExactPoint(cells[k][0]) for k in which], variant.digits, limits)
         with working_precision(_PREC):
             rows = [(y, dy * arb((1, cells[k][1]))) for k, (y, dy) in zip(which, balls, strict=True)]
             v[..., which], powers[which] = _rounded(rows, variant)

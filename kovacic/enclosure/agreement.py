@@ -35,7 +35,7 @@ from kovacic.enclosure.monodromy import LocalMonodromy, monodromy
 from kovacic.enclosure.points import working_precision
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.errors import InputError
-from kovacic.galois import Group, Kind
+from kovacic.galois import Group, GroupKind
 from kovacic.limits import Limits
 
 _LARGEST = 400  # the largest finite group that is enumerated
@@ -43,14 +43,24 @@ _WORDS = 12  # the number of products that are compared with one another
 _BITS = 400
 _TWO = acb(2)
 _HIGHEST_ORDER = 120  # eigenvalues are compared with roots of unity up to this order
-_DIAGONAL = (Kind.CYCLIC, Kind.MULTIPLICATIVE)
-_TRIANGULAR = (*_DIAGONAL, Kind.ADDITIVE, Kind.BOREL)
-_IMPRIMITIVE = (Kind.DICYCLIC, Kind.INFINITE_DIHEDRAL, Kind.IMPRIMITIVE)
+_DIAGONAL = (GroupKind.CYCLIC, GroupKind.MULTIPLICATIVE)
+_TRIANGULAR = (*_DIAGONAL, GroupKind.ADDITIVE, GroupKind.BOREL)
+_IMPRIMITIVE = (GroupKind.DICYCLIC, GroupKind.INFINITE_DIHEDRAL, GroupKind.IMPRIMITIVE)
 #: The number of elements of trace 2 cos(2 pi angle) by the angle, at most 1/2.
 _PRIMITIVE = {
-    Kind.TETRAHEDRAL: {"0": 1, "1/2": 1, "1/4": 6, "1/3": 8, "1/6": 8},
-    Kind.OCTAHEDRAL: {"0": 1, "1/2": 1, "1/4": 18, "1/3": 8, "1/6": 8, "1/8": 6, "3/8": 6},
-    Kind.ICOSAHEDRAL: {"0": 1, "1/2": 1, "1/4": 30, "1/3": 20, "1/6": 20, "1/5": 12, "2/5": 12, "1/10": 12, "3/10": 12},
+    GroupKind.TETRAHEDRAL: {"0": 1, "1/2": 1, "1/4": 6, "1/3": 8, "1/6": 8},
+    GroupKind.OCTAHEDRAL: {"0": 1, "1/2": 1, "1/4": 18, "1/3": 8, "1/6": 8, "1/8": 6, "3/8": 6},
+    GroupKind.ICOSAHEDRAL: {
+        "0": 1,
+        "1/2": 1,
+        "1/4": 30,
+        "1/3": 20,
+        "1/6": 20,
+        "1/5": 12,
+        "2/5": 12,
+        "1/10": 12,
+        "3/10": 12,
+    },
 }
 
 
@@ -74,7 +84,7 @@ def agrees_with_group(
     >>> equation = kovacic.solve("-3/(16*x^2)")
     >>> agrees_with_group(equation)
     Agreement(verdict=True, reason='the monodromy group has 4 elements, with the traces of mu_4')
-    >>> agrees_with_group(equation, Group(Kind.CYCLIC, Ground.RESIDUES, 2)).verdict
+    >>> agrees_with_group(equation, Group(GroupKind.CYCLIC, Ground.RESIDUES, 2)).verdict
     False
     """
     group = derived.group(answer) if group is None else group
@@ -115,9 +125,9 @@ def _angles(group: Group) -> dict[Fraction, int] | None:
         return {Fraction(angle): count for angle, count in _PRIMITIVE[group.kind].items()}
     if group.order is None or group.n is None or group.order > _LARGEST:
         return None
-    n = group.n if group.kind is Kind.CYCLIC else 2 * group.n
+    n = group.n if group.kind is GroupKind.CYCLIC else 2 * group.n
     found = Counter(min(Fraction(k, n), 1 - Fraction(k, n)) for k in range(n))
-    if group.kind is Kind.DICYCLIC:
+    if group.kind is GroupKind.DICYCLIC:
         found[Fraction(1, 4)] += n
     return dict(found)
 
@@ -164,7 +174,7 @@ def _families(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
     commuting = all(_may_be_identity(c) for c in commutators)
     reducible = all(c.trace().overlaps(_TWO) for c in commutators)
     monomial = all(_may_be_identity(_commutator(a**2, b**2)) for a, b in combinations(words, 2))
-    n = group.n if group.kind in (Kind.CYCLIC, Kind.ADDITIVE) else None
+    n = group.n if group.kind in (GroupKind.CYCLIC, GroupKind.ADDITIVE) else None
     contradictions = {
         "the monodromy matrices have no common eigenvector, unlike": group.kind in _TRIANGULAR and not reducible,
         "the monodromy matrices don't commute, unlike": group.kind in _DIAGONAL and not commuting,
@@ -179,7 +189,7 @@ def _families(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
     for sentence, contradicted in contradictions.items():
         if contradicted:
             return Agreement(False, f"{sentence} {group}")
-    if group.kind is Kind.SL2:
+    if group.kind is GroupKind.SL2:
         longer = [*words, *commutators, *(a * b for a, b in combinations(words, 2))]
         finite = any(all(_may_be_in(word, kind) for word in longer) for kind in _PRIMITIVE)
         if not reducible and not monomial and not finite:
@@ -189,10 +199,10 @@ def _families(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
         return Agreement(True, f"the monodromy lies in {group} (irregular: it needn't be dense)")
     torsion = all(any((word**k).trace().overlaps(_TWO) for k in range(1, _HIGHEST_ORDER + 1)) for word in words)
     smaller = {
-        Kind.MULTIPLICATIVE: torsion,
-        Kind.ADDITIVE: commuting and all(_may_be_identity(word ** (group.n or 1)) for word in words),
-        Kind.BOREL: commuting or torsion,
-        Kind.INFINITE_DIHEDRAL: reducible or torsion,
+        GroupKind.MULTIPLICATIVE: torsion,
+        GroupKind.ADDITIVE: commuting and all(_may_be_identity(word ** (group.n or 1)) for word in words),
+        GroupKind.BOREL: commuting or torsion,
+        GroupKind.INFINITE_DIHEDRAL: reducible or torsion,
     }
     if smaller.get(group.kind, True):
         return Agreement(None, f"the monodromy lies in {group}, and perhaps in a smaller group")
@@ -219,7 +229,7 @@ def _may_be_identity(m: acb_mat) -> bool:
     return bool(m.overlaps(acb_mat([[1, 0], [0, 1]])))
 
 
-def _may_be_in(m: acb_mat, kind: Kind) -> bool:
+def _may_be_in(m: acb_mat, kind: GroupKind) -> bool:
     """Can the matrix be an element of this primitive group?  In a finite group +-1 are alone with their traces."""
     if m.trace().overlaps(_TWO):
         return _may_be_identity(m)

@@ -24,7 +24,7 @@ from flint import acb, arb
 
 from kovacic.algebra.rationals import to_fmpq
 from kovacic.enclosure.constants import as_number, to_ball
-from kovacic.enclosure.points import Point, as_point, working_precision
+from kovacic.enclosure.points import ExactPoint, as_point, working_precision
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import whole
 
@@ -121,7 +121,7 @@ class Ball:
     def of(cls, value: object) -> Ball:
         """The ball of a number or a ball of any kind that `evaluate` takes; constants such as "pi" to 100 digits."""
         number = as_number(value, "the number")
-        parts = (number.re, number.im) if isinstance(number, Point) else ()
+        parts = (number.re, number.im) if isinstance(number, ExactPoint) else ()
         with working_precision(400 + max((part.numerator.bit_length() for part in parts), default=0)):
             found = ball_from_flint(to_ball(number))
         if found is None:
@@ -160,7 +160,7 @@ class Ball:
         if isinstance(number, Ball):
             return _reaches(self, number, -1)
         point, (re, im) = as_point(number, "the number"), self.midpoint
-        return bool((point - Point(re, im)).norm_squared() <= to_fmpq(_to_fraction(self.rad) ** 2))
+        return bool((point - ExactPoint(re, im)).norm_squared() <= to_fmpq(_to_fraction(self.rad) ** 2))
 
     def overlaps(self, other: object) -> bool:
         """True if the two exact values can be equal; False proves that they differ.  `other` is a ball or a number."""

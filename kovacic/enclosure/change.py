@@ -19,8 +19,8 @@ from flint import acb, arb
 from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.enclosure.constants import as_number, in_balls, to_ball
-from kovacic.enclosure.points import Point, to_acb, working_precision
-from kovacic.enclosure.precision import AccuracyWarning, Evaluation, number_of_digits, start_bits
+from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
+from kovacic.enclosure.precision import AccuracyWarning, PointValue, number_of_digits, start_bits
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
 from kovacic.equation import Change
@@ -100,7 +100,7 @@ def function_of_x(change: Change, params: Mapping[str, Any] | None) -> Any:
 def _over(dy0: Any, slope: Any) -> Any:
     """dy0/t', exactly or in a ball that is given."""
     number = as_number(dy0, "dy0")
-    if isinstance(number, Point) or not number.fixed:
+    if isinstance(number, ExactPoint) or not number.fixed:
         return _exact(dy0, "dy0") / slope
     with working_precision(_BALLS):
         return number.value() / in_balls(slope, {})
@@ -111,7 +111,7 @@ def _exact(value: Any, name: str) -> Any:
     number = as_number(value, name)
     if not to_ball(number).imag.is_zero():
         raise InputError(f"{name} = {number} isn't real")
-    if isinstance(number, Point):
+    if isinstance(number, ExactPoint):
         return sympy.Rational(number.re)
     if number.fixed:
         raise InputError(f"{name} is a ball", hint="an exact number is needed, where coefficients aren't rational")
@@ -135,11 +135,11 @@ def _is_real(equation: Any, rate: Any) -> bool:
 
 def _states(
     given: Any, t: Any, variable: Any, start: Any, places: list[Any], widest: arb | None, options: dict[str, Any]
-) -> list[Evaluation]:
+) -> list[PointValue]:
     """The states at these places; on the circle from one to the next on either side of the start, along chords."""
     if widest is None:
         return list(evaluate_states(given, [t.subs(variable, place) for place in places], **options))
-    found: dict[Any, Evaluation] = {}
+    found: dict[Any, PointValue] = {}
     for side in ([p for p in places if p >= start], [p for p in places if p < start]):
         here, way = start, list[tuple[Any, Any]]()
         for place in sorted(side, key=lambda p: abs(p - start)):

@@ -26,16 +26,24 @@ from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.enclosure.classical_functions import Form, choice_at, form_of, is_integer, rational, square_root, value_at
-from kovacic.enclosure.exponential import log_derivative
+from kovacic.enclosure.classical_functions import (
+    StandardForm,
+    choice_at,
+    form_of,
+    is_integer,
+    rational,
+    square_root,
+    value_at,
+)
+from kovacic.enclosure.log_derivative import log_derivative
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
-from kovacic.enclosure.points import Point, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System, check_segment
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
-from kovacic.special.answer import find
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
+from kovacic.special.search import find
 
 _BITS = 64  # in which the course of a leg is proven
 _PIECES = 400  # into which a leg is cut for that, at most
@@ -94,18 +102,18 @@ class Classical:
         """Do they cost less than the Taylor route, for a start at a zero of f or another?"""
         return digits <= (max(self.most, _MOST_FROM_ZERO) if from_zero else self.most)
 
-    def leg(self, a: Point, b: Point) -> Matrix:
+    def leg(self, a: ExactPoint, b: ExactPoint) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment; raises NotServed."""
         return _settled(lambda: self._leg(a, b), _sharper(ctx.prec))
 
-    def frobenius(self, point: Singular, gauge: RatFunc | None, needed: tuple[bool, bool], x: Point) -> Matrix:
+    def frobenius(self, point: Singular, gauge: RatFunc | None, needed: tuple[bool, bool], x: ExactPoint) -> Matrix:
         """The Frobenius basis of the user's equation at a rational zero of f, or its solutions that are needed, at x.
 
         Raises NotServed at other points, and where a solution is needed that may have a logarithm.
         """
         return _settled(lambda: _frobenius(self, point, gauge, needed, ctx.prec).at(x), ctx.prec)
 
-    def _leg(self, a: Point, b: Point) -> Matrix:
+    def _leg(self, a: ExactPoint, b: ExactPoint) -> Matrix:
         start = _start(self, a, False, ctx.prec)
         if not start.form.independent:
             raise NotServed
@@ -127,14 +135,14 @@ def _settled(compute: Callable[[], Matrix], bits: int) -> Matrix:
 
 
 @lru_cache(maxsize=64)
-def _start(classical: Classical, a: Point, is_zero: bool, prec: int) -> Solutions:
+def _start(classical: Classical, a: ExactPoint, is_zero: bool, prec: int) -> Solutions:
     """The solutions from a, perhaps an ordinary zero of f, on, at this precision, which is in force."""
     form = _form(classical, choice_at(classical.pullback, a), prec)
     return Solutions.make(form, a, (fmpq(0), fmpq(1)) if is_zero else None)
 
 
 @lru_cache(maxsize=16)
-def _form(classical: Classical, choice: int, prec: int) -> Form:
+def _form(classical: Classical, choice: int, prec: int) -> StandardForm:
     return form_of(classical.pullback, choice)
 
 
@@ -156,19 +164,19 @@ def _frobenius(
 
 
 @lru_cache(maxsize=64)
-def _without_pole(gauge: RatFunc, point: Point) -> RatFunc | None:
+def _without_pole(gauge: RatFunc, point: ExactPoint) -> RatFunc | None:
     """Without the part c/(x - x0), at most a simple pole; None for zero."""
     t = QQ.poly([-point.re, 1])
     return (gauge - (gauge * t)(point.re) / t) or None
 
 
-def _ordinary_zero(form: Form, a: Point, b: Point) -> Point | None:
+def _ordinary_zero(form: StandardForm, a: ExactPoint, b: ExactPoint) -> ExactPoint | None:
     """A zero of f on a real leg that is an ordinary point of y'' = S y: where f^(1/2 +- mu) has the orders 1/2 +- 1/2."""
     if form.n.degree() < 2 or not a.is_real() or not b.is_real() or form.powers[0][0] == 0:
         return None
     doubled = 2 * form.powers[0][0] - 1
     zeros = [z for z, k in form.n.roots() if k > 1 and k * doubled == 1 and min(a.x, b.x) <= z <= max(a.x, b.x)]
-    return Point(zeros[0]) if zeros else None
+    return ExactPoint(zeros[0]) if zeros else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,8 +187,8 @@ class Solutions:
     `factors` are those of W, n, d - n and d that aren't constant, with their exponents in either solution.
     """
 
-    form: Form
-    point: Point
+    form: StandardForm
+    point: ExactPoint
     factors: tuple[tuple[fmpq_poly, fmpq_poly, tuple[Any, Any]], ...]
     exponents: tuple[Any, Any] | None
     gauge: RatFunc | None
@@ -189,8 +197,8 @@ class Solutions:
     @classmethod
     def make(
         cls,
-        form: Form,
-        point: Point,
+        form: StandardForm,
+        point: ExactPoint,
         exponents: tuple[Any, Any] | None = None,
         gauge: RatFunc | None = None,
         needed: tuple[bool, bool] = (True, True),
@@ -211,7 +219,7 @@ class Solutions:
         """The matrix from (y, y') at the point to coordinates in these solutions."""
         return inverse(self.at(self.point))
 
-    def at(self, x: Point) -> Matrix:
+    def at(self, x: ExactPoint) -> Matrix:
         """The values and slopes at x (the columns: the two solutions; zero where one isn't needed), perhaps not finite; raises
         NotServed."""
         if self.exponents is not None:
@@ -222,7 +230,7 @@ class Solutions:
                 return fundamental(*self._frobenius(x, self.exponents))
         return fundamental(*self._states(x, (True, True)))
 
-    def _states(self, x: Point, needed: tuple[bool, bool]) -> list[State]:
+    def _states(self, x: ExactPoint, needed: tuple[bool, bool]) -> list[State]:
         """With the powers, in the order of the form."""
         form = self.form
         logs = [_followed(poly, self.point, x) for poly, *_ in self.factors]
@@ -243,7 +251,7 @@ class Solutions:
             found.append((E * power, (rate * E + slope * dE) * power))
         return found
 
-    def _frobenius(self, x: Point, exponents: tuple[Any, Any]) -> list[State]:
+    def _frobenius(self, x: ExactPoint, exponents: tuple[Any, Any]) -> list[State]:
         t, growth, rate, columns = to_acb(x - self.point), acb(1), acb(0), []
         if self.gauge is not None:
             check_segment(System.of(self.gauge), self.point, x)
@@ -264,7 +272,7 @@ def _sharper(bits: int) -> int:
     return bits + math.isqrt(bits)
 
 
-def _followed(poly: fmpq_poly, a: Point, b: Point) -> acb:
+def _followed(poly: fmpq_poly, a: ExactPoint, b: ExactPoint) -> acb:
     """The logarithm of p(b)/p(a) that is continued from 0 along the segment; raises NotServed if p may have a zero there.
 
     The quotients (x - zeta)/(a - zeta) run along straight lines from 1, so their principal logarithms are the continuous ones
@@ -293,7 +301,7 @@ def _followed(poly: fmpq_poly, a: Point, b: Point) -> acb:
     return log + acb(0, arb.pi() * turns) if turns else log
 
 
-def _check_pieces(a: Point, b: Point, allowed: Callable[[acb], bool]) -> None:
+def _check_pieces(a: ExactPoint, b: ExactPoint, allowed: Callable[[acb], bool]) -> None:
     """Raise NotServed unless the condition holds on the balls of a bounded number of pieces of the segment."""
     start, step, waiting = (
         to_acb(a),
@@ -314,7 +322,7 @@ def _off(z: acb) -> bool:
     return bool(z.real > 0) or not z.imag.contains(0)
 
 
-def _avoids(form: Form, a: Point, b: Point, needed: tuple[bool, bool]) -> None:
+def _avoids(form: StandardForm, a: ExactPoint, b: ExactPoint, needed: tuple[bool, bool]) -> None:
     """Raise NotServed unless the segment is proven not to meet a slit.  That of z is the second solution's only.
 
     On the real axis z and 1 - z keep their signs, since their numerators and denominators have no zeros (`_followed`).

@@ -1,7 +1,7 @@
 """Solutions of Airy's, Bessel's, Whittaker's and Gauss' equations by FLINT's functions: z^alpha (1 - z)^beta E(z).
 
-E is entire, or analytic where no number of `slits` lies on the negative axis, and `Form.values` contain E and E'; E(0) = 1
-where the form has the power z^alpha of its exponent at 0.  With (1/2 +- mu) for the exponents at 0 and q, r, M of
+E is entire, or analytic where no number of `slits` lies on the negative axis, and `StandardForm.values` contain E and E';
+E(0) = 1 where the form has the power z^alpha of its exponent at 0.  With (1/2 +- mu) for the exponents at 0 and q, r, M of
 `kovacic.special.pullback.Confluent`, rho^2 = q, kappa = r/(2 rho):
 
     Bessel, r = 0      0F1(; 1 +- mu; q z^2/4),           else sqrt(z) Y_mu(rho z/i) or sqrt(z) K_mu(rho z)
@@ -31,7 +31,7 @@ from flint.utils.flint_exceptions import DomainError
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.points import ExactPoint, to_acb
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 
 Solution = Callable[["acb"], "State"]  # E and E' at z
@@ -40,7 +40,7 @@ _HALF = fmpq(1, 2)
 
 
 @dataclass(frozen=True)
-class Form:
+class StandardForm:
     """Two solutions at the working precision in force, as functions of z = n(x)/d(x), the powers (alpha, beta) and the slits.
 
     The numbers z or 1 - z mustn't reach the negative axis (or 0) where their place in `slits` has a factor c, nor c times them.
@@ -92,7 +92,7 @@ def is_integer(number: Any) -> bool:
     return isinstance(number, fmpq) and number.q == 1
 
 
-def choice_at(pullback: Pullback, a: Point) -> int:
+def choice_at(pullback: Pullback, a: ExactPoint) -> int:
     """Which of the coordinates z, 1 - z, 1/z, ... of Gauss' equation is the smallest at a: there z is between 0 and 1/2 where f
     is real.  For Confluent equations whether Re f(a) < 0: -f is taken, by the symmetry z -> -z, r -> -r."""
     n, d = (value_at(part, a) for part in _parts(pullback.f))
@@ -104,12 +104,12 @@ def choice_at(pullback: Pullback, a: Point) -> int:
     return min(sizes, key=lambda item: float(item[0]))[1]
 
 
-def value_at(poly: fmpq_poly, x: Point) -> Any:
+def value_at(poly: fmpq_poly, x: ExactPoint) -> Any:
     """A rational number at a rational point, else a ball."""
     return poly(x.x) if x.is_real() else acb_poly(poly)(to_acb(x))
 
 
-def form_of(pullback: Pullback, choice: int) -> Form:
+def form_of(pullback: Pullback, choice: int) -> StandardForm:
     """Two solutions, by this choice of the coordinate."""
     n, d = _parts(pullback.f)
     if isinstance(pullback.equation, Airy):
@@ -119,7 +119,7 @@ def form_of(pullback: Pullback, choice: int) -> Form:
     return _confluent(pullback.equation, -n if choice else n, d, -1 if choice else 1)
 
 
-def _airy(equation: Airy, n: fmpq_poly, d: fmpq_poly) -> Form:
+def _airy(equation: Airy, n: fmpq_poly, d: fmpq_poly) -> StandardForm:
     """Ai and Bi of q^(1/3) z."""
     q = rational(equation.q)
     c = acb(arb(abs(q)).root(3)) * (1 if q > 0 else -1) if abs(q) != 1 else acb(q)
@@ -128,7 +128,7 @@ def _airy(equation: Airy, n: fmpq_poly, d: fmpq_poly) -> Form:
         Ai, dAi, Bi, dBi = (c * z).airy()
         return [(Ai, c * dAi), (Bi, c * dBi)]
 
-    return Form(n, d, ((0, 0), (0, 0)), values)
+    return StandardForm(n, d, ((0, 0), (0, 0)), values)
 
 
 def _each(*solutions: Solution) -> Solutions:
@@ -138,7 +138,7 @@ def _each(*solutions: Solution) -> Solutions:
     ]
 
 
-def _confluent(equation: Confluent, n: fmpq_poly, d: fmpq_poly, sign: int) -> Form:
+def _confluent(equation: Confluent, n: fmpq_poly, d: fmpq_poly, sign: int) -> StandardForm:
     """Bessel's and Whittaker's, with r of this sign."""
     q, r, M = rational(equation.q), sign * rational(equation.r), rational(equation.M)
     mu = square_root(M + fmpq(1, 4))
@@ -150,7 +150,7 @@ def _confluent(equation: Confluent, n: fmpq_poly, d: fmpq_poly, sign: int) -> Fo
         independent = True
     upper = (_HALF + mu, 0)
     lower = (_HALF - mu, 0) if slit is None else (_HALF, 0) if r == 0 or q == 0 else upper
-    return Form(n, d, (upper, lower), _each(*solutions), (slit, None), independent)
+    return StandardForm(n, d, (upper, lower), _each(*solutions), (slit, None), independent)
 
 
 def _bessel(q: Any, r: Any, order: Any) -> tuple[tuple[Solution, Solution], Any]:
@@ -217,7 +217,7 @@ def _maps(n: Any, d: Any, A: Any, B: Any, C: Any) -> list[tuple[Any, Any, Any, A
     ]
 
 
-def _gauss(equation: Gauss, n: fmpq_poly, d: fmpq_poly, choice: int) -> Form:
+def _gauss(equation: Gauss, n: fmpq_poly, d: fmpq_poly, choice: int) -> StandardForm:
     """About the point 0 of one of the coordinates."""
     differences = (square_root(rational(v)) for v in (equation.A, equation.B, equation.C))
     n, d, e0, e1, e2 = _maps(n, d, *differences)[choice]
@@ -226,13 +226,13 @@ def _gauss(equation: Gauss, n: fmpq_poly, d: fmpq_poly, choice: int) -> Form:
     upper, right = ((1 + e0) / 2, (1 + e1) / 2)
     if e1 == _HALF and _HALF in (e0, e2) and e0 != 0:
         pair = (_root(e0), _root(-e0)) if e2 == _HALF else (_sine(e2), _cosine(e2))
-        return Form(n, d, ((upper, _HALF / 2), ((1 - e0) / 2, _HALF / 2)), _each(*pair), (None, 1))
+        return StandardForm(n, d, ((upper, _HALF / 2), ((1 - e0) / 2, _HALF / 2)), _each(*pair), (None, 1))
     if not is_integer(e0):
         pair = (_hypergeometric(e0, e1, e2, False), _hypergeometric(-e0, e1, e2, False))
-        return Form(n, d, ((upper, right), ((1 - e0) / 2, right)), _each(*pair), (None, 1))
+        return StandardForm(n, d, ((upper, right), ((1 - e0) / 2, right)), _each(*pair), (None, 1))
     pair = (_hypergeometric(e0, e1, e2, False), _hypergeometric(e1, e0, e2, True))
     independent = not any(_ends((1 + e0 + e1 + e) / 2) for e in (e2, -e2))
-    return Form(n, d, ((upper, right), (upper, right)), _each(*pair), (1, 1), independent)
+    return StandardForm(n, d, ((upper, right), (upper, right)), _each(*pair), (1, 1), independent)
 
 
 def _ends(a: Any) -> bool:

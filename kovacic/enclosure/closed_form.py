@@ -2,7 +2,7 @@
 
 The guarantee of the matrices is that of the Taylor route, with which nothing is shared: they contain the exact transition
 matrices along the leg, which is carried by the certificate of the decision (E = exp int_a^x theta, followed continuously, see
-`kovacic.enclosure.exponential`):
+`kovacic.enclosure.log_derivative`):
 - two rational or conjugate omega = theta + P'/P: y = E P for either.
 - a unique omega: y1 = E P, y2 = y1 int dx/y1^2.  P has simple zeros at ordinary points, where the integrand has double
   poles; they are split off exactly [Hermite's reduction]: with A P' = -1 mod P,
@@ -29,9 +29,9 @@ from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision
-from kovacic.enclosure.exponential import LogDerivative, conjugates, embed, log_derivative, sharp_roots
+from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, log_derivative, sharp_roots
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
-from kovacic.enclosure.points import Point, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.system import check_segment
 from kovacic.errors import InputError
@@ -81,7 +81,7 @@ def value(function: RatFunc, c: acb | None, z: acb) -> acb:
 
 
 @dataclass(frozen=True, eq=False)
-class ClosedForm:
+class CaseOneForm:
     """The certificate of case 1 that the legs are computed from, and what follows from it exactly, computed once."""
 
     problem: NumericProblem
@@ -167,7 +167,7 @@ class ClosedForm:
         """Are both solutions given without a quadrature?"""
         return len(self.branches) == 2 or self.rational_square is not None
 
-    def leg(self, a: Point, b: Point) -> Matrix:
+    def leg(self, a: ExactPoint, b: ExactPoint) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment, for elementary solutions."""
         check_segment(self.problem.system, a, b)
         ends = to_acb(a), to_acb(b)
@@ -189,7 +189,7 @@ class ClosedForm:
 
 
 @lru_cache(maxsize=32)
-def _integrand(closed: ClosedForm, _prec: int) -> LogDerivative:
+def _integrand(closed: CaseOneForm, _prec: int) -> LogDerivative:
     """The rational function B/E^2 of equation (1), at the precision in force."""
     assert closed.rational_square is not None
     return LogDerivative.make(closed.reduction[1] / closed.rational_square, None)
@@ -206,13 +206,13 @@ def certified(problem: NumericProblem) -> Decision:
 
 
 @lru_cache(maxsize=32)
-def closed_form_of(problem: NumericProblem) -> ClosedForm | None:
+def closed_form_of(problem: NumericProblem) -> CaseOneForm | None:
     """The closed form of a solution of case 1, None in the other cases; raises InputError without a certificate."""
     decision = certified(problem)
     if decision.case != 1:
         return None
     assert decision.semi_invariant is not None
-    return ClosedForm(problem, Exponential(decision.semi_invariant.theta, decision.semi_invariant.P))
+    return CaseOneForm(problem, Exponential(decision.semi_invariant.theta, decision.semi_invariant.P))
 
 
 def exponentials(problem: NumericProblem) -> list[Exponential]:
@@ -228,7 +228,7 @@ def exponentials(problem: NumericProblem) -> list[Exponential]:
     return found if gauge is None else [Exponential(y.theta + gauge, y.P, y.embedding) for y in found]
 
 
-def omegas(problem: NumericProblem, x0: Point) -> list[acb]:
+def omegas(problem: NumericProblem, x0: ExactPoint) -> list[acb]:
     """The logarithmic derivatives at x0 in their order, at the working precision in force; not finite at a zero.
 
     The list is empty where the precision is too low to tell the roots of the polynomial of omega apart.
@@ -252,7 +252,7 @@ def _order(a: acb, b: acb) -> int:
     return -1 if a.real < b.real else 1
 
 
-def omega(problem: NumericProblem, which: int, x0: Point, bits: int) -> acb:
+def omega(problem: NumericProblem, which: int, x0: ExactPoint, bits: int) -> acb:
     """One of them, accurate to that many bits.
 
     Raises InputError if there is no solution of this number, and ZeroDivisionError where it is zero at x0, as far as the
@@ -274,7 +274,7 @@ def omega(problem: NumericProblem, which: int, x0: Point, bits: int) -> acb:
     raise ZeroDivisionError(f"the logarithmic derivative isn't finite at {x0}")
 
 
-def finite_base(problem: NumericProblem, which: int, candidates: list[Point]) -> Point:
+def finite_base(problem: NumericProblem, which: int, candidates: list[ExactPoint]) -> ExactPoint:
     """The first of the points where y'/y is finite for the solution of this number."""
     for x0 in candidates:
         try:

@@ -12,7 +12,7 @@ from typing import Any
 
 from flint import acb, arb, ctx, fmpq, fmpz_poly
 
-from kovacic.enclosure.points import Point, as_point, midpoint, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, as_point, midpoint, to_acb, working_precision
 from kovacic.errors import InputError
 
 _FUNCTIONS = """
@@ -30,7 +30,7 @@ class Constant:
     value: Callable[[], acb]
     fixed: bool = False
 
-    def point(self) -> Point:
+    def point(self) -> ExactPoint:
         """The midpoint, an exact point."""
         ball = self.value()
         if not ball.is_finite():
@@ -41,7 +41,7 @@ class Constant:
         return self.text
 
 
-Number = Point | Constant
+Number = ExactPoint | Constant
 
 
 def as_number(value: Any, name: str) -> Number:
@@ -94,7 +94,7 @@ def _given_ball(value: Any) -> acb | None:
 
 def to_ball(number: Number) -> acb:
     """The ball of the working precision in force."""
-    return to_acb(number) if isinstance(number, Point) else number.value()
+    return to_acb(number) if isinstance(number, ExactPoint) else number.value()
 
 
 def root_near(polynomial: fmpz_poly, target: acb) -> acb:

@@ -23,7 +23,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.enclosure.constants import Number, root_near, to_ball
-from kovacic.enclosure.exponential import LogDerivative, sharp_roots
+from kovacic.enclosure.log_derivative import LogDerivative, sharp_roots
 from kovacic.enclosure.points import floor, working_precision
 from kovacic.errors import InputError, LimitExceeded
 

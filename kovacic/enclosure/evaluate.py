@@ -26,7 +26,7 @@ from kovacic.errors import NotRational, check_keywords
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 
 
-class Start(TypedDict, total=False):
+class StartOptions(TypedDict, total=False):
     """Which solution: the keywords of `evaluate` that say it, beside `x0`, and those of `tabulate` and `lambdify`."""
 
     y0: object
@@ -36,7 +36,7 @@ class Start(TypedDict, total=False):
     path: Path
 
 
-class Options(Start, total=False):
+class Options(StartOptions, total=False):
     """The keywords of `evaluate` but `x0` and `derivative`."""
 
     params: Mapping[str, object] | None

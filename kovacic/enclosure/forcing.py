@@ -23,9 +23,9 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import in_balls, to_ball
 from kovacic.enclosure.embedded import Embedded, check_apart
-from kovacic.enclosure.exponential import integral
+from kovacic.enclosure.log_derivative import integral
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import Point, to_acb
+from kovacic.enclosure.points import ExactPoint, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.system import System, check_segment
 from kovacic.enclosure.taylor import error_radii
@@ -62,7 +62,7 @@ class Forcing:
     def _at(self, function: RatFunc, x: acb) -> acb:
         return value(function, None, x) if self.embedded is None else self.embedded.value(function, x)
 
-    def check(self, a: Point, b: Point) -> None:
+    def check(self, a: ExactPoint, b: ExactPoint) -> None:
         """Raise InputError where a part has a pole or a branch point on the way, but for its ends."""
         for function in (self.rational, self.over):
             if self.embedded is None:

@@ -20,7 +20,7 @@ from typing import Any
 
 from flint import acb_poly, arb, arb_poly, fmpq_poly
 
-from kovacic.enclosure.points import Point, power_of_two, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, working_precision
 from kovacic.enclosure.system import System, distance_lower, offsets
 from kovacic.errors import InputError
 
@@ -33,11 +33,11 @@ _STEEPEST = 2400  # growth of the majorant, in logarithms, at most
 _LARGEST = 900  # growth of the majorant in a disc, in bits
 
 
-def shift(system: System, centre: Point, scale: Point) -> tuple[Parts, Parts]:
+def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[Parts, Parts]:
     """p and q of the exact equation q y'' = p y in the variable (x - centre)/scale, with q_0 > 0, without a common factor."""
     q, p = system.along("den", centre, scale), system.along("num", centre, scale)
     re, im = q[0][0], q[1][0]
-    turn = Point(re, -im) if im != 0 else Point(1 if re > 0 else -1)  # makes q_0 positive
+    turn = ExactPoint(re, -im) if im != 0 else ExactPoint(1 if re > 0 else -1)  # makes q_0 positive
     parts = [*_times(p, scale * scale * turn), *_times(q, turn)]
     common = math.lcm(*(int(part.denom()) for part in parts))
     whole = [(part * common).numer() for part in parts]
@@ -47,7 +47,7 @@ def shift(system: System, centre: Point, scale: Point) -> tuple[Parts, Parts]:
     return _paired(p_re, p_im, real), _paired(q_re, q_im, real)
 
 
-def _times(part: tuple[fmpq_poly, fmpq_poly], factor: Point) -> tuple[fmpq_poly, fmpq_poly]:
+def _times(part: tuple[fmpq_poly, fmpq_poly], factor: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
     if factor.y == 0 and part[1] == 0:
         return part[0] * factor.x, part[1]
     return part[0] * factor.x - part[1] * factor.y, part[0] * factor.y + part[1] * factor.x
@@ -64,7 +64,7 @@ def norm(parts: Parts) -> int:
 
 
 @dataclass(frozen=True)
-class Bound:
+class DefectBound:
     """Bounds for e'' = S e + r/q, e(0) = e'(0) = 0, on a disc around 0, as exact balls.
 
     With |r| <= q(0) on the disc, |e| <= `gain` and |e'| <= `slope_gain`; `log2_least` is about log2 of the least |q/q(0)|, and
@@ -84,11 +84,11 @@ class Frame:
     `blur` is a bound of |H^2 (S - S~)| there, where S~ is p/q and the coefficients of S are known by balls.
     """
 
-    centre: Point
+    centre: ExactPoint
     e: int
     p: Parts
     q: Parts
-    bound: Bound
+    bound: DefectBound
     blur: arb | None = None
 
     @property
@@ -96,7 +96,7 @@ class Frame:
         """H, exactly."""
         return power_of_two(self.e)
 
-    def seen(self, x: Point) -> Point:
+    def seen(self, x: ExactPoint) -> ExactPoint:
         """u at x; raises ArithmeticError where the bounds don't hold."""
         u = (x - self.centre).scaled(power_of_two(-self.e))
         if u.norm_squared() > _REACH * _REACH:
@@ -104,20 +104,20 @@ class Frame:
         return u
 
 
-def make_frame(system: System, centre: Point, e: int) -> Frame | None:
+def make_frame(system: System, centre: ExactPoint, e: int) -> Frame | None:
     """The frame of the equation at `centre` with scale 2^e; None where a singular point can't be excluded from the disc, or the
     solutions grow too much there.  Raises InputError at a singular point."""
     with working_precision(_BITS):
         poles = [((abs(d) * arb((1, -e))).lower(), k) for d, k in offsets(system, centre)]
         if any(not size > 1 for size, _ in poles):
             return None
-        p, q = shift(system, centre, Point(power_of_two(e)))
+        p, q = shift(system, centre, ExactPoint(power_of_two(e)))
         blur = _blur(system, centre, e, poles) if system.radius else None
         bound = _bound(p, q[0][0], poles, blur)
         return None if bound is None else Frame(centre, e, p, q, bound, blur)
 
 
-def _bound(p: Parts, q_0: int, poles: list[tuple[arb, int]], blur: arb | None) -> Bound | None:
+def _bound(p: Parts, q_0: int, poles: list[tuple[arb, int]], blur: arb | None) -> DefectBound | None:
     """The bounds, for the sizes of the poles; None where they would be too large."""
     sizes = [arb(a * a + b * b).sqrt().upper() for a, b in zip(p[0], p[1] or [0] * len(p[0]), strict=True)]
     majorant = arb_poly(sizes) * (1 / arb(q_0))
@@ -147,10 +147,10 @@ def _bound(p: Parts, q_0: int, poles: list[tuple[arb, int]], blur: arb | None) -
     total = max(growth.upper(), slope_growth.upper())
     if not total < arb((1, _LARGEST)):
         return None
-    return Bound((error / least).upper(), (slope / least).upper(), log2(least), log2(total))
+    return DefectBound((error / least).upper(), (slope / least).upper(), log2(least), log2(total))
 
 
-def _blur(system: System, centre: Point, e: int, poles: list[tuple[arb, int]]) -> arb:
+def _blur(system: System, centre: ExactPoint, e: int, poles: list[tuple[arb, int]]) -> arb:
     """The bound `Frame.blur`: with |N - N~| <= n, |D - D~| <= d and |D~| >= m > d on the disc,
 
     |S - S~| <= (|N~| d/m + n)/(m - d).
@@ -158,7 +158,9 @@ def _blur(system: System, centre: Point, e: int, poles: list[tuple[arb, int]]) -
     Raises InputError where D may vanish there.
     """
     unit = arb((1, e))
-    here = Point(*(part[0] for part in system.along("den", centre, Point(0))))  # exact: balls would cancel near poles
+    here = ExactPoint(
+        *(part[0] for part in system.along("den", centre, ExactPoint(0)))
+    )  # exact: balls would cancel near poles
     reach, least = abs(to_acb(centre)).upper() + unit, to_acb(here).abs_lower()
     for size, k in poles:
         least *= (1 - 1 / size) ** k
@@ -173,7 +175,7 @@ def _blur(system: System, centre: Point, e: int, poles: list[tuple[arb, int]]) -
     return ((size * d / least + n) / (least - d) * unit * unit).upper()
 
 
-def fitting(system: System, centre: Point, e: int, share: float, growth: float) -> Frame | None:
+def fitting(system: System, centre: ExactPoint, e: int, share: float, growth: float) -> Frame | None:
     """The frame at `centre` with scale 2^e, where this is at most `share` of the distance to a singular point, and the
     solutions grow by at most 2^growth; else None."""
     if system.is_singular(centre):
@@ -185,7 +187,7 @@ def fitting(system: System, centre: Point, e: int, share: float, growth: float) 
     return frame if frame is not None and frame.bound.log2_growth <= growth else None
 
 
-def least_growth(system: System, a: Point, b: Point) -> float:
+def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
     """A lower bound of int |S|^(1/2) |dx| along the segment from a to b: so much the solutions grow, or oscillate.
 
     On pieces that get shorter towards both ends; where the bound |p_0| - sum |p_j| r^j of the numerator around the middle of a

@@ -47,7 +47,7 @@ from flint import acb, acb_poly, arb, ctx, fmpq
 
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import Matrix, State
-from kovacic.enclosure.points import Point, power_of_two, working_precision
+from kovacic.enclosure.points import ExactPoint, power_of_two, working_precision
 from kovacic.enclosure.singular import Operator, Singular
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time
@@ -117,7 +117,7 @@ def _first(delta: arb) -> int:
     return int(2 * float(delta.upper())) + 8
 
 
-def junction(point: Singular, towards: Point, prec: int) -> tuple[Point, Majorant]:
+def junction(point: Singular, towards: ExactPoint, prec: int) -> tuple[ExactPoint, Majorant]:
     """Where the straight way to `towards` leaves the disc (or the end itself, if that's inside), and the bounds for it."""
     with working_precision(64):
         t = abs(point.offset(towards))
@@ -133,7 +133,12 @@ def junction(point: Singular, towards: Point, prec: int) -> tuple[Point, Majoran
 
 
 def basis(
-    point: Singular, last: Point, towards: Point, bound: Majorant, prec: int, needed: Sequence[bool] = (True, True)
+    point: Singular,
+    last: ExactPoint,
+    towards: ExactPoint,
+    bound: Majorant,
+    prec: int,
+    needed: Sequence[bool] = (True, True),
 ) -> Matrix:
     """The values and slopes of the Frobenius basis (the columns) at `last`, a point of the disc on the way to `towards`.
 
@@ -153,8 +158,8 @@ def basis(
 
 
 def _expansions(
-    point: Singular, last: Point, bound: Majorant, prec: int, needed: Sequence[bool]
-) -> list[Expansion | None]:
+    point: Singular, last: ExactPoint, bound: Majorant, prec: int, needed: Sequence[bool]
+) -> list[FrobeniusSeries | None]:
     """Both solutions in the disc up to `last`; None for one that isn't needed."""
     lower, upper = point.exponents()
     op, N, length = point.operator(), point.difference, abs(point.offset(last)).upper()
@@ -173,7 +178,7 @@ def _expansions(
 
 def limit(point: Singular, start: State) -> State:
     """y and y' at the point itself, for coordinates in the basis; raises InputError where one is infinite."""
-    beside = point.near + Point(1)
+    beside = point.near + ExactPoint(1)
     last, bound = junction(point, beside, 64)
     needed = [not coordinate.is_zero() for coordinate in start]
     total, found = (acb(0), acb(0)), _expansions(point, last, bound, max(64, ctx.prec), needed)
@@ -218,7 +223,7 @@ def _has_logarithm(op: Operator, lower: Any, N: int) -> bool:
 
 
 @dataclass(frozen=True)
-class Expansion:
+class FrobeniusSeries:
     """t^exponent (U(t) + V(t) log t), with bounds of what is missing in the second factor of y and of theta y, over max(1,
     |log t|), on the disc for which they were made."""
 
@@ -256,7 +261,7 @@ def _expand(
     length: arb,
     bound: Majorant,
     prec: int,
-) -> Expansion:
+) -> FrobeniusSeries:
     """The solution that starts with t^exponent (u + v log t), (u, v) = start, for |t| <= length; `case` has the exponent, the
     difference to the other one, the resonance of `_next`, and the start."""
     exponent, delta, resonance, start = case
@@ -284,6 +289,6 @@ def _expand(
             F = (factor * bound.inverse * defect * length**n / (kappa * n)).upper()
         if arb((1, -prec - 20)) > F:
             U, V = (acb_poly([pair[k] for pair in terms]) for k in (0, 1))
-            return Expansion(exponent, lam, U, V, ((F / n).upper(), (F * (1 + (size + 1) / n)).upper()))
+            return FrobeniusSeries(exponent, lam, U, V, ((F / n).upper(), (F * (1 + (size + 1) / n)).upper()))
         if n > cap:
             raise LimitExceeded(f"a Frobenius expansion needs more than {cap} terms", limit="unknown_degree")

@@ -2,7 +2,7 @@
 
 A state (y, y') of the normal form is carried by the transition matrices of straight legs, Taylor discs (each serves all
 targets inside it) or a closed form; with a gauge g, z = g y is the user's solution, and g/g(x0) is followed along the same
-legs (`kovacic.enclosure.exponential`):
+legs (`kovacic.enclosure.log_derivative`):
 
     (z, z')(v) = E G(v) M G(u)^-1 (z, z')(u),    E = exp int_u^v gamma,    G(x) = (1, 0; gamma(x), 1).
 
@@ -20,14 +20,14 @@ from typing import Any
 from flint import acb, ctx
 
 from kovacic.enclosure.classical import Classical, classical_of
-from kovacic.enclosure.closed_form import ClosedForm
+from kovacic.enclosure.closed_form import CaseOneForm
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.embedded import check_apart
-from kovacic.enclosure.exponential import LogDerivative, log_derivative
 from kovacic.enclosure.forcing import Forcing, forcing_of
 from kovacic.enclosure.frobenius import basis, junction, limit
-from kovacic.enclosure.matrices import Matrix, Product, State, apply, real_part
-from kovacic.enclosure.points import Point, power_of_two, to_acb, to_double
+from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
+from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, real_part
+from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, to_double
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
@@ -37,7 +37,7 @@ from kovacic.enclosure.transport import walk
 from kovacic.errors import InputError
 from kovacic.limits import check_time, count_work
 
-Closed = ClosedForm | Classical
+Closed = CaseOneForm | Classical
 _KEPT = 4  # precisions at which the beginning of a journey is kept for the next targets
 
 
@@ -98,7 +98,7 @@ class Journey:
         return traveller, start
 
 
-def _rays(here: Point | Singular, stops: Sequence[Point]) -> list[list[int]]:
+def _rays(here: ExactPoint | Singular, stops: Sequence[ExactPoint]) -> list[list[int]]:
     """The stops on the same side on the real axis in the order of visit, others alone: straight ways that are shared."""
     origin, inverted = (here.near, here.inverted) if isinstance(here, Singular) else (here, False)
     keys = {i: stop.x - origin.x for i, stop in enumerate(stops) if origin.is_real() and stop.is_real()}
@@ -118,24 +118,24 @@ class Traveller:
     closed: Closed | None
     gauge: LogDerivative | None
     prec: int
-    here: Point | Singular
-    product: Product
+    here: ExactPoint | Singular
+    product: MatrixProduct
     growth: acb
     forcing: Forcing | None = None
     particular: State = (acb(0), acb(0))
 
     @classmethod
-    def at(cls, problem: NumericProblem, x0: Point | Singular, closed: Closed | None, prec: int) -> Traveller:
+    def at(cls, problem: NumericProblem, x0: ExactPoint | Singular, closed: Closed | None, prec: int) -> Traveller:
         """At the start of a journey."""
         gauge = None if problem.embedded is None else problem.embedded.log_derivative()
         if problem.gauge is not None:
             gauge = log_derivative(problem.gauge, ctx.prec)
-        found = cls(problem, closed, gauge, prec, x0, Product(), acb(1), forcing_of(problem))
-        if isinstance(x0, Point):
+        found = cls(problem, closed, gauge, prec, x0, MatrixProduct(), acb(1), forcing_of(problem))
+        if isinstance(x0, ExactPoint):
             found._begin(x0)
         return found
 
-    def _begin(self, x: Point) -> None:
+    def _begin(self, x: ExactPoint) -> None:
         """From (z, z') to (y, y') at x."""
         if self.problem.gauge is not None:
             check_segment(self.problem.system, x, x)
@@ -144,11 +144,11 @@ class Traveller:
             self.product = self.product.after((acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1)))
         self.here = x
 
-    def go(self, stop: Point, start: State) -> None:
+    def go(self, stop: ExactPoint, start: State) -> None:
         """Straight on to a point."""
         if isinstance(self.here, Singular):
             self._leave(self.here, stop, start)
-        assert isinstance(self.here, Point)
+        assert isinstance(self.here, ExactPoint)
         if stop == self.here:
             return
         if self.closed is not None:
@@ -166,7 +166,7 @@ class Traveller:
         self.growth *= self._growth(stop)
         self.here = stop
 
-    def fan(self, stops: Sequence[Point], start: State) -> list[State]:
+    def fan(self, stops: Sequence[ExactPoint], start: State) -> list[State]:
         """The user's (z, z') at the ends of straight lines from here.
 
         A disc on the line to the farthest of them serves others, too.
@@ -202,7 +202,7 @@ class Traveller:
             waiting = [i for i in waiting if i not in found]
         return [found[i] for i in range(len(stops))]
 
-    def by_closed_form(self, closed: Closed, stop: Point, start: State) -> State:
+    def by_closed_form(self, closed: Closed, stop: ExactPoint, start: State) -> State:
         """The user's (z, z') at the end of a straight line from here."""
         check_time()
         count_work(self.prec)
@@ -212,7 +212,7 @@ class Traveller:
         state = self.product.apply(start)
         return self._given(state if stop == here else apply(self._closed_matrix(closed, stop, start), state), stop)
 
-    def _closed_matrix(self, closed: Closed, stop: Point, start: State) -> Matrix:
+    def _closed_matrix(self, closed: Closed, stop: ExactPoint, start: State) -> Matrix:
         if isinstance(self.here, Singular):
             assert isinstance(closed, Classical)
             needed = not start[0].is_zero(), not start[1].is_zero()
@@ -221,7 +221,7 @@ class Traveller:
         matrix = closed.leg(self.here, stop)
         return real_part(matrix) if self.here.is_real() and stop.is_real() else matrix
 
-    def _check_gauge(self, here: Point, stop: Point) -> None:
+    def _check_gauge(self, here: ExactPoint, stop: ExactPoint) -> None:
         """Raise InputError where the gauge has a pole on the way, at a point where S is regular."""
         if self.problem.gauge is not None and len(self.problem.gauge_poles.den) > 1:
             check_segment(self.problem.gauge_poles, here, stop)
@@ -230,11 +230,11 @@ class Traveller:
 
     def _inverse_growth(self, x: acb, analytic: bool) -> acb:
         """1/g on a ball."""
-        if self.gauge is None or not isinstance(self.here, Point):
+        if self.gauge is None or not isinstance(self.here, ExactPoint):
             return acb(1)
         return (-self.gauge.exponent(to_acb(self.here), x, analytic=analytic)).exp() / self.growth
 
-    def visit(self, stop: Point, start: State) -> State:
+    def visit(self, stop: ExactPoint, start: State) -> State:
         """Straight on to a point, and the user's (z, z') there; the start itself, if that's a singular point, isn't left."""
         if isinstance(self.here, Singular) and self.here.is_at(stop):
             return limit(self.here, start)
@@ -243,10 +243,10 @@ class Traveller:
 
     def state(self, start: State) -> State:
         """The user's (z, z') here."""
-        assert isinstance(self.here, Point)
+        assert isinstance(self.here, ExactPoint)
         return self._given(self.product.apply(start), self.here)
 
-    def around(self, stops: list[Point], start: State, side: str) -> list[State]:
+    def around(self, stops: list[ExactPoint], start: State, side: str) -> list[State]:
         """As `fan`, around singular points of the real axis on this side; the stops lie in one direction, in order.
 
         A detour is as wide as its distance to the start and to other singular points allows: near an irregular one the
@@ -255,8 +255,8 @@ class Traveller:
         result: list[State] = []
         for sign, cut, place, unit in self._cuts(stops[-1]):
             first, top, last = (
-                Point(cut - sign * unit),
-                Point(cut, unit if side == "above" else -unit),
+                ExactPoint(cut - sign * unit),
+                ExactPoint(cut, unit if side == "above" else -unit),
                 cut + sign * unit,
             )
             far, near, behind = (
@@ -267,16 +267,16 @@ class Traveller:
             self.go(first, start)
             result += self.fan(near[len(far) :], start)
             self.go(top, start)
-            self.go(Point(last), start)
+            self.go(ExactPoint(last), start)
             result += self.fan(behind[len(near) :], start)
         return [*result, *self.fan(stops[len(result) :], start)]
 
-    def _cuts(self, last: Point) -> Iterator[tuple[int, Any, Any, Any]]:
+    def _cuts(self, last: ExactPoint) -> Iterator[tuple[int, Any, Any, Any]]:
         """The detours on the way to `last`: direction, a short number beside the singular point, the point, and radius."""
         here, singular = self.here, self.problem.singular_points(256)
         if isinstance(here, Singular) and here.inverted:
             far = 2 * max(abs(p.x) for p in (last, *singular)) + 1
-            here = Point(far if last.x > 0 else -far)
+            here = ExactPoint(far if last.x > 0 else -far)
         elif isinstance(here, Singular):
             here = here.near
         if not (here.is_real() and last.is_real()):
@@ -284,12 +284,12 @@ class Traveller:
         sign = 1 if last.x > here.x else -1
         cuts = {p.x for p in singular if p.is_real() and 0 < sign * (p.x - here.x) < sign * (last.x - here.x)}
         for cut in sorted(cuts, reverse=sign < 0):
-            squares = [(p - Point(cut)).norm_squared() / 4 for p in singular if p != Point(cut)]
-            square = min([*squares, (here - Point(cut)).norm_squared()])
+            squares = [(p - ExactPoint(cut)).norm_squared() / 4 for p in singular if p != ExactPoint(cut)]
+            square = min([*squares, (here - ExactPoint(cut)).norm_squared()])
             unit = power_of_two((square.p.bit_length() - square.q.bit_length() - 1) // 2)
             yield sign, (cut / unit * 16).floor() * unit / 16, cut, unit
 
-    def _leave(self, point: Singular, stop: Point, start: State) -> None:
+    def _leave(self, point: Singular, stop: ExactPoint, start: State) -> None:
         """Out of the disc around a singular point, or to the stop itself."""
         if point.is_at(stop):
             raise InputError(f"the path doesn't leave the singular point {point}", hint="go on to another point")
@@ -302,16 +302,16 @@ class Traveller:
             stop = last
         self._begin(stop)
 
-    def _growth(self, x: Point) -> acb:
+    def _growth(self, x: ExactPoint) -> acb:
         """g(x)/g(here)."""
-        assert isinstance(self.here, Point)
+        assert isinstance(self.here, ExactPoint)
         if self.gauge is None or x == self.here:
             return acb(1)
         factor = self.gauge.growth(to_acb(self.here), to_acb(x))
         real = self.problem.is_real and self.here.is_real() and x.is_real()
         return acb(factor.real) if real else factor
 
-    def _given(self, state: State, x: Point) -> State:
+    def _given(self, state: State, x: ExactPoint) -> State:
         """The user's (z, z') at x."""
         state = state[0] + self.particular[0], state[1] + self.particular[1]
         if self.gauge is None:

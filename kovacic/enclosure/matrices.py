@@ -50,18 +50,18 @@ def apply(m: Matrix, v: State) -> State:
     return m[0] * v[0] + m[1] * v[1], m[2] * v[0] + m[3] * v[1]
 
 
-class Product:
+class MatrixProduct:
     """M_k ... M_1: a binary counter of partial products, so that every prefix is O(log k) factors."""
 
     def __init__(self, *parts: tuple[int, Matrix]) -> None:
         self._parts = parts  # sizes are falling powers of two, the earliest factors first
 
-    def after(self, matrix: Matrix) -> Product:
+    def after(self, matrix: Matrix) -> MatrixProduct:
         """With one more factor on the left."""
         parts, size = self._parts, 1
         while parts and parts[-1][0] == size:
             matrix, size, parts = multiply(matrix, parts[-1][1]), 2 * size, parts[:-1]
-        return Product(*parts, (size, matrix))
+        return MatrixProduct(*parts, (size, matrix))
 
     def apply(self, state: State) -> State:
         """M_k ... M_1 v."""
@@ -79,7 +79,7 @@ class Product:
 
 def product(matrices: list[Matrix]) -> Matrix:
     """M_k ... M_1 for the list [M_1, ..., M_k]."""
-    total = Product()
+    total = MatrixProduct()
     for matrix in matrices:
         total = total.after(matrix)
     return total.matrix()

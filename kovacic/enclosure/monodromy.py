@@ -23,7 +23,7 @@ from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint, finite_
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.journey import Traveller
 from kovacic.enclosure.matrices import Matrix, fundamental, inverse, multiply
-from kovacic.enclosure.points import Point, as_point, midpoint, power_of_two, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb, working_precision
 from kovacic.enclosure.precision import number_of_digits, start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.singular import Singular
@@ -47,7 +47,7 @@ class LocalMonodromy:
     multiplicity: int
     exponents: tuple[Ball, Ball] | None
     trace: Ball | None
-    loop: tuple[Point, ...]
+    loop: tuple[ExactPoint, ...]
     matrix: BallMatrix
 
     def acb_mat(self) -> acb_mat:
@@ -124,7 +124,7 @@ def connection_matrix(
         budget.check()
 
 
-def _end(problem: NumericProblem, value: object) -> Point | Singular:
+def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
     """An end of a path: a point where the equation is regular stays one."""
     if problem.embedded is not None:
         return as_point(value, "an end of the path of an equation whose constants aren't rational")
@@ -132,7 +132,7 @@ def _end(problem: NumericProblem, value: object) -> Point | Singular:
     return place.near if place.is_ordinary else place
 
 
-def _between(a: Singular, b: Singular) -> Point:
+def _between(a: Singular, b: Singular) -> ExactPoint:
     """A point of the straight line between two finite singular points."""
     if a.inverted or b.inverted:
         raise InputError("a path between a singular point and infinity needs a vertex", hint="e.g. [0, 1j, 'oo']")
@@ -140,7 +140,7 @@ def _between(a: Singular, b: Singular) -> Point:
 
 
 def _connection(
-    problem: NumericProblem, a: Point | Singular, middle: list[Point], b: Point | Singular, prec: int
+    problem: NumericProblem, a: ExactPoint | Singular, middle: list[ExactPoint], b: ExactPoint | Singular, prec: int
 ) -> Matrix:
     """The matrix at about so many bits."""
     traveller, both = Traveller.at(problem, a, None, prec), (acb(1), acb(1))
@@ -149,7 +149,7 @@ def _connection(
     there, end = None, b
     if isinstance(end, Singular):
         here = traveller.here
-        assert isinstance(here, Point)
+        assert isinstance(here, ExactPoint)
         last, bound = junction(end, here, prec)
         there, end = basis(end, last, here, bound, prec), last
     traveller.go(end, both)
@@ -185,7 +185,7 @@ def monodromy(
     return tuple(result)
 
 
-def _places(problem: NumericProblem) -> list[tuple[Point, Any]]:
+def _places(problem: NumericProblem) -> list[tuple[ExactPoint, Any]]:
     """Rational approximations of the singular points, each with half the distance to its neighbour (1 if alone)."""
     points, places = [midpoint(root) for root, _ in problem.poles(64)], []
     for i, p in enumerate(points):
@@ -194,7 +194,7 @@ def _places(problem: NumericProblem) -> list[tuple[Point, Any]]:
     return places
 
 
-def _loops(places: list[tuple[Point, Any]]) -> list[tuple[tuple[Point, ...], Point]]:
+def _loops(places: list[tuple[ExactPoint, Any]]) -> list[tuple[tuple[ExactPoint, ...], ExactPoint]]:
     """Loops from one base point with the points that they enclose, in the order of their directions (left ones first).
 
     Each is a segment to a square around the point, the square counter-clockwise, and the segment back.  The squares keep
@@ -207,7 +207,7 @@ def _loops(places: list[tuple[Point, Any]]) -> list[tuple[tuple[Point, ...], Poi
     top, middle = max(z.y for z in centres) + max(fmpq(1), spread), sum((z.x for z in centres), fmpq(0)) / len(centres)
     found = []
     for shift in (1, -3, 10, -17, 29, -41):
-        base = Point(middle + (spread * shift + 1) / 97, top).rounded(
+        base = ExactPoint(middle + (spread * shift + 1) / 97, top).rounded(
             int(spread.p.bit_length() - spread.q.bit_length()) - 10
         )
         radii = [min([r, *(_distance_below(z, base, other) for other in centres if other != z)]) / 2 for z, r in places]
@@ -215,7 +215,7 @@ def _loops(places: list[tuple[Point, Any]]) -> list[tuple[tuple[Point, ...], Poi
     narrowest, base, radii = max(found, key=lambda item: item[0])
     if narrowest == 0:
         raise LimitExceeded("no base point was found that sees the singular points apart", limit="unknown_degree")
-    quarter, loops = Point(0, 1), []
+    quarter, loops = ExactPoint(0, 1), []
     for z, radius in zip(centres, radii, strict=True):
         offset = base - z
         corner = offset.scaled(_root_below(radius * radius / offset.norm_squared()))
@@ -232,7 +232,7 @@ def _root_below(square: Any) -> Any:
     return next(unit * k for k in (3, 2, 1, 0) if (unit * k) ** 2 <= square)
 
 
-def _distance_below(point: Point, a: Point, b: Point) -> Any:
+def _distance_below(point: ExactPoint, a: ExactPoint, b: ExactPoint) -> Any:
     """A rational number not above the distance of the point from the segment, and above a third of it."""
     step, offset = b - a, point - a
     t = (offset.x * step.x + offset.y * step.y) / step.norm_squared()
@@ -240,7 +240,7 @@ def _distance_below(point: Point, a: Point, b: Point) -> Any:
 
 
 def _local(
-    problem: NumericProblem, z: Point, loop: tuple[Point, ...], matrix: BallMatrix, digits: int
+    problem: NumericProblem, z: ExactPoint, loop: tuple[ExactPoint, ...], matrix: BallMatrix, digits: int
 ) -> LocalMonodromy:
     prec = int(digits * 3.33) + 60
     with working_precision(prec):

@@ -32,11 +32,11 @@ def working_precision(bits: int) -> Iterator[None]:
 
 
 @dataclass(frozen=True, init=False, repr=False, slots=True)
-class Point:
+class ExactPoint:
     """The Gaussian rational re + i im; `x` and `y` are its parts as FLINT's rationals, many times as fast as fractions.
 
-    >>> Point(Fraction(1, 2)) + Point(0, 1)
-    Point(1/2 + 1i)
+    >>> ExactPoint(Fraction(1, 2)) + ExactPoint(0, 1)
+    ExactPoint(1/2 + 1i)
     """
 
     x: Any
@@ -59,24 +59,24 @@ class Point:
         """The imaginary part."""
         return to_fraction(self.y)
 
-    def __add__(self, other: Point) -> Point:
-        return Point(self.x + other.x, self.y + other.y)
+    def __add__(self, other: ExactPoint) -> ExactPoint:
+        return ExactPoint(self.x + other.x, self.y + other.y)
 
-    def __sub__(self, other: Point) -> Point:
-        return Point(self.x - other.x, self.y - other.y)
+    def __sub__(self, other: ExactPoint) -> ExactPoint:
+        return ExactPoint(self.x - other.x, self.y - other.y)
 
-    def __mul__(self, other: Point) -> Point:
-        return Point(self.x * other.x - self.y * other.y, self.x * other.y + self.y * other.x)
+    def __mul__(self, other: ExactPoint) -> ExactPoint:
+        return ExactPoint(self.x * other.x - self.y * other.y, self.x * other.y + self.y * other.x)
 
-    def scaled(self, factor: Any) -> Point:
+    def scaled(self, factor: Any) -> ExactPoint:
         """The point times a rational number."""
         factor = factor if type(factor) is fmpq else to_fmpq(factor)
-        return Point(self.x * factor, self.y * factor)
+        return ExactPoint(self.x * factor, self.y * factor)
 
-    def rounded(self, e: int) -> Point:
+    def rounded(self, e: int) -> ExactPoint:
         """The nearest multiple of 2^e, in both parts."""
         unit = power_of_two(e)
-        return Point(*((part / unit + _HALF).floor() * unit for part in (self.x, self.y)))
+        return ExactPoint(*((part / unit + _HALF).floor() * unit for part in (self.x, self.y)))
 
     def norm_squared(self) -> Any:
         """|z|^2, exactly."""
@@ -95,10 +95,10 @@ class Point:
         return f"{_short(self.re)} {'-' if self.im < 0 else '+'} {_short(abs(self.im))}i"
 
     def __repr__(self) -> str:
-        return f"Point({self})"
+        return f"ExactPoint({self})"
 
 
-_set_x, _set_y = (Point.__dict__[part].__set__ for part in "xy")
+_set_x, _set_y = (ExactPoint.__dict__[part].__set__ for part in "xy")
 _HALF = fmpq(1, 2)
 
 
@@ -118,21 +118,21 @@ def _short(value: Fraction) -> str:
         return f"{Decimal(value.numerator) / value.denominator:.15g}"
 
 
-def as_point(value: Any, name: str) -> Point:
-    """The exact point that `value` stands for: a Point, or whatever `kovacic.exact.exact` takes; raises as that.
+def as_point(value: Any, name: str) -> ExactPoint:
+    """The exact point that `value` stands for: an `ExactPoint`, or whatever `kovacic.exact.exact` takes; raises as that.
 
     >>> as_point("0.1", "x"), as_point(1 + 2j, "x")
-    (Point(1/10), Point(1 + 2i))
+    (ExactPoint(1/10), ExactPoint(1 + 2i))
     """
-    return value if isinstance(value, Point) else Point(*exact(value, name))
+    return value if isinstance(value, ExactPoint) else ExactPoint(*exact(value, name))
 
 
-def to_acb(point: Point) -> acb:
+def to_acb(point: ExactPoint) -> acb:
     """A ball around the point at the working precision in force (exact where the precision allows)."""
     return acb(point.x) if point.y == 0 else acb(arb(point.x), arb(point.y))
 
 
-def to_double(point: Point) -> complex:
+def to_double(point: ExactPoint) -> complex:
     """The nearest complex double, infinite where it is out of range."""
     try:
         return complex(point)
@@ -140,9 +140,9 @@ def to_double(point: Point) -> complex:
         return complex(math.inf)
 
 
-def midpoint(ball: acb) -> Point:
+def midpoint(ball: acb) -> ExactPoint:
     """The midpoint of a finite ball."""
-    return Point(*(_exact(part.mid()) for part in (ball.real, ball.imag)))
+    return ExactPoint(*(_exact(part.mid()) for part in (ball.real, ball.imag)))
 
 
 def floor(number: arb) -> int:

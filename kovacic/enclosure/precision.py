@@ -37,7 +37,7 @@ class AccuracyWarning(UserWarning):
 
 
 @dataclass(frozen=True, eq=False)
-class Evaluation:
+class PointValue:
     """The solution at one point: enclosures of y and y' (`state`, finite), and how they were obtained.
 
     `missing` are the bits of y that are missing for the digits asked for; if there are any, `note` says why.
@@ -82,13 +82,13 @@ def number_of_digits(given: object, limits: Limits) -> int:
 
 def raise_precision(
     journey: Journey, targets: Sequence[Number], closed: Closed | None, digits: int, limits: Limits
-) -> tuple[Evaluation, ...]:
+) -> tuple[PointValue, ...]:
     """Make the journey at rising precision until every relative radius is small enough."""
     prec, exact = start_bits(digits), journey.is_exact(targets)
     highest = 6 * prec + 4000  # a value below 2^-highest isn't told from zero, unless others are as large
     most = int(max(highest, limits.digits * math.log2(10)))
     runs = 0
-    previous: tuple[Evaluation, ...] | None = None
+    previous: tuple[PointValue, ...] | None = None
     while True:
         runs += 1
         try:
@@ -97,7 +97,7 @@ def raise_precision(
                 route = Route(digits, METHODS[closed is not None], prec, runs)
                 lacking = [_missing_bits(y, digits, prec) for y, _ in states]
                 finite = all(y.is_finite() and dy.is_finite() for y, dy in states)
-                found = tuple(map(Evaluation, targets, states, lacking, repeat(route))) if finite else None
+                found = tuple(map(PointValue, targets, states, lacking, repeat(route))) if finite else None
                 missing = max(lacking, default=0)
             _LOG.info(
                 "run %d, %d bits: %d of %d points to %d digits", runs, prec, lacking.count(0), len(lacking), digits
@@ -140,11 +140,11 @@ def _lost(y: acb, prec: int) -> int:
     return 0 if largest == 0 else max(0, math.ceil(log2(largest)) + prec)
 
 
-def _growth(result: Evaluation) -> int:
+def _growth(result: PointValue) -> int:
     return _lost(result.state[0], result.route.bits) if result.y.contains_zero() else 0
 
 
-def _reason(result: Evaluation) -> str:
+def _reason(result: PointValue) -> str:
     if result.y.contains_zero():
         known = arb(result.y.rad).mid().str(2, radius=False)
         growth = _growth(result)

@@ -18,7 +18,7 @@ from kovacic.answer import Answer, computed_once
 from kovacic.decision import Decision
 from kovacic.enclosure.constants import Number, as_number
 from kovacic.enclosure.embedded import Embedded
-from kovacic.enclosure.points import Point, working_precision
+from kovacic.enclosure.points import ExactPoint, working_precision
 from kovacic.enclosure.system import System, Zeros
 from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError
@@ -101,7 +101,7 @@ class NumericProblem:
             return self.embedded.polynomials()
         return self.system.polynomial("num"), self.system.polynomial("den")
 
-    def singular_points(self, prec: int) -> list[Point]:
+    def singular_points(self, prec: int) -> list[ExactPoint]:
         """Those of the system and the poles of the gauge, as `System.singular_points` gives them."""
         return [*self.system.singular_points(prec), *self.gauge_poles.singular_points(prec)]
 
@@ -160,7 +160,7 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     if right is not None and right.h is not None:
         names = tuple(sorted({*names, *(symbol.name for symbol in right.h.free_symbols)} - {right.variable}))
     numbers = _values(names, params or {}) if params is not None or names else {}
-    values = {name: value.re for name, value in numbers.items() if isinstance(value, Point) and value.is_real()}
+    values = {name: value.re for name, value in numbers.items() if isinstance(value, ExactPoint) and value.is_real()}
     functions = [S, gauge, None if right is None else right.f]
     has_algebraic = any(f is not None and isinstance(f.field, AlgebraicField) for f in functions)
     if has_algebraic or len(values) < len(numbers):

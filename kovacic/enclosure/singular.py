@@ -15,7 +15,7 @@ from typing import Any
 from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
 from flint.utils.flint_exceptions import DomainError
 
-from kovacic.enclosure.points import Point, midpoint, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, midpoint, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.errors import InputError
 
@@ -46,20 +46,20 @@ class Singular:
 
     equation: Coefficients
     minimal: fmpq_poly
-    near: Point
+    near: ExactPoint
     exact: bool = True
     inverted: bool = False
 
     @classmethod
-    def at(cls, problem: NumericProblem, point: Point | acb | None) -> Singular:
+    def at(cls, problem: NumericProblem, point: ExactPoint | acb | None) -> Singular:
         """The place of an exact point, of the only singular point in a ball, or of infinity (None).
 
         Raises InputError at an irregular singular point, and where the ball has none or several.
         """
         a, b, c = problem.equation
         if point is None:
-            found = cls(_inverted(a, b, c), fmpq_poly([0, 1]), Point(0), inverted=True)
-        elif isinstance(point, Point):
+            found = cls(_inverted(a, b, c), fmpq_poly([0, 1]), ExactPoint(0), inverted=True)
+        elif isinstance(point, ExactPoint):
             minimal = [-point.x, 1] if point.is_real() else [point.norm_squared(), -2 * point.x, 1]
             found = cls((a, b, c), fmpq_poly(minimal), point)
         else:
@@ -78,7 +78,7 @@ class Singular:
         roots = [root for root, _ in self.minimal.numer().complex_roots()]
         return min(roots, key=lambda root: float(abs(root - to_acb(self.near)).mid()))
 
-    def is_at(self, x: Point) -> bool:
+    def is_at(self, x: ExactPoint) -> bool:
         """Is x known to be this point?"""
         return self.exact and not self.inverted and x == self.near
 
@@ -104,7 +104,7 @@ class Singular:
     def __str__(self) -> str:
         return "infinity" if self.inverted else str(self.near)
 
-    def offset(self, x: Point) -> acb:
+    def offset(self, x: ExactPoint) -> acb:
         """t at x."""
         if self.inverted:
             return 1 / to_acb(x)
@@ -211,7 +211,7 @@ def _taylor(poly: fmpq_poly, k: int) -> fmpq_poly:
     return poly
 
 
-def _root_in(a: fmpq_poly, ball: acb) -> tuple[fmpq_poly, Point]:
+def _root_in(a: fmpq_poly, ball: acb) -> tuple[fmpq_poly, ExactPoint]:
     """The irreducible factor with the only zero of `a` in the ball, and a point that tells this zero from the others."""
     found = []
     with working_precision(256):

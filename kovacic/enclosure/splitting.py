@@ -46,7 +46,7 @@ from flint import acb, acb_mat, arb, arb_mat, fmpz_mat, fmpz_poly
 
 from kovacic.enclosure.frame import Frame, Parts, log2, make_frame, norm, shift
 from kovacic.enclosure.matrices import Matrix
-from kovacic.enclosure.points import Point, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
 from kovacic.enclosure.system import System
 from kovacic.enclosure.taylor import error_radii, expand, transition
 from kovacic.errors import LimitExceeded
@@ -97,22 +97,24 @@ def _plus(a: Gauss, b: Gauss) -> Gauss:
     return a[0] + b[0], b[1] if a[1] is None else a[1] if b[1] is None else a[1] + b[1]
 
 
-class Table:
+class PolynomialMatrix:
     """A small matrix of polynomials in m."""
 
     def __init__(self, rows: list[list[fmpz_poly]]) -> None:
         self.rows = rows
 
-    def __mul__(self, other: Any) -> Table:
-        if not isinstance(other, Table):
-            return Table([[entry * other for entry in row] for row in self.rows])
+    def __mul__(self, other: Any) -> PolynomialMatrix:
+        if not isinstance(other, PolynomialMatrix):
+            return PolynomialMatrix([[entry * other for entry in row] for row in self.rows])
         columns = list(zip(*other.rows, strict=True))
-        return Table(
+        return PolynomialMatrix(
             [[sum(x * y for x, y in zip(row, column, strict=True)) for column in columns] for row in self.rows]
         )
 
-    def __add__(self, other: Table) -> Table:
-        return Table([[x + y for x, y in zip(a, b, strict=True)] for a, b in zip(self.rows, other.rows, strict=True)])
+    def __add__(self, other: PolynomialMatrix) -> PolynomialMatrix:
+        return PolynomialMatrix(
+            [[x + y for x, y in zip(a, b, strict=True)] for a, b in zip(self.rows, other.rows, strict=True)]
+        )
 
     def at(self, m: int) -> fmpz_mat:
         """The matrix of integers at m."""
@@ -156,11 +158,11 @@ class Recurrence:
             first = fmpz_poly([p[j - 2]]) if 0 <= j - 2 < len(p) else zero
             return first - q[j] * (m - j) * (m - 1 - j) if j < len(q) else first
 
-        def tables(p: list[int], q: list[int], diagonal: fmpz_poly) -> tuple[Table, Table]:
+        def tables(p: list[int], q: list[int], diagonal: fmpz_poly) -> tuple[PolynomialMatrix, PolynomialMatrix]:
             last = [coefficient(p, q, j) for j in range(r, 0, -1)]
             shift = [[diagonal if k == n + 1 else zero for k in range(r)] for n in range(r - 1)]
             factors = [fmpz_poly([1]), m, fmpz_poly([(-1) ** i]), m * (-1) ** (i + 1)][: 4 if mirror else 2]
-            return Table([*shift, last]), Table([[f * entry for entry in last] for f in factors])
+            return PolynomialMatrix([*shift, last]), PolynomialMatrix([[f * entry for entry in last] for f in factors])
 
         C, R = tables(self.P[0], self.Q[0], D)
         if self.is_real:
@@ -179,7 +181,9 @@ def make_block(leaf: Run, m: int, leaves: int) -> Run:
     return make_block(leaf, m + half * LEAF, leaves - half).after(first)
 
 
-def _sum_series(system: System, frame: Frame, z: Point, mirror: bool, prec: int) -> tuple[Any, list[tuple[arb, arb]]]:
+def _sum_series(
+    system: System, frame: Frame, z: ExactPoint, mirror: bool, prec: int
+) -> tuple[Any, list[tuple[arb, arb]]]:
     """Sums in balls, rows Y, Y' (and at -v), columns b = (1, 0, ...) and (0, 1, ...), and for either column the bounds of |e|
     and |e_v|: blocks until these are about 2^-prec."""
     steps = Recurrence(*shift(system, frame.centre, z.scaled(frame.scale)))
@@ -239,7 +243,7 @@ def is_split(system: System, prec: int) -> bool:
     return not system.radius and prec > max(_LOWEST, (_ENTIRE if len(system.den) == 1 else _SINGULAR) * order**3)
 
 
-def split_legs(system: System, frame: Frame, target: Point, prec: int, *, mirror: bool = False) -> list[Matrix]:
+def split_legs(system: System, frame: Frame, target: ExactPoint, prec: int, *, mirror: bool = False) -> list[Matrix]:
     """Enclosure of the transition matrix from the centre to a `target` in the disc, and with `mirror` of that to 2 c - target.
 
     The numbers of centre and target should be short.
@@ -259,7 +263,7 @@ def split_legs(system: System, frame: Frame, target: Point, prec: int, *, mirror
         return matrices
 
 
-def bit_burst(system: System, frame: Frame, target: Point, prec: int) -> list[Matrix]:
+def bit_burst(system: System, frame: Frame, target: ExactPoint, prec: int) -> list[Matrix]:
     """The matrices, in order, of a chain of steps from the centre to any `target` of the disc.
 
     The chain is homotopic to the straight line: the points s_k lie within 2^-16 scales of the disc, and there is no singular
@@ -284,7 +288,9 @@ def bit_burst(system: System, frame: Frame, target: Point, prec: int) -> list[Ma
     return matrices
 
 
-def legs(system: System, frame: Frame, enter: Point, leave: Point, prec: int) -> tuple[list[Matrix], list[Matrix]]:
+def legs(
+    system: System, frame: Frame, enter: ExactPoint, leave: ExactPoint, prec: int
+) -> tuple[list[Matrix], list[Matrix]]:
     """The factors, in order, of the matrices from the centre to both junctions of a disc."""
     if enter == frame.centre + frame.centre - leave and _height(frame.seen(leave)) <= 2 * _BURST:
         stop, start = split_legs(system, frame, leave, prec, mirror=True)
@@ -293,6 +299,6 @@ def legs(system: System, frame: Frame, enter: Point, leave: Point, prec: int) ->
     return start_factors, stop_factors
 
 
-def _height(z: Point) -> int:
+def _height(z: ExactPoint) -> int:
     """The bits of the longest of the integers that z is made of."""
     return max(int(x.height_bits()) for x in (z.x, z.y))

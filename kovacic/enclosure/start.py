@@ -25,7 +25,7 @@ from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
 from kovacic.enclosure.forcing import forcing_of
 from kovacic.enclosure.matrices import State, product
-from kovacic.enclosure.points import Point, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System
@@ -52,9 +52,9 @@ class Start:
         return spread(problem, self.place, (y, dy))
 
 
-def middle(number: Number) -> Point:
+def middle(number: Number) -> ExactPoint:
     """The point, or the midpoint of its ball."""
-    return number if isinstance(number, Point) else number.point()
+    return number if isinstance(number, ExactPoint) else number.point()
 
 
 def spread(problem: NumericProblem, number: Number | Singular, state: State) -> State:
@@ -90,7 +90,7 @@ def read_start(
     if which == "decaying":
         if dy0 is not None or frobenius is not None:
             raise InputError("the decaying solution is given by y0 alone")
-        return Start(as_number(x0, "x0"), (as_number(1 if y0 is None else y0, "y0"), Point(0)), True)
+        return Start(as_number(x0, "x0"), (as_number(1 if y0 is None else y0, "y0"), ExactPoint(0)), True)
     if sum((y0 is not None or dy0 is not None, frobenius is not None, which is not None)) != 1:
         raise InputError("one start is expected", hint="y0= and dy0=, or frobenius=(c1, c2), or which='regular'")
     if frobenius is None and which is None:
@@ -113,13 +113,13 @@ def place_of(problem: NumericProblem, x0: object, name: str) -> Singular:
     if str(x0) in ("oo", "inf", "+inf"):
         return Singular.at(problem, None)
     number = as_number(x0, name)
-    if isinstance(number, Point):
+    if isinstance(number, ExactPoint):
         return Singular.at(problem, number)
     with working_precision(256):
         return Singular.at(problem, number.value())
 
 
-def logarithmic_derivative(system: System, x0: Point, prec: int) -> acb:
+def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
     """A ball that contains y'/y at x0 of the recessive solution, to about `prec` bits, by equation (1).
 
     Raises InputError where no solution of y'' = S y decays in this way: S must be positive for large x, and grow or fall
@@ -139,6 +139,6 @@ def logarithmic_derivative(system: System, x0: Point, prec: int) -> acb:
         growth += (num(x) / den(x)).real.sqrt() * step / 2
         if step > 1 << 200:
             raise LimitExceeded("no starting point was found for the decaying solution", limit="unknown_degree")
-    m, n, _dm, dn = product(piece_matrices(system, Point(first + step), x0, prec + 20))
+    m, n, _dm, dn = product(piece_matrices(system, ExactPoint(first + step), x0, prec + 20))
     n, dn = -n, -dn
     return dn / n + acb(arb(0.5, 0.5)) / (n * (n + acb(arb(0.5, 0.5)) * (m - n)))

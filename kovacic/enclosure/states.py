@@ -10,11 +10,11 @@ from typing import Any, Literal
 from flint import arb
 
 from kovacic.enclosure.classical import Classical, NotServed
-from kovacic.enclosure.closed_form import ClosedForm, closed_form_of
+from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.journey import Journey
-from kovacic.enclosure.points import Point, as_point, to_acb, working_precision
-from kovacic.enclosure.precision import METHODS, Evaluation, Method, number_of_digits, raise_precision
+from kovacic.enclosure.points import ExactPoint, as_point, to_acb, working_precision
+from kovacic.enclosure.precision import METHODS, Method, PointValue, number_of_digits, raise_precision
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import read_start
@@ -47,8 +47,8 @@ def evaluate_states(
     method: Method | None = None,
     path: Path = None,
     limits: Limits | None = None,
-) -> tuple[Evaluation, ...]:
-    """As `evaluate`, with y and y' and the circumstances, for each of `points` (no warnings: see `Evaluation.note`)."""
+) -> tuple[PointValue, ...]:
+    """As `evaluate`, with y and y' and the circumstances, for each of `points` (no warnings: see `PointValue.note`)."""
     limits = limits_of(limits)
     digits = number_of_digits(digits, limits)
     if method is not None and method not in METHODS:
@@ -114,7 +114,7 @@ def journey_of(
 def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
     """Raise InputError for a number such as sqrt(2) that is a singular point; rational points are compared exactly."""
     constants = problem.embedded
-    unclear = [number for number in numbers if constants is not None or not isinstance(number, Point)]
+    unclear = [number for number in numbers if constants is not None or not isinstance(number, ExactPoint)]
     if not unclear:
         return
     with working_precision(256):
@@ -128,7 +128,7 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
 
 def _closed_form(
     journey: Journey, targets: Sequence[Number], method: Method | None, digits: int
-) -> ClosedForm | Classical | None:
+) -> CaseOneForm | Classical | None:
     """The closed form, where it is asked for or the cheaper way by a rule that was measured
     (`benchmarks/enclosure_work_precision.py`).
 
@@ -148,7 +148,7 @@ def _closed_form(
         closed = closed_form_of(problem)
         if closed is not None and (closed.is_elementary if method else closed.is_cheap(digits)):
             return closed
-    if few or not all(isinstance(target, Point) and target.is_real() for target in targets):
+    if few or not all(isinstance(target, ExactPoint) and target.is_real() for target in targets):
         classical = journey.classical
         if classical is not None and (method or classical.is_cheap(digits, from_zero=from_zero)):
             return classical

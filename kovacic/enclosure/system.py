@@ -18,7 +18,7 @@ from flint import acb, acb_poly, arb, fmpq_poly, fmpz_poly
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly, to_fraction
-from kovacic.enclosure.points import Point, midpoint, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, midpoint, to_acb, working_precision
 from kovacic.errors import InputError
 from kovacic.limits import check_duration
 
@@ -73,7 +73,7 @@ class System:
         re = acb_poly(list(getattr(self, which)))
         return re if self.imaginary is None else re + acb_poly(list(self.imaginary[which == "den"])) * acb(0, 1)
 
-    def along(self, which: Which, a: Point, step: Point) -> tuple[fmpq_poly, fmpq_poly]:
+    def along(self, which: Which, a: ExactPoint, step: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
         """Real and imaginary part of numerator or denominator at a + t step, as polynomials in t over Q."""
         real, imag = _along(getattr(self, which), a, step)
         if self.imaginary is None:
@@ -94,15 +94,15 @@ class System:
         with working_precision(prec):
             return tuple((z, k) for z, k in found if self.polynomial(which)(z).contains(0))
 
-    def singular_points(self, prec: int) -> list[Point]:
+    def singular_points(self, prec: int) -> list[ExactPoint]:
         """The midpoints of the enclosures of the singular points; on the real axis exactly where the singular point is."""
         return [midpoint(root) for root, _ in self.roots("den", prec)]
 
-    def is_singular(self, point: Point) -> bool:
+    def is_singular(self, point: ExactPoint) -> bool:
         """True if the point is a zero of the denominator, decided exactly."""
         if point.is_real() and self.imaginary is None:
             return bool(fmpz_poly(list(self.den))(point.x) == 0)
-        return all(part == 0 for part in self.along("den", point, Point(0)))
+        return all(part == 0 for part in self.along("den", point, ExactPoint(0)))
 
 
 @lru_cache(maxsize=64)
@@ -115,7 +115,7 @@ def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
         return tuple((root, int(k)) for root, k in poly.complex_roots()) if poly.degree() > 0 else ()
 
 
-def _along(coefficients: tuple[int, ...], a: Point, step: Point) -> tuple[fmpq_poly, fmpq_poly]:
+def _along(coefficients: tuple[int, ...], a: ExactPoint, step: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
     lines = fmpq_poly([a.x, step.x]), fmpq_poly([a.y, step.y])
     if lines[1] == 0:
         return fmpq_poly(list(coefficients))(lines[0]), fmpq_poly([])
@@ -125,7 +125,7 @@ def _along(coefficients: tuple[int, ...], a: Point, step: Point) -> tuple[fmpq_p
     return real, imag
 
 
-def offsets(system: System, centre: Point) -> Zeros:
+def offsets(system: System, centre: ExactPoint) -> Zeros:
     """The singular points seen from `centre` (point - centre), to 40 relative bits at least, with their multiplicities.
 
     Raises InputError if the centre is one of them.
@@ -142,13 +142,13 @@ def offsets(system: System, centre: Point) -> Zeros:
         prec *= 2
 
 
-def distance_lower(system: System, centre: Point) -> arb | None:
+def distance_lower(system: System, centre: ExactPoint) -> arb | None:
     """A proven lower bound, positive and exact, of the distance to the nearest singular point; None if there is none."""
     with working_precision(64):
         return min((d.abs_lower() for d, _ in offsets(system, centre)), default=None)
 
 
-def is_apart(system: System, *points: Point) -> bool:
+def is_apart(system: System, *points: ExactPoint) -> bool:
     """Is it certain that no singular point lies in the convex hull of these?  In some direction each is beyond all of them."""
     with working_precision(128):
         left = [root for root, _ in system.roots("den", 128)]
@@ -160,7 +160,7 @@ def is_apart(system: System, *points: Point) -> bool:
     return not left and not system.radius
 
 
-def check_segment(system: System, a: Point, b: Point) -> None:
+def check_segment(system: System, a: ExactPoint, b: ExactPoint) -> None:
     """Raise InputError if the closed segment from a to b contains a singular point, with that point and the distances.
 
     Exact: with z = x or, on a vertical line, z = iy for its points, den(z + ...) = A + i B with A, B in Q[x] or Q[y]; the line
@@ -201,7 +201,7 @@ def check_segment(system: System, a: Point, b: Point) -> None:
 def name_of(system: System, point: acb) -> str:
     """The singular point in this ball, in words: its exact value where that is a short Gaussian rational, else 12 digits."""
     middle = midpoint(point)
-    guess = Point(*(part.limit_denominator(_SHORT) for part in (middle.re, middle.im)))
+    guess = ExactPoint(*(part.limit_denominator(_SHORT) for part in (middle.re, middle.im)))
     if point.overlaps(to_acb(guess)) and system.is_singular(guess):
         return str(guess)
     re, im = (part.mid().str(12, radius=False) + "..." for part in (point.real, point.imag))

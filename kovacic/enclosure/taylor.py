@@ -36,7 +36,7 @@ from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
 
 from kovacic.enclosure.frame import Frame, Parts, log2, norm
 from kovacic.enclosure.matrices import Matrix, State, fundamental
-from kovacic.enclosure.points import Point, floor, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, floor, to_acb, working_precision
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
@@ -44,7 +44,7 @@ _CHECKED = 64  # the clock is read every so many terms
 
 
 @dataclass(frozen=True)
-class Expansion:
+class TaylorSeries:
     """Two polynomial approximations Y/2^w (columns of the identity at u = 0) and their defects.
 
     `defect[k]` bounds sum |r_n| 2^w, the coefficient sum of q Y'' - p Y for column k.
@@ -56,7 +56,7 @@ class Expansion:
     defect: tuple[int, int]
 
 
-def expand(frame: Frame, prec: int) -> Expansion:
+def expand(frame: Frame, prec: int) -> TaylorSeries:
     """Both columns so that the error in the disc should be about 2^-prec (what it is, `transition` says)."""
     p, q, bound = frame.p, frame.q, frame.bound
     q_0 = q[0][0]
@@ -75,7 +75,7 @@ def expand(frame: Frame, prec: int) -> Expansion:
                 size = sum(abs(int(v)) for part in (re, im) if part is not None for v in part)
                 defect += floor((frame.blur * q_0 * size).upper()) + 1
         defects.append(defect)
-    return Expansion(frame, w, (columns[0], columns[1]), (defects[0], defects[1]))
+    return TaylorSeries(frame, w, (columns[0], columns[1]), (defects[0], defects[1]))
 
 
 def _cut(parts: Parts, excess: int) -> Parts:
@@ -145,13 +145,13 @@ def _proven_defect(p: Parts, q: Parts, excess: int, re: list[Any], im: list[Any]
     return int(total) << excess
 
 
-def transition(expansion: Expansion, target: Point) -> Matrix:
+def transition(expansion: TaylorSeries, target: ExactPoint) -> Matrix:
     """Enclosure of the transition matrix from the centre to a point of the disc."""
     first, second = (states_at(expansion, start, [target])[0] for start in ((acb(1), acb(0)), (acb(0), acb(1))))
     return fundamental(first, second)
 
 
-def states_at(expansion: Expansion, state: State, targets: list[Point]) -> list[State]:
+def states_at(expansion: TaylorSeries, state: State, targets: list[ExactPoint]) -> list[State]:
     """The states at points of the disc from the state at the centre."""
     frame = expansion.frame
     with working_precision(expansion.w + 10):

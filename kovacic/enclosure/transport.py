@@ -27,10 +27,10 @@ from flint import fmpq
 
 from kovacic.enclosure.frame import Frame, fitting, least_growth, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
-from kovacic.enclosure.points import Point, power_of_two, to_double
+from kovacic.enclosure.points import ExactPoint, power_of_two, to_double
 from kovacic.enclosure.splitting import is_split, legs
 from kovacic.enclosure.system import System, check_segment, distance_lower, is_apart
-from kovacic.enclosure.taylor import Expansion, expand, states_at, transition
+from kovacic.enclosure.taylor import TaylorSeries, expand, states_at, transition
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, count_work, watched_seconds
 
@@ -56,12 +56,14 @@ class Disc:
     """
 
     frame: Frame
-    enter: Point
-    leave: Point
+    enter: ExactPoint
+    leave: ExactPoint
     stop: Any
-    begin: Point | None
+    begin: ExactPoint | None
 
-    def served(self, system: System, a: Point, targets: Sequence[tuple[int, complex, Point]]) -> Iterator[int]:
+    def served(
+        self, system: System, a: ExactPoint, targets: Sequence[tuple[int, complex, ExactPoint]]
+    ) -> Iterator[int]:
         """The numbers of those targets, given with their doubles, to which the disc carries a solution from a as the straight
         line does: in it, and without a singular point in the triangle of a, `begin` and the target, so that both ways are
         homotopic; or the end of the way.
@@ -70,7 +72,7 @@ class Disc:
             return
         centre, scale, e = self.frame.centre, self.frame.scale, self.frame.e
         unit = math.ldexp(1.0, e) if abs(e) < 900 else -1.0  # beyond the range of doubles the end alone is served
-        corners = (centre + Point(x * scale, y * scale) for x in (1, -1) for y in (1, -1))
+        corners = (centre + ExactPoint(x * scale, y * scale) for x in (1, -1) for y in (1, -1))
         free, near = self.begin == a or is_apart(system, a, *corners), to_double(centre)
         for number, place, x in targets:
             inside = abs(place - near) + _ROUNDED * (abs(place) + abs(near)) <= unit  # `Frame.seen` checks it exactly
@@ -78,7 +80,7 @@ class Disc:
                 yield number
 
 
-def piece_matrices(system: System, a: Point, b: Point, prec: int) -> list[Matrix]:
+def piece_matrices(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> list[Matrix]:
     """The matrices of the discs that cover the straight piece from a to b, in order (each accurate to about 2^-prec)."""
     return [leg.matrix for leg in walk(system, a, b, prec)]
 
@@ -88,7 +90,7 @@ class Leg:
     """One disc of a way: its expansion, or the matrix that came from splitting."""
 
     disc: Disc
-    expansion: Expansion | None
+    expansion: TaylorSeries | None
     split: Matrix | None = None
 
     @cached_property
@@ -107,13 +109,13 @@ class Leg:
         matrix = transition(self.expansion, self.disc.leave)
         return matrix if self.to_centre is None else multiply(matrix, self.to_centre)
 
-    def states(self, state: State, targets: list[Point]) -> list[State]:
+    def states(self, state: State, targets: list[ExactPoint]) -> list[State]:
         """The states in the disc, from the one where it is entered: one polynomial for all of them."""
         assert self.expansion is not None
         return states_at(self.expansion, state if self.to_centre is None else apply(self.to_centre, state), targets)
 
 
-def walk(system: System, a: Point, b: Point, prec: int, targets: int = 0) -> Iterator[Leg]:
+def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int = 0) -> Iterator[Leg]:
     """The discs of the straight way from a to b; with so many `targets` beside it none of them is split."""
     begun, split = watched_seconds(math.inf), is_split(system, prec) and not targets
     growth = max(_FEWER_BITS, prec * _GROWTH) if targets >= _MANY else None
@@ -134,7 +136,7 @@ def walk(system: System, a: Point, b: Point, prec: int, targets: int = 0) -> Ite
             raise LimitExceeded(f"the path needs more than {_MAX_DISCS} steps", limit="unknown_degree")
 
 
-def _refuse(system: System, a: Point, b: Point, prec: int, each: float) -> None:
+def _refuse(system: System, a: ExactPoint, b: ExactPoint, prec: int, each: float) -> None:
     """Raise as soon as it is clear that the limits don't allow all steps from a to b, of so many seconds each.
 
     A disc of growth g bits, on either side of its centre, has int |S|^(1/2) below 2 (g + 10) log 2: that gives the least
@@ -154,7 +156,7 @@ def _allowed_growth(prec: int) -> float:
     return max(100.0, prec * _GROWTH)
 
 
-def cover(system: System, a: Point, b: Point, prec: int, growth: float | None = None) -> Iterator[Disc]:
+def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, growth: float | None = None) -> Iterator[Disc]:
     """The discs that cover the straight piece from a to b, in order: O(log(far/near)) of them for each singular point at a
     distance between near and far."""
     if a == b:
@@ -178,15 +180,15 @@ class Piece:
     """The straight piece from a to b, and by how many bits the solutions may grow in a disc."""
 
     system: System
-    a: Point
-    b: Point
+    a: ExactPoint
+    b: ExactPoint
     growth: float
 
-    def at(self, t: Any) -> Point:
+    def at(self, t: Any) -> ExactPoint:
         """The point a + t (b - a)."""
         return self.b if t == 1 else self.a + (self.b - self.a).scaled(t)
 
-    def next_disc(self, t: Any, enter: Point, guess: int | None) -> Disc | None:
+    def next_disc(self, t: Any, enter: ExactPoint, guess: int | None) -> Disc | None:
         """The disc that is entered at the parameter t: as large as the singular points and the growth of the solutions allow.
 
         None if the junction `enter` lies off the path and no disc down to an eighth of the last one (`guess`) contains both.
@@ -209,7 +211,7 @@ class Piece:
                 return None
         raise LimitExceeded("no disc of positive size was found for the next step", limit="unknown_degree")
 
-    def _disc(self, t: Any, enter: Point, e: int) -> Disc | None:
+    def _disc(self, t: Any, enter: ExactPoint, e: int) -> Disc | None:
         """The disc of scale 2^e entered at t, its centre ahead by one scale (half way to the end if that's within reach);
         None if it doesn't fit."""
         step, unit, grain = self.b - self.a, power_of_two(e), power_of_two(e - 4)
@@ -219,8 +221,8 @@ class Piece:
         elif self.a.is_real() and self.b.is_real():
             # rounded towards the junction behind: a nearest point may lie beyond the scale from there
             sign = 1 if step.x > 0 else -1
-            centre = Point(sign * (((sign * enter.x + unit) / grain).floor() * grain))
-            leave = Point(centre.x + sign * unit)
+            centre = ExactPoint(sign * (((sign * enter.x + unit) / grain).floor() * grain))
+            leave = ExactPoint(centre.x + sign * unit)
             stop = (leave.x - self.a.x) / step.x
         else:  # short dyadic numbers, just below unit/|step| and twice as much
             square = unit * unit / size

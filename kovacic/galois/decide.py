@@ -23,7 +23,7 @@ from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Problem, analyse
 from kovacic.engine.riccati import Form
 from kovacic.errors import LimitExceeded
-from kovacic.galois.group import Ground, Group, Kind
+from kovacic.galois.group import Ground, Group, GroupKind
 from kovacic.galois.imprimitive import imprimitive_group
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
@@ -38,9 +38,9 @@ def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) ->
     if decision.undecided is not None:
         return None
     if decision.structure is None:
-        return Group(Kind.SL2, Ground.NO_LIOUVILLIAN)
+        return Group(GroupKind.SL2, Ground.NO_LIOUVILLIAN)
     if decision.structure.case == 3:
-        return Group(Kind(decision.structure.value), Ground.PRIMITIVE)
+        return Group(GroupKind(decision.structure.value), Ground.PRIMITIVE)
     assert decision.semi_invariant is not None
     problem = analyse(S, Budget(limits))
     if decision.structure is Structure.IMPRIMITIVE:
@@ -61,13 +61,13 @@ def _reducible(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> G
         F = space[0].semi_invariant(problem)
         square = _is_square(problem, F)
     if isinstance(residues, Ground):
-        return Group(Kind.BOREL if F is None else Kind.MULTIPLICATIVE, residues, form=F)
+        return Group(GroupKind.BOREL if F is None else GroupKind.MULTIPLICATIVE, residues, form=F)
     n = lcm(1, *(r.denominator for r in residues))
     if square and isinstance(space, list) and len(space) == 3:
-        return Group(Kind.CYCLIC, Ground.ALL_INVARIANT, n, F)
+        return Group(GroupKind.CYCLIC, Ground.ALL_INVARIANT, n, F)
     if F is None or square:  # y1^n is rational, and the second solution y1 int y1^-2 isn't, over C(x, y1)
-        return Group(Kind.ADDITIVE, Ground.RESIDUES, n, F)
-    return Group(Kind.CYCLIC, Ground.RESIDUES, n, F)
+        return Group(GroupKind.ADDITIVE, Ground.RESIDUES, n, F)
+    return Group(GroupKind.CYCLIC, Ground.RESIDUES, n, F)
 
 
 def _is_square(problem: Problem, F: SemiInvariant) -> bool:

@@ -29,11 +29,11 @@ from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.decision import Decision, SemiInvariant
 from kovacic.engine.places import analyse
 from kovacic.galois.decide import rational_residues
-from kovacic.galois.group import Ground, Group, Kind
-from kovacic.galois.imprimitive import Curve, curve_of
+from kovacic.galois.group import Ground, Group, GroupKind
+from kovacic.galois.imprimitive import SquareRootCurve, curve_of
 from kovacic.limits import Budget
 
-_COMMON_QUOTIENT = {Kind.TETRAHEDRAL: 3, Kind.OCTAHEDRAL: 2, Kind.ICOSAHEDRAL: 1}
+_COMMON_QUOTIENT = {GroupKind.TETRAHEDRAL: 3, GroupKind.OCTAHEDRAL: 2, GroupKind.ICOSAHEDRAL: 1}
 
 
 class Torus(NamedTuple):
@@ -70,19 +70,19 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
     kind, f, given = normal_form.kind, decision.semi_invariant, normal_form.name
     if N == 1:
         return EquationGroup(normal_form, 1, given, normal_form.finite, normal_form.order)
-    if kind is Kind.SL2:
+    if kind is GroupKind.SL2:
         name = "GL2" if N is None else "SL2" if N == 2 else f"SL2 with the scalars mu_{lcm(2, N)}"
         return EquationGroup(normal_form, N, name, False)
     assert f is not None
-    if kind in (Kind.ADDITIVE, Kind.BOREL):
+    if kind in (GroupKind.ADDITIVE, GroupKind.BOREL):
         torus = _torus(*_forms(f.theta, rho))
         return EquationGroup(normal_form, N, "G_a" if torus.order == 1 else f"G_a extended by {torus.name}", False)
-    if kind in (Kind.CYCLIC, Kind.MULTIPLICATIVE):
+    if kind in (GroupKind.CYCLIC, GroupKind.MULTIPLICATIVE):
         torus = _torus(*_forms(f.theta, rho))
         return EquationGroup(normal_form, N, torus.name, torus.order is not None, torus.order)
     if N is None:
         return EquationGroup(normal_form, N, f"{given} with the scalars G_m", False)
-    if kind is Kind.INFINITE_DIHEDRAL:
+    if kind is GroupKind.INFINITE_DIHEDRAL:
         return EquationGroup(normal_form, N, _infinite_dihedral(N, f, rho), False)
     order = _finite_order(S, normal_form, f, rho, N)
     name = f"{given} with scalars" if order is None else f"{given} with scalars, order {order}"
@@ -128,7 +128,7 @@ def _is_integral(theta: RatFunc) -> bool:
     return not isinstance(residues, Ground) and all(r.denominator == 1 for r in residues)
 
 
-def _residues_on_curve(curve: Curve, rho: RatFunc) -> list[tuple[Fraction, Fraction]]:
+def _residues_on_curve(curve: SquareRootCurve, rho: RatFunc) -> list[tuple[Fraction, Fraction]]:
     """The residues of lambda_1 and lambda_2 at the points of the curve, up to integers."""
     residues = {part.factor: part.rational or Fraction(0) for part in decompose(rho).residues}
     total = sum((r * factor.degree for factor, r in residues.items()), Fraction(0))

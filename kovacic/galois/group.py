@@ -13,7 +13,7 @@ from kovacic.decision import GroupClaim, SemiInvariant
 from kovacic.numerals import digits
 
 
-class Kind(Enum):
+class GroupKind(Enum):
     """The families of algebraic subgroups of SL2(C)."""
 
     CYCLIC = "cyclic"
@@ -68,25 +68,27 @@ class _Facts(NamedTuple):
 
 
 _FACTS = {
-    Kind.CYCLIC: _Facts("mu_{n}", r"\mu_{{{n}}}", "the cyclic group of order {n}"),
-    Kind.MULTIPLICATIVE: _Facts("G_m", r"\mathbb{{G}}_m", "the diagonal matrices of determinant 1", 1),
-    Kind.ADDITIVE: _Facts("G_a extended by mu_{n}", r"\mathbb{{G}}_a \rtimes \mu_{{{n}}}", _UPPER + "c^{n} = 1", 1),
-    Kind.BOREL: _Facts("Borel", r"\mathbb{{G}}_a \rtimes \mathbb{{G}}_m", "all upper triangular matrices of determinant 1", 2),
-    Kind.DICYCLIC: _Facts("dicyclic of order {order}", r"\mathrm{{Dic}}_{{{n}}}", "the dicyclic group of order {order}"),
-    Kind.INFINITE_DIHEDRAL: _Facts("N(T)", "N(T)", "the normaliser of the diagonal matrices, the infinite dihedral group", 1),
-    Kind.IMPRIMITIVE: _Facts("dicyclic or N(T), order not determined", r"\subseteq N(T)", "a subgroup of N(T), dicyclic if it"
-                             " is finite; its order wasn't determined", None),
-    Kind.TETRAHEDRAL: _Facts("SL(2,3)", r"\mathrm{{SL}}(2,3)", "the binary tetrahedral group", 0, 24),
-    Kind.OCTAHEDRAL: _Facts("binary octahedral", "2O", "the binary octahedral group", 0, 48),
-    Kind.ICOSAHEDRAL: _Facts("SL(2,5)", r"\mathrm{{SL}}(2,5)", "the binary icosahedral group", 0, 120),
-    Kind.SL2: _Facts("SL2", r"\mathrm{{SL}}_2(\mathbb{{C}})", "all matrices of determinant 1", 3),
+    GroupKind.CYCLIC: _Facts("mu_{n}", r"\mu_{{{n}}}", "the cyclic group of order {n}"),
+    GroupKind.MULTIPLICATIVE: _Facts("G_m", r"\mathbb{{G}}_m", "the diagonal matrices of determinant 1", 1),
+    GroupKind.ADDITIVE: _Facts("G_a extended by mu_{n}", r"\mathbb{{G}}_a \rtimes \mu_{{{n}}}", _UPPER + "c^{n} = 1", 1),
+    GroupKind.BOREL: _Facts("Borel", r"\mathbb{{G}}_a \rtimes \mathbb{{G}}_m",
+                            "all upper triangular matrices of determinant 1", 2),
+    GroupKind.DICYCLIC: _Facts("dicyclic of order {order}", r"\mathrm{{Dic}}_{{{n}}}", "the dicyclic group of order {order}"),
+    GroupKind.INFINITE_DIHEDRAL: _Facts("N(T)", "N(T)",
+                                        "the normaliser of the diagonal matrices, the infinite dihedral group", 1),
+    GroupKind.IMPRIMITIVE: _Facts("dicyclic or N(T), order not determined", r"\subseteq N(T)",
+                                  "a subgroup of N(T), dicyclic if it is finite; its order wasn't determined", None),
+    GroupKind.TETRAHEDRAL: _Facts("SL(2,3)", r"\mathrm{{SL}}(2,3)", "the binary tetrahedral group", 0, 24),
+    GroupKind.OCTAHEDRAL: _Facts("binary octahedral", "2O", "the binary octahedral group", 0, 48),
+    GroupKind.ICOSAHEDRAL: _Facts("SL(2,5)", r"\mathrm{{SL}}(2,5)", "the binary icosahedral group", 0, 120),
+    GroupKind.SL2: _Facts("SL2", r"\mathrm{{SL}}_2(\mathbb{{C}})", "all matrices of determinant 1", 3),
 }  # fmt: skip
 #: Where a small n has a name of its own.
 _SMALL = {
-    (Kind.CYCLIC, 1): _Facts("trivial", r"\{{1\}}", "the trivial group"),
-    (Kind.ADDITIVE, 1): _Facts("G_a", r"\mathbb{{G}}_a", _UPPER + "c = 1", 1),
-    (Kind.ADDITIVE, 2): _FACTS[Kind.ADDITIVE]._replace(description=_UPPER + "c = 1 or -1"),
-    (Kind.DICYCLIC, 2): _FACTS[Kind.DICYCLIC]._replace(description="the quaternion group of order {order}"),
+    (GroupKind.CYCLIC, 1): _Facts("trivial", r"\{{1\}}", "the trivial group"),
+    (GroupKind.ADDITIVE, 1): _Facts("G_a", r"\mathbb{{G}}_a", _UPPER + "c = 1", 1),
+    (GroupKind.ADDITIVE, 2): _FACTS[GroupKind.ADDITIVE]._replace(description=_UPPER + "c = 1 or -1"),
+    (GroupKind.DICYCLIC, 2): _FACTS[GroupKind.DICYCLIC]._replace(description="the quaternion group of order {order}"),
 }
 
 
@@ -95,13 +97,13 @@ class Group:
     """A subgroup of SL2(C) up to conjugation.
 
     `n` is the parameter of the family where it has one: the order of the cyclic group or of the component group of
-    {(c, b; 0, 1/c): c^n = 1}, and a quarter of the order of a dicyclic group.  Kind.IMPRIMITIVE says that the order wasn't
+    {(c, b; 0, 1/c): c^n = 1}, and a quarter of the order of a dicyclic group.  GroupKind.IMPRIMITIVE says that the order wasn't
     determined: then n is the least value that wasn't excluded, and the group may be infinite.  `ground` says why; for
     Ground.INVARIANT `form` is a rational form of degree 2n that isn't a power of y1 y2; of a reducible group, the rational
     form of degree 2, if there is one.  `orders` has primes p with the orders of the divisor of u modulo p that were used.
     """
 
-    kind: Kind
+    kind: GroupKind
     ground: Ground
     n: int | None = None
     form: SemiInvariant | None = field(default=None, compare=False, repr=False)
@@ -139,19 +141,19 @@ class Group:
     @property
     def order(self) -> int | None:
         """The number of elements; None if that is infinite or not determined (see `finite`)."""
-        if self.kind is Kind.DICYCLIC and self.n is not None:
+        if self.kind is GroupKind.DICYCLIC and self.n is not None:
             return 4 * self.n
-        return self.n if self.kind is Kind.CYCLIC else self._facts.order
+        return self.n if self.kind is GroupKind.CYCLIC else self._facts.order
 
     @property
     def finite(self) -> bool | None:
         """Is the group finite, so that all solutions are algebraic functions?  None if that wasn't determined."""
-        return None if self.kind is Kind.IMPRIMITIVE else self.order is not None
+        return None if self.kind is GroupKind.IMPRIMITIVE else self.order is not None
 
     @property
     def order_at_least(self) -> int | None:
         """A lower bound for the order where it wasn't determined."""
-        return 4 * self.n if self.kind is Kind.IMPRIMITIVE and self.n is not None else None
+        return 4 * self.n if self.kind is GroupKind.IMPRIMITIVE and self.n is not None else None
 
     @property
     def dimension(self) -> int | None:
@@ -169,19 +171,19 @@ class Group:
 
         I, half = sympy.I, sympy.Rational(1, 2)  # noqa: E741 - SymPy's name
         swap = sympy.Matrix([[0, 1], [-1, 0]])
-        if self.kind is Kind.CYCLIC:
+        if self.kind is GroupKind.CYCLIC:
             return () if self.n == 1 else (_rotation(self.n),)
-        if self.kind is Kind.MULTIPLICATIVE:
+        if self.kind is GroupKind.MULTIPLICATIVE:
             t = sympy.Symbol("t", nonzero=True)
             return (sympy.diag(t, 1 / t),)
-        if self.kind is Kind.DICYCLIC and self.n is not None:
+        if self.kind is GroupKind.DICYCLIC and self.n is not None:
             return (_rotation(2 * self.n), swap)
         third = half * sympy.Matrix([[-1 - I, -1 - I], [1 - I, -1 + I]])
-        if self.kind is Kind.TETRAHEDRAL:
+        if self.kind is GroupKind.TETRAHEDRAL:
             return (sympy.diag(I, -I), swap, third)
-        if self.kind is Kind.OCTAHEDRAL:
+        if self.kind is GroupKind.OCTAHEDRAL:
             return (_rotation(8), swap, third)
-        if self.kind is Kind.ICOSAHEDRAL:
+        if self.kind is GroupKind.ICOSAHEDRAL:
             z = sympy.exp(2 * sympy.pi * I / 5)
             T = sympy.Matrix([[z**4 - z, z**2 - z**3], [z**2 - z**3, z - z**4]]) / sympy.sqrt(5)
             return (-sympy.diag(z**3, z**2), T)

@@ -42,7 +42,7 @@ from kovacic.engine.places import Kind as PlaceKind
 from kovacic.engine.places import Problem
 from kovacic.engine.riccati import residue
 from kovacic.errors import LimitExceeded
-from kovacic.galois.group import Ground, Group, Kind
+from kovacic.galois.group import Ground, Group, GroupKind
 from kovacic.galois.jacobian import Jacobian
 
 #: Primes whose orders must agree before the invariants are asked.
@@ -56,7 +56,7 @@ _PRIMES_TRIED = 400
 
 
 @dataclass(frozen=True)
-class Point:
+class CurvePoint:
     """The places over the roots of a factor: the valuation e of g there, and the residue of eta (0 without a pole)."""
 
     factor: Poly
@@ -65,11 +65,11 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Curve:
+class SquareRootCurve:
     """z^2 = g with the points that matter: those with e != 0, infinity apart."""
 
-    points: tuple[Point, ...]
-    infinity: Point
+    points: tuple[CurvePoint, ...]
+    infinity: CurvePoint
 
     @property
     def genus(self) -> int:
@@ -84,24 +84,24 @@ def imprimitive_group(problem: Problem, f: SemiInvariant) -> Group:
     """The group of an equation whose semi-invariant f = y1 y2 of degree 2 isn't rational, with two conjugate omegas."""
     singular = [place for place in problem.places if place.kind is not PlaceKind.ORDINARY]
     if any(place.kind is not PlaceKind.REGULAR for place in singular):
-        return Group(Kind.INFINITE_DIHEDRAL, Ground.IRREGULAR)
+        return Group(GroupKind.INFINITE_DIHEDRAL, Ground.IRREGULAR)
     if any(place.delta is None for place in singular):
-        return Group(Kind.INFINITE_DIHEDRAL, Ground.IRRATIONAL_EXPONENT)
+        return Group(GroupKind.INFINITE_DIHEDRAL, Ground.IRRATIONAL_EXPONENT)
     if f.P.field != problem.field:  # three pairs of lines: only the quaternion group has them
-        return Group(Kind.DICYCLIC, Ground.INVARIANT, 2)
+        return Group(GroupKind.DICYCLIC, Ground.INVARIANT, 2)
     curve = curve_of(problem, f)
     l = lcm(1, *(r.denominator for r in curve.residues))  # noqa: E741 - as in the module's text
     if curve.genus == 0:
-        return Group(Kind.DICYCLIC, Ground.GENUS_ZERO, l)
+        return Group(GroupKind.DICYCLIC, Ground.GENUS_ZERO, l)
     if not curve.residues:
-        return Group(Kind.INFINITE_DIHEDRAL, Ground.FIRST_KIND)
+        return Group(GroupKind.INFINITE_DIHEDRAL, Ground.FIRST_KIND)
     try:
         return _of_positive_genus(problem, f, curve, l)
     except LimitExceeded:
-        return Group(Kind.IMPRIMITIVE, Ground.UNDETERMINED, max(l, 2))
+        return Group(GroupKind.IMPRIMITIVE, Ground.UNDETERMINED, max(l, 2))
 
 
-def curve_of(problem: Problem, f: SemiInvariant) -> Curve:
+def curve_of(problem: Problem, f: SemiInvariant) -> SquareRootCurve:
     """The valuations of g = f^2 and the residues of eta."""
     R = 2 * (f.theta * problem.D).num
     points = []
@@ -110,15 +110,15 @@ def curve_of(problem: Problem, f: SemiInvariant) -> Curve:
         e = residue(problem, R, place)
         growth += e * place.degree
         if e:
-            points.append(Point(place.factor, e, place.delta if e == 2 and place.delta else Fraction(0)))
+            points.append(CurvePoint(place.factor, e, place.delta if e == 2 and place.delta else Fraction(0)))
     if f.P.degree > 0:
-        points.append(Point(f.P, 2, Fraction(1)))
+        points.append(CurvePoint(f.P, 2, Fraction(1)))
     place, e = problem.infinity, 4 - growth
     delta = Fraction(1) if place.kind is PlaceKind.ORDINARY else place.delta
-    return Curve(tuple(points), Point(place.factor, e, delta if e == 2 and delta else Fraction(0)))
+    return SquareRootCurve(tuple(points), CurvePoint(place.factor, e, delta if e == 2 and delta else Fraction(0)))
 
 
-def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: Curve, l: int) -> Group:  # noqa: E741
+def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: SquareRootCurve, l: int) -> Group:  # noqa: E741
     orders: list[tuple[int, int]] = []
     for h in _small_homomorphisms(problem.field, curve.genus):
         problem.budget.check()
@@ -130,7 +130,7 @@ def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: Curve, l: int)
             break
         orders.append((h.p, k))
         if k != orders[0][1]:
-            return Group(Kind.INFINITE_DIHEDRAL, Ground.NOT_TORSION, orders=(orders[0], orders[-1]))
+            return Group(GroupKind.INFINITE_DIHEDRAL, Ground.NOT_TORSION, orders=(orders[0], orders[-1]))
         if len(orders) == _AGREEING_PRIMES:
             break
     shown, least = tuple(orders[:1]), max(l, 2)
@@ -139,12 +139,12 @@ def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: Curve, l: int)
         if 2 * n > _LARGEST_DEGREE:
             break
         if (form := form_of_order(problem, f, n)) is not None:
-            return Group(Kind.DICYCLIC, Ground.INVARIANT, n, form)
+            return Group(GroupKind.DICYCLIC, Ground.INVARIANT, n, form)
         least = n + l
     else:
         if shown:
-            return Group(Kind.INFINITE_DIHEDRAL, Ground.NO_INVARIANT, orders=shown)
-    return Group(Kind.IMPRIMITIVE, Ground.UNDETERMINED, least)
+            return Group(GroupKind.INFINITE_DIHEDRAL, Ground.NO_INVARIANT, orders=shown)
+    return Group(GroupKind.IMPRIMITIVE, Ground.UNDETERMINED, least)
 
 
 def form_of_order(problem: Problem, f: SemiInvariant, n: int) -> SemiInvariant | None:
@@ -163,7 +163,7 @@ def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
     return takewhile(lambda h: h.p**genus <= 10**7, tried)
 
 
-def _order_modulo(h: Homomorphism, curve: Curve, l: int) -> int | None:  # noqa: E741
+def _order_modulo(h: Homomorphism, curve: SquareRootCurve, l: int) -> int | None:  # noqa: E741
     """The order of the divisor of l eta in the Jacobian modulo p; None if it exceeds the bound."""
     p, one = h.p, nmod_poly([1], h.p)
     squares = {r * r for r in curve.residues}  # the kernel knows the residues by them
@@ -194,7 +194,7 @@ def _order_modulo(h: Homomorphism, curve: Curve, l: int) -> int | None:  # noqa:
     return jacobian.order(total, _LARGEST_ORDER)
 
 
-def _moved(points: list[tuple[Any, int, Fraction]], infinity: Point, p: int) -> list[tuple[Any, int, Fraction]]:
+def _moved(points: list[tuple[Any, int, Fraction]], infinity: CurvePoint, p: int) -> list[tuple[Any, int, Fraction]]:
     """The points in a coordinate t = 1/(x - r), which keeps eta, with a branch point at infinity; the old infinity is 0."""
     r = next((r for image, e, _ in points if e % 2 for r in simple_roots(image)), None)
     if r is None:

@@ -20,10 +20,10 @@ from kovacic.general_solution.variation import Basis
 from kovacic.limits import Budget
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.reading.exponential import solution_in_terms_of
+from kovacic.reading.change_of_variable import solution_in_terms_of
 from kovacic.solution import Solution, solve
-from kovacic.special.answer import special_functions
 from kovacic.special.mathieu import mathieu
+from kovacic.special.search import special_functions
 
 Expr = Any  # SymPy publishes no types
 Pair = tuple[Expr, Expr]

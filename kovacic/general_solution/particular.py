@@ -30,7 +30,7 @@ from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import values_at
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import Budget
-from kovacic.reading.exponential import in_terms_of
+from kovacic.reading.change_of_variable import in_terms_of
 
 Expr = Any  # SymPy publishes no types
 #: (dt/du)^2 for functions t of u, in t.

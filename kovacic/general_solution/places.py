@@ -23,7 +23,7 @@ from kovacic.general_solution.real_basis import negative_arguments, real_basis, 
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.variation import Basis, starting_at
 from kovacic.general_solution.zero import is_zero
-from kovacic.reading.exponential import in_terms_of
+from kovacic.reading.change_of_variable import in_terms_of
 from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types

@@ -25,7 +25,7 @@ from kovacic.equation import Change, Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
 from kovacic.general_solution.substitution import finite_value, size
-from kovacic.reading.exponential import in_terms_of
+from kovacic.reading.change_of_variable import in_terms_of
 
 Expr = Any  # SymPy publishes no types
 #: Points x/101 + i y/89 in each quadrant and on the axis, where a solution is substituted: wrong branches of roots don't pass.

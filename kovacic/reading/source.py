@@ -91,7 +91,7 @@ def read_source(source: Source, limits: Limits) -> Parsed:
             reader = RationalReader({x: VARIABLE}, x, Arithmetic(limits), constants)
             S = constants.embedded(reader.arithmetic.rational(source.walk(reader)))
             return Parsed(S, x, (*reader.notices(), *constants.notices()))
-        from kovacic.reading.equation import EquationReader
+        from kovacic.reading.differential import EquationReader
 
         reader = EquationReader(x, y, limits, constants)
         equation = reader.equation_of(source.walk(reader), text)

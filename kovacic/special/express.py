@@ -30,7 +30,7 @@ from kovacic.closed_form.product import product
 from kovacic.errors import VerificationFailed
 from kovacic.special.hypergeometric import gauss
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
-from kovacic.special.writer import HALF, Factor, Number, Term, Writer, by_parity, multiplicities
+from kovacic.special.writer import HALF, Number, Term, Writer, WrittenFactor, by_parity, multiplicities
 
 
 def solutions(
@@ -110,7 +110,7 @@ class _Form:
     def z(self) -> Expr:
         return self.writer.multiple(self.q * 2, self.f)
 
-    def factor(self, power: Number) -> Factor:
+    def factor(self, power: Number) -> WrittenFactor:
         """exp(-z/2) z^power, and what belongs to the pull-back."""
         return self.writer.factor(self.f, [(power, self.f)], (-self.q, self.f))
 

@@ -23,7 +23,7 @@ import sympy
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Expr, hypergeometric
 from kovacic.special.pullback import Gauss
-from kovacic.special.writer import HALF, Factor, Number, Term, Writer, by_parity
+from kovacic.special.writer import HALF, Number, Term, Writer, WrittenFactor, by_parity
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Riemann:
             yield Riemann(self.writer, self.f, s * self.alpha, t * self.beta, u * self.gamma)
 
     @property
-    def factor(self) -> Factor:
+    def factor(self) -> WrittenFactor:
         """The powers, and what belongs to the pull-back."""
         powers = [((1 - self.alpha) * HALF, self.f), ((1 - self.beta) * HALF, self.f - 1)]
         return self.writer.factor(self.f, powers)

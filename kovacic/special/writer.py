@@ -1,7 +1,7 @@
 """Parts of the solutions as SymPy expressions: y = G u(f)/sqrt(f'), G the gauge factor, u a solution of the standard equation.
 
 Parameters of the functions are linear in square roots of constants of the field (`Number`).  Powers and exponentials with
-exponents in the field are gathered in one product; the others stand beside it (`Factor`).
+exponents in the field are gathered in one product; the others stand beside it (`WrittenFactor`).
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class Number:
 
 
 @dataclass(frozen=True)
-class Factor:
+class WrittenFactor:
     """What stands before the special function: a product over the field, and what has irrational exponents."""
 
     product: Product
@@ -70,7 +70,7 @@ class Factor:
 
 
 #: Powers and exponentials, and the special function that they are multiplied with.
-Term = tuple[Factor, Expr]
+Term = tuple[WrittenFactor, Expr]
 
 
 class Writer:
@@ -84,7 +84,7 @@ class Writer:
 
     def factor(
         self, f: RatFunc, powers: Sequence[tuple[Number, RatFunc]], exponent: tuple[Number, RatFunc] | None = None
-    ) -> Factor:
+    ) -> WrittenFactor:
         """G/sqrt(f') times the powers of rational functions, times the exponential of a multiple of one."""
         slope = f.derivative()
         rate = self.gauge - slope.derivative() / slope * HALF
@@ -99,7 +99,7 @@ class Writer:
             rate = rate + function.derivative() * number.part
             if number.roots:
                 others.append(exp(self.constant(Number(number.part * 0, number.roots)) * self.argument(function)))
-        return Factor(product(rate), tuple(others))
+        return WrittenFactor(product(rate), tuple(others))
 
     def pair(self, first: Term, second: Term) -> tuple[Expr, Expr]:
         """The two solutions, the one with fewer factors first."""

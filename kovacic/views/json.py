@@ -41,7 +41,7 @@ from kovacic.decision import (
 )
 from kovacic.equation import Equation, parameters_of
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.galois.group import Kind
+from kovacic.galois.group import GroupKind
 from kovacic.limits import Limits
 from kovacic.numerals import as_text, for_json
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
@@ -154,7 +154,7 @@ def group_dict(answer: Answer) -> dict[str, Any] | None:
     order, n = (None if number is None else for_json(number) for number in (group.order, group.n))
     data: dict[str, Any] = {"name": group.name, "order": order, "finite": group.finite}
     data |= {"family": group.kind.value, "n": n}
-    if group.form is not None and group.kind is Kind.DICYCLIC:
+    if group.form is not None and group.kind is GroupKind.DICYCLIC:
         data["form"] = _form(group.form, Formulas(answer.variable, answer.S.field))
     if group.orders:
         data["orders"] = [{"prime": p, "order": for_json(k)} for p, k in group.orders]

@@ -24,10 +24,10 @@ import numpy as np
 
 from kovacic import derived
 from kovacic.answer import Answer
-from kovacic.doubles.chart import Chart, chart_of
+from kovacic.doubles.chart import PieceChart, chart_of
 from kovacic.doubles.curve import Arc, Envelope, arcs, coefficients
 from kovacic.enclosure.evaluate import Options
-from kovacic.enclosure.points import Point, as_point, midpoint
+from kovacic.enclosure.points import ExactPoint, as_point, midpoint
 from kovacic.errors import InputError, check_keywords
 from kovacic.exact import whole
 from kovacic.limits import limited
@@ -50,7 +50,7 @@ _RANGE = 20
 
 
 @dataclass(frozen=True)
-class Curve:
+class SampledCurve:
     """A solution over an interval, in runs that are separated by singular points; each run is arcs and envelopes in order."""
 
     runs: tuple[tuple[Arc | Envelope, ...], ...]
@@ -69,7 +69,7 @@ class Curve:
 @limited
 def sample(
     equation: object, start: object, stop: object, *, x0: object | None = None, points: int = 400, **options: Any
-) -> Curve:
+) -> SampledCurve:
     """The solution over [start, stop] in proven values.
 
     Parameters
@@ -103,11 +103,11 @@ def sample(
     limits = asked.pop("limits")
     chart = replace(chart, given={"x0": x0})
 
-    def states(places: Sequence[Point]) -> Any:
+    def states(places: Sequence[ExactPoint]) -> Any:
         return chart.states(list(places), digits, limits, path="above", **asked)
 
     runs = [tuple(arcs(chart, interval, b - a, points, states)) for interval in intervals]
-    return Curve(tuple(runs), tuple(map(complex, chart.singular)), x0)
+    return SampledCurve(tuple(runs), tuple(map(complex, chart.singular)), x0)
 
 
 def _ends(start: object, stop: object) -> tuple[Fraction, Fraction]:
@@ -118,7 +118,7 @@ def _ends(start: object, stop: object) -> tuple[Fraction, Fraction]:
     return a.re, b.re
 
 
-def _regular_intervals(chart: Chart, a: Fraction, b: Fraction) -> list[tuple[Fraction, Fraction]]:
+def _regular_intervals(chart: PieceChart, a: Fraction, b: Fraction) -> list[tuple[Fraction, Fraction]]:
     """The parts of [a, b] between singular points, shorter by a share beside each of these.
 
     Beside an irregular singular point, solutions are as large as exp(1/distance).
@@ -206,7 +206,7 @@ def _variable(equation: object) -> str:
     return equation.variable if isinstance(equation, Answer) else "x"
 
 
-def _curves(equation: object, start: object, stop: object, options: dict[str, Any]) -> list[tuple[str, Curve]]:
+def _curves(equation: object, start: object, stop: object, options: dict[str, Any]) -> list[tuple[str, SampledCurve]]:
     """What is drawn, and how the legend names it."""
     given = {name for name in ("y0", "dy0", "which", "frobenius") if options.get(name) is not None}
     if isinstance(equation, Answer) and not given:
@@ -219,7 +219,7 @@ def _curves(equation: object, start: object, stop: object, options: dict[str, An
     return [(f"y, where y({curve.x0}) = 1, y'({curve.x0}) = 0", curve)]
 
 
-def _solutions(answer: Answer, start: object, stop: object, options: dict[str, Any]) -> list[tuple[str, Curve]]:
+def _solutions(answer: Answer, start: object, stop: object, options: dict[str, Any]) -> list[tuple[str, SampledCurve]]:
     """y1 and y2 of the answer, as the solutions with their values and slopes at x0; none where these aren't known.
 
     A solution that decays from x0 on needs initial values with the digits that the other one gains on the way.
@@ -249,17 +249,17 @@ def _solutions(answer: Answer, start: object, stop: object, options: dict[str, A
     return found
 
 
-def _digits_gained(chart: Chart, intervals: list[tuple[Fraction, Fraction]]) -> int:
+def _digits_gained(chart: PieceChart, intervals: list[tuple[Fraction, Fraction]]) -> int:
     """Decimal digits by which a growing solution may gain on a decaying one: twice the integral of sqrt(S), S > 0."""
     total = 0.0
     for low, high in intervals:
-        here = coefficients(chart, [Point(low + (high - low) * Fraction(k, 200)) for k in range(201)])
+        here = coefficients(chart, [ExactPoint(low + (high - low) * Fraction(k, 200)) for k in range(201)])
         growth = np.sqrt(np.maximum(here.S, 0.0))
         total += float(np.trapezoid(growth, here.x))
     return min(5000, int(2 * total / np.log(10)))
 
 
-def _draw(axes: Axes, curve: Curve, label: str, colour: int) -> int:
+def _draw(axes: Axes, curve: SampledCurve, label: str, colour: int) -> int:
     """The parts of one solution; returns the number of the next colour."""
     biggest = max((float(np.abs(arc.y).max()) for arc in curve.arcs), default=0.0)
     parts = [("real", "")]
@@ -284,14 +284,14 @@ def _draw(axes: Axes, curve: Curve, label: str, colour: int) -> int:
     return colour
 
 
-def _is_complex(curve: Curve) -> bool:
+def _is_complex(curve: SampledCurve) -> bool:
     """Can an imaginary part be told from zero?"""
     if any(np.any(np.abs(arc.y.imag) > arc.radius) for arc in curve.arcs):
         return True
     return any(np.any(envelope.imaginary > 1e-6 * envelope.real.max()) for envelope in curve.envelopes)
 
 
-def _scale(axes: Axes, curves: list[Curve]) -> None:
+def _scale(axes: Axes, curves: list[SampledCurve]) -> None:
     """A linear axis, or, where a solution grows so much that the rest wouldn't be seen, logarithmic beyond the usual."""
     sizes = [np.abs(arc.y) for curve in curves for arc in curve.arcs]
     sizes += [np.hypot(part.real, part.imaginary) for curve in curves for part in curve.envelopes]

@@ -94,7 +94,7 @@ def sign(value: sp.Expr) -> int | None:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Ball:
+class RollingBall:
     """A ball of mass m and radius R with central moments A1 = A2, A3 and its centre of mass off centre by a.
 
     Units: any consistent ones, moments in mass * length^2.  Parameters are exact numbers or symbols; whatever can be
@@ -102,9 +102,9 @@ class Ball:
     R > 0, A1 > 0, A3 > 0, A3 <= 2 A1 (which is int z^2 dm >= 0), and A1 + A3/2 <= m (R^2 - a^2), which holds exactly
     when some mass distribution within the ball has these moments and this centre of mass.
 
-    >>> Ball(m=1, R=2, a=0, A1=2, A3=1).on_sphere(R1=3).ratio
+    >>> RollingBall(m=1, R=2, a=0, A1=2, A3=1).on_sphere(R1=3).ratio
     2/3
-    >>> Ball(m=1, R=1, a=0, A1="1/5", A3="1/2")
+    >>> RollingBall(m=1, R=1, a=0, A1="1/5", A3="1/2")
     Traceback (most recent call last):
     kovacic.errors.InputError: there is no such body: A3 <= 2 A1 fails, as 1/2 > 2/5
     """
@@ -225,7 +225,7 @@ class InRoots(Rolling):
 class BallOnSphere(Rolling):
     """A ball on the sphere of radius R1."""
 
-    ball: Ball
+    ball: RollingBall
     R1: sp.Expr
 
     @property

@@ -31,7 +31,7 @@ from kovacic.errors import NotLinear, NotRational
 from kovacic.limits import Limits
 from kovacic.numerals import as_text
 from kovacic.reading.arithmetic import Term
-from kovacic.reading.equation import EquationReader
+from kovacic.reading.differential import EquationReader
 from kovacic.reading.linear import REST, Symbols
 from kovacic.reading.source import Source, read_source, source_of
 from kovacic.reading.symbolic import read_expression
