@@ -22,7 +22,7 @@ from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import ball, samples
-from kovacic.reading.exponential import in_terms_of
+from kovacic.reading.change_of_variable import in_terms_of
 
 Expr = Any  # SymPy publishes no types
 _INFINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
