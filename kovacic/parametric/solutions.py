@@ -27,7 +27,7 @@ from kovacic.limits import Budget
 from kovacic.parametric.exponents import Exponents
 from kovacic.parametric.formulas import equation_written
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
-from kovacic.reading.exponential import solution_in_terms_of
+from kovacic.reading.change_of_variable import solution_in_terms_of
 from kovacic.writing.formula import caret
 
 
