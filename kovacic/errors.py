@@ -113,4 +113,19 @@ def needs(extra: str, what: str) -> Iterator[None]:
     except ModuleNotFoundError as error:
         if error.name is None or error.name.startswith("kovacic"):
             raise
-        raise MissingExtra(f"{what} needs {error.name.partition('.')[0]}: pip install 'kovacic[{extra}]'") from error
+        missing = error.name.partition(".")[0]
+        packages = " ".join(f"'{package}'" for package in _packages_of(extra)) or missing
+        raise MissingExtra(f"{what} needs {missing}: pip install {packages}") from error
+
+
+def _packages_of(extra: str) -> list[str]:
+    """The packages that an extra of `pyproject.toml` stands for, as the installed package's own metadata has them."""
+    # Imported where something is missing: reading metadata costs more than most commands.
+    from importlib.metadata import PackageNotFoundError, requires
+
+    try:
+        declared = requires("kovacic") or []
+    except PackageNotFoundError:
+        return []
+    ending = f"; extra == '{extra}'"
+    return [line.removesuffix(ending) for line in declared if line.endswith(ending)]

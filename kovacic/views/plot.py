@@ -5,7 +5,7 @@ compared with further values; the error band is drawn where it's visible at all.
 picture, its envelope is drawn instead (`kovacic.doubles.curve`), and the legend says so.  Beyond a singular point on the
 axis the solution is the continuation through the upper half-plane.
 
-matplotlib is needed (`pip install kovacic[plot]`) and imported here only, with a canvas of its own: no window is opened,
+matplotlib is needed (the extra `plot`) and imported here only, with a canvas of its own: no window is opened,
 and neither the backend nor the state of pyplot is touched.
 """
 
