@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import islice
 
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
+from build import Poly, RatFunc
+
 from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRationalOmega, Rule, Structure
 from kovacic.limits import Budget
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector

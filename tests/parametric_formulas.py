@@ -10,8 +10,8 @@ from typing import Any
 
 import mpmath
 import sympy
+from build import AlgebraicField
 
-from kovacic.algebra.extension import AlgebraicField
 from kovacic.parametric.answer import Conditions
 from kovacic.parametric.check import Sampler
 from kovacic.parametric.functions import Point

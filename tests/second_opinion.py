@@ -39,11 +39,10 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 import flint
+from build import Poly, RatFunc
 from flint import acb, acb_poly, fmpq
 
 from kovacic import Solution
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.klein import covariants
 from kovacic.decision import SemiInvariant, Structure
 from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of

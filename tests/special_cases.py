@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
 
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
+from build import QQ, RatFunc
+
 from tests.transform import hypergeometric, pull_back
 
 Z = RatFunc(QQ.poly([0, 1]))

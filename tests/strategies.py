@@ -19,13 +19,9 @@ from fractions import Fraction
 from itertools import permutations, product
 
 import transform
+from build import QQ, AlgebraicField, Poly, RatFunc
 from hypothesis import assume
 from hypothesis import strategies as st
-
-from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 
 TETRAHEDRAL, OCTAHEDRAL, ICOSAHEDRAL, QUATERNION = "tetrahedral", "octahedral", "icosahedral", "quaternion"
 OMEGA_DEGREE = {TETRAHEDRAL: 4, OCTAHEDRAL: 6, ICOSAHEDRAL: 12}

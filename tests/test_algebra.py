@@ -10,17 +10,16 @@ from math import gcd, prod
 
 import pytest
 import sympy
+from build import QQ, AlgebraicField, Poly, RatFunc
 from flint import Ordering, fmpz_mpoly_ctx, nmod_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
 from kovacic.algebra import modular
-from kovacic.algebra.extension import AlgebraicField, norm
+from kovacic.algebra.extension import norm
 from kovacic.algebra.factors import _remainders, expansions, product, products
 from kovacic.algebra.lifting import Lifter, prime, rational_reconstruction
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ, RationalPoly, _factored
+from kovacic.algebra.rationals import RationalPoly, _factored
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.algebra.sparse import _factored_over_q, factorisation
 from kovacic.algebra.traces import characteristic_polynomial, is_provably_not_a_square, trace_of_square_root

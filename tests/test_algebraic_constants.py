@@ -8,16 +8,13 @@ from fractions import Fraction
 import pytest
 import strategies
 import sympy
+from build import QQ, AlgebraicField, Field, Poly, RatFunc
 from hypothesis import given, settings
 from strategies import Example
 from transform import hypergeometric
 
 import kovacic
 from kovacic.algebra.embedding import approximation
-from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.poly import Field, Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.limits import Limits
 from kovacic.reading.constants import Constants, read_with_constants
 

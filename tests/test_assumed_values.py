@@ -8,10 +8,9 @@ from math import isqrt
 
 import pytest
 import sympy
+from build import QQ, FunctionField
 
 import kovacic
-from kovacic.algebra.function_field import FunctionField
-from kovacic.algebra.rationals import QQ
 from kovacic.cli.options import parse_assumptions
 from kovacic.parametric.assumptions import Known, read_assumptions
 from kovacic.parametric.functions import over_parameters

@@ -6,11 +6,10 @@ from fractions import Fraction
 
 import pytest
 import transform
+from build import QQ, RatFunc
 
 import kovacic
 from kovacic.algebra.lifting import prime
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 
 X = RatFunc(QQ.poly([0, 1]))
 P0, P1 = prime(0), prime(1)

@@ -8,10 +8,9 @@ from math import prod
 import mpmath
 import pytest
 import sympy as sp
+from build import QQ, RatFunc, read_input
 
 import kovacic
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.ball import RollingBall, X, closed_form, theorems
 from kovacic.ball import body as rolling
 from kovacic.ball.body import A1, A3, InRoots, x1, x2
@@ -24,7 +23,6 @@ from kovacic.ball.theorems import (
     theorem,
 )
 from kovacic.errors import InputError
-from kovacic.reading.read import read_input
 
 k = sp.Symbol("k")
 # m, R, a, A1, A3: complex roots; l < 0; a = 0; A1 = A3; homogeneous; real roots beyond -1 and beyond 1; a double root.

@@ -17,14 +17,13 @@ import flint
 import pytest
 import strategies
 import transform
+from build import QQ, RatFunc
 from forged import forged_evidence
 from hypothesis import given, settings
 from published import Published, load
 
 import kovacic
 from kovacic import checker
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.decision import Decision, Exclusion, NoInvariant, Structure
 from kovacic.limits import Budget
 from kovacic.solution import Solution

@@ -12,13 +12,12 @@ import pytest
 import strategies
 import sympy
 import transform
+from build import QQ, RatFunc
 from flint import acb, arb
 from hypothesis import given, settings
 from sympy.abc import x
 
 import kovacic
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution, residual
 from kovacic.closed_form.curve import integrate_on_curve
 from kovacic.closed_form.form import solutions

@@ -9,15 +9,12 @@ from typing import Any
 import pytest
 import sympy
 import transform
+from build import QQ, AlgebraicField, Poly, RatFunc
 from flint import acb
 from sympy.abc import x
 
 import kovacic
-from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import decompose
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution, residual, value_at
 from kovacic.closed_form.curve import CurveIntegral

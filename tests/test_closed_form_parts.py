@@ -9,6 +9,7 @@ import flint
 import pytest
 import strategies
 import sympy
+from build import QQ, Poly, RatFunc, read_input
 from flint import acb
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -16,9 +17,6 @@ from sympy.abc import t, x
 
 import kovacic
 from kovacic.algebra.partial_fractions import _reduce_at, decompose
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution
 from kovacic.closed_form.curve import integrate_on_curve, unit
@@ -37,7 +35,6 @@ from kovacic.closed_form.product import product
 from kovacic.closed_form.structure import Triangular
 from kovacic.closed_form.torsion import completed
 from kovacic.decision import Structure
-from kovacic.reading.read import read_input
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO = RatFunc(QQ.poly([]))

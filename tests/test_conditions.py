@@ -11,14 +11,13 @@ from typing import Any
 
 import pytest
 import sympy
+from build import QQ, FunctionField
 from clocks import controlled
 from flint import fmpz_mat
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.algebra.function_field import FunctionField
-from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
 from kovacic.galois.group import GroupKind
 from kovacic.limits import Limits

@@ -11,12 +11,11 @@ import mpmath
 import numpy as np
 import pytest
 import scipy.special
+from build import QQ, RatFunc
 from published import load
 
 import kovacic
 import kovacic.doubles.tabulate as kovacic_tables
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.doubles import double_double as dd
 from kovacic.doubles.chart import PieceChart
 from kovacic.doubles.lambdify import lambdify, measure, samples

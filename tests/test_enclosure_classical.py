@@ -8,10 +8,9 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
+from build import QQ, RatFunc
 from flint import acb, ctx, fmpq
 
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.enclosure import classical, classical_functions
 from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.classical import NotServed, classical_of

@@ -10,12 +10,11 @@ from typing import Any
 import flint
 import pytest
 import second_opinion
+from build import QQ, RatFunc
 from published import load
 from transform import from_omega, from_squared_difference
 
 import kovacic
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.enclosure.agreement import agrees_with_group, compare, is_fuchsian
 from kovacic.enclosure.ball import ball_to_flint
 from kovacic.enclosure.closed_form import closed_form_of

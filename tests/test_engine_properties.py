@@ -18,6 +18,7 @@ import pytest
 import strategies
 import textbook
 import transform
+from build import QQ, AlgebraicField, Poly, RatFunc
 from flint import nmod_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -25,10 +26,7 @@ from strategies import Example
 
 import kovacic
 from kovacic import Solution, Status, Structure
-from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.extension import ExtensionPoly
 from kovacic.decision import (
     Decision,
     Exclusion,

@@ -14,16 +14,13 @@ import jsonschema
 import pytest
 import strategies
 import sympy
+from build import QQ, Equation, RatFunc, read_input
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
-from kovacic.equation import Equation
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
 from kovacic.reading.lexer import is_equation
-from kovacic.reading.read import read_input
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO = X * 0

@@ -15,11 +15,10 @@ import published
 import pytest
 import strategies
 import sympy
+from build import QQ, RatFunc
 from hypothesis import given, settings
 
 import kovacic
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.cli.main import run
 from kovacic.engine.paper import Search, _Roots, in_sympy, is_natural, search
 from kovacic.engine.places import analyse

@@ -10,11 +10,11 @@ import mpmath
 import numpy as np
 import pytest
 import sympy
+from build import read_input
 
 import kovacic
 from kovacic.cli import main
 from kovacic.errors import NotRational
-from kovacic.reading.read import read_input
 from kovacic.views.plot import sample
 from kovacic.views.text import render
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import pytest
 import sympy
+from build import QQ, RatFunc
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from sympy import Ei, erf, erfi, exp
 
 import kovacic
 from kovacic.algebra.factors import combination
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.exponential_integrals import integrate_exponential
 
 X = RatFunc(QQ.poly([0, 1]))

@@ -11,16 +11,14 @@ import pytest
 import strategies
 import sympy
 import transform
+from build import QQ, Equation, RatFunc
 from flint import nmod_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind as PlaceKind
 from kovacic.engine.places import analyse
-from kovacic.equation import Equation
 from kovacic.galois import Ground, Group, GroupKind
 from kovacic.galois.gauged import _residues_on_curve, _torus
 from kovacic.galois.imprimitive import curve_of, form_of_order

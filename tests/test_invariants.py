@@ -6,10 +6,9 @@ from fractions import Fraction
 
 import pytest
 import transform
+from build import QQ, RatFunc
 
 import kovacic
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.decision import NoInvariant
 from kovacic.engine.expansion import polynomial_invariant
 from kovacic.engine.invariants import bounds, invariants, invariants_modulo, least_valuation

@@ -11,12 +11,11 @@ from functools import cache
 import pytest
 import sympy
 import transform
+from build import QQ, RatFunc
 from clocks import controlled
 from sympy.abc import n, x
 
 import kovacic
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, limited, watched_seconds

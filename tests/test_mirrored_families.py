@@ -5,9 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+from build import FunctionField
 
 import kovacic
-from kovacic.algebra.function_field import FunctionField
 from kovacic.parametric.formulas import text_of
 from kovacic.parametric.functions import over_parameters
 from kovacic.parametric.spectra import Notation, alternatives

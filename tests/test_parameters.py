@@ -7,16 +7,13 @@ from fractions import Fraction
 
 import pytest
 import sympy
+from build import QQ, AlgebraicField, FunctionField, Poly, RatFunc
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.lifting import Lifter
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.decision import Status
 from tests.parametric_cases import BALL
 

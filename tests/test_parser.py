@@ -8,19 +8,17 @@ from typing import Any
 
 import pytest
 import sympy
+from build import QQ, RatFunc, read_input
 from expressions import Expression, expressions
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_with
 from kovacic.reading.lexer import tokenize
 from kovacic.reading.parser import Site, evaluate
-from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import read_expression
 
 # Far from every root that the small numbers of the strategies produce.

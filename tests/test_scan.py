@@ -12,6 +12,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from build import read_input
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -21,7 +22,6 @@ from kovacic.batch.scan import _COLOURS_AND_NAMES, Grid, Template, draw_map, par
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_with
-from kovacic.reading.read import read_input
 
 fractions = st.fractions(min_value=-50, max_value=50, max_denominator=30)
 

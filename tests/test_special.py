@@ -13,16 +13,14 @@ from typing import Any
 import mpmath
 import pytest
 import sympy
+from build import QQ, RatFunc, read_input
 
 import kovacic
 import kovacic.errors
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.cli import main
 from kovacic.general_solution import in_special_functions
 from kovacic.general_solution.variation import special_wronskian as wronskian
 from kovacic.limits import Budget, Limits
-from kovacic.reading.read import read_input
 from kovacic.special import confluent, gauss
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 from kovacic.special.search import find, special_functions

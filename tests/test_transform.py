@@ -7,12 +7,9 @@ from fractions import Fraction
 import pytest
 import strategies
 import transform
+from build import QQ, Poly, RatFunc
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-
-from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 
 X = strategies.X
 ZERO = RatFunc(QQ.poly([]))

@@ -15,16 +15,14 @@ import pytest
 import strategies
 import textbook
 import transform
+from build import QQ, AlgebraicField, RatFunc
 from flint import nmod_poly
 from forged import forged_evidence, primes_with_a_root
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import kovacic
-from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.modular import rational_function_from_series
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.decision import NoInvariant, NoRationalOmega, SemiInvariant, Structure
 from kovacic.engine.degree_bound import DegreeBound, degree_bound, irregular_difference_squared
 from kovacic.engine.places import analyse

@@ -19,9 +19,9 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from kovacic.algebra.poly import Poly, Scalar
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
+from build import QQ, Poly, RatFunc
+
+from kovacic.algebra.poly import Scalar
 
 
 def from_omega(omega: RatFunc) -> RatFunc:
