@@ -83,7 +83,8 @@ def residue(H: Poly, p: Poly, nu: int) -> Poly:
     B p'/p^e = (-B/((e-1) p^(e-1)))' + B'/((e-1) p^(e-1)) for e > 1: what a digit of H leaves behind is carried to the next.
     """
     if p.degree == 1:  # all digits are constants, and the last one is the residue
-        return _at(H, p.field.poly([-p[0], 1]), p.field.poly([0, 1]) ** nu)[nu - 1]
+        digits = H(p.field.poly([-p[0], 1])) if p[0] else H
+        return digits[nu - 1]
     slope = p.derivative()
     inverse = slope.inverse_modulo(p)
     *higher, last = _digits(H, p, nu)
