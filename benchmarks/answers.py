@@ -77,6 +77,9 @@ def general(text: str) -> Record:
     return {"dsolve": attempt(lambda: kovacic.dsolve(text))}
 
 
+#: Classes that have another name since a record was made.
+RENAMED = {"<Kind.": "<GroupKind."}
+
 KINDS: dict[str, Callable[[str], Record]] = {
     "answer": answer,
     "broken": answer,
@@ -160,7 +163,10 @@ def main() -> int:
             for record in recorded(list(questions()), options.jobs):
                 file.write(json.dumps(record) + "\n")
         return 0
-    before = [json.loads(line) for line in options.file.read_text(encoding="utf-8").splitlines()]
+    text = options.file.read_text(encoding="utf-8")
+    for former, now in RENAMED.items():
+        text = text.replace(former, now)
+    before = [json.loads(line) for line in text.splitlines()]
     before = [record for record in before if options.kind in (None, record["kind"])][:: options.every]
     differing = 0
     after = recorded([(record["kind"], record["input"]) for record in before], options.jobs)
