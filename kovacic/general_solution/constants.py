@@ -125,11 +125,23 @@ def _of_rank_one(rows: Sequence[Row], names: Values) -> Found:
         return names, [row.r for row in rows], _ONE
     row, is_first = pivot
     others = [other for other in rows if other is not row]
+    norm = _norm(row)
+    if norm is not None:
+        values = tidy(row.r * row.u / norm) + row.v * names[0], tidy(row.r * row.v / norm) - row.u * names[0]
+        return values, [other.rest(*values).subs(names[0], 0) for other in others], _ONE
     if is_first:
         values = tidy(row.r / row.u) - tidy(row.v / row.u) * names[1], names[1]
         return values, [other.u * row.r - other.r * row.u for other in others], row.u
     values = names[0], tidy(row.r / row.v) - tidy(row.u / row.v) * names[0]
     return values, [other.v * row.r - other.r * row.v for other in others], row.v
+
+
+def _norm(row: Row) -> Expr | None:
+    """u^2 + v^2, where that is known not to be zero while u and v may be, each alone; else None."""
+    if Zero.NEVER in (when_zero(row.u), when_zero(row.v)) or 0 in (row.u, row.v):
+        return None
+    norm = sympy.factor_terms(sympy.expand(TR8(sympy.expand(row.u**2 + row.v**2))))
+    return norm if is_nowhere_zero(norm) else None
 
 
 def _pivot(rows: Sequence[Row]) -> tuple[Row, bool] | None:

@@ -67,14 +67,14 @@ def _liouvillian(question: Question, solution: Solution, budget: Budget) -> Pair
 
 
 def _in_special_functions(question: Question, solution: Solution, budget: Budget, *, special: bool) -> Pair:
-    """Special functions, or Mathieu's; analytic at ordinary points where conditions are given."""
+    """Special functions, or Mathieu's; analytic at ordinary points, where Bessel's functions of roots would jump."""
     found: Any = special_functions(
         solution.S,
         solution.gauge,
         solution.variable,
         budget,
         symbols=question.parameters,
-        joined=bool(question.conditions),
+        joined=True,
     )
     equation = question.equation
     if not found and equation.change is not None:

@@ -12,6 +12,8 @@ from kovacic.general_solution.substitution import size
 from kovacic.general_solution.variation import Basis
 
 Expr = Any  # SymPy publishes no types
+#: Digits of a float that is given back.
+_DIGITS = 15
 
 
 def free_constants(question: Question, basis: Basis, particular: Expr) -> tuple[Expr, Expr]:
@@ -53,4 +55,26 @@ def written(question: Question, value: Expr) -> Expr:
     found = sympy.Eq(question.function, value, evaluate=False)
     for back in question.back:
         found = found.subs(back)
+    if question.has_floats:
+        return sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False)
     return found
+
+
+def with_floats(e: Expr) -> Expr:
+    """With floats for constants that aren't integers; orders and parameters of functions, and roots, stay as they are.
+
+    >>> x = sympy.Symbol("x")
+    >>> print(with_floats(sympy.sqrt(2) * x**2 * sympy.exp(-x / 5)))
+    1.4142135623731*x**2*exp(-0.2*x)
+    """
+    if e.is_Integer or e.is_Symbol:
+        return e
+    if e.is_number and not e.has(sympy.Integral):
+        return sympy.Float(str(e.evalf(_DIGITS)), _DIGITS) if e.is_real else e.evalf(_DIGITS)
+    if e.is_Pow and not isinstance(e, sympy.exp) and e.exp.is_Rational and e.exp.q <= 2:
+        return with_floats(e.base) ** e.exp
+    if e.is_Function and len(e.args) > 1:  # the argument is the last one
+        return e.func(*e.args[:-1], with_floats(e.args[-1]), evaluate=False)
+    if isinstance(e, sympy.Integral):
+        return e
+    return e.func(*map(with_floats, e.args))

@@ -161,7 +161,7 @@ def is_identically_zero(value: Expr) -> bool:
     numerator = sympy.numer(sympy.together(prepared(value)))  # a sum of waves, as sin(a) cos(b) isn't
     if sympy.expand(numerator) == 0 or sympy.expand(TR8(sympy.expand(numerator))) == 0:
         return True
-    spread = sympy.expand_log(sympy.expand(numerator, power_base=True), force=False)
+    spread = sympy.expand_log(sympy.expand(numerator, power_base=True), force=False, factor=True)
     if sympy.expand(spread) == 0:
         return True
     if value.free_symbols:

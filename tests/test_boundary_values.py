@@ -1,0 +1,440 @@
+"""dsolve with conditions: Sturm-Liouville problems built from their answers, values that are judged by integration, limits."""
+
+from __future__ import annotations
+
+import itertools
+import warnings
+from collections.abc import Iterator
+from random import Random
+from typing import Any
+
+import mpmath
+import pytest
+import sympy
+from scipy.integrate import solve_ivp
+from sympy import E, Rational, Symbol, cos, exp, log, oo, pi, sin, sqrt
+
+import kovacic
+from kovacic.general_solution import dsolve
+from kovacic.general_solution.behaviour import Place, behaviour
+from kovacic.general_solution.check import is_finite
+from kovacic.general_solution.constants import Outcome, Row, determine
+from kovacic.general_solution.expansion import CONSTANT, UnknownBehaviour
+from kovacic.general_solution.zero import Zero, is_zero_by_size, when_zero
+
+x, C1, C2 = sympy.symbols("x C1 C2")
+y = sympy.Function("y")
+D2, D1, D0 = y(x).diff(x, 2), y(x).diff(x), y(x)
+n = Symbol("n", integer=True, positive=True)
+m = Symbol("m", integer=True, nonnegative=True)
+L = Symbol("L", positive=True)
+k, a = Symbol("k", positive=True), Symbol("a", positive=True)
+
+#: s(x), and the points where s is 0 and 1.
+SCALES = [
+    (x, 0, 1),
+    (x / L, 0, L),
+    ((x + 1) / 2, -1, 1),
+    ((x - a) / L, a, a + L),
+    (log(x), 1, E),
+    (1 / x - 1, 1, Rational(1, 2)),
+]
+FACTORS = [sympy.Integer(1), exp(-x), x + 3]
+#: The eigenvalue's root and the eigenfunction of u'' + w^2 u = 0, and which derivatives vanish at 0 and 1.
+PROBLEMS = [
+    (n * pi, sin, (0, 0)),
+    (n * pi, cos, (1, 1)),
+    ((n - Rational(1, 2)) * pi, sin, (0, 1)),
+    ((2 * m + 1) * pi / 2, cos, (1, 0)),
+]
+
+
+def slope_at(point: Any) -> Any:
+    return D1.subs(x, point)
+
+
+def equation_of(w: Any, s: Any, g: Any) -> Any:
+    """The left side of the equation of y = g(x) u(s(x)) with u'' + w^2 u = 0."""
+    u = D0 / g
+    first = u.diff(x) / s.diff(x)
+    whole = (first.diff(x) / s.diff(x) + w**2 * u) * g * s.diff(x) ** 2
+    return sympy.Add(*(sympy.factor(sympy.expand(whole).coeff(d)) * d for d in (D2, D1, D0)))
+
+
+def condition(order: int, g: Any, point: Any) -> Any:
+    """The left side of u = 0 or u' = 0 at a point, with y = g u."""
+    if order == 0:
+        return y(point)
+    rate = sympy.simplify((g.diff(x) / g).subs(x, point))
+    return slope_at(point) - rate * y(point)
+
+
+def numbers(expression: Any, count: int) -> Iterator[dict[Any, Any]]:
+    """Values of the symbols beside x and constants, that fit their assumptions."""
+    for number in range(1, count + 1):
+        values = {n: number, m: number - 1, L: Rational(7, 3) + number, a: Rational(1, 5), k: Rational(11, 7) + number}
+        yield {symbol: value for symbol, value in values.items() if symbol in expression.free_symbols}
+
+
+def is_multiple(found: Any, expected: Any, point: Any) -> bool:
+    """Is found a constant times expected: the determinant with the slopes vanishes at a point?"""
+    total = found * expected.diff(x) - found.diff(x) * expected
+    values = (total.subs(v).subs({C1: 2, C2: 3}).subs(x, point.subs(v)) for v in numbers(total, 3))
+    return found != 0 and all(abs(sympy.N(value, 30)) < 1e-20 for value in values)
+
+
+@pytest.mark.parametrize(("s", "left", "right"), SCALES, ids=str)
+def test_eigenfunctions(s: Any, left: Any, right: Any) -> None:
+    """Built from the answer; Dirichlet, Neumann (Robin after a factor) and mixed conditions: one free constant."""
+    middle = sympy.sympify(left + (right - left) * Rational(3, 11))
+    for g, (w, function, orders) in itertools.product(FACTORS, PROBLEMS):
+        if g == x + 3 and s.has(log, 1 / x):
+            continue  # longer than it says more
+        expected = g * function(w * s)
+        ics = {condition(order, g, point): 0 for order, point in zip(orders, (left, right), strict=True)}
+        found = dsolve(equation_of(w, s, g), ics=ics).rhs
+        assert len(found.free_symbols & {C1, C2}) == 1, (w, s, g)
+        assert is_multiple(found, expected, middle), (w, s, g)
+
+
+def test_what_has_no_solution_and_what_has_one() -> None:
+    """Fredholm: a value at the end of an eigenfunction, a right-hand side with a part along it; and no resonance."""
+    oscillator = D2 + n**2 * D0
+    with pytest.raises(kovacic.InputError, match="no solution"):
+        dsolve(oscillator, ics={y(0): 0, y(pi): 1})
+    with pytest.raises(kovacic.InputError, match=r"no solution.*unless.*where y\(x\) = C2\*sin\(n\*x\)"):
+        dsolve(oscillator - 1, ics={y(0): 0, y(pi): 0})
+    even, odd = Symbol("n", even=True, positive=True), Symbol("n", odd=True, positive=True)
+    assert dsolve(D2 + even**2 * D0 - 1, ics={y(0): 0, y(pi): 0}).rhs.has(C2)
+    with pytest.raises(kovacic.InputError, match="no solution"):
+        dsolve(D2 + odd**2 * D0 - 1, ics={y(0): 0, y(pi): 0})
+    assert dsolve(oscillator, ics={y(0): 0, y(pi): 0, slope_at(0): n}).rhs == sin(n * x)
+    assert dsolve(D2 + k**2 * D0, ics={y(0): 0, y(pi / k): 0}).rhs == C2 * sin(k * x)
+    assert dsolve(D2 + (n - Rational(1, 2)) ** 2 * D0, ics={y(0): 0, y(pi): 0}).rhs == 0
+    found = dsolve(D2 + (n - Rational(1, 2)) ** 2 * D0, ics={y(0): 0, y(pi): 1}).rhs
+    assert [found.subs({n: j, x: pi}) for j in (1, 2, 3)] == [1, 1, 1]
+
+
+def test_particular_values_of_parameters_are_said() -> None:
+    w, h = sympy.symbols("w h")
+    with pytest.warns(UserWarning, match=r"unless sin\(L\*w\) = 0, where y\(x\) = C2\*sin\(w\*x\)"):
+        assert dsolve(D2 + w**2 * D0, ics={y(0): 0, y(L): 0}).rhs == 0
+    with pytest.warns(UserWarning, match=r"sin\(L\*w\) = 0, where there is a solution only if a = 0"):
+        assert dsolve(D2 + w**2 * D0, ics={y(0): 0, y(L): a}).rhs == a * sin(w * x) / sin(L * w)
+    with pytest.warns(UserWarning, match=r"unless h \+ 1 = 0, where y\(x\) = .*x"):
+        assert dsolve(D2, ics={slope_at(0): h * y(0), y(1): 0}).rhs == 0
+    with pytest.warns(UserWarning, match=r"unless w\*\(cos\(2\*pi\*w\) - 1\) = 0"):
+        assert dsolve(D2 + w**2 * D0, ics={y(0): y(2 * pi), slope_at(0): slope_at(2 * pi)}).rhs == 0
+
+
+def test_periodic_and_robin_conditions() -> None:
+    periodic = {y(0): y(2 * pi), slope_at(0): slope_at(2 * pi)}
+    assert dsolve(D2 + n**2 * D0, ics=periodic).rhs == C1 * cos(n * x) + C2 * sin(n * x)
+    forced = dsolve(D2 + 2 * D0 - cos(x), ics=periodic).rhs
+    assert forced == cos(x)
+    antiperiodic = {y(0) + y(pi): 0, slope_at(0) + slope_at(pi): 0}
+    assert dsolve(D2 + (2 * m + 1) ** 2 * D0, ics=antiperiodic).rhs.free_symbols >= {C1, C2}
+    found = dsolve("y'' - y = 0", ics="y'(0) = 2*y(0), y(1) - 3*y'(1) = 1").rhs
+    u = [sympy.N(found.diff(x, order).subs(x, point), 30) for order in (0, 1) for point in (0, 1)]
+    assert abs(u[2] - 2 * u[0]) < 1e-25
+    assert abs(u[1] - 3 * u[3] - 1) < 1e-25
+
+
+@pytest.mark.parametrize(
+    ("ics", "said"),
+    [
+        ({y(0): x}, "the variable"),
+        ({y(x): 1}, "the variable"),
+        ("y(x)=1", "the variable"),
+        ({y(0): sympy.zoo}, "value"),
+        ({y(0) ** 2: 1}, "linear"),
+        ({y(0) * y(1): 1}, "linear"),
+        ({y(0): "bounded"}, "ordinary point"),
+        ("y(0)=y(0)", "isn't an initial value"),
+    ],
+)
+def test_what_is_no_condition(ics: Any, said: str) -> None:
+    with pytest.raises(kovacic.InputError, match=said):
+        dsolve(D2 + D0, ics=ics)
+
+
+# ------------------------------------------------------------------------------------------------- judged by integration
+
+#: Equations a y'' + b y' + c y = f, with floats too, and an interval without singular points.
+INTEGRATED = [
+    ("1", "0.4", "0.04", "0", (-2, 3)),
+    ("1", "0.1", "9.81", "0.5", (0, 3)),
+    ("1", "0", "k**2", "sin(x)", (-1, 2)),
+    ("x**2", "x", "x**2 - 1/4", "x", (Rational(1, 2), 4)),
+    ("x**2", "x", "x**2 - 1/4", "1", (-4, Rational(-1, 2))),
+    ("x", "1", "x", "0", (-3, Rational(-1, 4))),
+    ("x", "1", "-x", "0", (Rational(1, 4), 3)),
+    ("x**2", "3*x", "0.75", "x", (-3, Rational(-1, 3))),
+    ("1 - x**2", "-2*x", "6", "0", (1 + Rational(1, 9), 3)),
+    ("1 - x**2", "-x", "k**2", "0", (Rational(-4, 5), Rational(4, 5))),
+    ("1", "0", "-x", "0", (-2, 1)),
+    ("1", "0", "x**2", "0", (-2, 2)),
+    ("1", "cot(x)", "2", "0", (Rational(1, 3), 2)),
+    ("1", "tan(x)", "cos(x)**2", "0", (-1, 1)),
+    ("1", "-3", "2", "exp(x)", (-1, 1)),
+    ("1", "0", "1", "1/x", (Rational(1, 2), 3)),
+]
+
+
+@pytest.mark.parametrize(("a2", "a1", "a0", "f", "interval"), INTEGRATED, ids=str)
+def test_values_are_those_of_an_integration(a2: str, a1: str, a0: str, f: str, interval: tuple[Any, Any]) -> None:
+    """Generated points and values: the conditions hold, and between them the solution is that of Dormand and Prince."""
+    random = Random(a2 + a1 + a0 + f)
+    parts = [sympy.sympify(part, locals={"k": k, "x": x}) for part in (a2, a1, a0, f)]
+    left = parts[0] * D2 + parts[1] * D1 + parts[2] * D0 - parts[3]
+    low, high = map(sympy.sympify, interval)
+    points = [low + (high - low) * Rational(random.randint(1, 9), 10) for _ in range(2)]
+    points[1] = points[1] if points[0] != points[1] else (low + high) / 2 + Rational(1, 97)
+    u, v = Rational(random.randint(-9, 9), 4), random.choice([0.5, 2, Rational(-2, 3)])
+    second = y(points[1]) if random.random() < 0.5 else slope_at(points[1])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found = dsolve(left, ics={y(points[0]): u, second: v}).rhs
+    assert found.free_symbols <= {x, k}
+    values = {k: Rational(17, 10)}
+    exact = [found.subs(values), found.diff(x).subs(values)]
+    (y0, dy0), (y1, dy1) = ([complex(sympy.N(e.subs(x, point), 20)) for e in exact] for point in points)
+    assert abs(y0 - complex(u)) < 1e-9
+    assert abs((y1 if second.func == y else dy1) - complex(v)) < 1e-9
+    rates = sympy.lambdify(x, [(part / parts[0]).subs(values) for part in parts[1:]], "math")
+
+    def slope(t: float, state: Any) -> list[float]:
+        b, c, right = rates(t)
+        return [state[1], right - b * state[1] - c * state[0]]
+
+    own = solve_ivp(slope, (float(points[0]), float(points[1])), [y0.real, dy0.real], rtol=1e-10, atol=1e-12)
+    assert abs(own.y[0, -1] - y1) < 1e-6 * (1 + abs(y1))
+    assert abs(own.y[1, -1] - dy1) < 1e-6 * (1 + abs(dy1))
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("x*y'' + 2*y' = 0", "y(-1)=1, y(1)=0"),
+        ("y'' + cot(x)*y' + 2*y = 0", "y(-1)=1, y(1)=0"),
+        ("y'' + cot(x)*y' + 2*y = 0", "y(1)=1, y(4)=0"),
+        ("x^2*y'' - 2*y = 0", "y(-1)=1, y'(2)=0"),
+        ("y'' - 2*y/sin(x)^2 = 0", "y(-1)=1, y(1)=0"),
+        ("x*y'' + y' + x*y = 0", "y(-1)=1, y(0)=bounded, y(1)=2"),
+        ("(exp(x) - 1)*y'' + y = 0", "y(-1)=1, y(1)=0"),
+    ],
+)
+def test_two_sides_of_a_singular_point(text: str, values: str) -> None:
+    with pytest.raises(kovacic.InputError, match="a singular point of the equation lies between"):
+        dsolve(text, ics=values)
+
+
+# ---------------------------------------------------------------------------------------------------------------- limits
+
+
+@pytest.mark.parametrize(
+    ("left", "ics", "expected"),
+    [
+        (x * D2 + D1 + x * D0, {y(0): 1, slope_at(0): 0}, sympy.besselj(0, x)),
+        (x**2 * D2 + x * D1 + (x**2 - n**2) * D0, {y(0): "bounded"}, C1 * sympy.besselj(n, x)),
+        (x**2 * D2 - 2 * D0, {y(0): 0}, C2 * x**2),
+        (x**2 * D2 - 2 * D0, {y(oo): 0}, C1 / x),
+        (x**2 * D2 - 2 * D0, {y(0): "bounded", y(-1): 3}, 3 * x**2),
+        (x**2 * D2 + x * D1 - n**2 * D0, {y(0): "bounded", y(1): 1}, x**n),
+        (D2 + 2 * D1 / x + D0, {y(0): 1}, sin(x) / x),
+        ((1 - x**2) * D2 - 2 * x * D1 + 6 * D0, {y(1): 1, y(-1): "bounded"}, (3 * x**2 - 1) / 2),
+        (D2 + sympy.cot(x) * D1 + n * (n + 1) * D0, {y(0): 1}, sympy.legendre(n, cos(x))),
+        (x * D2 + (1 - x) * D1 + n * D0, {y(0): 1}, sympy.laguerre(n, x)),
+        (D2 - D0, {y(oo): 0, y(0): 1}, exp(-x)),
+        (D2 - D0, {y(-oo): 0, y(0): 1}, exp(x)),
+        (D2 - D0, {y(oo): "bounded", y(0): 1}, exp(-x)),
+        (D2 + D0, {y(oo): 0}, 0),
+        (D2 + D0, {y(oo): "bounded"}, C1 * cos(x) + C2 * sin(x)),
+        (D2 - k**2 * D0, {y(oo): 0, y(0): a}, a * exp(-k * x)),
+        (D2 - x * D0, {y(oo): 0, y(0): 1}, sympy.airyai(x) / sympy.airyai(0)),
+        (x * D2 + D1 - x * D0, {y(oo): 0, y(1): 1}, sympy.besselk(0, x) / sympy.besselk(0, 1)),
+        (D2 - (x**2 - 1) * D0, {y(oo): 0, y(-oo): 0}, C1 * exp(-(x**2) / 2)),
+        (D2 - (x**2 - 2) * D0, {y(oo): 0, y(-oo): 0}, 0),
+        (x * D2 + D1 - 1, {y(0): 0}, x),
+    ],
+    ids=str,
+)
+def test_limits(left: Any, ics: dict[Any, Any], expected: Any) -> None:
+    found = dsolve(left, ics=ics).rhs
+    assert sympy.simplify(found - expected) == 0
+
+
+def test_limits_that_cannot_be() -> None:
+    """A logarithm in y', a pole, an eigenvalue that isn't one; and a sign that nobody knows is undecided."""
+    for text, values in (
+        ("y'' + y = 1/x", "y(0)=1, y'(0)=0"),
+        ("x^2*y'' - 2*y = 0", "y(0)=1"),
+        ("(1-x^2)*y'' - 2*x*y' + 3*y = 0", "y(1)=1, y(-1)=bounded"),
+        ("x*y'' + y' = 1/x", "y(0)=0"),
+        ("y'' - y = 1", "y(oo)=0"),
+    ):
+        with pytest.raises(kovacic.InputError, match="no solution"):
+            dsolve(text, ics=values)
+    w = Symbol("w", real=True)
+    with pytest.raises(NotImplementedError, match=r"exp\(w/t\) is bounded isn't known"):
+        dsolve(D2 - w**2 * D0, ics={y(oo): 0, y(0): 1})
+    with pytest.raises(kovacic.InputError, match="given apart"):
+        dsolve("x*y'' + y' + x*y = 0", ics="y(0) - y(1) = 0")
+
+
+#: Expressions, and points at which they aren't analytic.
+EXPANDED = [
+    *(
+        (sympy.sympify(e), 0)
+        for e in ("bessely(0, x)", "besselk(2, x)", "bessely(1/3, x)", "Ci(x)", "Ei(-x)", "besselj(1/2, x)/x")
+    ),
+    *(
+        (sympy.sympify(e), 0)
+        for e in ("log(sin(x))/x**2", "x**(3/2)*exp(-x)/(1 - cos(x))", "elliptic_k(1 - x)", "exp(-1/x)*x")
+    ),
+    *(
+        (sympy.hyper((Rational(1, 3), Rational(1, 2)), (c,), 1 - x), 0)
+        for c in map(Rational, ("5/6", "11/6", "17/6", "7/5", "-1/6", "3/2"))
+    ),
+    (sympy.hyper((Rational(1, 3), Rational(4, 3)), (), -1 / x), oo),
+    (sympy.hyper((Rational(1, 3), Rational(1, 5)), (), -1 / x), 0),
+    (sympy.hyper((Rational(1, 3), Rational(4, 3)), (), -1 / x), 0),
+    (sympy.hyper((Rational(1, 3), Rational(-5, 3)), (), -1 / x), 0),
+    (sympy.hyper((Rational(1, 3),), (Rational(1, 2),), x), oo),
+    (sympy.hyper((Rational(1, 3),), (Rational(1, 2),), x), -oo),
+    *(
+        (sympy.sympify(e), oo)
+        for e in ("besselj(1, x)", "bessely(1/4, x)", "besseli(1, x)", "besselk(1, x)", "airyai(x)")
+    ),
+    *(
+        (sympy.sympify(e), oo)
+        for e in ("airybi(x)", "erf(x) - 1", "erfi(x)", "Ei(x)", "Ei(-x)", "Si(x)", "Ci(x)", "atan(x)")
+    ),
+    *((sympy.sympify(e), -oo) for e in ("erf(x)", "atan(x)", "Ei(x)", "sqrt(x**2 + 1) + x", "cosh(x)")),
+    (sympy.tan(x), pi / 2),
+    (sympy.legendre(n, cos(x)), pi),
+]
+
+
+@pytest.mark.parametrize(("e", "point"), EXPANDED, ids=str)
+def test_expansions(e: Any, point: Any) -> None:
+    """Against values by mpmath, near the point."""
+    place = Place(sympy.sympify(point))
+    found = behaviour(e, x, place)
+    t = Rational(1, 40) if place.is_infinite else Rational(1, 400)
+    with mpmath.workdps(40):
+        total = sympy.Integer(0)
+        for monomial, coefficient in found.terms.items():
+            growth = sympy.Add(*(c * t**-p for p, c in monomial.growth))
+            total += coefficient * exp(growth) * t**monomial.e * log(t) ** monomial.k
+        own = sympy.N(total.subs(n, 3), 30)
+        exact = sympy.N(e.subs(n, 3).subs(x, place.in_terms_of(t)), 30, maxn=400)
+    assert found.terms
+    assert abs(own - exact) < 1e-2 * abs(exact) + 1e-20
+
+
+def test_expansions_that_are_not_known() -> None:
+    nu = Symbol("nu")
+    assert all(e.is_negative is None for e in [nu])
+    for e in (sympy.zeta(x), sympy.Integral(exp(-(x**2)) / x, x), log(log(x)), sin(1 / x) ** Rational(1, 2)):
+        with pytest.raises((UnknownBehaviour, NotImplementedError)):
+            behaviour(e, x, Place(sympy.Integer(0)))
+    assert behaviour(sympy.hyper((), (Rational(3, 4),), -(x**4)), x, Place(sympy.Integer(0))).terms[CONSTANT] == 1
+
+
+# -------------------------------------------------------------------------------------------- zero, rank and what leaves
+
+
+def test_when_a_constant_is_zero() -> None:
+    z = Symbol("z")
+    always = [
+        sin(n * pi),
+        sin(z) ** 2 + cos(z) ** 2 - 1,
+        log(6) - log(2) - log(3),
+        sympy.sympify("sqrt(2)+sqrt(3)-sqrt(5+2*sqrt(6))"),
+    ]
+    never = [
+        exp(z),
+        k + L,
+        (-1) ** n,
+        sympy.besselk(n, 1),
+        sqrt(2) - Rational(141421356, 10**8),
+        sympy.E - Rational(2718281, 10**6),
+    ]
+    never.append(sin(pi * n / 2) / sympy.gamma(-n / 2) + cos(pi * n / 2) / sympy.gamma((1 - n) / 2))
+    sometimes = [z, a - 1, 1 - (-1) ** n, sin(k * L), cos(n * pi / 3)]
+    for constants, outcome in ((always, Zero.ALWAYS), (never, Zero.NEVER), (sometimes, Zero.SOMETIMES)):
+        assert [when_zero(constant) for constant in constants] == [outcome] * len(constants)
+    assert not is_zero_by_size(sqrt(2) - Rational(1414213562373095048801688724209, 10**30))
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_ranks(seed: int) -> None:
+    """Rows made of a rank and of solutions, with numbers that aren't recognised at sight."""
+    random = Random(seed)
+    numbers = [
+        sympy.Integer(0),
+        sympy.Integer(1),
+        sqrt(2) - 1,
+        1 / (1 + sqrt(2)),
+        pi,
+        exp(1),
+        sin(1) ** 2,
+        1 - cos(1) ** 2,
+    ]
+    c1, c2, u, v = (random.choice(numbers) for _ in range(4))
+    rank = random.choice([1, 2])
+    factors = [random.choice([1, -2, sqrt(3), pi]) for _ in range(3)]
+    rows = [Row(f * u, f * v, f * (u * c1 + v * c2)) for f in factors]
+    if rank == 2:
+        rows.append(Row(v + 1, -u - 2, (v + 1) * c1 - (u + 2) * c2))  # its minor with (u, v) is 0 for u = v = 0 only
+    spoiled = random.random() < 0.3
+    if spoiled:
+        rows.append(Row(rows[0].u, rows[0].v, rows[0].r + 1))
+    generic, others = determine(rows, (C1, C2))
+    assert not others
+    if spoiled:
+        assert generic.outcome is Outcome.NONE
+        return
+    assert generic.outcome is Outcome.SOLUTIONS
+    assert all(abs(sympy.N(row.rest(*generic.values).subs({C1: 3, C2: -2}), 30)) < 1e-20 for row in rows)
+    free = {C1, C2} & (generic.values[0].free_symbols | generic.values[1].free_symbols)
+    assert len(free) == 2 - (rank if u or v else rank - 1)
+
+
+def test_nothing_infinite_leaves() -> None:
+    assert not is_finite(sympy.zoo * sin(x))
+    assert not is_finite(sympy.nan + x)
+    assert is_finite(sympy.Integral(exp(-(x**2)), (x, 0, oo)) + 1)
+
+
+@pytest.mark.parametrize("integers", [(1, 1), (1, 3), (2, 1), (3, 3), (2, 5), (5, 4)])
+def test_no_constant_dies(integers: tuple[int, int]) -> None:
+    """The Wronskian of the two solutions isn't zero at admissible integers, where the order is above the degree, too."""
+    i, j = integers
+    order = Symbol("m", integer=True, positive=True)
+    left = D2 + sympy.cot(x) * D1 + (n * (n + 1) - order**2 / sin(x) ** 2) * D0
+    found = sympy.expand(dsolve(left).rhs)
+    y1, y2 = (found.coeff(c).subs({n: i, order: j}) for c in (C1, C2))
+    wronskian = y1 * y2.diff(x) - y1.diff(x) * y2
+    assert abs(sympy.N(wronskian.subs(x, Rational(7, 5)), 30)) > 1e-10
+
+
+def test_entire_solutions_where_bessel_functions_jump() -> None:
+    """y'' + c x^m y = 0: the values from the left and from the right agree at 0, for any constants."""
+    c = Symbol("c")
+    for power in (2, 3, 4):
+        found = dsolve(D2 + c * x**power * D0).rhs.subs({c: Rational(3, 2), C1: 2, C2: 5})
+        for derivative in (found, found.diff(x)):
+            left, right = (sympy.N(derivative.subs(x, sign * Rational(1, 10**9)), 20) for sign in (-1, 1))
+            assert abs(left - right) < 1e-7
+
+
+def test_floats_come_back() -> None:
+    """The double root of 0.4 and 0.04; no integers of 16 digits."""
+    assert str(dsolve(D2 + 0.4 * D1 + 0.04 * D0).rhs) == "(C1 + C2*x)*exp(-0.2*x)"
+    found = dsolve(D2 + 0.1 * D1 + 9.81 * D0, ics={y(0): 0.5, slope_at(0): 0}).rhs
+    assert len(str(found)) < 90
+    assert found.atoms(sympy.Float)
+    assert abs(found.subs(x, 2).evalf() - 0.4523) < 1e-3 or found.subs(x, 0) == 0.5
+    assert str(dsolve("y'' + 0.4*y' + 0.04*y = 0").rhs) == "(C1 + C2*x)*exp(-x/5)"
