@@ -119,8 +119,8 @@ def test_particular_values_of_parameters_are_said() -> None:
     w, h = sympy.symbols("w h")
     with pytest.warns(UserWarning, match=r"unless sin\(L\*w\) = 0, where y\(x\) = C2\*sin\(w\*x\)"):
         assert dsolve(D2 + w**2 * D0, ics={y(0): 0, y(L): 0}).rhs == 0
-    with pytest.warns(UserWarning, match=r"sin\(L\*w\) = 0, where there is a solution only if a = 0"):
-        assert dsolve(D2 + w**2 * D0, ics={y(0): 0, y(L): a}).rhs == a * sin(w * x) / sin(L * w)
+    with pytest.warns(UserWarning, match=r"sin\(L\*w\) = 0, where there is a solution only if h = 0"):
+        assert dsolve(D2 + w**2 * D0, ics={y(0): 0, y(L): h}).rhs == h * sin(w * x) / sin(L * w)
     with pytest.warns(UserWarning, match=r"unless h \+ 1 = 0, where y\(x\) = .*x"):
         assert dsolve(D2, ics={slope_at(0): h * y(0), y(1): 0}).rhs == 0
     with pytest.warns(UserWarning, match=r"unless w\*\(cos\(2\*pi\*w\) - 1\) = 0"):

@@ -74,7 +74,9 @@ def test_the_solution_of_a_right_hand_side_and_of_initial_values(capsys: pytest.
     assert "  y(x) = x - sin(x) + cos(x)" in capsys.readouterr().out.splitlines()
     assert main.run(["solve", "-4", "--ics", "y(0)=0", "--ics", "y'(0)=1"]) == 0
     assert "  y(x) = sin(2*x)/2" in capsys.readouterr().out.splitlines()
-    assert main.run(["solve", "2/x^2", "--ics", "y(0)=0"]) == 2
+    assert main.run(["solve", "2/x^2", "--ics", "y(0)=0"]) == 0
+    assert "  y(x) = C2*x^2" in capsys.readouterr().out.splitlines()
+    assert main.run(["solve", "2/x^2", "--ics", "y(0)=1"]) == 2
     assert "0 is a singular point" in capsys.readouterr().err
 
 

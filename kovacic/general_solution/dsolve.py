@@ -129,7 +129,7 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr,
     if generic.outcome is Outcome.NONE:
         unless = f", unless {'; or '.join(exceptions)}" if exceptions else ""
         singular = " and ".join(str(point) for point, place in limits.items() if not place.is_infinite)
-        at = f" (a singular point of the equation is {singular})" if singular else ""
+        at = f" ({singular} is a singular point of the equation)" if singular else ""
         raise InputError(f"there is no solution with these values: the conditions contradict one another{at}{unless}")
     value = combination(question, basis, particular, generic.values)
     check_answer(question, value, start, tuple(limits))

@@ -56,11 +56,8 @@ def when_zero(value: Expr) -> Zero:
         return Zero.ALWAYS if value == 0 else Zero.NEVER
     if is_nowhere_zero(value):
         return Zero.NEVER
-    by_parity = _by_parity(value)
-    if by_parity and all(is_nowhere_zero(part) for part in by_parity):
-        return Zero.NEVER
     if any(differs_from_zero(value, sample) for sample in islice(samples(value.free_symbols), _SAMPLES)):
-        return Zero.SOMETIMES if value.free_symbols else Zero.NEVER
+        return Zero.SOMETIMES if value.free_symbols and not _is_nowhere_zero_by_parity(value) else Zero.NEVER
     if is_identically_zero(value):
         return Zero.ALWAYS
     raise NotImplementedError(f"undecided: whether {shown(value, 60)} is zero")
@@ -92,10 +89,16 @@ def _is_nonzero(factor: Expr) -> bool:
     return base.is_zero is False and exponent.is_finite is not False
 
 
+def _is_nowhere_zero_by_parity(value: Expr) -> bool:
+    parts = _by_parity(value)
+    return bool(parts) and all(map(is_nowhere_zero, parts))
+
+
 def _by_parity(value: Expr) -> list[Expr]:
     """The value for even and for odd n, where n/2 for an integer n occurs in a wave or a gamma function; else nothing."""
     functions = value.atoms(sympy.sin, sympy.cos, sympy.gamma)
-    halved = {n for f in functions for n in f.free_symbols if n.is_integer and n.is_odd is None}
+    alone = [next(iter(f.free_symbols)) for f in functions if len(f.free_symbols) == 1]
+    halved = {n for n in alone if n.is_integer and n.is_odd is None}
     if len(halved) != 1:
         return []
     (n,) = halved
