@@ -619,6 +619,7 @@ def test_a_group_isnt_unipotent_because_no_form_is_shown(text: str, family: str,
         (2 / X - 1 / (X - 1), "cyclic", 1, "additive"),  # y1^-2 = (x - 1)^2/x^4
         (2 / X - 3 * X**2 / (2 * (1 + X**3)), "additive", 2, "cyclic"),  # (1 + x^3)/x^4
         (-1 / X + 2 / (X - 1), "cyclic", 1, "additive"),
+        (2 / X - 3 / (X - 1), "additive", 1, "cyclic"),  # (x - 1)^6/x^4
         (3 / X + 1 / (2 * (X + 1)), "additive", 2, "cyclic"),
         (-3 / (2 * X), "cyclic", 2, "additive"),
         # (1 - 4 x^3 + x^5)/(x^4 (x - 1)^2), which has no residue at 0
