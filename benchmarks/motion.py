@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import sys
 import time
-from dataclasses import asdict, astuple, dataclass
+from dataclasses import asdict, astuple, dataclass, fields
 from pathlib import Path
 
 import frame
@@ -70,7 +70,7 @@ def direct(method: str, tolerance: float, times: np.ndarray) -> np.ndarray:
                 raise Stopped
             return super().rates(t, y)
 
-    body = Watched(**BODY.__dict__)
+    body = Watched(**{field.name: getattr(BODY, field.name) for field in fields(BODY)})
     options = {"method": method, "rtol": tolerance, "atol": tolerance / 100}
     return values(newton_euler.integrate(body, astuple(START), np.concatenate([[0.0], times]), **options))[1:]
 
