@@ -16,6 +16,7 @@ from kovacic.errors import InputError, LimitExceeded, needs
 from kovacic.numerals import as_text
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import Template, number_text
+from kovacic.writing.maps import CellKind, draw_cells, new_axes
 
 _LARGEST_GRID = 10**9
 
@@ -152,52 +153,32 @@ def draw_map(
     `labels` are those of the records by their numbers.  A cell reaches half-way to the neighbouring values, and a missing
     number leaves it white.  Raises `InputError` for a grid that isn't increasing or decreasing, or too large for a picture.
     """
-    with needs("plot", "a map"):
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.colors import BoundaryNorm, ListedColormap
-        from matplotlib.figure import Figure
-        from matplotlib.patches import Patch
-
     upwards, rightwards = grids
-    height, width = len(upwards), len(rightwards)
+    height = len(upwards)
+    width = len(rightwards)
     if height * width > _LARGEST_MAP:
         raise InputError(f"a map of {height} x {width} points is too large for a picture")
+    right = _ordered(rightwards)
+    up = _ordered(upwards)
     code = {label: number for number, label in enumerate(_COLOURS_AND_NAMES, start=1)}
-    codes = [[code.get(labels.get(1 + i * width + k, ""), 0) for k in range(width)] for i in range(height)]
-    figure = Figure(figsize=(7.5, 5.0), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
-    axes.pcolormesh(
-        _edges(rightwards),
-        _edges(upwards),
-        codes,
-        cmap=ListedColormap(["white", *(colour for colour, _ in _COLOURS_AND_NAMES.values())]),
-        norm=BoundaryNorm([k - 0.5 for k in range(len(code) + 2)], len(code) + 1),
-    )
+    cells = [[code.get(labels.get(1 + i * width + k, ""), 0) for k in range(width)] for i in range(height)]
+    kinds = [CellKind("", "white"), *(CellKind(name, colour) for colour, name in _COLOURS_AND_NAMES.values())]
+    with needs("plot", "a map"):
+        axes = new_axes(7.5, 5.0)
+        handles = draw_cells(axes, right, up, cells, kinds)
     axes.set_xlabel(rightwards.name)
     axes.set_ylabel(upwards.name)
     axes.set_title(f"y'' = S y,  S = {expression if len(expression) <= 70 else expression[:67] + '...'}", fontsize=10)
-    shown = set(labels.values())
-    figure.legend(
-        handles=[
-            Patch(facecolor=colour, edgecolor="#444444", label=name)
-            for label, (colour, name) in _COLOURS_AND_NAMES.items()
-            if label in shown
-        ],
-        loc="outside right upper",
-        fontsize=9,
-        frameon=False,
-    )
-    figure.savefig(path, dpi=150)
+    axes.figure.legend(handles=handles, loc="outside right upper", fontsize=9, frameon=False)
+    axes.figure.savefig(path, dpi=150)
 
 
-def _edges(grid: Grid) -> list[float]:
-    """Half-way between neighbouring values, and as far beyond the first and the last one."""
+def _ordered(grid: Grid) -> list[Fraction]:
+    """The values, which are rational, and increase or decrease."""
     values = [value for value in grid if isinstance(value, Fraction)]
     if len(values) < len(grid):
         raise InputError(f"the values of {grid.name} aren't all rational, and a map needs that")
-    steps = [b - a for a, b in pairwise(values)] or [Fraction(1)]
+    steps = [b - a for a, b in pairwise(values)]
     if not (all(step > 0 for step in steps) or all(step < 0 for step in steps)):
         raise InputError(f"the values of {grid.name} aren't in order, and a map needs that")
-    middles = [(a + b) / 2 for a, b in pairwise(values)]
-    return [float(edge) for edge in (values[0] - steps[0] / 2, *middles, values[-1] + steps[-1] / 2)]
+    return values

@@ -8,11 +8,18 @@ from typing import Any
 
 from kovacic.errors import InputError
 from kovacic.exact import exact_real, whole
+from kovacic.writing.maps import CellKind, draw_cells, new_axes
 
-#: What can be known at a point.
-LABELS = ("no Liouvillian solution", "case 1", "case 2", "case 3", "not determined", "S not defined")
-#: Colours that keep apart in print and for colour-blind readers [Okabe & Ito].
-_COLOURS = ("#ffffff", "#0072b2", "#e69f00", "#cc79a7", "#dddddd", "#000000")
+#: What can be known at a point, in colours that keep apart in print and for colour-blind readers [Okabe & Ito].
+_KINDS = (
+    CellKind("no Liouvillian solution", "#ffffff"),
+    CellKind("case 1", "#0072b2"),
+    CellKind("case 2", "#e69f00"),
+    CellKind("case 3", "#cc79a7"),
+    CellKind("not determined", "#dddddd"),
+    CellKind("S not defined", "#000000"),
+)
+LABELS = tuple(kind.name for kind in _KINDS)
 
 
 def _grid(low: Any, high: Any, steps: int) -> list[Fraction]:
@@ -59,21 +66,9 @@ def plot(
     rows = [(second,) for second in values[1]] if len(chosen) == 2 else [()]
     table = [[colour(first, *row) for first in values[0]] for row in rows]
 
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.colors import BoundaryNorm, ListedColormap
-    from matplotlib.figure import Figure
-    from matplotlib.patches import Patch
-
     if axes is None:
-        figure = Figure(figsize=(6.5, 5.5), layout="constrained")
-        FigureCanvasAgg(figure)
-        axes = figure.add_subplot()
-    halves = [(column[1] - column[0]) / 2 for column in values]
-    edges = [[float(v) for v in (c[0] - half, *(v + half for v in c))] for c, half in zip(values, halves, strict=True)]
-    colours: dict[str, Any] = {"cmap": ListedColormap(_COLOURS), "norm": BoundaryNorm(range(7), 6)}
-    axes.pcolormesh(*edges, *([[0, 1]] if len(chosen) == 1 else []), table, **colours)
-    present = sorted({case for row in table for case in row})
-    handles = [Patch(facecolor=_COLOURS[k], edgecolor="#666666", label=LABELS[k]) for k in present]
+        axes = new_axes(6.5, 5.5)
+    handles = draw_cells(axes, values[0], values[1] if len(chosen) == 2 else None, table, _KINDS)
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
     second: dict[str, Any] = {"ylabel": chosen[1]} if len(chosen) == 2 else {"yticks": []}
     axes.set(xlabel=chosen[0], **second)

@@ -1,5 +1,6 @@
 """How mathematics is written: a function, a place, a document as text, LaTeX, Markdown and HTML.
 
-Nothing here knows of answers.  `formula` has a function or place as text and as LaTeX (read this first), `document` headings,
-formulas and tables with their four renderings, `breaking` where a line of LaTeX may end.
+Nothing here knows of answers.  `formula` has a function or place as text and as LaTeX (read this first), `omega` the polynomial
+of omega, `document` headings, formulas and tables with their four renderings, `breaking` where a line of LaTeX may end, and
+`maps` a picture of two parameters.
 """
