@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 import warnings
 from fractions import Fraction
@@ -27,7 +28,8 @@ from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.galois import Ground, Group, GroupKind
-from kovacic.limits import Budget, Limits
+from kovacic.limits import Budget, Limits, bounded_work
+from kovacic.special.search import find
 
 PRIMITIVE = {
     "tetrahedral": "(-32*x^2 + 27*x - 27)/(144*x^4 - 288*x^3 + 144*x^2)",
@@ -386,3 +388,25 @@ def test_a_ball_knows_its_route(equation: Any, start: dict[str, Any], method: st
     assert (y.route.method, y.route.digits, y.route.runs) == (method, 15, 1)
     assert kovacic.Ball(y.re, y.im, y.rad, y.real) == y
     assert (y + 1).route is None
+
+
+def test_a_target_where_two_discs_meet_needs_no_way_of_its_own(caplog: pytest.LogCaptureFixture) -> None:
+    # y'' = -100 y: the discs are dyadic, and so are these targets
+    targets = [Fraction(k, 4) for k in range(1, 41)]
+    with caplog.at_level("DEBUG", logger="kovacic.enclosure.transport"):
+        values = evaluate("-100", targets, x0=0, y0=0, dy0=10, method="taylor")
+    ways = [record for record in caplog.records if record.getMessage().startswith("from ")]
+    assert len(ways) == values[0].route.runs
+    assert all(abs(float(v) - math.sin(10 * float(x))) < 1e-13 for x, v in zip(targets, values, strict=True))
+
+
+def test_a_first_ball_that_contains_zero_doubles_the_precision_only() -> None:
+    S = "x/2+x^2-x^3-x^4+5/3*x^5-5/3*x^6"
+    value = evaluate(S, "5+8*I", x0=-1, y0="-11/4", dy0="4/3", digits=5, path=["1/3+2*I"])
+    assert 5 <= value.digits < 40
+
+
+def test_a_search_for_a_pull_back_costs_no_more_than_the_way() -> None:
+    S = kovacic.solve("(x+1)/((x^2+2)*(x^2+3)*(x^2+x+5))^2").S
+    with bounded_work(100):
+        assert find(S, Budget(), extended=False).pullback is None

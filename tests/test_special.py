@@ -225,7 +225,7 @@ def test_nothing_is_returned_that_does_not_satisfy_the_identity(kind: str, monke
         Pullback(Gauss(one * 2, one * 3, one * 5), found.f),
     ):
         for module in (confluent, gauss):
-            monkeypatch.setattr(module, "candidates", lambda problem, spoiled=spoiled: iter([spoiled]))
+            monkeypatch.setattr(module, "candidates", lambda problem, spoiled=spoiled, **_: iter([spoiled]))
         assert find(case.S, Budget()).pullback is None
 
 

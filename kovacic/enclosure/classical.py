@@ -66,7 +66,7 @@ def classical_of(S: RatFunc) -> Classical | None:
     if S.field != QQ or S.num.degree + S.den.degree > _DEGREE:
         return None
     budget = Budget(Limits(constants=1))
-    search = find(S, budget)
+    search = find(S, budget, extended=False)
     if search.stopped and budget.seconds_left <= 0:  # an exception isn't kept
         raise LimitExceeded(search.stopped, limit="seconds")
     found = search.pullback

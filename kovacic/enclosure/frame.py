@@ -28,7 +28,7 @@ from kovacic.errors import InputError
 Parts = tuple[list[int], list[int] | None]
 _BITS = 64
 _RINGS = 8
-_REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
+REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
 _STEEPEST = 2400  # growth of the majorant, in logarithms, at most
 _LARGEST = 900  # growth of the majorant in a disc, in bits
 
@@ -99,7 +99,7 @@ class Frame:
     def seen(self, x: ExactPoint) -> ExactPoint:
         """u at x; raises ArithmeticError where the bounds don't hold."""
         u = (x - self.centre).scaled(power_of_two(-self.e))
-        if u.norm_squared() > _REACH * _REACH:
+        if u.norm_squared() > REACH * REACH:
             raise ArithmeticError("the target lies outside of its disc")
         return u
 
@@ -128,11 +128,11 @@ def _bound(p: Parts, q_0: int, poles: list[tuple[arb, int]], blur: arb | None) -
             least *= (1 - r / size) ** k
         return least, (majorant(r) / least if blur is None else majorant(r) / least + blur).upper()
 
-    least, sigma = bounds(arb(_REACH))
+    least, sigma = bounds(arb(REACH))
     if not (least > 0 and sigma < _STEEPEST**2):
         return None
     rings = min(_RINGS, 1 + int(float(sigma.sqrt().upper())))  # growth by exp(1) in each, or more
-    delta = arb(_REACH) / rings
+    delta = arb(REACH) / rings
     error = slope = arb(0)
     growth, slope_growth = arb(1), arb(1)
     for j in range(rings):

@@ -188,6 +188,7 @@ class Traveller:
         while waiting:
             last, way = stops[waiting[-1]], self.product
             found |= {i: self.state(start) for i in waiting if stops[i] == here}
+            waiting = [i for i in waiting if i not in found]
             for leg in walk(system, here, last, self.prec, len(waiting)):
                 served = list(leg.disc.served(system, here, [(i, places[i], stops[i]) for i in waiting]))
                 if served:

@@ -95,7 +95,7 @@ def raise_precision(
             with working_precision(prec + 40):
                 states = journey.states(targets, closed, prec)
                 route = Route(digits, METHODS[closed is not None], prec, runs)
-                lacking = [_missing_bits(y, digits, prec) for y, _ in states]
+                lacking = [_missing_bits(y, digits, prec, first=runs == 1) for y, _ in states]
                 finite = all(y.is_finite() and dy.is_finite() for y, dy in states)
                 found = tuple(map(PointValue, targets, states, lacking, repeat(route))) if finite else None
                 missing = max(lacking, default=0)
@@ -110,9 +110,10 @@ def raise_precision(
             return found
         # where a higher precision hasn't halved the balls, their size comes from the initial values
         stalled = bool(not exact and previous and found) and all(
-            f.reached or 2 * arb(f.y.rad) > arb(p.y.rad) for p, f in zip(previous or (), found or (), strict=True)
+            f.reached or (_is_telling(f, runs) and 2 * arb(f.y.rad) > arb(p.y.rad))
+            for p, f in zip(previous or (), found or (), strict=True)
         )
-        if exact and found is not None:  # a recessive solution is as small as the others are large
+        if exact and found is not None and runs > 1:  # a recessive solution is as small as the others are large
             highest = max(highest, 2 * max(map(_growth, found)) + 2 * start_bits(digits))
         if prec >= highest or stalled or highest > most:
             if found is None:
@@ -122,16 +123,26 @@ def raise_precision(
         prec = min(prec + missing + 16, highest)
 
 
-def _missing_bits(y: acb, digits: int, prec: int) -> int:
-    """How many bits of precision the enclosure lacks (0: the goal is met)."""
+def _missing_bits(y: acb, digits: int, prec: int, *, first: bool) -> int:
+    """How many bits of precision the enclosure lacks (0: the goal is met).
+
+    The `first` ball that contains zero may be wide because the precision was low, which says nothing of the solutions.
+    """
     if not y.is_finite():
         return prec
     if y.is_exact():
         return 0
     goal = int(digits * 3.3219280948873626) + 2
+    if y.contains(0) and first:
+        return prec
     if y.contains(0):  # if the solution is the recessive one, twice the growth of the others is lost
         return max(prec, 2 * _lost(y, prec) + goal - prec)
     return max(0, goal - int(y.rel_accuracy_bits()))
+
+
+def _is_telling(result: PointValue, runs: int) -> bool:
+    """Does the size of the ball tell of more than a precision that was too low at first?"""
+    return runs > 2 or not result.y.contains_zero()
 
 
 def _lost(y: acb, prec: int) -> int:

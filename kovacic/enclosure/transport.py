@@ -25,7 +25,7 @@ from typing import Any
 
 from flint import fmpq
 
-from kovacic.enclosure.frame import Frame, fitting, least_growth, log2
+from kovacic.enclosure.frame import REACH, Frame, fitting, least_growth, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_double
 from kovacic.enclosure.splitting import is_split, legs
@@ -44,6 +44,7 @@ _MANY = 50
 _FEWER_BITS = 12.0
 _MAX_DISCS = 200_000
 _ROUNDED = 1e-15  # more than the relative errors of doubles
+_EDGE = 1 + 2.0**-17  # a target so far from the centre, in scales, is surely within the reach of the bounds
 _TRIED, _WORTH = 32, 0.2  # steps and seconds after which the time of the others is known well enough to be foreseen
 
 
@@ -70,9 +71,10 @@ class Disc:
         """
         if self.begin is None:
             return
-        centre, scale, e = self.frame.centre, self.frame.scale, self.frame.e
-        unit = math.ldexp(1.0, e) if abs(e) < 900 else -1.0  # beyond the range of doubles the end alone is served
-        corners = (centre + ExactPoint(x * scale, y * scale) for x in (1, -1) for y in (1, -1))
+        centre, reach = self.frame.centre, self.frame.scale * REACH
+        # the edge of the disc is inside, so that a target where two discs meet is served; beyond the doubles the end alone is
+        unit = math.ldexp(_EDGE, self.frame.e) if abs(self.frame.e) < 900 else -1.0
+        corners = (centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1))
         free, near = self.begin == a or is_apart(system, a, *corners), to_double(centre)
         for number, place, x in targets:
             inside = abs(place - near) + _ROUNDED * (abs(place) + abs(near)) <= unit  # `Frame.seen` checks it exactly

@@ -21,8 +21,11 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
 from kovacic.errors import LimitExceeded
+from kovacic.limits import count_work
 from kovacic.special.pullback import Gauss, Pullback
 
+#: What a function f costs, in pairs of fibres, about.
+_TRIAL = 20
 #: The most places that are distributed, up to which number apparent ones are among them, and the most functions f.
 _PLACES, _WITH_APPARENT, _TRIALS = 14, 7, 1000
 
@@ -50,15 +53,20 @@ class _Fibre:
         return result
 
 
-def candidates(problem: Problem) -> Iterator[Pullback]:
-    """Pull-backs that are possible, those of small degree first; each of them has to be verified."""
+def candidates(problem: Problem, *, extended: bool = True) -> Iterator[Pullback]:
+    """Pull-backs that are possible, those of small degree first; each of them has to be verified.
+
+    With `extended`, conjugate places are separated over a larger field.
+    """
     regular = [place for place in problem.places if place.kind is Kind.REGULAR]
     places = [place for place in regular if not place.is_apparent]
     different = next((place for place in places if place.delta_squared is None), None)
-    if different is not None and different.degree == 2:  # separated over the field with a root of their polynomial
+    separable = different is not None and different.degree == 2
+    if extended and separable:  # over the field with a root of their polynomial
+        assert different is not None
         field = AlgebraicField(problem.field, different.factor)
         S = RatFunc(problem.S.num.over(field), problem.S.den.over(field), reduced=True)
-        yield from candidates(analyse(S, problem.budget))
+        yield from candidates(analyse(S, problem.budget), extended=extended)
     if len(places) > _PLACES or different is not None:
         return
     # f of degree n has 2 n - 2 ramification points, so that there are n + 2 + R points over 0, 1 and infinity, R being the
@@ -69,12 +77,14 @@ def candidates(problem: Problem) -> Iterator[Pullback]:
     fibres: dict[int, list[_Fibre]] = {}
     for fibre in _fibres(among, 2 * sum(place.degree for place in among) - 4):
         problem.budget.check()
+        count_work(1)
         if fibre.degree >= points - 2 - elsewhere:
             fibres.setdefault(fibre.degree, []).append(fibre)
     tried = set()
     for n, some in sorted(fibres.items()):
         for zeros, poles in combinations(some, 2):
             problem.budget.check()
+            count_work(1)
             if zeros.mask & poles.mask:
                 continue
             used = zeros.mask | poles.mask
@@ -85,6 +95,7 @@ def candidates(problem: Problem) -> Iterator[Pullback]:
             for f in _scaled(zeros.polynomial, poles.polynomial, rest):
                 if f not in tried:
                     tried.add(f)
+                    count_work(_TRIAL)
                     if len(tried) > _TRIALS:
                         raise LimitExceeded(f"there are more than {_TRIALS} functions f to try", limit="degree")
                     yield from _with_third(f, zeros, poles, regular)

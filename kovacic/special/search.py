@@ -54,10 +54,11 @@ class SpecialFunctions:
         return f"no special function was found; searched: {'; '.join(self.searched)}"
 
 
-def find(S: RatFunc, budget: Budget) -> SpecialFunctions:
+def find(S: RatFunc, budget: Budget, *, extended: bool = True) -> SpecialFunctions:
     """The first pull-back of Airy's, Whittaker's, Bessel's or Gauss' equation that gives S, checked exactly; not yet written.
 
-    An exhausted budget is a value: `stopped` is its sentence.
+    Without `extended`, functions f over a larger field than that of S aren't sought.  An exhausted budget is a value: `stopped`
+    is its sentence.
 
     >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
@@ -71,7 +72,8 @@ def find(S: RatFunc, budget: Budget) -> SpecialFunctions:
             problem = analyse(S, budget)
             regular = not confluent.irregular_places(problem)
             searched = _GAUSS if regular else _CONFLUENT
-            for pullback in gauss.candidates(problem) if regular else confluent.candidates(problem):
+            found = gauss.candidates(problem, extended=extended) if regular else confluent.candidates(problem)
+            for pullback in found:
                 budget.check()
                 if pullback.gives(S):
                     return SpecialFunctions(pullback, searched)
