@@ -73,3 +73,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 # would inherit that; where this process handles it, they have the system's default.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+# What is printed for a terminal has this width, whatever the terminal is from which the tests are started; so have the
+# processes that tests start.
+os.environ["COLUMNS"] = "80"
