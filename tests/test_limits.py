@@ -226,3 +226,13 @@ def test_factors_are_found_apart_as_here() -> None:
     assert len(found) == 24  # the divisors of 504
     with Budget(Limits(seconds=0)).watched(), pytest.raises(LimitExceeded):
         QQ.factor(QQ.poly([-3, *[0] * 1259, 1, 7]))
+
+
+def test_what_a_process_has_not_factored_is_not_factored_without_end() -> None:
+    """The process is stopped by the time on the wall, while the clock of the call stands still."""
+    with (
+        controlled(),
+        Budget(Limits(seconds=0.5)).watched(),
+        pytest.raises(LimitExceeded, match="no factors of a polynomial of degree 5040"),
+    ):
+        QQ.factor(QQ.poly([-1, *[0] * 5039, 1]))

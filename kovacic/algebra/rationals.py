@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import inf
-from typing import Any
+from typing import Any, cast
 
 from flint import fmpq, fmpq_poly, fmpz, fmpz_poly, nmod_poly
 from flint.utils.flint_exceptions import DomainError
@@ -15,6 +15,7 @@ from flint.utils.flint_exceptions import DomainError
 from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.lifting import Residues, inverse_by_primes, primes
 from kovacic.algebra.poly import Field, Poly, Scalar
+from kovacic.errors import LimitExceeded
 from kovacic.limits import check_duration, check_time, watched_seconds
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
@@ -323,8 +324,11 @@ def _factored_apart(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...]
     from kovacic.process import last_of
 
     found = last_of(_yield_factors, coefficients, seconds=watched_seconds(inf))
-    check_time()
-    return next(_yield_factors(coefficients)) if found is None else found  # where no process can be started
+    if found is None:  # for want of time, of memory, or of a process: here it might have no end
+        check_time()
+        reason = f"a process of its own gave no factors of a polynomial of degree {len(coefficients) - 1}"
+        raise LimitExceeded(f"{reason}; with seconds=inf none is started", limit="seconds")
+    return cast("list[tuple[tuple[int, ...], int]]", found)
 
 
 def _yield_factors(coefficients: tuple[int, ...]) -> Iterator[list[tuple[tuple[int, ...], int]]]:
