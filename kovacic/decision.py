@@ -165,14 +165,39 @@ class Decision:
 
 
 @dataclass(frozen=True)
+class Piece:
+    """(a + b y)^exponent on a curve y^2 = h(x)."""
+
+    exponent: int
+    a: Poly
+    b: Poly
+
+
+@dataclass(frozen=True)
+class CurveFunction:
+    """A function f, the product of its pieces up to a function of x alone, on the curve y^2 = h.
+
+    `multiple` * d log(y1/y2) = df/f + `rest` dx/y: without a rest (y1/y2)^multiple is f; with one, holomorphic as it is, no
+    power of y1/y2 is a function.
+    """
+
+    multiple: int
+    h: Poly
+    pieces: tuple[Piece, ...]
+    rest: Poly
+
+
+@dataclass(frozen=True)
 class GroupClaim:
     """What is said of the group: the name of its family, as in `kovacic.galois.Kind`, and its parameter n.
 
-    `form` is a rational form of degree 2 for a reducible group, where the decision has none; and the one that shows that a
-    dicyclic group on a curve of positive genus is finite.  `orders` has primes, with orders modulo them, for an infinite one.
+    `form` is a rational form of degree 2 for a reducible group, where the decision has none.  For an imprimitive one on a curve
+    of positive genus, `function` shows whether it is finite; or `orders` has primes, with orders modulo them, for an infinite
+    one.
     """
 
     family: str
     n: int | None
     form: SemiInvariant | None = None
     orders: tuple[tuple[int, int], ...] = ()
+    function: CurveFunction | None = None

@@ -1,0 +1,295 @@
+"""A function with a given divisor on a hyperelliptic curve, as a product of a few small ones (Miller's doubling).
+
+eta = sqrt(H) dx has simple poles with the rational residues +-Delta on the curve y^2 = h, h the squarefree part of H; l is the
+common denominator of the Delta, and D = sum l Delta (P - P') with P where the residue is +Delta and P' its conjugate.  The
+question is whether k D is the divisor of a function f, and whether df/f = k l eta then.
+
+- The coordinate t, x = r + 1/t, is chosen with H(r) not a square: then the two points at t = infinity are conjugate over the
+  field, every function has the same order at both, and E -> [E - (deg E/2) (both)] turns effective divisors E of an even
+  degree into classes.  All poles of eta are at finite points.
+- E is represented by (u, v): u(t) = 0 and y = v(t) at its points [Mumford].  A function a - b y vanishes on E if a = b v
+  modulo u.  Euclid's algorithm for u and v has those of the least max(deg a, deg b + deg h/2); where they are more than the
+  multiples of one, the shortest is taken, which keeps the coefficients small.  Its other zeros are those of (a^2 - h b^2)/u,
+  deg h/2 at most; the conjugates of these have the class of E.
+- From the leading binary digit of the N_P = 2 k l Delta on, E is doubled, the P whose digit is 1 are added, and the sum is
+  replaced by a small divisor of its class.  The functions a - b y, each to the power of two by which it is doubled later, are
+  the pieces of f; k D is principal exactly if nothing is left at the end.
+
+References: V. Miller, J. Cryptology 17 (2004) 235-261, for the doubling; D. Cantor, Math. Comp. 48 (1987) 95-101, for the sum
+of divisors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import count
+from math import lcm
+
+from flint import fmpq_mat, fmpz_mat
+
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.decision import CurveFunction, Piece
+from kovacic.errors import LimitExceeded
+from kovacic.limits import check_time
+
+#: Bits of a coefficient beyond which a class isn't a torsion one, or not one of a small order.
+_LARGEST_HEIGHT = 50_000
+
+
+@dataclass(frozen=True)
+class Points:
+    """The points over the roots of u, with y = v there: an effective divisor without two conjugate points."""
+
+    u: Poly
+    v: Poly
+
+
+@dataclass(frozen=True)
+class Model:
+    """eta = s y dt on y^2 = h(t), x = r + 1/t, and its poles with their positive residues."""
+
+    r: int
+    h: Poly
+    s: RatFunc
+    poles: tuple[tuple[Points, Fraction], ...]
+
+    @property
+    def half(self) -> int:
+        """The order of the pole of y at both points at infinity: the genus and 1."""
+        return self.h.degree // 2
+
+
+def function_of_order(H: RatFunc, k: int) -> CurveFunction | None:
+    """f with the divisor k D, and the holomorphic rest of k l sqrt(H) dx - df/f; None if k D isn't principal.
+
+    Raises `LimitExceeded` where coefficients become so long that k isn't the order of D.
+    """
+    model = model_of(H)
+    l = lcm(*(residue.denominator for _, residue in model.poles))  # noqa: E741 - as in the module's text
+    multiples = [int(2 * k * l * residue) for _, residue in model.poles]
+    pieces = _doubled(model, multiples)
+    if pieces is None:
+        return None
+    slope = RatFunc(H.field.poly([]))
+    for piece in pieces:
+        slope = slope + logarithmic_slope(piece, model.h) * piece.exponent
+    rest = model.s * model.h * (k * l) - slope
+    assert rest.is_polynomial
+    return _in_x(model, CurveFunction(k * l, model.h, tuple(pieces), rest.num))
+
+
+def logarithmic_slope(piece: Piece, h: Poly) -> RatFunc:
+    """R with R dx/y the odd part of d log(a + b y): half of d log of its quotient by the conjugate."""
+    a, b = piece.a, piece.b
+    odd = (b.derivative() * h + b * h.derivative() / 2) * a - a.derivative() * b * h
+    return RatFunc(odd, a * a - h * b * b)
+
+
+# ------------------------------------------------------------------------------------------------ the model
+
+
+def model_of(H: RatFunc) -> Model:
+    """The curve in a coordinate in which the points at infinity aren't rational, and the poles of eta."""
+    r = next(r for r in _integers() if _is_no_square(H, r))
+    field = H.field
+    shifted = [f(field.poly([r, 1])) for f in (H.num, H.den)]
+    top = max(f.degree for f in shifted)
+    num, den = (f.reversed(top - f.degree) for f in shifted)
+    t = field.poly([0, 1])
+    moved = RatFunc(num, den * t**4)  # dx = -dt/t^2
+    h, s = _squarefree_part(moved)
+    poles = []
+    for q, multiplicity in field.factor(moved.den):
+        if multiplicity == 2:
+            poles.append(_pole(moved, h, s, q))
+    return Model(r, h, s, tuple(poles))
+
+
+def _integers() -> Iterator[int]:
+    """0, 1, -1, 2, -2, ..."""
+    yield 0
+    for k in count(1):
+        yield k
+        yield -k
+
+
+def _is_no_square(H: RatFunc, r: int) -> bool:
+    """Is H(r) a number of the field that has no root in it?"""
+    num, den = H.num(H.field.poly([r])), H.den(H.field.poly([r]))
+    return bool(num) and bool(den) and H.field.sqrt(num * den) is None
+
+
+def _squarefree_part(H: RatFunc) -> tuple[Poly, RatFunc]:
+    """h and s with H = h s^2, h squarefree."""
+    field = H.field
+    h = H.num.lc
+    s = RatFunc(field.poly([1]))
+    for f, sign in ((H.num, 1), (H.den, -1)):
+        for q, multiplicity in field.factor(f):
+            odd = multiplicity % 2
+            h = h * q**odd
+            s = s * RatFunc(q) ** ((sign * multiplicity - odd) // 2)
+    return h, s
+
+
+def _pole(H: RatFunc, h: Poly, s: RatFunc, q: Poly) -> tuple[Points, Fraction]:
+    """The point over the roots of q at which s y dt has a positive residue, and the residue: y = residue q'/(s q) there."""
+    regular = s * q
+    y = q.derivative() * regular.den * regular.num.inverse_modulo(q) % q  # for the residue 1
+    square = H.field.rational_value(h % q * (y * y % q).inverse_modulo(q) % q)
+    assert square is not None
+    residue = _rational_root(square)
+    return Points(q, y * residue), residue
+
+
+def _rational_root(square: Fraction) -> Fraction:
+    root = QQ.rational_value(QQ.sqrt(QQ.poly([square])) or QQ.poly([]))
+    assert root
+    return abs(root)
+
+
+def _in_x(model: Model, f: CurveFunction) -> CurveFunction:
+    """The function in the coordinate x: t = 1/(x - r), y(t) = y(x)/(x - r)^half, dt = -dx/(x - r)^2."""
+    half = model.half
+    shift = f.h.field.poly([-model.r, 1])
+
+    def cleared(polynomial: Poly, degree: int) -> Poly:
+        """(x - r)^degree times the polynomial in t."""
+        return polynomial.reversed(degree - polynomial.degree)(shift) if polynomial else polynomial
+
+    pieces = []
+    for piece in f.pieces:
+        degree = max(piece.a.degree, piece.b.degree + half)
+        pair = cleared(piece.a, degree), cleared(piece.b, degree - half)
+        pieces.append(Piece(piece.exponent, *_primitive(*pair)))
+    return CurveFunction(f.multiple, cleared(f.h, 2 * half), tuple(pieces), -cleared(f.rest, half - 2))
+
+
+# ------------------------------------------------------------------------------------------------ the doubling
+
+
+def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
+    """The pieces of a function with the divisor sum N_P P, up to functions of x alone; None if there is none."""
+    one = model.h.field.poly([1])
+    total = Points(one, one * 0)
+    pieces: list[Piece] = []
+    for place in reversed(range(max(multiples).bit_length())):
+        check_time()
+        total = _sum(model.h, total, total)
+        for (points, _), N in zip(model.poles, multiples, strict=True):
+            if N >> place & 1:
+                total = _sum(model.h, total, points)
+        total, found = _reduced(model, total)
+        if total.u.height_bits() > _LARGEST_HEIGHT:
+            raise LimitExceeded("the multiples of a divisor have long coefficients", limit="bits")
+        if found is not None:
+            pieces.append(Piece(2**place, *found))
+    return None if total.u.degree else pieces
+
+
+def _sum(h: Poly, first: Points, second: Points) -> Points:
+    """The sum of two divisors, without pairs of conjugate points [Cantor]."""
+    u1, v1, u2, v2 = first.u, first.v, second.u, second.v
+    d1, e1, e2 = _extended_gcd(u1, u2)
+    d, c1, c2 = _extended_gcd(d1, v1 + v2)
+    u = u1 * u2 // (d * d)
+    v = (c1 * e1 * u1 * v2 + c1 * e2 * u2 * v1 + c2 * (v1 * v2 + h)) // d % u
+    return Points(u, v)
+
+
+def _reduced(model: Model, E: Points) -> tuple[Points, tuple[Poly, Poly] | None]:
+    """A divisor of the class of E, of degree deg h/2 at most, and (a, b) of the function a + b y that shows it."""
+    if E.u.degree <= model.half:
+        return E, None
+    a, b = _least_function(model, E)
+    common = a.gcd(b)  # points of E that are left as they are
+    a = a // common
+    b = b // common
+    others = ((a * a - model.h * b * b) // (E.u // common)).monic()
+    conjugate = Points(others, -a * b.inverse_modulo(others) % others if others.degree else others * 0)
+    return _sum(model.h, conjugate, Points(common, E.v % common)), (a, -b)
+
+
+def _least_function(model: Model, E: Points) -> tuple[Poly, Poly]:
+    """(a, b) with a = b v modulo u, of the least max(deg a, deg b + deg h/2), and short."""
+    a0, a1 = E.u, E.v
+    b0 = E.u * 0
+    b1 = b0 + 1
+    while a1.degree > b1.degree + model.half:
+        quotient, remainder = divmod(a0, a1)
+        a0, a1, b0, b1 = a1, remainder, b1, b0 - quotient * b1
+    before, after = a0.degree, b1.degree + model.half
+    if before == after:
+        return _shortest((a0, b0), (a1, b1))
+    return _primitive(a0, b0) if before < after else _primitive(a1, b1)
+
+
+def _extended_gcd(f: Poly, g: Poly) -> tuple[Poly, Poly, Poly]:
+    """(d, s, t) with d = s f + t g the monic greatest common divisor."""
+    r0, r1 = f, g
+    s0, s1 = f * 0 + 1, f * 0
+    t0, t1 = s1, s0
+    while r1:
+        quotient, remainder = divmod(r0, r1)
+        r0, r1 = r1, remainder
+        s0, s1 = s1, s0 - quotient * s1
+        t0, t1 = t1, t0 - quotient * t1
+    inverse = r0.lc.inverse()
+    return r0 * inverse, s0 * inverse, t0 * inverse
+
+
+# ------------------------------------------------------------------------------------------------ short functions
+
+
+def _primitive(a: Poly, b: Poly) -> tuple[Poly, Poly]:
+    """The pair, divided by the rational content of its coordinates."""
+    return a.field.ground.cleared(a, b)
+
+
+def _shortest(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple[Poly, Poly]:
+    """A short one of the pairs c first + d second; over a field with parameters, simply the first one.
+
+    The pairs with integral coordinates are a lattice, which LLL reduces.  It is M' = T^-1 M, where the rows of M are
+    such pairs, and T has a basis of the lattice that the columns of M generate.
+    """
+    field = first[0].field
+    if field.ground != QQ:
+        return _primitive(*first)
+    basis = [_primitive(a * c, b * c) for a, b in (first, second) for c in _power_basis(field)]
+    length = [1 + max(pair[i].degree for pair in basis) for i in (0, 1)]
+    M = fmpz_mat([[int(c) for i in (0, 1) for c in _coordinates(pair[i], length[i])] for pair in basis])
+    size = len(basis)
+    columns = M.transpose().hnf()
+    T = fmpz_mat([[columns[j, i] for j in range(size)] for i in range(size)])
+    saturated = (fmpq_mat(T).inv() * fmpq_mat(M)).numer_denom()[0]
+    rows, change = saturated.lll(transform=True)
+    least = min(range(size), key=lambda i: sum(int(c) ** 2 for c in rows.tolist()[i]))
+    factors = (fmpq_mat(change) * fmpq_mat(T).inv()).tolist()[least]
+    a = b = first[0] * 0
+    for factor, pair in zip(factors, basis, strict=True):
+        scale = Fraction(int(factor.p), int(factor.q))
+        a = a + pair[0] * scale
+        b = b + pair[1] * scale
+    return a, b
+
+
+def _power_basis(field: Field) -> list[Poly]:
+    """A basis over Q of a number field, as constants."""
+    if not isinstance(field, AlgebraicField):
+        return [field.poly([1])]
+    below = [field.embed(c) for c in _power_basis(field.base)]
+    return [c * field.generator**k for k in range(field.dimension) for c in below]
+
+
+def _coordinates(polynomial: Poly, length: int) -> list[int]:
+    """The integral coordinates of the first coefficients."""
+    result: list[int] = []
+    for leaf in polynomial.leaves():
+        known = [int(c.p) for c in leaf.rational_coefficients()]
+        result += known + [0] * (length - len(known))
+    return result
