@@ -658,14 +658,14 @@ def as_json(number: int | None) -> int | str | None:
 
 def check_group(group: dict[str, Any], family: str, n: int | None, used: set[str]) -> None:
     """Everything that is said of the group follows from its family; the evidence that is given is what was used."""
-    demand_keys(group, "the group", "name order finite", "family n form orders")
+    demand_keys(group, "the group", "name order finite", "family n function orders")
     order = SIZES[family] * (n or 1) if family in SIZES else None
     size, degree = as_json(order), as_json(n)
     name = NAMES.get(f"{family}{degree}", NAMES[family]).format(n=degree, order=size)
     expected = {"name": name, "order": size, "finite": order is not None, "family": family, "n": degree}
     for key in set(expected) & set(group):
         demand_equal(group[key], expected[key], f"the {key} of the group")
-    demand(set(group) & {"form", "orders"} == used, "the group needs this evidence")
+    demand(set(group) & {"function", "orders"} == used, "the group needs this evidence")
 
 
 def reducible_group(places: list[Place], F: Form | None) -> Family:
@@ -699,7 +699,7 @@ class Imprimitive:
     slope: Value
     H: Value
     group: dict[str, Any]
-    read_form: Callable[[dict[str, Any], int], Form]
+    names: dict[str, Value]
 
     def infinite_monodromy(self) -> Family | None:
         """An irregular place, or an exponent difference that isn't rational: an element of infinite order."""
@@ -723,34 +723,47 @@ class Imprimitive:
         """The divisor D of l eta, l the common denominator, has no finite order.
 
         Reduction modulo a prime of good reduction is injective on classes of finite order: orders that differ prove that there
-        is none; and a single order k leaves only n = l k, where y1^2n + y2^2n would be a rational form, beside f^n for even n.
+        is none.
         """
         if not self.group.get("orders"):
             return None
         for entry in self.group["orders"]:
             demand_keys(entry, "an order", "prime order")
         shown = {order_modulo(entry["prime"], entry["order"], self.eta) for entry in self.group["orders"]}
-        k = self.denominator * min(shown)
-        demand(len(shown) > 1 or self.exclusions.dimension(2 * k) <= (k + 1) % 2, "the order isn't finite")
+        demand(len(shown) > 1, "the order isn't finite")
         return "infinite dihedral", None
 
-    def finite(self) -> Family | None:
-        """A rational form of degree 2n beside f^n shows that u^n is a function on the curve.
+    def function(self) -> Family | None:
+        """n log u is half the logarithm of f = prod (a + b y)^e over its conjugate, plus the integral of w dx/y, y^2 = h.
 
-        n is the least one if there is no such form for its largest proper divisors.
+        The differential of this is an identity of rational functions, up to the sign of u.  With w = 0, and a norm of f that is
+        a constant times a square, u^n is a function; n is the least one if it is no power of another function.  With w dx/y
+        holomorphic and not 0 no power of u is a function: what is left would be the logarithm of one, without poles.
         """
-        if not self.group.get("form"):
+        data = self.group.get("function")
+        if not data:
             return None
-        n = self.group["n"]
-        if isinstance(n, str) and n.isdecimal():
-            n = int(fmpz(n))
-        demand(is_whole(n) and n > 0, "the group has an order")
-        demand_keys(self.group["form"], "the form", "degree theta P")
-        slope = self.read_form(self.group["form"], affordable(2 * n, "the degree of a form")).slope
-        residues(slope)
-        demand(slope.num * self.slope.den != n * self.slope.num * slope.den, "there is a form beside f^n")
-        divisors = [n // int(p) for p, _ in fmpz(n).factor()]
-        demand(all(self.exclusions.dimension(2 * j) <= (j + 1) % 2 for j in divisors), "n is the least")
+        demand_keys(data, "the function", "multiple h pieces rest")
+        n = whole(data["multiple"])
+        demand(n > 0, "a multiple of log u is taken")
+        h, w = (polynomial(read(data[key], self.names)) for key in ("h", "rest"))
+        pieces = [piece(entry, self.names) for entry in data["pieces"]]
+        total = Value(from_one_variable(w))
+        for e, a, b in pieces:
+            norm = a * a - h * b * b
+            odd = (b.derivative() * h + b * h.derivative() / 2) * a - a.derivative() * b * h
+            total += Value(from_one_variable(odd * e), from_one_variable(norm))
+        square = self.H * Value(from_one_variable(h)) * Value(n) ** 2
+        demand((total * total).equals(square), "the differential of f is that of a power of u")
+        demand(h.degree() >= 3 and h.gcd(h.derivative()).degree() == 0, "h has no square factor")
+        if w != 0:
+            demand(w.degree() < (h.degree() - 1) // 2, "the rest is holomorphic")
+            return "infinite dihedral", None
+        odd_norms = prod((a * a - h * b * b for e, a, b in pieces if e % 2), start=X**0)
+        demand(all(k % 2 == 0 for _, k in odd_norms.factor()[1]), "the norm of f is a square")
+        G = prod((p ** (k // 2) for p, k in odd_norms.factor()[1]), start=X**0)
+        for prime, _ in fmpz(n).factor():
+            demand(is_no_power(int(prime), h, pieces, G), f"the function isn't a power with the exponent {prime}")
         return "dicyclic", n
 
     #: In this order; the second place is the evidence that a rule uses.
@@ -760,7 +773,7 @@ class Imprimitive:
         (genus_zero, ""),
         (first_kind, ""),
         (no_torsion, "orders"),
-        (finite, "form"),
+        (function, "function"),
     )
 
     def decide(self) -> tuple[Family, set[str]]:
@@ -786,6 +799,60 @@ class Imprimitive:
     def denominator(self) -> int:
         """The common denominator of the residues of eta."""
         return lcm(*(int(pole.residue.q) for pole in self.eta.poles))
+
+
+def whole(value: Any) -> int:
+    """An integer, or the text of a long one."""
+    if isinstance(value, str) and value.isdecimal():
+        return int(fmpz(value))
+    demand(is_whole(value), "an exponent is an integer")
+    return int(value)
+
+
+def polynomial(value: Value) -> Any:
+    """The polynomial over Q that is this value."""
+    num, den = value.over_q()
+    demand(den.degree() == 0, "a polynomial has no denominator")
+    return num
+
+
+def from_one_variable(f: Any) -> Any:
+    """The polynomial in x as one in c and x."""
+    return sum((PLANE.constant(f[k]) * X2**k for k in range(f.degree() + 1)), start=PLANE.constant(0))
+
+
+def piece(data: dict[str, Any], names: dict[str, Value]) -> tuple[int, Any, Any]:
+    """Exponent, a and b of one factor (a + b y)^e."""
+    demand_keys(data, "a piece", "exponent a b")
+    return whole(data["exponent"]), polynomial(read(data["a"], names)), polynomial(read(data["b"], names))
+
+
+def is_no_power(exponent: int, h: Any, pieces: list[tuple[int, Any, Any]], G: Any) -> bool:
+    """Isn't f an l-th power, up to a constant?  Else all values at points over F_q lie in one class modulo l-th powers.
+
+    f is the product of the (a + b y)^e, divided by G and by the norms to the power of the integral part of e/2.
+    """
+    affordable(exponent // 10**9, "a prime factor of the order")
+    candidates = (q for q in range(exponent * (2**41 // exponent) + 1, 2**62, exponent) if fmpz(q).is_prime())
+    for q in islice(candidates, 30):
+        found = set()
+        curve, root = reduced(h, q), reduced(G, q)
+        demand(curve.gcd(curve.derivative()).degree() == 0, f"{q} is a good prime")
+        factors = [(e, reduced(a, q), reduced(b, q)) for e, a, b in pieces]
+        for x in range(60):
+            square = fmpz(int(curve(x)))
+            if square.jacobi(q) != 1 or not int(root(x)):
+                continue
+            y, value = int(square.sqrtmod(q)), pow(int(root(x)), -1, q)
+            for e, a, b in factors:
+                here, conjugate = (int(a(x)) + int(b(x)) * y) % q, (int(a(x)) - int(b(x)) * y) % q
+                norm = here * conjugate % q
+                value = value * pow(here, e, q) * pow(norm, -(e // 2), q) % q if norm else 0
+            if value:
+                found.add(pow(value, (q - 1) // exponent, q))
+        if len(found) > 1:
+            return True
+    return False
 
 
 class Pole(NamedTuple):
@@ -1026,16 +1093,12 @@ class Answer:
     def group(self, f: Form | None, F: Form | None) -> None:
         """The group is the one that is named: SL2, a finite primitive one, or found by the forms."""
         group, used = self.data["group"], set[str]()
-        demand_keys(group, "the group", "name order finite", "family n form orders")
+        demand_keys(group, "the group", "name order finite", "family n function orders")
         family: Family = self.structure or "SL2", None
         if self.structure == "reducible":
             family = reducible_group(self.exclusions.places, F)
         elif self.structure == "imprimitive" and f is not None:
-
-            def rational(data: dict[str, Any], m: int) -> Form:
-                return form(data, m, self.S, self.names)
-
-            family, used = Imprimitive(self.exclusions, f.slope, f.discriminant, group, rational).decide()
+            family, used = Imprimitive(self.exclusions, f.slope, f.discriminant, group, self.names).decide()
         check_group(group, *family, used)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from fractions import Fraction
 from math import gcd, lcm
 
@@ -17,13 +18,17 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import kovacic
+from kovacic import checker
+from kovacic.decision import NoInvariant
+from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Kind as PlaceKind
-from kovacic.engine.places import analyse
+from kovacic.engine.places import Problem, analyse
 from kovacic.galois import Ground, Group, GroupKind
 from kovacic.galois.gauged import _residues_on_curve, _torus
-from kovacic.galois.imprimitive import curve_of, form_of_order
+from kovacic.galois.imprimitive import curve_of
 from kovacic.galois.jacobian import Jacobian
 from kovacic.limits import Budget
+from kovacic.verify import verify
 
 X = RatFunc(QQ.poly([0, 1]))
 
@@ -122,14 +127,57 @@ def test_pull_backs_of_dihedral_equations_on_a_line(n: int) -> None:
     "f", [X**3 + X + 1, (X**2 + 1) / (X - 3), (X**4 - X + 3) / (X**2 + 2)], ids=["genus 1-2", "genus 1", "genus 2-3"]
 )
 def test_pull_backs_of_dihedral_equations_on_curves_of_positive_genus(n: int, f: RatFunc) -> None:
-    """The order is that of the least invariants, searched from below."""
+    """u^n is sqrt(f) + sqrt(f - 1), which isn't a power on these curves."""
     S = transform.pull_back(transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, n)), f)
     solution = kovacic.solve(S)
     problem = analyse(S, Budget())
     assert curve_of(problem, solution.semi_invariant).genus > 0
-    assert solution.group.ground is Ground.INVARIANT
-    least = next(k for k in range(2, 20) if form_of_order(problem, solution.semi_invariant, k))
-    assert solution.group.n == least
+    assert solution.group.ground is Ground.FUNCTION
+    space = invariants(problem, 2 * solution.group.n)
+    assert len(space) == (1 if solution.group.n % 2 else 2)
+    assert all(_only_powers(problem, k) for k in range(1, solution.group.n))
+
+
+def _only_powers(problem: Problem, k: int) -> bool:
+    """Are the rational forms of degree 2k multiples of (y1 y2)^k, k even?"""
+    space = invariants(problem, 2 * k)
+    return isinstance(space, NoInvariant) or (k % 2 == 0 and len(space) == 1)
+
+
+@pytest.mark.parametrize(
+    "f",
+    [
+        (X**2 + 3 * X + 5) / (X + 1),
+        (3 * X**2 + X - 7) / (2 * X**2 - 5 * X + 1),
+        (X**4 + 3 * X**3 + X - 7) / (2 * X**3 - 5 * X + 1),
+    ],
+    ids=["genus 1", "genus 1, no rational pole", "genus 3"],
+)
+@pytest.mark.parametrize(("difference", "n"), [((1, 1000), 1000), ((61, 30), 30), ((3001, 1000), 1000)])
+def test_large_orders_and_large_multiples_on_curves(f: RatFunc, difference: tuple[int, int], n: int) -> None:
+    """u^n is a power of sqrt(f) + sqrt(f - 1) in lowest terms: the order is 4n."""
+    S = transform.pull_back(transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(*difference)), f)
+    solution = kovacic.solve(S)
+    assert solution.group.order == 4 * n
+    assert solution.verify()
+    assert checker.verdict(solution.to_json(full=True)).startswith("checked: case; omega; group")
+
+
+@pytest.mark.parametrize(("constant", "order"), [(6, 8), (-6, None)])
+def test_the_same_divisor_with_another_holomorphic_part(constant: int, order: int | None) -> None:
+    """On z^2 = (x+2)^2 - x^3, -(x + c)/(2x) dx/z has the same residues for c = 6 and -6 after the sign; one is a logarithm."""
+    solution = kovacic.solve(transform.from_squared_product(((X + 2) ** 2 - X**3) * 4 * X**2 / (X + constant) ** 2, 1))
+    group = solution.group
+    assert group.order == order
+    assert group.function is not None
+    assert bool(group.function.rest) is (order is None)
+    assert solution.verify()
+    assert checker.verdict(solution.to_json(full=True)).startswith("checked: case; omega; group")
+    without = replace(group.function, rest=group.function.rest * 0)
+    family, n = ("dicyclic", 2) if order is None else ("infinite dihedral", None)
+    for function in (group.function, without):
+        claim = replace(group.claim, family=family, n=n, function=function)
+        assert not verify(solution.S, solution.decision, claim)
 
 
 @pytest.mark.parametrize("m", [3, 4, 5, 6, 12])
@@ -158,13 +206,11 @@ def test_a_differential_of_the_first_kind() -> None:
     assert (group.name, group.ground) == ("N(T)", Ground.FIRST_KIND)
 
 
-def test_an_order_beyond_the_limits_is_not_guessed() -> None:
+def test_an_order_that_is_a_large_prime() -> None:
     S = transform.from_squared_product(((X**3 + X + 1) ** 2 - 3) / (3 * X**2 + 1) ** 2, Fraction(4, 1009**2))
-    group = kovacic.solve(S).group
-    assert group.kind is GroupKind.IMPRIMITIVE
-    assert group.finite is None
-    assert group.order is None
-    assert group.order_at_least == 4 * 1009
+    solution = kovacic.solve(S)
+    assert solution.group.order == 4 * 1009
+    assert solution.verify()
 
 
 @settings(max_examples=25)
@@ -198,7 +244,7 @@ def test_primitive_groups(example: strategies.Example) -> None:
 @pytest.mark.parametrize(
     "group",
     [Group(GroupKind.CYCLIC, Ground.RESIDUES, n) for n in (1, 2, 3, 4, 7)]
-    + [Group(GroupKind.DICYCLIC, Ground.INVARIANT, n) for n in (2, 3, 4, 5)]
+    + [Group(GroupKind.DICYCLIC, Ground.FUNCTION, n) for n in (2, 3, 4, 5)]
     + [Group(kind, Ground.PRIMITIVE) for kind in (GroupKind.TETRAHEDRAL, GroupKind.OCTAHEDRAL, GroupKind.ICOSAHEDRAL)],
     ids=lambda group: group.name,
 )
@@ -462,11 +508,11 @@ def test_three_conjugate_semi_invariants() -> None:
 
 
 def test_orders_without_small_primes() -> None:
-    """On a curve of genus 12 no prime is small enough to count in the Jacobian: the invariants decide from below."""
+    """On a curve of genus 12 no prime is small enough to count in the Jacobian: functions are looked for from order 1 on."""
     for n in (2, 3):
         S = transform.pull_back(transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, n)), X**13 + X + 1)
         group = kovacic.solve(S).group
-        assert (group.kind, group.n, group.ground) == (GroupKind.DICYCLIC, n, Ground.INVARIANT)
+        assert (group.kind, group.n, group.ground) == (GroupKind.DICYCLIC, n, Ground.FUNCTION)
 
 
 @pytest.mark.parametrize("shift", range(7))

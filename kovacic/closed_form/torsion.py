@@ -8,13 +8,8 @@ only.  So
 - if the residues are rational multiples of one constant 1/tau, one U must do: with kappa = tau/4,
   kappa r dx/s = (1/(2n)) d log(U/sqrt(N)), N the norm of U.  Then y+- = f^(1/2) exp(+-kappa int r dx/s), f = s/r, solve
   y'' = S y with S = (f'/f)'/2 + (f'/f)^2/4 + kappa^2 r^2/g, whose group is dicyclic of order 4n if there is such a U, and
-  N(T) otherwise; `kovacic.galois` decides it, by the order of a divisor in the Jacobian modulo primes and by the
-  invariants of degree 2n.  It isn't reducible, since the residues of u = y+/y- are half-integers; for the same reason n is
-  even, so that f^n is rational and U = u^n f^n can be reduced to u^n, of norm 1, up to a rational factor.
-
-U = y+^(2n) comes from an invariant G = y+^(2n) + y-^(2n) + const (y+ y-)^n: with D = d/dx - n f'/f, which annihilates f^n,
-
-    D G = 2 n kappa (r/s) (y+^2n - y-^2n),      (s/r) D ((s/r) D G) = (2 n kappa)^2 (y+^2n + y-^2n).                   (1)
+  N(T) otherwise; `kovacic.galois` decides it, and has u^n as a function on the
+  curve, in pieces whose product, without the factors in K(x), is U.
 
 Reference: J. H. Davenport, On the Integration of Algebraic Functions (1981).
 """
@@ -27,17 +22,14 @@ from fractions import Fraction
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, Unit
-from kovacic.decision import NoInvariant, SemiInvariant
-from kovacic.engine.invariants import invariants
-from kovacic.engine.places import Problem, analyse, rational_square_root
-from kovacic.engine.riccati import residue
-from kovacic.errors import LimitExceeded
+from kovacic.decision import CurveFunction, SemiInvariant
+from kovacic.engine.places import analyse, rational_square_root
 from kovacic.galois.group import GroupKind
 from kovacic.galois.imprimitive import imprimitive_group
-from kovacic.limits import Budget, Limits, watched_seconds
+from kovacic.limits import Budget
 
-#: Seconds that the decision may take; beyond, the integral is left with that reason.
-SECONDS = 5.0
+#: The largest degree of the norm of a unit that is written; beyond, the integral is left with that reason.
+_LARGEST_DEGREE = 2000
 
 FIRST_KIND = "it has no logarithmic part on the curve s^2 = {g} of genus {genus}, so it isn't elementary"
 SECOND_KIND = (
@@ -76,16 +68,12 @@ def _decide(integral: CurveIntegral) -> Unit | str:
     r = integral.integrand
     phi = RatFunc(g.derivative(), g) / 2 - r.derivative() / r
     S = phi.derivative() / 2 + phi * phi / 4 + r * r / g * kappa_squared
-    try:
-        problem = analyse(S, Budget(Limits(seconds=watched_seconds(SECONDS))))
-        group = imprimitive_group(problem, SemiInvariant(2, phi, field.poly([1])))
-        if group.kind is GroupKind.INFINITE_DIHEDRAL:
-            return NOT_TORSION
-        if group.kind is not GroupKind.DICYCLIC or group.n is None:
-            return UNDECIDED
-        return _unit(problem, integral, phi, group.n, kappa_squared)
-    except LimitExceeded:
+    group = imprimitive_group(analyse(S, Budget()), SemiInvariant(2, phi, field.poly([1])))
+    if group.kind is GroupKind.INFINITE_DIHEDRAL:
+        return NOT_TORSION
+    if group.kind is not GroupKind.DICYCLIC or group.function is None:
         return UNDECIDED
+    return _unit(integral, group.function, kappa_squared)
 
 
 def _common_tau(integral: CurveIntegral, at_infinity: Poly) -> Poly | None:
@@ -105,36 +93,57 @@ def _common_tau(integral: CurveIntegral, at_infinity: Poly) -> Poly | None:
     return values[0]
 
 
-def _unit(problem: Problem, integral: CurveIntegral, phi: RatFunc, n: int, kappa_squared: Poly) -> Unit | str:
-    """Equation (1) for an invariant of degree 2n, with the common factors of its two parts removed."""
-    space = invariants(problem, 2 * n)
-    if isinstance(space, NoInvariant):
-        return UNDECIDED
+def _unit(integral: CurveIntegral, f: CurveFunction, kappa_squared: Poly) -> Unit | str:
+    """U as A + B kappa s, from its pieces a + b y: y = c kappa s, c a constant."""
     g, r = integral.g, integral.integrand
-    for form in space:
-        G = _singular_part(problem, form.R) * form.P
-        difference = G.derivative() - G * phi * n
-        if difference:
-            break
-    else:
+    if _degree(f) > _LARGEST_DEGREE:
         return UNDECIDED
-    square = RatFunc(g) / (r * r)
-    even = (square * (difference.derivative() - difference * phi * n) + square.derivative() * difference / 2) / (2 * n)
-    odd = difference / r
-    common = even.den * (odd.den // even.den.gcd(odd.den))
-    A, B = even.num * (common // even.den), odd.num * (common // odd.den)
-    divisor = A.gcd(B)
-    A, B = A // divisor, B // divisor
-    root = (A * A - B * B * g * kappa_squared).monic().root(2)
+    c = f.h.field.sqrt((f.h.lc / kappa_squared[0]) / g.lc)
+    if c is None:
+        return UNDECIDED
+    a, b = _expanded(f)
+    root = _square_root(a * a - f.h * b * b)
     if root is None:
         return UNDECIDED
-    found = Unit(A, B, root, kappa_squared, Fraction(1, 2 * n))
-    return found if found.integrand(g) == r else UNDECIDED
+    for B in (b * c, -b * c):
+        found = Unit(a, B, root, kappa_squared, Fraction(1, 2 * f.multiple))
+        if found.integrand(g) == r:
+            return found
+    return UNDECIDED
 
 
-def _singular_part(problem: Problem, R: Poly) -> RatFunc:
-    """Q = prod p^(v_p) with Q'/Q = R/D."""
-    result = RatFunc(problem.field.poly([1]))
-    for place in problem.finite_places:
-        result = result * RatFunc(place.factor) ** residue(problem, R, place)
+def _degree(f: CurveFunction) -> int:
+    """At most so much is the degree of the norm of f."""
+    return sum(piece.exponent * (2 * piece.a.degree + 2 * piece.b.degree + f.h.degree) for piece in f.pieces)
+
+
+def _expanded(f: CurveFunction) -> tuple[Poly, Poly]:
+    """(a, b) without a common factor, f = a + b y up to a function of x; the exponents are powers of two, and fall."""
+    one = f.h.field.poly([1])
+    result = (one, one * 0)
+    power = f.pieces[0].exponent if f.pieces else 1
+    for piece in (*f.pieces, None):
+        exponent = 1 if piece is None else piece.exponent
+        while power > exponent:
+            result = _product(result, result, f.h)
+            power //= 2
+        if piece is not None:
+            result = _product(result, (piece.a, piece.b), f.h)
     return result
+
+
+def _product(first: tuple[Poly, Poly], second: tuple[Poly, Poly], h: Poly) -> tuple[Poly, Poly]:
+    a = first[0] * second[0] + first[1] * second[1] * h
+    b = first[0] * second[1] + first[1] * second[0]
+    common = a.gcd(b)
+    return a.field.ground.cleared(a // common, b // common)
+
+
+def _square_root(square: Poly) -> Poly | None:
+    """The monic root of a polynomial that is a constant times a square; None for others."""
+    root = square.field.poly([1])
+    for factor, multiplicity in square.field.factor(square) if square.degree else []:
+        if multiplicity % 2:
+            return None
+        root = root * factor ** (multiplicity // 2)
+    return root

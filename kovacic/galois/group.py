@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any, NamedTuple
 
-from kovacic.decision import GroupClaim, SemiInvariant
+from kovacic.decision import CurveFunction, GroupClaim, SemiInvariant
 from kovacic.numerals import digits
 
 
@@ -45,11 +45,13 @@ class Ground(Enum):
     IRRATIONAL_EXPONENT = "an exponent difference that isn't rational, so a local monodromy has infinite order"
     FIRST_KIND = "the differential of log u has no poles, so u isn't algebraic"
     NOT_TORSION = "the divisor of the differential of log u has different orders modulo two primes, so it isn't torsion"
-    NO_INVARIANT = (
-        "u would be algebraic only with a rational invariant of the degree that its divisor has modulo a prime"
+    HOLOMORPHIC_REST = (
+        "a multiple of the differential of log u is that of the logarithm of a function and a differential without poles, so u"
+        " isn't algebraic"
     )
-    INVARIANT = "the rational invariants of degree 2n, exactly, with the order of a divisor modulo a prime"
-    UNDETERMINED = "no rational invariant was found up to the bound, and none was excluded beyond it"
+    THREE_PAIRS = "the conjugates of y1 y2 are further products of two solutions, so three pairs are permuted"
+    FUNCTION = "u^n is a function on the curve that isn't a power of another one"
+    UNDETERMINED = "no function was found that is a power of u, and none was excluded"
     PRIMITIVE = "the rational invariant of least degree"
     NO_LIOUVILLIAN = "there is no Liouvillian solution"
 
@@ -98,9 +100,9 @@ class Group:
 
     `n` is the parameter of the family where it has one: the order of the cyclic group or of the component group of
     {(c, b; 0, 1/c): c^n = 1}, and a quarter of the order of a dicyclic group.  GroupKind.IMPRIMITIVE says that the order wasn't
-    determined: then n is the least value that wasn't excluded, and the group may be infinite.  `ground` says why; for
-    Ground.INVARIANT `form` is a rational form of degree 2n that isn't a power of y1 y2; of a reducible group, the rational
-    form of degree 2, if there is one.  `orders` has primes p with the orders of the divisor of u modulo p that were used.
+    determined: then n is the least value that wasn't excluded, and the group may be infinite.  `ground` says why.  `form` is
+    the rational form of degree 2 of a reducible group, if there is one.  On a curve of positive genus, `function` has u^n, or
+    shows that no power of u is a function; or `orders` has primes p with the orders of the divisor of u modulo p.
     """
 
     kind: GroupKind
@@ -108,11 +110,12 @@ class Group:
     n: int | None = None
     form: SemiInvariant | None = field(default=None, compare=False, repr=False)
     orders: tuple[tuple[int, int], ...] = field(default=(), compare=False, repr=False)
+    function: CurveFunction | None = field(default=None, compare=False, repr=False)
 
     @property
     def claim(self) -> GroupClaim:
         """What the kernel checks."""
-        return GroupClaim(self.kind.value, self.n, self.form, self.orders)
+        return GroupClaim(self.kind.value, self.n, self.form, self.orders, self.function)
 
     @property
     def _facts(self) -> _Facts:

@@ -13,9 +13,10 @@ residues +-Delta (+-1 at an ordinary point, where y1 or y2 vanishes).  So with r
 
 - genus 0: every divisor of degree 0 is principal, and a differential is determined by its residues, so n = l;
 - genus > 0, no poles: u isn't algebraic;
-- genus > 0: n = l k, k the order of the divisor of l eta in the Jacobian; if it is infinite, N(T).  Reduction modulo a
-  prime of good reduction is injective on torsion: two different orders prove that k is infinite, and a common order k leaves
-  only n = l k, which the invariants of degree 2n (y1^2n + y2^2n, and (y1 y2)^n for even n) confirm or refute.
+- genus > 0: n = l k, k the order of the divisor D of l eta in the Jacobian; if it is infinite, N(T).  Reduction modulo a
+  prime of good reduction is injective on torsion: two different orders prove that k is infinite.  Where some primes agree on
+  k, `chain` finds the function f with the divisor k D, if there is one: then u^n = f if n eta = df/f, and if there is a rest,
+  a holomorphic differential, the group is N(T).
 
 References: Kovacic 1986, sec. 4; J. H. Davenport, On the Integration of Algebraic Functions (1981), for the torsion test.
 """
@@ -34,23 +35,24 @@ from flint import fmpz, nmod_poly
 from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.modular import simple_roots
 from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.splitting import homomorphisms_modulo
-from kovacic.decision import NoInvariant, SemiInvariant
-from kovacic.engine.invariants import invariants
+from kovacic.decision import SemiInvariant
 from kovacic.engine.places import Kind as PlaceKind
 from kovacic.engine.places import Problem
 from kovacic.engine.riccati import residue
 from kovacic.errors import LimitExceeded
+from kovacic.galois.chain import function_of_order
 from kovacic.galois.group import Ground, Group, GroupKind
 from kovacic.galois.jacobian import Jacobian
 
-#: Primes whose orders must agree before the invariants are asked.
+#: Primes whose orders must agree before a function of this order is looked for.
 _AGREEING_PRIMES = 3
 #: The largest order of a divisor that is looked for modulo a prime.
 _LARGEST_ORDER = 3000
-#: The largest degree of invariants that are computed for the order.
-_LARGEST_DEGREE = 600
+#: So many orders are tried where no prime shows one.
+_ORDERS_TRIED = 12
 #: Primes that are tried, beyond which the bad ones are too many.
 _PRIMES_TRIED = 400
 
@@ -88,7 +90,7 @@ def imprimitive_group(problem: Problem, f: SemiInvariant) -> Group:
     if any(place.delta is None for place in singular):
         return Group(GroupKind.INFINITE_DIHEDRAL, Ground.IRRATIONAL_EXPONENT)
     if f.P.field != problem.field:  # three pairs of lines: only the quaternion group has them
-        return Group(GroupKind.DICYCLIC, Ground.INVARIANT, 2)
+        return Group(GroupKind.DICYCLIC, Ground.THREE_PAIRS, 2)
     curve = curve_of(problem, f)
     l = lcm(1, *(r.denominator for r in curve.residues))  # noqa: E741 - as in the module's text
     if curve.genus == 0:
@@ -119,6 +121,8 @@ def curve_of(problem: Problem, f: SemiInvariant) -> SquareRootCurve:
 
 
 def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: SquareRootCurve, l: int) -> Group:  # noqa: E741
+    """Orders modulo primes, and the function that has the divisor, once some of them agree."""
+    H = 4 * problem.S - 2 * f.logarithmic_derivative.derivative() - f.logarithmic_derivative**2  # eta = sqrt(H) dx
     orders: list[tuple[int, int]] = []
     for h in _small_homomorphisms(problem.field, curve.genus):
         problem.budget.check()
@@ -131,29 +135,24 @@ def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: SquareRootCurv
         orders.append((h.p, k))
         if k != orders[0][1]:
             return Group(GroupKind.INFINITE_DIHEDRAL, Ground.NOT_TORSION, orders=(orders[0], orders[-1]))
-        if len(orders) == _AGREEING_PRIMES:
-            break
-    shown, least = tuple(orders[:1]), max(l, 2)
-    for k in [shown[0][1]] if shown else range(1, _LARGEST_DEGREE // (20 * l) + 1):
-        n = l * k
-        if 2 * n > _LARGEST_DEGREE:
-            break
-        if (form := form_of_order(problem, f, n)) is not None:
-            return Group(GroupKind.DICYCLIC, Ground.INVARIANT, n, form)
-        least = n + l
-    else:
-        if shown:
-            return Group(GroupKind.INFINITE_DIHEDRAL, Ground.NO_INVARIANT, orders=shown)
-    return Group(GroupKind.IMPRIMITIVE, Ground.UNDETERMINED, least)
+        if len(orders) == _AGREEING_PRIMES and (group := _by_function(H, k)) is not None:
+            return group
+    if not orders:
+        for k in range(1, _ORDERS_TRIED + 1):
+            problem.budget.check()
+            if (group := _by_function(H, k)) is not None:
+                return group
+    return Group(GroupKind.IMPRIMITIVE, Ground.UNDETERMINED, max(l, 2))
 
 
-def form_of_order(problem: Problem, f: SemiInvariant, n: int) -> SemiInvariant | None:
-    """The rational form of degree 2n, beside f^n for even n, that a dicyclic group of order 4n, or 4n/j, has; proven."""
-    space = invariants(problem, 2 * n)
-    if isinstance(space, NoInvariant) or len(space) != (1 if n % 2 else 2):
+def _by_function(H: RatFunc, k: int) -> Group | None:
+    """The group if k D is the divisor of a function: finite exactly if its logarithm is k l times that of u."""
+    f = function_of_order(H, k)
+    if f is None:
         return None
-    power = n * f.logarithmic_derivative
-    return next(form for F in space if (form := F.semi_invariant(problem)).logarithmic_derivative != power)
+    if f.rest:
+        return Group(GroupKind.INFINITE_DIHEDRAL, Ground.HOLOMORPHIC_REST, function=f)
+    return Group(GroupKind.DICYCLIC, Ground.FUNCTION, f.multiple, function=f)
 
 
 def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:

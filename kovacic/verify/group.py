@@ -12,11 +12,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
-from flint import fmpz
-
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, GroupClaim, RiccatiPolynomial, SemiInvariant, Structure
+from kovacic.verify.dihedral import has_holomorphic_rest, is_least_power
 from kovacic.verify.evidence import Inspector
 from kovacic.verify.identity import form_numerators, is_rational, rational_residues
 from kovacic.verify.residue import residue
@@ -141,7 +140,7 @@ def _imprimitive(inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynom
         return named == ("dicyclic", curve.denominator)
     if not curve.differences:  # a differential of the first kind, whose integral has periods
         return named == ("infinite dihedral", None)
-    return _on_curve_of_positive_genus(inspector, f, riccati, claim, curve)
+    return _on_curve_of_positive_genus(inspector, riccati, claim, curve)
 
 
 def _has_monodromy_of_infinite_order(inspector: Inspector) -> bool:
@@ -184,57 +183,26 @@ def _valuations_of_square(inspector: Inspector, f: SemiInvariant) -> list[int] |
 
 
 def _on_curve_of_positive_genus(
-    inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynomial, claim: GroupClaim, curve: Curve
+    inspector: Inspector, riccati: RiccatiPolynomial, claim: GroupClaim, curve: Curve
 ) -> bool | None:
     """The group is finite exactly when k l eta is the logarithmic differential of a function, for some k: the claim says which.
 
     None for a claim that leaves this open.
     """
+    A, B, C = riccati.numerators
+    H = RatFunc(B * B - 4 * A * C, (A * riccati.D) ** 2)  # (y1'/y1 - y2'/y2)^2
     if claim.family == "dicyclic" and claim.n is not None:
-        return claim.n % curve.denominator == 0 and _is_finite(inspector, f, riccati, claim.form, claim.n)
+        return claim.function is not None and is_least_power(H, claim.function, claim.n)
     if claim.family == "infinite dihedral" and claim.n is None:
-        return _is_infinite(inspector, riccati, claim.orders, curve)
+        if claim.function is not None:
+            return has_holomorphic_rest(H, claim.function)
+        return _is_no_torsion(inspector, H, claim.orders, curve)
     return None if claim.family == "imprimitive" else False
 
 
-def _is_finite(
-    inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynomial, form: SemiInvariant | None, n: int
-) -> bool:
-    """Is the group dicyclic of order 4n?
-
-    Exactly when y1^(2n) + y2^(2n), or another form of degree 2n that isn't a multiple of (y1 y2)^n, is rational, and for no
-    proper divisor of n: there the powers of y1 y2 with even exponents are the only rational forms.
-    """
-    if form is None or form.degree != 2 * n or not is_rational(form):
-        return False
-    if form_numerators(inspector.S, form, riccati.D) is None:
-        return False
-    if form.logarithmic_derivative == n * f.logarithmic_derivative:
-        return False
-    divisors = [n // int(q) for q, _ in fmpz(n).factor()]
-    return all(inspector.dimension_is_at_most(_powers_of_product(k), 2 * k) for k in divisors)
-
-
-def _powers_of_product(k: int) -> int:
-    """The dimension of the rational forms of degree 2k that are multiples of (y1 y2)^k, of which the square is rational."""
-    return 1 if k % 2 == 0 else 0
-
-
-def _is_infinite(
-    inspector: Inspector, riccati: RiccatiPolynomial, orders: tuple[tuple[int, int], ...], curve: Curve
-) -> bool:
-    """Is y1/y2 transcendental over the curve?
-
-    If not, the divisor of l eta has a finite order k, and the same one modulo every prime of good reduction.  So two different
-    orders prove it; or one, k, and the absence of forms of degree 2 l k beside the power of y1 y2: see `torsion`.
-    """
-    A, B, C = riccati.numerators
-    H = RatFunc(B * B - 4 * A * C, (A * riccati.D) ** 2)  # (y1'/y1 - y2'/y2)^2
+def _is_no_torsion(inspector: Inspector, H: RatFunc, orders: tuple[tuple[int, int], ...], curve: Curve) -> bool:
+    """Has the divisor of l eta different orders modulo two primes of good reduction?  A finite order is the same modulo all."""
     residues = set(curve.differences)
-    if not orders or not all(order_holds(H, residues, p, k, inspector.budget) for p, k in orders):
+    if len({k for _, k in orders}) < 2:
         return False
-    shown = {k for _, k in orders}
-    if len(shown) > 1:
-        return True
-    n = curve.denominator * shown.pop()
-    return inspector.dimension_is_at_most(_powers_of_product(n), 2 * n)
+    return all(order_holds(H, residues, p, k, inspector.budget) for p, k in orders)

@@ -54,7 +54,7 @@ def references(answer: Answer) -> tuple[Reference, ...]:
     if answer.case == 3 and was_computed(derived.closed_form, answer):
         used.append("HW05")
     group = derived.group(answer) if was_computed(derived.group, answer) else None
-    if group is not None and group.ground.name in ("NOT_TORSION", "INVARIANT", "NO_INVARIANT"):
+    if group is not None and group.ground.name in ("NOT_TORSION", "FUNCTION", "HOLOMORPHIC_REST"):
         used += ["Dav81", "Can87"]
     return tuple(literature()[key] for key in used)
 

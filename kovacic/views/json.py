@@ -9,7 +9,7 @@ Coefficients run from low to high, in Python/SymPy syntax in the variable and th
 "1".  `proof` has what a check needs beside the polynomial: the semi-invariant of omega as prod D^... exp(int theta) P, the
 rational invariant that was found, the evidence against everything excluded, and the reason of an undecided equation.
 `group`, on request, has the name, the order, and the family of the group with its parameter n; on a curve of positive genus
-also the form of degree 2n that shows a finite group, or the orders modulo primes that show an infinite one.
+also the function, in pieces, that shows whether it is finite, or the orders modulo primes that show an infinite one.
 Keys may be added within schema 1; none is removed or changes its meaning.
 """
 
@@ -27,6 +27,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.answer import Answer
 from kovacic.decision import (
+    CurveFunction,
     Decision,
     Evidence,
     Exclusion,
@@ -41,7 +42,6 @@ from kovacic.decision import (
 )
 from kovacic.equation import Equation, parameters_of
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.galois.group import GroupKind
 from kovacic.limits import Limits
 from kovacic.numerals import as_text, for_json
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
@@ -154,8 +154,8 @@ def group_dict(answer: Answer) -> dict[str, Any] | None:
     order, n = (None if number is None else for_json(number) for number in (group.order, group.n))
     data: dict[str, Any] = {"name": group.name, "order": order, "finite": group.finite}
     data |= {"family": group.kind.value, "n": n}
-    if group.form is not None and group.kind is GroupKind.DICYCLIC:
-        data["form"] = _form(group.form, Formulas(answer.variable, answer.S.field))
+    if group.function is not None:
+        data["function"] = _function(group.function, Formulas(answer.variable, answer.S.field))
     if group.orders:
         data["orders"] = [{"prime": p, "order": for_json(k)} for p, k in group.orders]
     return data
@@ -284,6 +284,14 @@ def _riccati(P: Poly, D: Poly, data: Mapping[str, Any], reader: _Reader) -> Ricc
             raise ValueError("D isn't a denominator of the polynomial of omega")
         numerators.append(product.num)
     return RiccatiPolynomial(P, D, tuple(numerators))
+
+
+def _function(f: CurveFunction, names: Formulas) -> dict[str, Any]:
+    pieces = [
+        {"exponent": for_json(piece.exponent), "a": names.python(piece.a), "b": names.python(piece.b)}
+        for piece in f.pieces
+    ]
+    return {"multiple": for_json(f.multiple), "h": names.python(f.h), "pieces": pieces, "rest": names.python(f.rest)}
 
 
 def _form(form: SemiInvariant, names: Formulas) -> dict[str, Any]:
