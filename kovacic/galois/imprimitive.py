@@ -137,8 +137,9 @@ def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: SquareRootCurv
             return Group(GroupKind.INFINITE_DIHEDRAL, Ground.NOT_TORSION, orders=(orders[0], orders[-1]))
         if len(orders) == _AGREEING_PRIMES and (group := _by_function(H, k)) is not None:
             return group
-    if not orders:
-        for k in range(1, _ORDERS_TRIED + 1):
+    if len(orders) < _AGREEING_PRIMES:  # too few of them are small enough
+        candidates = [orders[0][1]] if orders else range(1, _ORDERS_TRIED + 1)
+        for k in candidates:
             problem.budget.check()
             if (group := _by_function(H, k)) is not None:
                 return group
