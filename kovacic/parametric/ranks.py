@@ -31,6 +31,26 @@ from kovacic.parametric.functions import element, irreducible_factors, over_para
 #: Determinants whose common factors are taken, and minors up to which all of them are computed.
 _DETERMINANTS, _MINORS = 3, 60
 _PRIME = 2**61 - 1
+#: Products of terms for the determinants of one matrix: those of some seconds.
+_WORK = 10**7
+
+
+class _TooMuchWorkError(Exception):
+    """The determinants of a matrix aren't computed."""
+
+
+@dataclass
+class _Work:
+    """Counts products of terms."""
+
+    left: int = _WORK
+
+    def product(self, first: Any, second: Any) -> Any:
+        """Raises `_TooMuchWorkError` above the limit."""
+        self.left -= len(first) * len(second)
+        if self.left < 0:
+            raise _TooMuchWorkError
+        return first * second
 
 
 @dataclass(frozen=True)
@@ -82,7 +102,15 @@ def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
         images = [surface.lifted(image) for image in images]
         field = surface.field
     assert isinstance(field, FunctionField)
-    rows, eliminated = without_constant_pivots([*map(_column, images)])
+    try:
+        return _conditions(images, field, surface)
+    except _TooMuchWorkError:
+        return RankConditions(system=None)
+
+
+def _conditions(images: Sequence[Poly], field: FunctionField, surface: _Surface | None) -> RankConditions:
+    work = _Work()
+    rows, eliminated = without_constant_pivots([*map(_column, images)], work)
     rows = [*{tuple(map(str, row)): row for row in map(_normalised, rows)}.values()]
     # The rank at a random point is a lower bound, and the generic rank but for a probability of about 1/_PRIME.
     p, point = _random_point(field, surface)
@@ -93,11 +121,11 @@ def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
         return RankConditions(deficient=deficient)
     is_square = len(rows) == len(rows[0]) == rank
     if is_square or (surface is None and len(field.names) == 1):
-        return _common_factors(field, rows, rank, deficient)
+        return _common_factors(field, rows, rank, deficient, work)
     if rank < len(rows[0]) or comb(len(rows), rank) > _MINORS:
-        common = () if surface else _common_factors(field, rows, rank, deficient).polynomials
+        common = () if surface else _common_factors(field, rows, rank, deficient, work).polynomials
         return RankConditions(common, None, deficient)
-    minors = [_determinant([[*row] for row in chosen]) for chosen in combinations(rows, rank)]
+    minors = [_determinant([[*row] for row in chosen], work) for chosen in combinations(rows, rank)]
     minors = [minor for minor in minors if not minor.is_zero()]
     if surface is not None:
         return RankConditions((), tuple(element(field, minor) for minor in minors), deficient)
@@ -145,14 +173,16 @@ def _random_point(field: FunctionField, surface: _Surface | None) -> tuple[int, 
     raise AssertionError("the sequence of primes is infinite")
 
 
-def _common_factors(field: FunctionField, rows: list[list[Any]], rank: int, deficient: bool) -> RankConditions:
+def _common_factors(
+    field: FunctionField, rows: list[list[Any]], rank: int, deficient: bool, work: _Work
+) -> RankConditions:
     """The irreducible factors that all minors of the size of the rank have in common."""
     single = len(rows) == len(rows[0]) == rank
     zero = common = field.context.constant(0)
     random = Random(20240229)
     for _ in range(1 if single else _DETERMINANTS):
         check_time()
-        determinant = _determinant(_mixed(rows, rank, random, zero))
+        determinant = _determinant(_mixed(rows, rank, random, zero), work)
         if determinant.is_constant() and not determinant.is_zero():
             return RankConditions(deficient=deficient)
         common = common.gcd(determinant)
@@ -183,13 +213,14 @@ def _column(image: Poly) -> dict[int, Any]:
     return by_power(over_parameters(image).num, 0)
 
 
-def without_constant_pivots(columns: list[dict[int, Any]]) -> tuple[list[list[Any]], int]:
+def without_constant_pivots(columns: list[dict[int, Any]], work: _Work | None = None) -> tuple[list[list[Any]], int]:
     """A smaller matrix, without zero rows and columns, and by how much its rank is smaller.
 
     The columns are given by their entries.  A constant entry clears its column, and its row and column are left out then;
     among them the one that touches the fewest entries is chosen [Markowitz 1957].  A matrix for a polynomial P is banded,
     so that this is the elimination of its coefficients by their recurrence.
     """
+    work = work or _Work()
     used = sorted({i for column in columns for i in column})
     rows = [{k: column[i] for k, column in enumerate(columns) if column.get(i)} for i in used]
     while True:
@@ -201,18 +232,26 @@ def without_constant_pivots(columns: list[dict[int, Any]]) -> tuple[list[list[An
         if best is None:
             break
         chosen = rows.pop(best[1])
-        rows = [_cleared(row, best[2], chosen) if best[2] in row else row for row in rows]
+        rows = [_cleared(row, best[2], chosen, work) if best[2] in row else row for row in rows]
     zero = next((0 * entry for row in rows for entry in row.values()), 0)
     left = sorted({k for row in rows for k in row})
     return [[row.get(k, zero) for k in left] for row in rows if row], len(used) - len(rows)
 
 
-def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, Any]:
+def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any], work: _Work) -> dict[int, Any]:
     """The row with its entry in column k cleared by the chosen one, without its content."""
     check_time()
     pivot, factor = chosen[k], row[k]
-    combined = {j: pivot * row.get(j, 0) - factor * chosen.get(j, 0) for j in row.keys() | chosen.keys() if j != k}
-    return _primitive({j: entry for j, entry in combined.items() if entry})
+    combined: dict[int, Any] = {}
+    for j in row.keys() | chosen.keys():
+        if j == k:
+            continue
+        entry = work.product(pivot, row[j]) if j in row else 0
+        if j in chosen:
+            entry = entry - work.product(factor, chosen[j])
+        if entry:
+            combined[j] = entry
+    return _primitive(combined)
 
 
 def _primitive(row: dict[int, Any]) -> dict[int, Any]:
@@ -232,7 +271,7 @@ def _mixed(rows: list[list[Any]], rank: int, random: Random, zero: Any) -> list[
     return rows
 
 
-def _determinant(rows: list[list[Any]]) -> Any:
+def _determinant(rows: list[list[Any]], work: _Work) -> Any:
     """Up to its sign, by elimination without fractions [Bareiss 1968]; the rows are used up."""
     n, previous = len(rows), None
     for k in range(n - 1):
@@ -243,7 +282,7 @@ def _determinant(rows: list[list[Any]]) -> Any:
         for i in range(k + 1, n):
             for j in range(k + 1, n):
                 check_time()
-                value = rows[k][k] * rows[i][j] - rows[i][k] * rows[k][j]
+                value = work.product(rows[k][k], rows[i][j]) - work.product(rows[i][k], rows[k][j])
                 rows[i][j] = value // previous if k else value
         previous = rows[k][k]
     return rows[-1][-1]

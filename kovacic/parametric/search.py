@@ -23,7 +23,6 @@ from kovacic.decision import Structure
 from kovacic.engine.degree_bound import irregular_difference_squared
 from kovacic.engine.invariants import least_valuation
 from kovacic.engine.places import Kind, Problem
-from kovacic.errors import LimitExceeded
 from kovacic.parametric import riemann
 from kovacic.parametric.exponents import form_conditions, with_degree
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
@@ -33,8 +32,6 @@ from kovacic.parametric.restriction import hypersurface
 
 #: Combinations of exponents above which invariants aren't examined.
 _COMBINATIONS = 400
-#: The part of the time that the determinants of one kind of invariant may take.
-_SHARE = 0.2
 
 
 @dataclass
@@ -163,12 +160,7 @@ def _reducible(problem: Problem, findings: Findings) -> None:
 def _forms(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:
     """Equations for the number of zeros of invariants of degree m; None where there are too many combinations of exponents."""
     field = problem.field
-    try:
-        with problem.budget.share(_SHARE).watched():
-            complete = findings.add(form_conditions(problem, m))
-    except LimitExceeded:  # too large polynomials for that time
-        problem.budget.check()
-        complete = False
+    complete = findings.add(form_conditions(problem, m))
     variable, room = list[tuple[Poly, int]](), m  # the square of the difference, and how often it can occur in the sum
     for place in problem.places:
         square, v = place.delta_squared, least_valuation(place, m, logarithms=False)
