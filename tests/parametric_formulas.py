@@ -17,8 +17,9 @@ from kovacic.parametric.check import Sampler
 from kovacic.parametric.functions import Point
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import Condition
-from kovacic.parametric.statements import both
+from kovacic.parametric.statements import Statement, both
 from tests.parametric_cases import FAMILIES
+from tests.parametric_texts import RANGE, NotReadError, numbers_said, says
 
 _PUBLISHED = Path(__file__).parent / "data" / "families.jsonl"
 #: The digits that are computed, and those that have to agree.
@@ -145,3 +146,37 @@ def _tried_at(
             if error > mpmath.mpf(10) ** -20:
                 wrong.append(f"{solution} at {point}")
     return tried, wrong if tried or not offered else [f"no solution at {point}"]
+
+
+def misread(answer: Conditions, points: int, seed: int = 5) -> tuple[int, list[str]]:
+    """How many statements were read as text at rational points, and those whose text says something else."""
+    statements = [region.statement for region in answer.regions]
+    sampler = Sampler(answer.constant, answer.parameters, answer.assumptions, Random(seed))
+    found = sampler.points(statements)
+    read = 0
+    wrong: list[str] = []
+    for point in (next(found) for _ in range(points)):
+        if point is None or isinstance(point.field, AlgebraicField):
+            continue
+        values = {
+            name: value.to_sympy(sympy.Symbol("x")) for name, value in zip(point.names, point.values, strict=True)
+        }
+        for statement in statements:
+            for part in both(statement).parts:
+                said = _comparison(part, point, values)
+                read += said is not None
+                wrong += [f"{part.text()} at {point}"] * (said is False)
+            if statement.holds(point):
+                break  # what later regions say holds elsewhere only
+    return read, wrong
+
+
+def _comparison(part: Statement, point: Point, values: dict[str, Any]) -> bool | None:
+    """Does the text say what the statement means there?  None where it isn't one that is read."""
+    try:
+        if isinstance(part, Natural):
+            meant = {number for number in part.numbers_at(point) if number < RANGE.stop}
+            return numbers_said(part, values) == meant
+        return says(part, values) == part.holds(point)
+    except NotReadError:
+        return None

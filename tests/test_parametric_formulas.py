@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from functools import reduce
+from operator import mul
+from random import Random
+
 import pytest
 import sympy
 
 import kovacic
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.parameters import Conditions
-from tests.parametric_formulas import all_families, equation_of, wrong_solutions
+from kovacic.parametric.formulas import root_written, written
+from tests.parametric_formulas import all_families, equation_of, misread, wrong_solutions
 
 x = sympy.Symbol("x")
 FAMILIES = all_families()
@@ -123,3 +130,66 @@ def test_a_determinant_without_parameters_is_that_of_its_degree() -> None:
     answer = kovacic.conditions("x^2 + 8*(2*x^2-1)/(2*x^2+1)^2 - E", var="x", max_degree=0)
     vanishing = [str(delta.exponents) for delta in answer.determinant(0) if delta.factors]
     assert vanishing == ["E + 3"]
+
+
+def texts_say_what_is_meant(name: str, points: int) -> None:
+    _, wrong = misread(kovacic.conditions(FAMILIES[name], var="x", max_degree=0), points)
+    assert not wrong, wrong[:3]
+
+
+@pytest.mark.parametrize("name", SOME)
+def test_texts_say_what_is_meant(name: str) -> None:
+    texts_say_what_is_meant(name, 6)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ALL)
+def test_all_texts_say_what_is_meant(name: str) -> None:
+    texts_say_what_is_meant(name, 20)
+
+
+def random_quotients() -> list[RatFunc]:
+    """Of products of sums in three parameters and the integer n."""
+    random, field = Random(11), FunctionField(("a", "b", "c"))
+    a, b, c = map(field.generator, field.names)
+    n = field.poly([0, 1])
+    factors = [n, n + 1, 2 * n + 3, a, b, a + b, n - b - a, 2 * c - 1, a * c, b * b - 4 * a * c, n * n + b]
+
+    def product() -> FunctionPoly:
+        chosen = [random.choice(factors) ** random.choice((1, 1, 2)) for _ in range(random.randint(0, 3))]
+        return reduce(mul, chosen, field.poly([random.choice((1, -1, 2, -6))]))
+
+    return [RatFunc(product() + random.choice((0, 1)) * product(), product()) for _ in range(120)]
+
+
+def test_functions_are_read_back_as_they_are_written() -> None:
+    n = sympy.Symbol("n")
+    for function in random_quotients():
+        text = written(function, "n")
+        meant = function.num.to_sympy(n) / function.den.to_sympy(n)
+        assert sympy.cancel(sympy.sympify(text.replace("^", "**")) - meant) == 0, text
+
+
+def test_roots_are_read_back_as_they_are_written() -> None:
+    for function in random_quotients():
+        square = function.num[0]
+        if square:
+            text = root_written(square)
+            root = sympy.sympify(text.replace("^", "**"))
+            assert sympy.cancel(sympy.expand(root**2) - square.to_sympy(x)) == 0, text
+
+
+@pytest.mark.parametrize(
+    "S", ["x^2 + l/x^4 - E", "x^2 + l/x^4 + b/x^2 - E", "x^6 + a*x^2 + b*x^4 + c/x^4", "(x - a)^2 + l/(x - a)^4 - E"]
+)
+def test_a_symmetry_that_changes_one_root_of_two_excludes_case_1(S: str) -> None:
+    """Only where the pole, and with it the root that changes, is gone."""
+    answer = kovacic.conditions(S, var="x")
+    assert answer.complete is True
+    assert all(region.statement.text().startswith(("l = 0", "c = 0")) for region in answer.regions)
+    assert answer.check(30)
+
+
+def test_pi_is_a_number() -> None:
+    answer = kovacic.conditions("pi*x^2 + a", var="x")
+    assert not any(text in str(answer) for text in ("pi = 0", "pi = a"))

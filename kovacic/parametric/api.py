@@ -13,7 +13,7 @@ from kovacic.algebra.function_field import FunctionField
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision, Status
 from kovacic.engine.decide import decide
-from kovacic.equation import Equation, Parsed, parameters_of
+from kovacic.equation import PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import whole
 from kovacic.limits import Budget, Limits
@@ -48,7 +48,10 @@ def find_conditions(
         what = "every parameter has a value" if parsed is not given else f"S has no parameters{used}"
         raise InputError(what, hint="solve decides equations without parameters; var= says which name is the variable")
     most = whole(max_degree, "max_degree")
-    return conditions_of(parsed, read_assumptions(assume, S, names), most, limits)
+    known = read_assumptions(assume, S, names)
+    if PI in names:
+        known = known.also(PI, ("irrational", "positive"))
+    return conditions_of(parsed, known, most, limits)
 
 
 def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, limits: Limits) -> Conditions:
@@ -85,9 +88,10 @@ def _distinct(
 ) -> list[Condition]:
     """The regions with statements about all parameters, each statement once, and without those that earlier ones cover."""
     names = (variable, *field.names)
+    numbers = (*constant.names, *(name for name in field.names if name == PI))
     different: dict[Statement, Condition] = {}
     for region in regions:
-        statement = reduced(over_all(region.statement, field), constant).avoiding(names, constant.names)
+        statement = reduced(over_all(region.statement, field), constant).avoiding(names, numbers)
         different.setdefault(statement, replace(region, statement=statement))
     distinct = [*different.values()]
     with budget.watched(), suppress(LimitExceeded):

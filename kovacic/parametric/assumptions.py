@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce
 from itertools import product
@@ -131,6 +131,12 @@ class Assumptions:
 
     def of(self, name: str) -> Known:
         return dict(self.known).get(name, Known())
+
+    def also(self, name: str, words: tuple[str, ...]) -> Assumptions:
+        """The same with more words about one parameter."""
+        together = dict.fromkeys((*self.of(name).words, *words))
+        others = tuple((other, known) for other, known in self.known if other != name)
+        return replace(self, known=(*others, (name, Known(tuple(together)))))
 
     def admits(self, values: Iterable[tuple[str, Poly]]) -> bool:
         return all(self.of(name).admits(value) for name, value in values)

@@ -90,17 +90,28 @@ def _degrees_that_decide(problem: Problem) -> dict[int, list[Structure]] | None:
     differences = [place.delta for place in singular if place.delta is not None]
     if len(differences) < len(singular):
         return None
-    found: dict[int, list[Structure]] = {4: [Structure.IMPRIMITIVE]}
-    if all(place.kind is not Kind.RAMIFIED for place in problem.places):
+    found: dict[int, list[Structure]] = {}
+    is_ramified = any(place.kind is Kind.RAMIFIED for place in problem.places)
+    if not is_ramified:
         for m in {2, lcm(*(((1 + difference) / 2).denominator for difference in differences))}:
             found.setdefault(m, []).append(Structure.REDUCIBLE)
-        found.setdefault(12, []).append(Structure.TETRAHEDRAL)
+    if not _has_logarithms(problem):
+        found.setdefault(4, []).append(Structure.IMPRIMITIVE)
+        if not is_ramified:
+            found.setdefault(12, []).append(Structure.TETRAHEDRAL)
     return dict(sorted(found.items()))
+
+
+def _has_logarithms(problem: Problem) -> bool:
+    """Is there a simple pole?  Its logarithm, for all values, leaves only case 1 or none."""
+    return any(place.order == 1 for place in problem.places)
 
 
 def _degrees_that_are_possible(problem: Problem) -> dict[int, list[Structure]]:
     """4 where two places can be branch points of case 2 for some values of the parameters; 12 where case 3 isn't excluded."""
     branch_points, found = 0, dict[int, list[Structure]]()
+    if _has_logarithms(problem):
+        return found
     for place in problem.places:
         denominator = 0 if place.delta is None else place.delta.denominator
         if place.kind is Kind.RAMIFIED or (place.kind is Kind.REGULAR and denominator in (0, 2)):
@@ -138,6 +149,8 @@ def _signed_sums(squares: list[Poly], field: Field) -> Poly:
 def _reducible(problem: Problem, findings: Findings) -> None:
     if any(place.kind is Kind.RAMIFIED for place in problem.places):
         return
+    if _is_excluded_by_symmetry(problem):
+        return
     differences = _differences(problem)
     if differences is None:
         findings.unproven.append("case 1 where the exponents at conjugate points differ")
@@ -155,6 +168,26 @@ def _reducible(problem: Problem, findings: Findings) -> None:
             factors.append(over_parameters(factor))
     if factors:
         findings.natural.append(Natural(problem.S, 1, tuple(factors), Structure.REDUCIBLE))
+
+
+def _is_excluded_by_symmetry(problem: Problem) -> bool:
+    """Does S(2c - x) = S(x) exclude a rational omega?
+
+    With omega(x), -omega(2c - x) solves the Riccati equation.  Let its polar part at one irregular fixed point, c or infinity,
+    have the other sign, so that this is another solution, and the same sign at the other one.  The Wronskian of the two
+    solutions y1, y2 is y1 y2 times a rational function, a constant; but y1 y2 has an essential singularity at the other point.
+    """
+    S, field = problem.S, problem.field
+    points = S.den if S.den.degree else S.num
+    if points.degree < 1:
+        return False
+    center = -points[points.degree - 1] / (points.lc * points.degree)
+    if S(2 * center - field.poly([0, 1])) != S:
+        return False
+    fixed = [p for p in problem.places if p.at_infinity or (p.degree == 1 and p.factor[0] == -center)]
+    # In the coordinate u at a fixed point u -> -u, the leading term is that of u^(-order/2) du.
+    changes = {p.order // 2 % 2 == 0 for p in fixed if p.kind is Kind.UNRAMIFIED}
+    return len(changes) == 2
 
 
 def _forms(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:

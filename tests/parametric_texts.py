@@ -1,0 +1,167 @@
+"""What the text of a statement says at a point, read by rules of its own: formulas by SymPy, the words by patterns."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from itertools import product
+from typing import Any
+
+import sympy
+
+from kovacic.parametric.integers import Congruence
+from kovacic.parametric.natural import Natural
+from kovacic.parametric.statements import Both, Either, Statement, Vanishes
+
+#: The integers that are tried.
+RANGE = range(-90, 91)
+Values = dict[str, Any]
+
+
+class NotReadError(Exception):
+    """A text that these rules don't cover."""
+
+
+def says(statement: Statement, values: Values) -> bool:
+    """Is it true, as it is written, at rational values of the parameters?"""
+    if isinstance(statement, Both):
+        return all(says(part, values) for part in statement.parts)
+    if isinstance(statement, Either):
+        return any(says(part, values) for part in statement.parts)
+    if isinstance(statement, Vanishes):
+        (equation,) = statement.written.strip("`").split("`")
+        return _is_true(equation, values)
+    if isinstance(statement, Congruence):
+        return _integer(statement.written, statement.letter, values)
+    raise NotReadError(type(statement).__name__)
+
+
+def numbers_said(statement: Natural, values: Values) -> set[int]:
+    """The natural numbers below a bound that the text allows."""
+    text, found, _ = statement.written.partition(f", `{statement.letter} in N`")
+    if not found or "the exponents allow" in text:
+        raise NotReadError(text)
+    return {d for d in range(RANGE.stop) if _alternatives(text, {**values, statement.letter: sympy.Integer(d)})}
+
+
+def read(text: str, values: Values) -> Any:
+    """A formula at the values; other names are symbols."""
+    names = {name: sympy.Symbol(name) for name in re.findall(r"[A-Za-z_]\w*", text)} | values
+    names |= {"sqrt": sympy.sqrt, "I": values.get("I", sympy.I)}
+    return sympy.sympify(text.replace("^", "**"), locals=names)
+
+
+def _is_true(equation: str, values: Values) -> bool:
+    left, right = equation.split(" = ")
+    return _is_zero(read(left, values) - read(right, values))
+
+
+def _is_zero(value: Any) -> bool:
+    return bool(value == 0 if value.is_Rational else sympy.simplify(value) == 0)
+
+
+def _alternatives(text: str, values: Values) -> bool:
+    """`n` or `-n - 1 = 2*d, 3` or `+-(d + 1)`: is one of the left sides one of the right ones?"""
+    left: list[str] = []
+    right: list[str] = []
+    for formula in text.split("`")[1::2]:
+        if " = " in formula and right:
+            if _one_of(left, right, values):
+                return True
+            left, right = [], []
+        head, _, tail = formula.rpartition(" = ")
+        if head:
+            left.append(head)
+        (right if head or right else left).extend(_listed(tail))
+    return _one_of(left, right, values)
+
+
+def _listed(text: str) -> Iterator[str]:
+    for value in text.split(", "):
+        yield from (value[2:], f"-({value[2:]})") if value.startswith("+-") else (value,)
+
+
+def _one_of(left: list[str], right: list[str], values: Values) -> bool:
+    pairs = product(left, right)
+    return any(_is_true(f"{a} = {b}", values) for a, b in pairs)
+
+
+def _kind(words: str) -> Callable[[Any], bool]:
+    """Which numbers "an odd integer n" or "an integer = 1, 2 mod 5" means."""
+    match = re.fullmatch(
+        r"an (odd |even )?integer(?: \w+)?(?: not divisible by (\d+)| = ([\d, ]+) mod (\d+))?", words.strip()
+    )
+    if match is None:
+        raise NotReadError(words)
+    parity, divisor, residues, modulus = match.groups()
+
+    def belongs(number: Any) -> bool:
+        if not number.is_Integer:
+            return False
+        if parity is not None:
+            return bool(number % 2 == (parity == "odd "))
+        if divisor is not None:
+            return bool(number % int(divisor) != 0)
+        return residues is None or number % int(modulus) in {int(r) for r in residues.split(",")}
+
+    return belongs
+
+
+def _integer(said: str, letter: str, values: Values) -> bool:
+    text = said.partition(", that is ")[0]
+    if match := re.fullmatch(r"`([^`]*) in Z`", text):
+        return bool(read(match[1], values).is_Integer)
+    if match := re.fullmatch(r"`([^`]*) = ([^`=]*) mod ([^`]*)`", text):
+        form, modulus = read(match[1], values), sympy.Rational(match[3])
+        return any(((form - sympy.Rational(residue)) / modulus).is_Integer for residue in match[2].split(", "))
+    if match := re.fullmatch(r"`([^`]*)` is (.*)", text):
+        belongs = _kind(match[2])
+        return any(belongs(sympy.simplify(read(form, values))) for form in _signs(match[1]))
+    match = re.fullmatch(r"`([^`]*)`( \(.*?\))?(,? .*)", text)
+    if match is None:
+        raise NotReadError(said)
+    equation, note, rest = match.groups()
+    for n in _possible(rest, letter, values):
+        there = {**values, letter: n}
+        zero = re.findall(rf"`([^`]*) = 0` where `{letter} = ([^`]*)`", note or "")
+        special = [factor for factor, root in zero if sympy.Rational(root) == n]
+        holds = any(read(f, values) == 0 for f in special) if special else _has_value(equation, there)
+        if holds:
+            return True
+    return False
+
+
+def _has_value(equation: str, values: Values) -> bool:
+    left, right = (read(side, values) for side in equation.split(" = "))
+    return bool(right.is_finite) and _is_zero(left - right)
+
+
+def _signs(text: str) -> Iterator[str]:
+    """Each choice of the signs in a +- b +- c."""
+    pieces = text.split(" +- ")
+    for signs in product((" + ", " - "), repeat=len(pieces) - 1):
+        tail = "".join(f"{sign}({piece})" for sign, piece in zip(signs, pieces[1:], strict=True))
+        yield f"({pieces[0]}){tail}"
+
+
+def _possible(rest: str, letter: str, values: Values) -> Iterator[Any]:
+    """The numbers n that the end of a sentence allows."""
+    n = sympy.Symbol(letter)
+    if match := re.fullmatch(r" for (an .*)", rest):
+        belongs = _kind(match[1])
+        yield from (sympy.Integer(k) for k in RANGE if belongs(sympy.Integer(k)))
+    elif match := re.fullmatch(r", `([^`]*) in Z`", rest):
+        yield from (_solved(match[1], k, n, values) for k in RANGE)
+    elif match := re.fullmatch(r", `([^`]*)` or `([^`]*) in N`", rest):
+        yield from (_solved(form, k, n, values) for form in match.groups() for k in RANGE if k >= 0)
+    elif match := re.fullmatch(r", `([^`]*)` is (an .*)", rest):
+        belongs = _kind(match[2])
+        yield from (_solved(match[1], k, n, values) for k in RANGE if belongs(sympy.Integer(k)))
+    else:
+        raise NotReadError(rest)
+
+
+def _solved(form: str, k: int, n: Any, values: Values) -> Any:
+    """The n for which a linear form is k."""
+    expression = sympy.expand(read(form, values))
+    return (k - expression.coeff(n, 0)) / expression.coeff(n, 1)
