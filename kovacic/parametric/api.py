@@ -23,7 +23,7 @@ from kovacic.parametric.functions import Point
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.partition import Partition, Settings, partition, together
 from kovacic.parametric.regions import Condition, Verdict, without_empty
-from kovacic.parametric.restriction import over_all, reduced, with_free_constant
+from kovacic.parametric.restriction import reduced, with_free_constant
 from kovacic.parametric.solutions import Given
 from kovacic.parametric.statements import Statement
 from kovacic.reading.read import read_input
@@ -91,7 +91,7 @@ def _distinct(
     numbers = (*constant.names, *(name for name in field.names if name == PI))
     different: dict[Statement, Condition] = {}
     for region in regions:
-        statement = reduced(over_all(region.statement, field), constant).avoiding(names, numbers)
+        statement = reduced(region.statement, constant).avoiding(names, numbers)
         different.setdefault(statement, replace(region, statement=statement))
     distinct = [*different.values()]
     with budget.watched(), suppress(LimitExceeded):

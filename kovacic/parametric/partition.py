@@ -32,7 +32,7 @@ from kovacic.parametric.regions import Condition, Theorem, Verdict
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.search import Findings, search
 from kovacic.parametric.solutions import solutions_there
-from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
+from kovacic.parametric.statements import ALWAYS, NEVER, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
 
 _UNKNOWN = Verdict(None, known=False)
@@ -189,9 +189,10 @@ def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
     return regions
 
 
-def _also(regions: list[Condition], *conditions: Statement) -> list[Condition]:
-    """The parts of regions where more conditions hold."""
-    return [replace(region, statement=both(*conditions, region.statement)) for region in regions]
+def _also(regions: list[Condition], *conditions: Vanishes) -> list[Condition]:
+    """The parts of regions, of fewer parameters maybe, where more conditions hold."""
+    field = conditions[0].function.field
+    return [replace(r, statement=both(*conditions, restriction.over_all(r.statement, field))) for r in regions]
 
 
 def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Condition]:

@@ -25,7 +25,8 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.sparse import by_power
-from kovacic.limits import check_time
+from kovacic.errors import LimitExceeded
+from kovacic.limits import bounded_work, check_time, count_work
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
 
 #: Determinants whose common factors are taken, and minors up to which all of them are computed.
@@ -35,22 +36,10 @@ _PRIME = 2**61 - 1
 _WORK = 10**7
 
 
-class _TooMuchWorkError(Exception):
-    """The determinants of a matrix aren't computed."""
-
-
-@dataclass
-class _Work:
-    """Counts products of terms."""
-
-    left: int = _WORK
-
-    def product(self, first: Any, second: Any) -> Any:
-        """Raises `_TooMuchWorkError` above the limit."""
-        self.left -= len(first) * len(second)
-        if self.left < 0:
-            raise _TooMuchWorkError
-        return first * second
+def _product(first: Any, second: Any) -> Any:
+    """Counted as work."""
+    count_work(len(first) * len(second))
+    return first * second
 
 
 @dataclass(frozen=True)
@@ -103,14 +92,16 @@ def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
         field = surface.field
     assert isinstance(field, FunctionField)
     try:
-        return _conditions(images, field, surface)
-    except _TooMuchWorkError:
+        with bounded_work(_WORK):
+            return _conditions(images, field, surface)
+    except LimitExceeded as limit:
+        if limit.limit != "work":
+            raise
         return RankConditions(system=None)
 
 
 def _conditions(images: Sequence[Poly], field: FunctionField, surface: _Surface | None) -> RankConditions:
-    work = _Work()
-    rows, eliminated = without_constant_pivots([*map(_column, images)], work)
+    rows, eliminated = without_constant_pivots([*map(_column, images)])
     rows = [*{tuple(map(str, row)): row for row in map(_normalised, rows)}.values()]
     # The rank at a random point is a lower bound, and the generic rank but for a probability of about 1/_PRIME.
     p, point = _random_point(field, surface)
@@ -121,11 +112,11 @@ def _conditions(images: Sequence[Poly], field: FunctionField, surface: _Surface 
         return RankConditions(deficient=deficient)
     is_square = len(rows) == len(rows[0]) == rank
     if is_square or (surface is None and len(field.names) == 1):
-        return _common_factors(field, rows, rank, deficient, work)
+        return _common_factors(field, rows, rank, deficient)
     if rank < len(rows[0]) or comb(len(rows), rank) > _MINORS:
-        common = () if surface else _common_factors(field, rows, rank, deficient, work).polynomials
+        common = () if surface else _common_factors(field, rows, rank, deficient).polynomials
         return RankConditions(common, None, deficient)
-    minors = [_determinant([[*row] for row in chosen], work) for chosen in combinations(rows, rank)]
+    minors = [_determinant([[*row] for row in chosen]) for chosen in combinations(rows, rank)]
     minors = [minor for minor in minors if not minor.is_zero()]
     if surface is not None:
         return RankConditions((), tuple(element(field, minor) for minor in minors), deficient)
@@ -173,16 +164,14 @@ def _random_point(field: FunctionField, surface: _Surface | None) -> tuple[int, 
     raise AssertionError("the sequence of primes is infinite")
 
 
-def _common_factors(
-    field: FunctionField, rows: list[list[Any]], rank: int, deficient: bool, work: _Work
-) -> RankConditions:
+def _common_factors(field: FunctionField, rows: list[list[Any]], rank: int, deficient: bool) -> RankConditions:
     """The irreducible factors that all minors of the size of the rank have in common."""
     single = len(rows) == len(rows[0]) == rank
     zero = common = field.context.constant(0)
     random = Random(20240229)
     for _ in range(1 if single else _DETERMINANTS):
         check_time()
-        determinant = _determinant(_mixed(rows, rank, random, zero), work)
+        determinant = _determinant(_mixed(rows, rank, random, zero))
         if determinant.is_constant() and not determinant.is_zero():
             return RankConditions(deficient=deficient)
         common = common.gcd(determinant)
@@ -213,14 +202,13 @@ def _column(image: Poly) -> dict[int, Any]:
     return by_power(over_parameters(image).num, 0)
 
 
-def without_constant_pivots(columns: list[dict[int, Any]], work: _Work | None = None) -> tuple[list[list[Any]], int]:
+def without_constant_pivots(columns: list[dict[int, Any]]) -> tuple[list[list[Any]], int]:
     """A smaller matrix, without zero rows and columns, and by how much its rank is smaller.
 
     The columns are given by their entries.  A constant entry clears its column, and its row and column are left out then;
     among them the one that touches the fewest entries is chosen [Markowitz 1957].  A matrix for a polynomial P is banded,
     so that this is the elimination of its coefficients by their recurrence.
     """
-    work = work or _Work()
     used = sorted({i for column in columns for i in column})
     rows = [{k: column[i] for k, column in enumerate(columns) if column.get(i)} for i in used]
     while True:
@@ -232,13 +220,13 @@ def without_constant_pivots(columns: list[dict[int, Any]], work: _Work | None = 
         if best is None:
             break
         chosen = rows.pop(best[1])
-        rows = [_cleared(row, best[2], chosen, work) if best[2] in row else row for row in rows]
+        rows = [_cleared(row, best[2], chosen) if best[2] in row else row for row in rows]
     zero = next((0 * entry for row in rows for entry in row.values()), 0)
     left = sorted({k for row in rows for k in row})
     return [[row.get(k, zero) for k in left] for row in rows if row], len(used) - len(rows)
 
 
-def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any], work: _Work) -> dict[int, Any]:
+def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, Any]:
     """The row with its entry in column k cleared by the chosen one, without its content."""
     check_time()
     pivot, factor = chosen[k], row[k]
@@ -246,9 +234,9 @@ def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any], work: _Work) -
     for j in row.keys() | chosen.keys():
         if j == k:
             continue
-        entry = work.product(pivot, row[j]) if j in row else 0
+        entry = _product(pivot, row[j]) if j in row else 0
         if j in chosen:
-            entry = entry - work.product(factor, chosen[j])
+            entry = entry - _product(factor, chosen[j])
         if entry:
             combined[j] = entry
     return _primitive(combined)
@@ -271,7 +259,7 @@ def _mixed(rows: list[list[Any]], rank: int, random: Random, zero: Any) -> list[
     return rows
 
 
-def _determinant(rows: list[list[Any]], work: _Work) -> Any:
+def _determinant(rows: list[list[Any]]) -> Any:
     """Up to its sign, by elimination without fractions [Bareiss 1968]; the rows are used up."""
     n, previous = len(rows), None
     for k in range(n - 1):
@@ -282,7 +270,7 @@ def _determinant(rows: list[list[Any]], work: _Work) -> Any:
         for i in range(k + 1, n):
             for j in range(k + 1, n):
                 check_time()
-                value = work.product(rows[k][k], rows[i][j]) - work.product(rows[i][k], rows[k][j])
+                value = _product(rows[k][k], rows[i][j]) - _product(rows[i][k], rows[k][j])
                 rows[i][j] = value // previous if k else value
         previous = rows[k][k]
     return rows[-1][-1]

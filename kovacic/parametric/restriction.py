@@ -223,6 +223,8 @@ def over_all(statement: Statement, field: FunctionField) -> Statement:
     values = [field.generator(name) for name in field.names]
 
     def change(function: FunctionPoly) -> FunctionPoly:
+        if function.field == field:
+            return function
         chosen = [values[field.names.index(name)] for name in function.field.names]
         return over_parameters(function.value_at(chosen, field))
 
