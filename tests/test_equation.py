@@ -119,8 +119,6 @@ def test_right_hand_sides(right: str, f: RatFunc, h: sympy.Expr | None) -> None:
         ("x(1-x) y'' = y", ParseError, "followed by a parenthesis", 0),
         ("y'' = y = 0", ParseError, "doesn't belong here", 8),
         ("y'' + = 0", ParseError, "missing", 4),
-        ("y'' + 2x z y = 0", ParseError, "operator", 7),
-        ("y'' + a*y = b", InputError, "which is the variable", 12),
         ("y'' + y/0 = 0", NotRational, "zero", 8),
     ],
 )

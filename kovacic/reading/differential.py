@@ -119,6 +119,9 @@ class EquationReader(RationalReader):
             import sympy
 
             return sympy.E if name == "e" else sympy.pi
+        if self.unknown and name in (self.variable + self.unknown, self.unknown + self.variable):
+            hint = f"did you mean {self.variable}*{self.unknown}?"
+            raise ParseError(f"{name} is one name", hint=hint)
         if name == UNKNOWN and self.unknown:  # the unknown function has another name
             return self.constants.parameter(name)
         return super().name(name)
@@ -127,6 +130,8 @@ class EquationReader(RationalReader):
         name = text.rstrip(PRIMES)
         if name != self.unknown:
             hint = f"there is one unknown function, here {self.unknown}; write products with *: x*y''"
+            if name == self.variable + self.unknown:
+                hint = f"write {self.variable}*{text[len(self.variable) :]}"
             raise NotLinear(f"{text} is a derivative of something else than {self.unknown}", hint=hint)
         return _derivative_of_unknown(_order_of(text[len(name) :]))
 

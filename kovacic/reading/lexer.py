@@ -138,11 +138,15 @@ class Tokens:
         return found
 
 
-def tokens_of(text: str, limits: Limits, *, what: str, hint: str | None = None) -> Tokens:
-    """The tokens of a text that isn't empty and not too long; `what` it is and the `hint` are for the message."""
+def check_length(text: str, limits: Limits, *, what: str) -> None:
     if len(text) > limits.text_length:
         said = f"{what} has {len(text)} characters, above the limit of {limits.text_length}"
         raise LimitExceeded(said, limit="text_length")
+
+
+def tokens_of(text: str, limits: Limits, *, what: str, hint: str | None = None) -> Tokens:
+    """The tokens of a text that isn't empty and not too long; `what` it is and the `hint` are for the message."""
+    check_length(text, limits, what=what)
     tokens = tokenize(text)
     if len(tokens.kinds) == 1:
         raise ParseError(f"there is no expression: {what} is empty", text=text, position=0, hint=hint)

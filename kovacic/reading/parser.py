@@ -18,6 +18,8 @@ from typing import Any
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.reading.lexer import DERIVATIVES, Tokens
+from kovacic.reading.names import FUNCTION_NAMES
+from kovacic.reading.notation import GREEK
 
 _OPEN, _PAIR, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(-1, 6)
 _BINARY = {"PLUS": _SUM, "MINUS": _SUM, "STAR": _PRODUCT, "SLASH": _PRODUCT}
@@ -220,9 +222,26 @@ def _check_neighbours(tokens: Tokens, reader: Any, begin: int, right: int) -> No
         return
     if tokens.kinds[right] in ("NAME", "PRIMED", "HEAD") and reader.follows_without_sign(tokens.pieces[right]):
         return
+    if _are_apart(tokens, left, right):
+        return
     first, second = shortened(tokens.pieces[left]), shortened(tokens.pieces[right])
     message = f"an operator is missing between {first!r} and {second!r}"
     raise tokens.error(ParseError, message, left, right + 1, hint="write a product with *")
+
+
+def _are_apart(tokens: Tokens, left: int, right: int) -> bool:
+    """Are these a letter and another letter or a call, with a space between: a x, a sin(x)?"""
+    if tokens.kinds[left] != "NAME" or tokens.kinds[right] not in ("NAME", "HEAD"):
+        return False
+    if tokens.ends[left] == tokens.starts[right] or not _is_letter(tokens.pieces[left]):
+        return False
+    return _is_letter(tokens.pieces[right]) or tokens.pieces[right] in FUNCTION_NAMES
+
+
+def _is_letter(name: str) -> bool:
+    """x, x1, omega, omega_0; not a word."""
+    bare = name.rstrip("0123456789").rstrip("_")
+    return len(bare) == 1 or bare in GREEK
 
 
 def _ambiguous(tokens: Tokens, site: Site, slash: int, split: int) -> InputError:

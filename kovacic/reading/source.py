@@ -15,8 +15,9 @@ from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import RationalReader, as_function
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens, is_equation, tokens_of
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens, check_length, is_equation, tokens_of
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
+from kovacic.reading.notation import plain
 from kovacic.reading.parser import evaluate
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
@@ -30,6 +31,7 @@ class Source(NamedTuple):
     variable: str
     unknown: str = ""
     text: str | None = None
+    notes: tuple[str, ...] = ()
 
 
 def source_of(
@@ -42,12 +44,22 @@ def source_of(
     """
     if not isinstance(given, str):
         return _sympy_source(given, variable, unknown, equation)
-    tokens = tokens_of(given, limits, what="the text", hint="give S(x), for example x^2 + 3")
+    check_length(given, limits, what="the text")
+    written = plain(given)
+    tokens = tokens_of(written.text, limits, what="the text", hint="give S(x), for example x^2 + 3")
     walk = partial(evaluate, tokens)
-    if equation or is_equation(given):
+    notes = _guesses(tokens)
+    if equation or is_equation(written.text):
         y = unknown or _unknown_of(tokens)
-        return Source(walk, variable or _variable_of(tokens, y), y, given)
-    return Source(walk, _variable_of_S(tokens, variable))
+        x = variable
+        if x is None:
+            x, taken = _variable_of(tokens, y, written.variable)
+            notes += taken
+        return Source(walk, x, y, written.text, notes)
+    x = _variable_of_S(tokens, variable)
+    if variable is None:
+        notes += _only_name(tokens, x)
+    return Source(walk, x, notes=notes)
 
 
 def _sympy_source(given: Any, variable: str | None, unknown: Any, equation: bool) -> Source:
@@ -84,18 +96,18 @@ def read_source(source: Source, limits: Limits) -> Parsed:
     Raises `NotRational` and `NotLinear` where it is neither, `ParseError` for what is no expression, with the position in a
     text, and `LimitExceeded` before anything would become larger than the limits allow.
     """
-    _, x, y, text = source
+    x, y, text = source.variable, source.unknown, source.text
 
     def read(constants: Constants) -> Parsed:
         if not y:
             reader = RationalReader({x: VARIABLE}, x, Arithmetic(limits), constants)
             S = constants.embedded(reader.arithmetic.rational(source.walk(reader)))
-            return Parsed(S, x, (*reader.notices(), *constants.notices()))
+            return Parsed(S, x, (*source.notes, *reader.notices(), *constants.notices()))
         from kovacic.reading.differential import EquationReader
 
         reader = EquationReader(x, y, limits, constants)
         equation = reader.equation_of(source.walk(reader), text)
-        return Parsed(equation.S, x, (*reader.notices(), *constants.notices()), equation)
+        return Parsed(equation.S, x, (*source.notes, *reader.notices(), *constants.notices()), equation)
 
     return read_with_constants(read, limits)
 
@@ -150,23 +162,53 @@ def _unknown_of(tokens: Tokens) -> str:
     return UNKNOWN
 
 
-def _variable_of(tokens: Tokens, unknown: str) -> str:
-    """The argument of the unknown function, or what is differentiated by; else the only name, or x."""
+def _variable_of(tokens: Tokens, unknown: str, preferred: str | None) -> tuple[str, tuple[str, ...]]:
+    """The variable of an equation, and a note where that is a guess.
+
+    It is the argument of the unknown function, or what is differentiated by; else x, where x occurs; else the only name
+    that usually is one (x, t, z, s, r, u, theta, ...); else x, or what the notation stands for (t beside dots, in D2y), and all
+    other names are parameters.
+    """
     kinds = tokens.kinds
     applied, differentiated = ["HEAD", "LPAR", "NAME", "RPAR"], ["NAME", "COMMA", "NAME"]
     for k in range(len(kinds) - 3):
         if tokens.pieces[k].rstrip(PRIMES) == unknown and (
             kinds[k : k + 4] == applied or kinds[k : k + 3] == differentiated
         ):
-            return tokens.pieces[k + 2]
+            return tokens.pieces[k + 2], ()
     excluded = {*NUMBER_NAMES, ENERGY, unknown, "e"}
     names = [name for name in tokens.names() if name not in excluded]
-    if DEFAULT_VARIABLE in names or not names:
-        return DEFAULT_VARIABLE if unknown != DEFAULT_VARIABLE else "t"
+    default = preferred or DEFAULT_VARIABLE
+    if default == unknown:
+        default = "t"
+    if DEFAULT_VARIABLE in names and unknown != DEFAULT_VARIABLE:
+        return DEFAULT_VARIABLE, ()
+    if default in names or not names:
+        return default, ()
     usual = [name for name in names if name in _USUAL_VARIABLES]
-    if len(usual) != 1 or len(names) > 1:
-        question = "is it the variable, or a parameter" if len(names) == 1 else "which is the variable"
+    if len(usual) > 1:
         hint = f"write {unknown}''(x) for the derivative, or name the variable: var='x' (--var x)"
-        k = tokens.names()[names[-1]]
-        raise tokens.error(InputError, f"{', '.join(names[:6])}: {question}?", k, k + 1, hint=hint)
-    return usual[0]
+        k = tokens.names()[usual[-1]]
+        message = f"{', '.join(usual[:6])}: which is the variable?"
+        raise tokens.error(InputError, message, k, k + 1, hint=hint)
+    if usual:
+        return usual[0], ()
+    which = "a parameter" if len(names) == 1 else "parameters"
+    return default, (f"{default} is the variable, {', '.join(names[:6])} {which}",)
+
+
+def _only_name(tokens: Tokens, variable: str) -> tuple[str, ...]:
+    """Where S has one name that an equation would take for a parameter, it is the variable: that is said."""
+    if variable in _USUAL_VARIABLES or variable not in tokens.names():
+        return ()
+    return (f"{variable} is taken for the variable; name another one where it is a parameter: var='x' (--var x)",)
+
+
+def _guesses(tokens: Tokens) -> tuple[str, ...]:
+    """What may have been meant in another way: x^1/2 is x/2."""
+    wanted = ["CIRCUMFLEX", "NUMBER", "SLASH", "NUMBER"]
+    for k in range(len(tokens.kinds) - 3):
+        if tokens.kinds[k : k + 4] == wanted and tokens.pieces[k + 1] == "1":
+            below = tokens.pieces[k + 3]
+            return (f"^1/{below} was read as (...)^1 divided by {below}; a root is written ^(1/{below})",)
+    return ()

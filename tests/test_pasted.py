@@ -1,0 +1,201 @@
+"""What people paste from other systems, and as they write it by hand, is read, and means what it means there.
+
+Each equation is written in every notation from its coefficients, by SymPy's printers or by hand, and is read back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+import sympy
+
+import kovacic
+from kovacic.reading.notation import plain
+from kovacic.reading.read import read_input
+
+x, t, k, n, a, omega_0, alpha = sympy.symbols("x t k n a omega_0 alpha")
+#: a, b, c, f of a y'' + b y' + c y = f in the variable x.
+EQUATIONS: list[tuple[Any, Any, Any, Any]] = [
+    (1, 0, -x, 0),
+    (1, 0, 1, 0),
+    (1, 0, k**2, 0),
+    (1, 0, -(x**2) + 3, 0),
+    (x**2, x, x**2 - sympy.Rational(1, 4), 0),
+    (x**2, x, x**2 - n**2, 0),
+    (1 - x**2, -2 * x, n * (n + 1), 0),
+    (x, 1 - x, a, 0),
+    (1, -2 * x, 2 * n, 0),
+    (1, 3, 2, 0),
+    (1, 2 * a, omega_0**2, 0),
+    (1, 0, 4, x),
+    (1, 1 / x, 1 - n**2 / x**2, 0),
+    (x * (1 - x), sympy.Rational(1, 2) - 3 * x, -1, 0),
+    (1, 0, alpha * x**2, 0),
+    (1, -1, 0, x**2 + 1),
+    (x**2, 4 * x, 2, 0),
+    (1, 0, sympy.Rational(3, 16) / x**2 + sympy.Rational(2, 9) / (x - 1) ** 2, 0),
+    (x**3, 0, 1, 0),
+    (1, 0, x**4 + a * x**2, 0),
+    (1, 0, 9, sympy.sin(2 * x)),
+    (1, 2, 1, sympy.exp(-x)),
+    (2, 0, k, 0),
+    (1, 0, -(k**2), 0),
+    (x, 2, x, 0),
+]
+
+
+def summed(terms: list[tuple[Any, str]], write: Callable[[Any], str], times: str) -> str:
+    """The sum of coefficients and what they multiply, in a notation's signs."""
+    written = []
+    for coefficient, factor in terms:
+        value = sympy.sympify(coefficient)
+        if value == 0:
+            continue
+        written.append(factor if value == 1 else f"({write(value)}){times}{factor}")
+    return " + ".join(written)
+
+
+def notation(
+    derivatives: tuple[str, str, str], write: Callable[[Any], str], times: str, equal: str = "="
+) -> Callable[[Any], str]:
+    """The writer of a whole equation from how y'', y' and y are written."""
+
+    def text(parts: tuple[Any, Any, Any, Any]) -> str:
+        *coefficients, f = parts
+        left = summed(list(zip(coefficients, derivatives, strict=True)), write, times)
+        return f"{left} {equal} {write(sympy.sympify(f))}"
+
+    return text
+
+
+def by_hand(value: Any) -> str:
+    return sympy.sstr(value).replace("**", "^").replace("omega_0", "ω₀").replace("alpha", "α")
+
+
+def latex(value: Any) -> str:
+    return sympy.latex(value)
+
+
+def mathematica(value: Any) -> str:
+    return sympy.mathematica_code(value).replace("omega_0", "omega0")
+
+
+def eq(value: Any) -> str:
+    return sympy.sstr(value)
+
+
+def in_eq(parts: tuple[Any, Any, Any, Any]) -> str:
+    y = sympy.Function("y")(x)
+    *coefficients, f = parts
+    left = sum(sympy.sympify(c) * d for c, d in zip(coefficients, (y.diff(x, 2), y.diff(x), y), strict=True))
+    return str(sympy.srepr(sympy.Integer(0)) and sympy.Eq(left, sympy.sympify(f), evaluate=False))
+
+
+NOTATIONS: dict[str, Callable[[Any], str]] = {
+    "primes": notation(("y''", "y'", "y"), by_hand, "*"),
+    "a double quotation mark": notation(('y"', "y'", "y"), by_hand, " "),
+    "Leibniz": notation(("d^2y/dx^2", "dy/dx", "y"), by_hand, " "),
+    "Leibniz with superscripts": notation(("d²y/dx²", "dy/dx", "y"), by_hand, "·"),
+    "LaTeX, fractions": notation((r"\frac{d^2y}{dx^2}", r"\frac{dy}{dx}", "y"), latex, " "),
+    "LaTeX, braces": notation((r"\frac{d^{2} y}{d x^{2}}", r"\frac{d y}{d x}", "y"), latex, r" \cdot "),
+    "LaTeX, primes": notation((r"y^{\prime\prime}", r"y^{\prime}", "y"), latex, r" \, "),
+    "Mathematica": notation(("y''[x]", "y'[x]", "y[x]"), mathematica, " ", "=="),
+    "Mathematica, D": notation(("D[y[x], {x, 2}]", "D[y[x], x]", "y[x]"), mathematica, "*", "=="),
+    "Maple": notation(("diff(y(x), x$2)", "diff(y(x), x)", "y(x)"), eq, "*"),
+    "Maple, D": notation(("(D@@2)(y)(x)", "D(y)(x)", "y(x)"), eq, "*"),
+    "Maxima": notation(("'diff(y,x,2)", "'diff(y,x)", "y"), eq, "*"),
+    "MATLAB": notation(("diff(y,2)", "diff(y,1)", "y"), eq, "*"),
+    "SymPy": in_eq,
+    "SymPy, methods": notation(("y(x).diff(x, 2)", "y(x).diff(x)", "y(x)"), eq, "*"),
+}
+
+
+def normal_form(parts: tuple[Any, Any, Any, Any]) -> Any:
+    """S of y'' = S y for the left-hand side."""
+    a2, b, c, _ = map(sympy.sympify, parts)
+    p, q = b / a2, c / a2
+    return p.diff(x) / 2 + p**2 / 4 - q
+
+
+#: How names come out of notations that don't have SymPy's.
+NAMES = {"ω_0": "omega_0", "omega0": "omega_0", "α": "alpha"}
+
+
+@pytest.mark.parametrize("name", NOTATIONS)
+def test_equations_in_a_notation_mean_what_they_mean_there(name: str) -> None:
+    for parts in EQUATIONS:
+        text = NOTATIONS[name](parts)
+        found = read_input(text, exponentials=True)
+        S, f = found.S.to_str(), f"{found.equation.f.to_str()} + {found.equation.h or 0}"
+        for other, usual in NAMES.items():
+            S, f = S.replace(other, usual), f.replace(other, usual)
+        assert sympy.simplify(sympy.sympify(S) - normal_form(parts)) == 0, text
+        assert sympy.simplify(sympy.sympify(f) - parts[3]) == 0, text
+        assert found.variable == "x"
+
+
+@pytest.mark.parametrize(
+    ("text", "variable", "S"),
+    [
+        ("D2y + 4*y = 0", "t", "-4"),
+        ("D2y + 3*Dy + 2*y = 0", "t", "1/4"),
+        ("D2y = x*y", "x", "x"),
+        (r"\ddot{x} + 9x = 0", "t", "-9"),
+        (r"\ddot{\theta} + 4\theta = 0", "t", "-4"),
+        ("ẍ + ẋ + x = 0", "t", "-3/4"),
+        ("ÿ + y = 0", "t", "-1"),
+        (r"x^2 y'' = \left(\frac{3}{4}+x^{2}\right) y", "x", "(4*x**2 + 3)/(4*x**2)"),
+        ("d/dx((1-x^2) dy/dx) + 6 y = 0", "x", "(6*x**2 - 7)/(x**4 - 2*x**2 + 1)"),
+        ("(d^2/dx^2) y = x y", "x", "x"),
+        ("d^2u/dz^2 = z u", "z", "x"),
+        ("y″ = x y", "x", "x"),
+        ("y’’ = x y", "x", "x"),
+        ("u'' = -k^2*u", "x", "-k**2"),
+        ("y'' = -k^2*y", "x", "-k**2"),
+        ("y'' + omega^2 y = 0", "x", "-omega**2"),
+        ("y'' = (a t + b) y", "t", "a*x + b"),
+        ("α x^2", "x", "α*x**2"),
+        ("x^{2} + 1", "x", "x**2 + 1"),
+        (r"\frac{1}{x} - \frac{3}{16x^2}", "x", "(16*x - 3)/(16*x**2)"),
+    ],
+)
+def test_what_is_pasted(text: str, variable: str, S: str) -> None:
+    found = read_input(text)
+    assert (found.variable, found.S.to_str()) == (variable, S)
+
+
+@pytest.mark.parametrize(
+    ("text", "note"),
+    [
+        ("y'' = -k^2*y", "x is the variable, k a parameter"),
+        ("y'' + 2*c*y' + w0^2*y = 0", "x is the variable, c, w0 parameters"),
+        ("x^1/2", "a root is written ^(1/2)"),
+        ("hello", "hello is taken for the variable"),
+    ],
+)
+def test_what_is_guessed_is_said(text: str, note: str) -> None:
+    assert any(note in said for said in kovacic.solve(text).notices)
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [("y'' = xy", "did you mean x*y?"), ("y'' + xy' = 0", "write x*y'"), (r"y'' = \foo{x} y", "write for example")],
+)
+def test_what_is_not_read_is_refused_with_a_hint_that_works(text: str, hint: str) -> None:
+    with pytest.raises(kovacic.InputError) as caught:
+        read_input(text)
+    assert hint in str(caught.value.hint)
+
+
+@pytest.mark.parametrize(
+    "piece", ["d/dx(", r"\frac{", "d^2y/dx^2 + ", "x$", "y(x).diff(x)", "D(", "'", "a", " ", "[", "{", "d", "_{"]
+)
+def test_rewriting_takes_linear_time(piece: str) -> None:
+    """Counted in characters of the result, and by ending at all: each piece 20,000 times in a row."""
+    try:
+        found = plain(piece * 20_000 + "\\,$")
+    except kovacic.InputError:
+        return
+    assert len(found.text) < 40 * 20_000 * len(piece) + 100
