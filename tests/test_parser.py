@@ -18,6 +18,7 @@ from kovacic.limits import Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.expression import parse_with
 from kovacic.reading.lexer import tokenize
+from kovacic.reading.notation import plain
 from kovacic.reading.parser import Site, evaluate
 from kovacic.reading.symbolic import read_expression
 
@@ -96,9 +97,9 @@ PIECES = [
 def test_garbage_is_refused_with_a_position_or_read(text: str) -> None:
     outcome = outcome_of(text, Limits(exponent=200, degree=500, bits=20_000, digits=50))
     if isinstance(outcome, InputError):
-        assert outcome.text == text
+        assert outcome.text in (text, plain(text).text)
         assert outcome.position is not None
-        assert 0 <= outcome.position <= len(text)
+        assert 0 <= outcome.position <= len(outcome.text)
         assert outcome.message in str(outcome)
     elif isinstance(outcome, LimitExceeded):
         assert outcome.limit in ("exponent", "degree", "bits", "digits")
@@ -683,7 +684,6 @@ WRONG = [
     "y'' + y*z'' = 0",
     "y'' = foo(x)*y",
     "gama(x)",
-    "Sin[x]",
     "sin x",
     "sinx",
     "Sin(x)",
@@ -699,7 +699,6 @@ WRONG = [
     "x < 2",
     "90°",
     "x°",
-    "\\frac{x}{2}",
     "$x^2$",
     "\\sqrt{x}",
     "{x}",
@@ -723,7 +722,6 @@ WRONG = [
     "Derivative(y(x), x, z)",
     "y(x)'' = x",
     'y"" = x*y',
-    'y" + y = 0',
     "D^2 y = x y",
     "'x^2'",
     '"x^2"',

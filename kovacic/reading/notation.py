@@ -107,7 +107,7 @@ def _unicode(text: str) -> str:
     pieces: list[str] = []
     for character in text:
         decomposed = unicodedata.normalize("NFD", character)
-        if decomposed[1:] in _DOT_PRIMES:
+        if decomposed[1:] in _DOT_PRIMES and decomposed[0] in _DOTTED:
             pieces.append(decomposed[0] + _DOT_PRIMES[decomposed[1:]])
         elif character in _DOT_PRIMES:
             pieces.append(_DOT_PRIMES[character])
@@ -120,6 +120,8 @@ def _unicode(text: str) -> str:
     return "".join(pieces)
 
 
+#: Letters that functions have; others with dots are letters of an alphabet.
+_DOTTED = frozenset("xyzuvwqrsθφψ")
 _DOT_PRIMES = {"\u0307": "'", "\u0308": "''"}
 
 _MATHEMATICA_NAMES = {
