@@ -120,6 +120,8 @@ def computed_once(compute: Callable[[Any], _T]) -> Callable[[Any], _T]:
     >>> was_computed(squared, answer), print(squared(answer)), was_computed(squared, answer)
     x**2
     (False, None, True)
+    >>> squared(answer) is squared(answer)
+    True
     """
     name = _name(compute)
 

@@ -159,6 +159,14 @@ def test_conjugate_poles_are_taken_one_by_one() -> None:
         assert sympy.simplify(sympy.diff(omega, x) + omega**2 - 2 / (x**2 + 1) ** 2) == 0
 
 
+def test_families_of_case_2_have_an_odd_exponent() -> None:
+    """Those with even ones only belong to case 1, and aren't listed, however natural their d is."""
+    found = searched(kovacic.solve("-3/(16*x^2) - 3/(16*(x-1)^2) + 3/(16*x*(x-1))"), 2)
+    assert found.families is not None
+    assert found.natural == len(found.families)
+    assert all(any(choice.value % 2 for choice in family.choices) for family in found.families)
+
+
 def test_many_poles_are_counted() -> None:
     """13 poles with two exponents each, and infinity: too many families to be listed; their number is said."""
     S = " + ".join(f"2/(x-{k})^2" for k in range(1, 14))
