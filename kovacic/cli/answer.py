@@ -107,6 +107,7 @@ def dsolve(equation: str, latex: bool, ics: str, **given: Any) -> int:
     \b
     kovacic dsolve "y'' + 4*y' + 4*y = exp(-2*x)/x^2"
     kovacic dsolve "y'' - 2*x*y' + 2*y = 0" --ics "y(0)=0, y'(0)=5"
+    kovacic dsolve "x*y'' + y' - x*y = 0" --ics "y(0)=bounded, y(1)=1"
     """
     from kovacic.decision import Status
     from kovacic.solution import solve

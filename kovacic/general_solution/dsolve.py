@@ -46,27 +46,74 @@ def dsolve(
 ) -> Any:
     """The general solution of a linear equation of second order as a SymPy `Eq(y(x), ...)` with constants C1 and C2.
 
-    `eq` is a SymPy `Eq` or an expression that is zero, or text; `func` is y(x) or y, where more than one function occurs.
-    `ics` gives values at ordinary points as for `sympy.dsolve`, {y(0): 1, y(x).diff(x).subs(x, 0): 2}, or as text,
-    "y(0)=1, y'(0)=2" or {"y(0)": 1, "y'(0)": 2}, at one point or, as boundary values, at several: the constants that they
-    determine are found exactly, and one that stays is free.  Floats are the decimals that they are written as; values at
-    the place of an impulse or a step are those just before it.  An integral that isn't done stays an `Integral`.
+    What is returned has been put into the equation (numerically, at points) and into the conditions.  With parameters it
+    holds for generic values; what SymPy knows of the user's symbols (integer, positive, ...) is used throughout.
 
-    With parameters, the answer holds for generic values; assumptions of their symbols are used.  Coefficients may be rational
-    in exp(k x), or in sines, ... of multiples of k x, as well.
+    Parameters
+    ----------
+    eq : sympy.Eq, sympy.Expr or str
+        The equation, an expression that is zero, or text.  Coefficients may be rational in x, or in exp(k x), sines, ... of
+        multiples of k x.  SymPy's floats are the decimals that they are written as, and the answer has floats then; a
+        decimal in a text is an exact number.
+    func : y(x) or y, optional
+        The unknown function, where more than one function occurs.
+    ics : mapping or str, optional
+        Conditions.  The constants that they determine are found exactly; those that stay are free.
 
-    Special functions are looked for where there is no Liouvillian solution; where that isn't proven because a limit was
-    reached, a `UserWarning` says so.
+        - Values as for `sympy.dsolve`, {y(0): 1, y(x).diff(x).subs(x, 0): 2}, or as text, "y(0)=1, y'(0)=2" or
+          {"y(0)": 1, "y'(0)": 2}, at one point or at several.  At an impulse or a step they are those just before it.
+        - Linear conditions: periodic, {y(0): y(2*pi)} or "y'(0)=y'(2*pi)"; Robin's, "y'(0)=h*y(0)".
+        - At a singular point, and at oo and -oo, y(a) = v says that y tends to v, and y(a) = "bounded" that y is bounded,
+          from the side on which the other points are, else from the right: {"y(0)": "bounded", "y(oo)": 0}.
+    var : str, optional
+        The name of the variable in a text, where it isn't clear.
+    limits : Limits, optional
+        Bounds on the input and on the work.
 
-    Raises `NotImplementedError` where none are found, with the reason, or where a limit was reached; `InputError` for what
-    isn't such an equation and where no solution has the given values, and `ValueError` for values at a singular point.
+    Returns
+    -------
+    sympy.Eq
+        y(x) and the solution.  An integral that isn't done stays an `Integral`.
 
+    Warns
+    -----
+    UserWarning
+        Where particular values of parameters give more solutions, or none: with the condition and what holds then (the
+        answer is for the others).  Where special functions were taken, and it isn't proven that there is no Liouvillian
+        solution, because a limit was reached.
+
+    Raises
+    ------
+    InputError
+        For what isn't such an equation; where no solution has the given values; and for points on two sides of a singular
+        point.  It is a `ValueError`.
+    NotImplementedError
+        Where no solutions are found, with the reason, or where a limit was reached; and where a question about a constant,
+        or about the behaviour at a singular point, isn't decided.
+
+    Examples
+    --------
     >>> print(dsolve("y'' + y = x"))
     Eq(y(x), C1*cos(x) + C2*sin(x) + x)
     >>> print(dsolve("y'' - 2*x*y' + 2*y = 0", ics={"y(0)": 0, "y'(0)": 5}))
     Eq(y(x), 5*x)
     >>> print(dsolve("y'' + y = 0", ics="y(0)=0, y(pi/2)=3"))
     Eq(y(x), 3*sin(x))
+
+    Eigenfunctions, with the user's own integer:
+
+    >>> import sympy
+    >>> x, n = sympy.Symbol("x"), sympy.Symbol("n", integer=True, positive=True)
+    >>> y = sympy.Function("y")
+    >>> print(dsolve(y(x).diff(x, 2) + n**2 * y(x), ics={y(0): 0, y(sympy.pi): 0}))
+    Eq(y(x), C2*sin(n*x))
+
+    At singular points and at infinity:
+
+    >>> print(dsolve("x*y'' + y' + x*y = 0", ics="y(0)=1"))
+    Eq(y(x), besselj(0, x))
+    >>> print(dsolve("y'' - y = 0", ics="y(0)=1, y(oo)=0"))
+    Eq(y(x), exp(-x))
     """
     found, notices = _answered(eq, func, ics=ics, var=var, limits=limits)
     for notice in notices:
