@@ -14,8 +14,10 @@ from typing import Any
 import sympy
 from flint import acb, arb, ctx, fmpq
 
+from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import DIGITS
+from kovacic.closed_form.check import value_at as value_of_fraction
 from kovacic.closed_form.jets import jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.conditions import Condition
@@ -26,8 +28,8 @@ from kovacic.reading.change_of_variable import in_terms_of
 
 Expr = Any  # SymPy publishes no types
 _INFINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
-#: Distances from the point that is meant, at which the equation is tested.
-_STEPS = (fmpq(3, 7 * 101), fmpq(-2, 9 * 101))
+#: The distance from the point that is meant, at which the equation is tested.
+_STEP = fmpq(3, 7 * 101)
 #: How small a residual is, by the size of its terms.
 _SMALL = arb(10) ** (-DIGITS // 2)
 
@@ -59,8 +61,11 @@ def _failed(question: Question, value: Expr, what: str) -> VerificationFailed:
 
 
 def _sampled(expression: Expr, symbols: set[Expr], number: int) -> Expr:
-    """With values of the parameters in the places of `symbols`."""
-    sample = next(islice(samples(symbols), number, None))
+    """With values in the places of those of the symbols that are integers or not positive; others have values by name."""
+    special = {s for s in symbols if s.is_integer or s.is_negative or s.is_nonpositive}
+    if not special:
+        return expression
+    sample = next(islice(samples(special), number, None))
     return expression.xreplace(sample)
 
 
@@ -71,28 +76,27 @@ def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
         return False
     definite = [integral for integral in value.atoms(sympy.Integral) if not integral.has_free(x)]
     value = value.xreplace(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2
-    parts = [question.own(part) for part in _coefficients(question)]
-    symbols = {s for e in (value, *parts) for s in e.free_symbols if s != x}
-    for number in (1, 2):
-        y, a, b, c, f = (_sampled(e, symbols, number) for e in (value, *parts))
-        base = acb(fmpq(23, 71), fmpq(41, 89))
-        if start is not None:
-            middle = ball(_sampled(start, symbols, number))
-            base = acb(fmpq(23, 71)) if middle is None else middle
-        for step in _STEPS:
-            if _residual_is_large(y, (a, b, c, f), x, base + arb(step)):
-                return True
+    middle = None if start is None else ball(_sampled(start, start.free_symbols, 1))
+    base = acb(fmpq(23, 71), fmpq(0) if start is not None else fmpq(41, 89)) if middle is None else middle
+    with ctx.workdps(DIGITS), suppress(NotImplementedError, ZeroDivisionError, AttributeError, ValueError):
+        return _residual_is_large(question, value, base + arb(_STEP))
     return False
 
 
-def _residual_is_large(y: Expr, parts: Sequence[Expr], x: Expr, point: Any) -> bool:
-    with ctx.workdps(2 * DIGITS), suppress(NotImplementedError, ZeroDivisionError, AttributeError, ValueError):
-        value, slope, second = jet(y, x, point)
-        a, b, c, f = (jet(e, x, point)[0] for e in parts)
-        terms = [a * second, b * slope, c * value, -f]
-        residual = abs(sum(terms))
-        return bool(residual > _SMALL * sum(map(abs, terms), arb(0)))
-    return False
+def _residual_is_large(question: Question, value: Expr, point: Any) -> bool:
+    equation, x = question.equation, question.x
+    if equation.change is None and equation.a.field == QQ:
+        y = value
+        a, b, c, f = (value_of_fraction(part, point) for part in (equation.a, equation.b, equation.c, equation.f))
+        f += 0 if equation.h is None else jet(equation.h, x, point)[0]
+    else:
+        parts = [question.own(part) for part in _coefficients(question)]
+        symbols = {s for e in (value, *parts) for s in e.free_symbols if s != x}
+        y = _sampled(value, symbols, 1)
+        a, b, c, f = (jet(_sampled(part, symbols, 1), x, point)[0] for part in parts)
+    own, slope, second = jet(y, x, point)
+    terms = [a * second, b * slope, c * own, -f]
+    return bool(abs(sum(terms)) > _SMALL * sum(map(abs, terms), arb(0)))
 
 
 def _coefficients(question: Question) -> tuple[Expr, Expr, Expr, Expr]:
