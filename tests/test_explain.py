@@ -161,10 +161,11 @@ def test_conjugate_poles_are_taken_one_by_one() -> None:
 
 def test_families_of_case_2_have_an_odd_exponent() -> None:
     """Those with even ones only belong to case 1, and aren't listed, however natural their d is."""
-    found = searched(kovacic.solve("-3/(16*x^2) - 3/(16*(x-1)^2) + 3/(16*x*(x-1))"), 2)
-    assert found.families is not None
-    assert found.natural == len(found.families)
-    assert all(any(choice.value % 2 for choice in family.choices) for family in found.families)
+    odd = searched(kovacic.solve("-3/(16*x^2) - 3/(16*(x-1)^2) + 3/(16*x*(x-1))"), 2)
+    assert odd.natural == 3
+    even = searched(kovacic.solve("3/(4*x^2) + 3/(4*(x-1)^2) - 3/(4*x*(x-1))"), 2)
+    assert even.natural == 0
+    assert even.families == ()
 
 
 def test_many_poles_are_counted() -> None:
