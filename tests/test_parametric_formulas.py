@@ -193,3 +193,17 @@ def test_a_symmetry_that_changes_one_root_of_two_excludes_case_1(S: str) -> None
 def test_pi_is_a_number() -> None:
     answer = kovacic.conditions("pi*x^2 + a", var="x")
     assert not any(text in str(answer) for text in ("pi = 0", "pi = a"))
+
+
+def test_an_invariant_of_degree_4_alone_shows_no_case_1() -> None:
+    """Its exponents make y1^4 rational in case 1; in case 2, the generic one, (y1 y2)^2 is."""
+    answer = kovacic.conditions(FAMILIES["lame1_k, published"], var="x", max_degree=0)
+    assert answer.generic.case == 2
+    assert answer.check(30)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ALL)
+def test_all_families_agree_with_the_engine(name: str) -> None:
+    """Where a natural number is involved, statements are decided by ranks, and the engine by its own way."""
+    assert kovacic.conditions(FAMILIES[name], var="x", max_degree=0).check(40)

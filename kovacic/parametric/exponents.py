@@ -18,6 +18,7 @@ from kovacic.algebra.extension import AlgebraicField, adjoined_square_root
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.engine.invariants import bounds
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.engine.riccati import Form, singular_part
@@ -25,6 +26,8 @@ from kovacic.parametric.ranks import RankConditions, has_kernel, rank_conditions
 
 #: The degree of the extension that the exponents may need, and singular points up to which all choices are tried.
 _DEGREE, _POINTS = 16, 8
+#: The degree of a hypersurface in its parameter up to which roots are looked for in its field: factoring there is slow.
+_SURFACE = 2
 
 
 @dataclass(frozen=True)
@@ -134,6 +137,8 @@ def _parts(polynomial: Poly, below: Field) -> list[Poly]:
 
 def _choices(problem: Problem) -> list[Exponents] | None:
     """All choices of exponents, which differ by a root: the exponent difference, or the root of a leading coefficient."""
+    if problem.field.ground != QQ and problem.field.absolute_degree > _SURFACE:
+        return None
     split = _with_rational_points(problem)
     if split is None:
         return None

@@ -32,6 +32,8 @@ from kovacic.parametric.restriction import hypersurface
 
 #: Combinations of exponents above which invariants aren't examined.
 _COMBINATIONS = 400
+#: A rational form of this degree has a linear factor with a rational omega; one of degree 4 is that of case 2, maybe.
+_SHOWS_CASE_1 = 2
 
 
 @dataclass
@@ -72,9 +74,15 @@ def search(problem: Problem) -> Findings:
         degrees = _degrees_that_are_possible(problem)
     by_degree = {m: _forms(problem, m, findings) for m in degrees}
     findings.unproven += [f"case {degrees[m][0].case}" for m, factors in by_degree.items() if factors is None]
+    shown_otherwise = any(
+        factors and m > _SHOWS_CASE_1 and Structure.REDUCIBLE in degrees[m] for m, factors in by_degree.items()
+    )
+    if shown_otherwise:
+        _reducible(problem, findings)
     for structure in (Structure.REDUCIBLE, Structure.IMPRIMITIVE, Structure.TETRAHEDRAL):
         for m, factors in by_degree.items():
-            if factors and structure in degrees[m]:
+            is_shown = structure is not Structure.REDUCIBLE or m <= _SHOWS_CASE_1
+            if factors and is_shown and structure in degrees[m]:
                 findings.natural.append(Natural(problem.S, m, factors, structure))
     return findings
 
