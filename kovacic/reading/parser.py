@@ -21,7 +21,9 @@ from kovacic.reading.lexer import DERIVATIVES, Tokens
 from kovacic.reading.names import FUNCTION_NAMES
 from kovacic.reading.notation import GREEK
 
-_OPEN, _PAIR, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(-1, 6)
+# Strengths; no operation reaches beyond a parenthesis that is open.
+_OPEN, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(6)
+_SIGNS = ("PLUS", "MINUS")
 _BINARY = {"PLUS": _SUM, "MINUS": _SUM, "STAR": _PRODUCT, "SLASH": _PRODUCT}
 _OPERANDS = frozenset({"NUMBER", "NAME", "PRIMED", "HEAD", "LPAR"})
 _OPERATORS = (*_BINARY, "CIRCUMFLEX")
@@ -67,151 +69,312 @@ def evaluate(tokens: Tokens, reader: Any) -> Any:
 
     Raises `ParseError` where it isn't an expression or equation, and what the reader raises, with the place in the text.
     """
-    site = Site(tokens)
+    parser = _Parser(tokens, reader)
+    site = parser.site
     try:
-        return _evaluated(tokens, reader, site)
+        return parser.read()
     except (LimitExceeded, ZeroDivisionError, InputError) as error:
         raise site.located(error) from None
     except RecursionError:
         raise LimitExceeded(f"{site.text()} is nested too deeply for SymPy", limit="text_length") from None
 
 
-def _evaluated(tokens: Tokens, reader: Any, site: Site) -> Any:
-    kinds, pieces = tokens.kinds, tokens.pieces
-    arithmetic, number, name = reader.arithmetic, reader.number, reader.name
-    # The operands: their values, their first tokens, and where they are implicit products the second factor's token.
-    values: list[Any] = []
-    begins: list[int] = []
-    splits: list[int] = []
-    # The operators and opening parentheses (the name of a call for its own): their strengths and tokens.
-    pending: list[tuple[int, int]] = [(_OPEN, -1)]
-    arguments: list[list[Any]] = []  # of the calls and pairs that are being read
-    left_side: list[Any] = []
+class _Operand:
+    """A value that was read, and its first token."""
 
-    def add(end: int) -> None:
-        """Carries out the pending additions, which are one sum: its terms are all known now."""
-        count = 1
-        while pending[-1][0] == _SUM:
-            if kinds[pending.pop()[1]] == "MINUS":
-                values[-count] = arithmetic.negate(values[-count])
-            count += 1
-        site.right, site.end, site.begin = begins[-1], end, begins[-count]
-        values[-count:] = [arithmetic.sum(values[-count:])]
-        del begins[1 - count :], splits[1 - count :]
+    __slots__ = ("begin", "split", "value")
 
-    def reduce(strength: int, end: int) -> None:
+    def __init__(self, value: Any, begin: int) -> None:
+        self.value = value
+        self.begin = begin
+        #: Where it is a product without a sign: the first token of the second factor.
+        self.split = 0
+
+
+class _Group:
+    """What a parenthesis encloses, and the operands in it before a comma; or the whole text, and what is left of its =."""
+
+    __slots__ = ("arguments", "is_call", "is_pair", "opened")
+
+    def __init__(self, opened: int, *, is_call: bool = False) -> None:
+        #: The token of the parenthesis, or of the name before it; -1 for the whole text.
+        self.opened = opened
+        self.is_call = is_call
+        self.is_pair = False
+        self.arguments: list[_Operand] = []
+
+
+class _Parser:
+    """One pass over the tokens: `_PREFIX` says what one does where an operand is expected, `_INFIX` what it does after one.
+
+    Each of these methods takes the number of its token, and answers whether an operand is expected next.
+    """
+
+    __slots__ = (
+        "argument_lists",
+        "arithmetic",
+        "groups",
+        "kinds",
+        "operands",
+        "pending",
+        "pieces",
+        "reader",
+        "site",
+        "tokens",
+    )
+
+    def __init__(self, tokens: Tokens, reader: Any) -> None:
+        self.tokens = tokens
+        self.kinds = tokens.kinds
+        self.pieces = tokens.pieces
+        self.reader = reader
+        self.arithmetic = reader.arithmetic
+        self.site = Site(tokens)
+        self.operands: list[_Operand] = []
+        #: The strengths and tokens of the operators whose right operand is still being read, and of the open groups.
+        self.pending = [(_OPEN, -1)]
+        self.groups = [_Group(-1)]
+        #: How many calls and pairs are being read.
+        self.argument_lists = 0
+
+    def read(self) -> Any:
+        """The value of the text."""
+        operand_is_next = True
+        for k, kind in enumerate(self.kinds):
+            table = _PREFIX if operand_is_next else _INFIX
+            operand_is_next = table.get(kind, _Parser.misplaced)(self, k)
+        right = self.operands[-1]
+        if not self.groups[0].arguments:
+            return right.value
+        left = self.groups[0].arguments[0]
+        self.at(left.begin, right.begin, len(self.kinds) - 1)
+        return self.reader.equation(left.value, right.value)
+
+    def at(self, begin: int, right: int, end: int) -> None:
+        """Says where the next operation stands."""
+        site = self.site
+        site.begin = begin
+        site.right = right
+        site.end = end
+
+    # Where an operand is expected
+
+    def number(self, k: int) -> bool:
+        self.at(k, k, k + 1)
+        self.operands.append(_Operand(self.reader.number(self.pieces[k]), k))
+        return False
+
+    def name(self, k: int) -> bool:
+        self.at(k, k, k + 1)
+        self.operands.append(_Operand(self.reader.name(self.pieces[k]), k))
+        return False
+
+    def derivative(self, k: int) -> bool:
+        self.at(k, k, k + 1)
+        self.operands.append(_Operand(self.reader.derivative(self.pieces[k]), k))
+        return False
+
+    def sign(self, k: int) -> bool:
+        """Of an operand, or of an exponent: x^-2."""
+        after_power = self.pending[-1][0] == _POWER
+        self.pending.append((_POWER if after_power else _SIGN, k))
+        return True
+
+    def head(self, k: int) -> bool:
+        """The name of a function."""
+        self.at(k, k, k + 1)
+        self.open(_Group(k, is_call=True))
+        self.argument_lists += 1
+        if self.argument_lists > _DEEPEST_CALL:
+            raise LimitExceeded(f"over {_DEEPEST_CALL} nested calls, the limit", limit="text_length")
+        return True
+
+    def parenthesis(self, k: int) -> bool:
+        belongs_to_a_name = k > 0 and self.kinds[k - 1] == "HEAD"
+        if not belongs_to_a_name:
+            self.open(_Group(k))
+        return True
+
+    def open(self, group: _Group) -> None:
+        self.groups.append(group)
+        self.pending.append((_OPEN, group.opened))
+
+    # After an operand
+
+    def binary(self, k: int) -> bool:
+        self.reduce(_PRODUCT, k)
+        self.pending.append((_BINARY[self.kinds[k]], k))
+        return True
+
+    def power(self, k: int) -> bool:
+        self.check_no_superscript_before(k)
+        self.pending.append((_POWER, k))
+        return True
+
+    def check_no_superscript_before(self, k: int) -> None:
+        """Refuses x²^3.  What is wrong before it is found first."""
+        if self.kinds[k - 1] == "SUPERSCRIPT":
+            self.complete(k)
+            raise self.syntax_error(k)
+
+    def superscript(self, k: int) -> bool:
+        self.check_no_superscript_before(k)
+        base = self.operands[-1]
+        self.at(base.begin, k, k + 1)
+        exponent = self.arithmetic.signed_integer(self.pieces[k].translate(_SUPERSCRIPTS))
+        base.value = self.reader.power(base.value, self.arithmetic.constant(exponent), self.site)
+        return False
+
+    def implicit_product(self, k: int) -> bool:
+        """The token begins the second factor."""
+        self.reduce(_IMPLICIT, k)
+        self.pending.append((_IMPLICIT, k))
+        return _PREFIX[self.kinds[k]](self, k)
+
+    def close(self, k: int) -> bool:
+        self.complete(k)
+        group = self.groups[-1]
+        if group.opened < 0:
+            raise self.syntax_error(k)
+        self.groups.pop()
+        self.pending.pop()
+        enclosed = self.operands[-1]
+        enclosed.begin = group.opened
+        enclosed.split = 0
+        if group.is_call or group.is_pair:
+            self.argument_lists -= 1
+            values = [*(argument.value for argument in group.arguments), enclosed.value]
+        if group.is_call:
+            self.at(group.opened, k, k + 1)
+            enclosed.value = self.reader.call(self.pieces[group.opened], values, self.site)
+        elif group.is_pair:
+            enclosed.value = tuple(values)
+            if self.kinds[k + 1] not in ("COMMA", "RPAR"):
+                raise self.syntax_error(k + 1)
+        return False
+
+    def comma(self, k: int) -> bool:
+        self.complete(k)
+        group = self.groups[-1]
+        if not group.is_call:
+            if group.is_pair or not self.begins_an_argument(group):
+                raise self.syntax_error(k)
+            group.is_pair = True
+            self.argument_lists += 1
+        group.arguments.append(self.operands.pop())
+        return True
+
+    def begins_an_argument(self, group: _Group) -> bool:
+        """Is the innermost group a parenthesis with which an argument of a call begins?"""
+        if group.opened < 0:
+            return False
+        around = self.groups[-2]
+        before = self.pending[-2]
+        return around.is_call and before == (_OPEN, around.opened)
+
+    def equals(self, k: int) -> bool:
+        self.complete(k)
+        group = self.groups[-1]
+        if group.opened >= 0 or group.arguments:
+            raise self.syntax_error(k)
+        group.arguments.append(self.operands.pop())
+        return True
+
+    def end(self, k: int) -> bool:
+        self.complete(k)
+        if self.groups[-1].opened >= 0:
+            raise self.syntax_error(k)
+        return False
+
+    def misplaced(self, k: int) -> bool:
+        raise self.syntax_error(k)
+
+    # Operations
+
+    def complete(self, end: int) -> None:
+        """Carries out all that is pending in the innermost group."""
+        self.reduce(_PRODUCT, end)
+        if self.pending[-1][0] == _SUM:
+            self.add(end)
+
+    def reduce(self, strength: int, end: int) -> None:
         """Carries out the pending operations that bind at least so strongly: as products do, or stronger."""
+        pending = self.pending
         while pending[-1][0] >= strength:
             level, k = pending.pop()
-            kind = kinds[k]
-            site.right, site.end = begins[-1], end
-            if level == _SIGN or (level == _POWER and kind != "CIRCUMFLEX"):
-                site.begin = begins[-1] = k
-                if kind == "MINUS":
-                    values[-1] = arithmetic.negate(values[-1])
-                continue
-            right, split = values.pop(), splits.pop()
-            del begins[-1]
-            left, site.begin = values[-1], begins[-1]
-            if level == _IMPLICIT:
-                _check_neighbours(tokens, reader, site.begin, site.right)
-                values[-1] = arithmetic.multiply(left, right)
-                splits[-1] = splits[-1] or site.right
-            elif level == _POWER:
-                values[-1] = reader.power(left, right, site)
-            elif kind == "STAR":
-                values[-1] = arithmetic.multiply(left, right)
-                splits[-1] = 0
-            elif split:
-                raise _ambiguous(tokens, site, k, split)
+            if level == _SIGN or (level == _POWER and self.kinds[k] in _SIGNS):
+                self.apply_sign(k, end)
             else:
-                values[-1] = arithmetic.divide(left, right)
-                splits[-1] = 0
+                self.combine(level, k, end)
 
-    operand = True  # is an operand expected, or an operator?
-    for k, kind in enumerate(kinds):
-        if not operand:
-            if kind in _BINARY:
-                reduce(_PRODUCT, k)
-                pending.append((_BINARY[kind], k))
-                operand = True
-                continue
-            if kind in ("CIRCUMFLEX", "SUPERSCRIPT") and kinds[k - 1] != "SUPERSCRIPT":
-                if kind == "CIRCUMFLEX":
-                    pending.append((_POWER, k))
-                    operand = True
-                else:
-                    site.begin, site.right, site.end = begins[-1], k, k + 1
-                    exponent = arithmetic.signed_integer(pieces[k].translate(_SUPERSCRIPTS))
-                    values[-1] = reader.power(values[-1], arithmetic.constant(exponent), site)
-                continue
-            if kind not in _OPERANDS:
-                reduce(_PRODUCT, k)
-                if pending[-1][0] == _SUM:
-                    add(k)
-                level, opened = pending[-1]
-                call = opened >= 0 and kinds[opened] == "HEAD"
-                if kind == "RPAR" and opened >= 0:
-                    del pending[-1]
-                    begins[-1], splits[-1] = opened, 0
-                    if call:
-                        site.begin, site.right, site.end = opened, k, k + 1
-                        values[-1] = reader.call(pieces[opened], [*arguments.pop(), values[-1]], site)
-                    elif level == _PAIR:
-                        values[-1] = (*arguments.pop(), values[-1])
-                        if kinds[k + 1] not in ("COMMA", "RPAR"):
-                            raise _syntax_error(tokens, k + 1, pending)
-                elif kind == "COMMA" and (call or (level == _OPEN and _is_argument(pending, kinds))):
-                    if not call:
-                        pending[-1] = (_PAIR, opened)
-                        arguments.append([])
-                    arguments[-1].append(values.pop())
-                    del begins[-1], splits[-1]
-                    operand = True
-                elif kind == "EQUAL" and opened < 0 and not left_side:
-                    left_side.append(values.pop())
-                    del splits[-1]
-                    operand = True
-                elif kind != "$END" or opened >= 0:
-                    raise _syntax_error(tokens, k, pending)
-                continue
-            reduce(_IMPLICIT, k)
-            pending.append((_IMPLICIT, k))
-        site.begin, site.right, site.end = k, k, k + 1
-        if kind == "LPAR" and kinds[k - 1] == "HEAD" and k:
-            continue
-        if kind == "LPAR" or kind == "HEAD":
-            pending.append((_OPEN, k))
-            if kind == "HEAD":
-                arguments.append([])
-                if len(arguments) > _DEEPEST_CALL:
-                    raise LimitExceeded(f"over {_DEEPEST_CALL} nested calls, the limit", limit="text_length")
-            operand = True
-            continue
-        if kind == "NUMBER":
-            values.append(number(pieces[k]))
-        elif kind == "NAME":
-            values.append(name(pieces[k]))
-        elif kind == "PRIMED":
-            values.append(reader.derivative(pieces[k]))
-        elif kind == "MINUS" or kind == "PLUS":
-            pending.append((_POWER if pending[-1][0] == _POWER else _SIGN, k))
-            continue
+    def add(self, end: int) -> None:
+        """Carries out the pending additions, which are one sum: its terms are all known now."""
+        signs = []
+        while self.pending[-1][0] == _SUM:
+            signs.append(self.kinds[self.pending.pop()[1]])
+        first = len(self.operands) - len(signs) - 1
+        terms = self.operands[first:]
+        self.at(terms[0].begin, terms[-1].begin, end)
+        for term, sign in zip(terms[:0:-1], signs, strict=True):
+            if sign == "MINUS":
+                term.value = self.arithmetic.negate(term.value)
+        terms[0].value = self.arithmetic.sum([term.value for term in terms])
+        terms[0].split = 0
+        del self.operands[first + 1 :]
+
+    def apply_sign(self, k: int, end: int) -> None:
+        operand = self.operands[-1]
+        self.at(k, operand.begin, end)
+        operand.begin = k
+        if self.kinds[k] == "MINUS":
+            operand.value = self.arithmetic.negate(operand.value)
+
+    def combine(self, level: int, k: int, end: int) -> None:
+        """A power, a product or a quotient of the last two operands takes their place."""
+        right = self.operands.pop()
+        left = self.operands[-1]
+        self.at(left.begin, right.begin, end)
+        if level == _POWER:
+            left.value = self.reader.power(left.value, right.value, self.site)
+        elif level == _IMPLICIT:
+            _check_neighbours(self.tokens, self.reader, left.begin, right.begin)
+            left.value = self.arithmetic.multiply(left.value, right.value)
+            left.split = left.split or right.begin
+        elif self.kinds[k] == "STAR":
+            left.value = self.arithmetic.multiply(left.value, right.value)
+            left.split = 0
+        elif right.split:
+            raise _ambiguous(self.tokens, self.site, k, right.split)
         else:
-            raise _syntax_error(tokens, k, pending)
-        begins.append(k)
-        splits.append(0)
-        operand = False
-    if left_side:
-        site.begin, site.right, site.end = begins[0], begins[-1], len(kinds) - 1
-        return reader.equation(left_side[0], values[0])
-    return values[0]
+            left.value = self.arithmetic.divide(left.value, right.value)
+            left.split = 0
+
+    def syntax_error(self, k: int) -> InputError:
+        parentheses = [group.opened + group.is_call for group in self.groups[1:]]
+        return _syntax_error(self.tokens, k, parentheses)
 
 
-def _is_argument(pending: Sequence[tuple[int, int]], kinds: Sequence[str]) -> bool:
-    """Does the innermost parenthesis begin an argument of a call?"""
-    level, opened = pending[-2] if len(pending) > 1 else (_SUM, -1)
-    return level == _OPEN and opened >= 0 and kinds[opened] == "HEAD"
+#: What a token does where an operand is expected; all others are misplaced there.
+_PREFIX = {
+    "NUMBER": _Parser.number,
+    "NAME": _Parser.name,
+    "PRIMED": _Parser.derivative,
+    "HEAD": _Parser.head,
+    "LPAR": _Parser.parenthesis,
+    "PLUS": _Parser.sign,
+    "MINUS": _Parser.sign,
+}
+#: What a token does after an operand.
+_INFIX = {
+    **dict.fromkeys(_BINARY, _Parser.binary),
+    "CIRCUMFLEX": _Parser.power,
+    "SUPERSCRIPT": _Parser.superscript,
+    **dict.fromkeys(_OPERANDS, _Parser.implicit_product),
+    "RPAR": _Parser.close,
+    "COMMA": _Parser.comma,
+    "EQUAL": _Parser.equals,
+    "$END": _Parser.end,
+}
 
 
 def _check_neighbours(tokens: Tokens, reader: Any, begin: int, right: int) -> None:
@@ -253,12 +416,11 @@ def _ambiguous(tokens: Tokens, site: Site, slash: int, split: int) -> InputError
     return tokens.error(ParseError, message, site.begin, site.end, hint=hint)
 
 
-def _syntax_error(tokens: Tokens, k: int, pending: Sequence[tuple[int, int]]) -> InputError:
-    """What is wrong with token k, which can't follow what was read."""
+def _syntax_error(tokens: Tokens, k: int, opened: Sequence[int]) -> InputError:
+    """What is wrong with token k, which can't follow what was read; `opened` are the open parentheses."""
     kinds, kind = tokens.kinds, tokens.kinds[k]
     before, here = kinds[k - 1] if k else "", tokens.pieces[k]
     first, message, hint = k, f"{here!r} doesn't belong here", None
-    opened = [at + (kinds[at] == "HEAD") for level, at in pending if level < _SUM and at >= 0]
     if kind == "$END":
         first = k - 1
         if before in (*_OPERATORS, "EQUAL", "COMMA"):
