@@ -184,14 +184,14 @@ def test_a_polynomial_of_omega_in_words(capsys: pytest.CaptureFixture[str]) -> N
 @pytest.mark.parametrize(
     ("S", "words"),
     [
-        ("2", "where c is any root of c^2 - 2"),
+        ("2", "omega = sqrt(2) or -sqrt(2)"),
         ("1/x - 3/(16*x^2)", "omega is a root w of"),
         ("(-5*x**2 - 27)/(36*x**4 - 72*x**2 + 36)", "algebraic of degree 4"),
         ("0.25*x^2 - 7/2", "note: 0.25 was taken exactly, as 1/4"),
         ("0", "y'' = 0"),
         ("-x^2", "y'' = -x^2 y"),
         ("3x", "y'' = 3 x y"),
-        ("1/(4*c^2)", "where c1 is any root of c1^2 - 2"),
+        ("1/(4*c^2)", "where c1 is sqrt(2) or -sqrt(2)"),
         ("x^2 - 1001", "the solutions aren't written out here: polynomials of degree 500"),
     ],
 )

@@ -199,3 +199,21 @@ def test_rewriting_takes_linear_time(piece: str) -> None:
     except kovacic.InputError:
         return
     assert len(found.text) < 40 * 20_000 * len(piece) + 100
+
+
+@pytest.mark.parametrize(
+    ("text", "solution"),
+    [
+        ("y''+y=0, y(0)=1", "C2*sin(x) + cos(x)"),
+        ("y'' + y = 0, y(0) = 1, y'(0) = 2", "2*sin(x) + cos(x)"),
+        (r"\ddot{x} + 4 x = 0, x(0)=1, x'(0)=0", "cos(2*t)"),
+        ("diff(y(x), x, 2) = y(x), y(0)=1, y'(0)=1", "exp(x)"),
+    ],
+)
+def test_values_behind_the_equation_are_taken(text: str, solution: str) -> None:
+    assert str(kovacic.dsolve(text).rhs) == solution
+
+
+def test_values_in_two_places_are_refused() -> None:
+    with pytest.raises(kovacic.InputError, match="apart from it"):
+        kovacic.dsolve("y''+y=0, y(0)=1", ics={"y'(0)": 1})

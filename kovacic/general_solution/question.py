@@ -6,6 +6,7 @@ the user's symbols into an expression, and everything that is compared or evalua
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -18,6 +19,7 @@ from kovacic.errors import InputError
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping, exact
 from kovacic.limits import Limits
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
+from kovacic.reading.parser import listed
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import function_of
 
@@ -60,6 +62,7 @@ class Question:
 
 def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits) -> Question:
     """The question.  Raises `InputError` for what isn't one."""
+    eq, ics = _apart(eq, ics)
     values = as_mapping(ics)
     floats = _has_floats(eq) or any(_has_floats(value) for item in values.items() for value in item)
     if isinstance(eq, sympy.Basic):
@@ -83,6 +86,22 @@ def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits)
         back=tuple(back for _, back in reversed(changes)),
         has_floats=floats,
     )
+
+
+#: y(0) = 1, y'(pi) = 0: what stands behind an equation in one text with it.
+_VALUE = re.compile(r"\w+['’′″]*\s*\([^=]*\)\s*=")
+
+
+def _apart(eq: Any, ics: Any) -> tuple[Any, Any]:
+    """The equation and its values, where a text has both: y'' + y = 0, y(0) = 1, y'(0) = 0."""
+    if not isinstance(eq, str):
+        return eq, ics
+    equation, *values = listed(eq)
+    if not values or not all(_VALUE.match(value) for value in values):
+        return eq, ics
+    if ics:
+        raise InputError("values stand in the equation's text and apart from it", hint="give them in one of these ways")
+    return equation, ", ".join(values)
 
 
 def _has_floats(given: Any) -> bool:

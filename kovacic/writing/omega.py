@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.rationals import RationalPoly
 from kovacic.decision import RiccatiPolynomial
+from kovacic.numerals import as_text
 from kovacic.writing.formula import Formulas, Math, caret, latex_text
 
 
@@ -42,14 +44,35 @@ def constants_math(riccati: RiccatiPolynomial, formulas: Formulas) -> Math | Non
     return Math(caret(text), latex_text(text))
 
 
+def simple_roots(riccati: RiccatiPolynomial, formulas: Formulas) -> str | None:
+    """The values of omega's constant where it is a square root of a rational number: "i or -i", "sqrt(2) or -sqrt(2)"."""
+    field = riccati.P.field
+    if not isinstance(field, AlgebraicField) or field == formulas.field or not isinstance(field.modulus, RationalPoly):
+        return None
+    constant, *middle = field.modulus.coefficients()[:-1]
+    if middle != [0]:
+        return None
+    square = -constant
+    size = abs(square)
+    root = "" if size == 1 else f"sqrt({as_text(size)})"
+    unit = "i" if square < 0 else ""
+    written = "*".join(part for part in (unit, root) if part)
+    return f"{written} or -{written}"
+
+
 def omega_lines(riccati: RiccatiPolynomial, formulas: Formulas) -> list[str]:
     """omega, or its polynomial, as text."""
     omega = omega_math(riccati, formulas)
+    roots = simple_roots(riccati, formulas)
+    if roots is not None and riccati.degree == 1 and omega.text == formulas.symbol:
+        return [f"omega = {roots}"]
     if riccati.degree == 1:
         lines = [f"omega = {omega.text}"]
     else:
         lines = [f"omega is a root {formulas.unknown} of", *(f"    {line}" for line in omega.text.splitlines())]
     constants = constants_math(riccati, formulas)
-    if constants is not None:
+    if roots is not None:
+        lines.append(f"where {formulas.symbol} is {roots}")
+    elif constants is not None:
         lines.append(f"where {formulas.symbol} is any root of {constants.text}")
     return lines
