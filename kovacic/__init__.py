@@ -34,7 +34,7 @@ _NAMES = {
         "ParseError",
         "VerificationFailed",
     ),
-    "general_solution": ("dsolve", "solve_riccati"),
+    "general_solution": ("dsolve", "register", "solve_riccati", "unregister"),
     "limits": ("Limits",),
     "parameters": ("conditions",),
     "solution": ("Solution", "solve"),

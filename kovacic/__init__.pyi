@@ -20,7 +20,9 @@ from kovacic.errors import NotRational as NotRational
 from kovacic.errors import ParseError as ParseError
 from kovacic.errors import VerificationFailed as VerificationFailed
 from kovacic.general_solution import dsolve as dsolve
+from kovacic.general_solution import register as register
 from kovacic.general_solution import solve_riccati as solve_riccati
+from kovacic.general_solution import unregister as unregister
 from kovacic.limits import Limits as Limits
 from kovacic.parameters import conditions as conditions
 from kovacic.solution import Solution as Solution

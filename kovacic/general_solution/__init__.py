@@ -2,10 +2,11 @@
 
 `dsolve.dsolve` is the entry, and the module to read first: its head lists the steps.  `particular` finds a solution with the
 right-hand side by the cheapest way: `undetermined` coefficients, or `variation` of parameters with the integrals of
-`antiderivatives`.  `riccati` has the solutions of Riccati equations.
+`antiderivatives`.  `riccati` has the solutions of Riccati equations, `sympy_hint` the entry among SymPy's own methods.
 """
 
 from kovacic.general_solution.dsolve import dsolve, in_special_functions
 from kovacic.general_solution.riccati import RiccatiSolutions, solve_riccati
+from kovacic.general_solution.sympy_hint import register, unregister
 
-__all__ = ["RiccatiSolutions", "dsolve", "in_special_functions", "solve_riccati"]
+__all__ = ["RiccatiSolutions", "dsolve", "in_special_functions", "register", "solve_riccati", "unregister"]

@@ -33,14 +33,22 @@ from kovacic.numerals import as_text
 from kovacic.views.sentences import SCREEN
 
 Expr = Any  # SymPy publishes no types
+#: Names of the one method.
+_HINTS = ("default", "best", "kovacic")
 
 
 @limited
 def dsolve(
     eq: Any,
     func: Any = None,
-    *,
+    hint: str = "default",
+    simplify: bool = True,
     ics: Mapping[Any, Any] | str | None = None,
+    xi: None = None,
+    eta: None = None,
+    x0: Any = 0,
+    n: Any = 6,
+    *,
     var: str | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Any:
@@ -54,9 +62,13 @@ def dsolve(
     eq : sympy.Eq, sympy.Expr or str
         The equation, an expression that is zero, or text.  Coefficients may be rational in x, or in exp(k x), sines, ... of
         multiples of k x.  SymPy's floats are the decimals that they are written as, and the answer has floats then; a
-        decimal in a text is an exact number.
+        decimal in a text is an exact number.  A list of one equation gives a list of one answer.
     func : y(x) or y, optional
-        The unknown function, where more than one function occurs.
+        The unknown function, where more than one function occurs; or a list of it.
+    hint : str, optional
+        "default", "best" and "kovacic" mean the same: there is one method.
+    simplify, x0, n : optional
+        As for `sympy.dsolve`, and without effect: its last step of simplification, and series, aren't used here.
     ics : mapping or str, optional
         Conditions.  The constants that they determine are found exactly; those that stay are free.
 
@@ -65,6 +77,8 @@ def dsolve(
         - Linear conditions: periodic, {y(0): y(2*pi)} or "y'(0)=y'(2*pi)"; Robin's, "y'(0)=h*y(0)".
         - At a singular point, and at oo and -oo, y(a) = v says that y tends to v, and y(a) = "bounded" that y is bounded,
           from the side on which the other points are, else from the right: {"y(0)": "bounded", "y(oo)": 0}.
+    xi, eta : None
+        As for `sympy.dsolve`: they belong to Lie's method, which isn't used here, and stay None.
     var : str, optional
         The name of the variable in a text, where it isn't clear.
     limits : Limits, optional
@@ -115,10 +129,29 @@ def dsolve(
     >>> print(dsolve("y'' - y = 0", ics="y(0)=1, y(oo)=0"))
     Eq(y(x), exp(-x))
     """
-    found, notices = _answered(eq, func, ics=ics, var=var, limits=limits)
+    _check_method(hint, xi, eta)
+    found, notices = _answered(_single(eq, "equation"), _single(func, "function"), ics=ics, var=var, limits=limits)
     for notice in notices:
         warn(notice, stacklevel=2)
-    return found
+    return [found] if isinstance(eq, list | tuple) else found
+
+
+def _check_method(hint: str, xi: Any, eta: Any) -> None:
+    """Refuses what asks for another method than that of this package."""
+    if hint not in _HINTS:
+        others = "sympy.dsolve has other methods, and this one after kovacic.register()"
+        raise InputError(f"there is no method {hint!r} here, only {', '.join(_HINTS)}", hint=others)
+    if xi is not None or eta is not None:
+        raise InputError("xi and eta belong to Lie's method, which isn't used here", hint="call sympy.dsolve")
+
+
+def _single(given: Any, what: str) -> Any:
+    """The equation or function that stands alone in a list."""
+    if not isinstance(given, list | tuple):
+        return given
+    if len(given) != 1:
+        raise InputError(f"one {what} is expected, and there are {len(given)}", hint="for systems call sympy.dsolve")
+    return given[0]
 
 
 def in_special_functions(found: Any, eq: Any, func: Any = None, **given: Any) -> Any:
