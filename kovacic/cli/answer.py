@@ -20,7 +20,7 @@ _ICS = click.option(
     metavar="VALUES",
     multiple=True,
     callback=lambda _, __, values: ", ".join(values),
-    help='Initial values at one point: "y(0)=1, y\'(0)=0".',
+    help='Conditions: "y(0)=1, y\'(0)=0", "y(0)=0, y(pi)=0", "y(0)=bounded, y(oo)=0".',
 )
 
 
