@@ -6,7 +6,7 @@ This is the top: the methods call the rooms in which the views are computed, and
 from __future__ import annotations
 
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 from kovacic import derived
 from kovacic.answer import Answer
@@ -17,17 +17,22 @@ from kovacic.verify import Verification
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
     from matplotlib.figure import Figure
 
     from kovacic.closed_form.form import ClosedForm
+    from kovacic.doubles.lambdify import LambdifyOptions
     from kovacic.doubles.product_form import ProductForm
     from kovacic.doubles.tabulate import TabulatedFunction
     from kovacic.enclosure.agreement import Agreement
+    from kovacic.enclosure.ball import Ball
+    from kovacic.enclosure.evaluate import ManyPoints, OnePoint, Options
     from kovacic.enclosure.problem import NumericProblem
     from kovacic.galois import EquationGroup, Group
     from kovacic.parametric.restriction import GenericConditions
     from kovacic.special.search import SpecialFunctions
+    from kovacic.views.plot import PlotOptions
 
 
 class Solution(Answer):
@@ -90,30 +95,138 @@ class Solution(Answer):
         """y1 and y2, SymPy expressions that solve the equation as it was given; empty without a Liouvillian solution."""
         return derived.solutions(self)
 
+    @overload
+    def at(self, x: OnePoint, *, x0: object, derivative: Literal[False] = ..., **options: Unpack[Options]) -> Ball: ...
+    @overload
+    def at(
+        self, x: OnePoint, *, x0: object, derivative: Literal[True], **options: Unpack[Options]
+    ) -> tuple[Ball, Ball]: ...
+    @overload
+    def at(
+        self, x: ManyPoints, *, x0: object, derivative: Literal[False] = ..., **options: Unpack[Options]
+    ) -> tuple[Ball, ...]: ...
+    @overload
+    def at(
+        self, x: ManyPoints, *, x0: object, derivative: Literal[True], **options: Unpack[Options]
+    ) -> tuple[tuple[Ball, Ball], ...]: ...
+    @overload
+    def at(self, x: object, *, x0: object, derivative: bool = ..., **options: Unpack[Options]) -> Any: ...
     @limited
-    def at(self, x: Any, *, x0: Any, **options: Any) -> Any:
-        """A ball that contains y(x): `y0=` and `dy0=` at x0, or `which="regular"`, or `frobenius=(c1, c2)`; see
-        `kovacic.evaluate`.  Only the first of these where coefficients in exp(k x) were given."""
+    def at(self, x: object, *, x0: object, derivative: bool = False, **options: Unpack[Options]) -> Any:
+        """A ball that contains y(x), for the solution y that starts at x0 as `y0` and `dy0` or others of the keywords say.
+
+        Parameters
+        ----------
+        x : number, sequence or array
+            Where; a tuple or an array of balls comes back for a sequence or a NumPy array.
+        x0 : number
+            Where the solution starts.
+        derivative : bool
+            With True, pairs of balls, y and y', come back.  False by default.
+        y0, dy0, frobenius, which, path
+            The solution and the way, as for `kovacic.evaluate`; y0 and dy0 only where coefficients in exp(k x) were given.
+        params : mapping
+            Values of the parameters by name: {"a": 2}.
+        digits : int
+            The accuracy, relative to the value; 15 by default.
+        method : str
+            "taylor" or "closed form"; by default the one that is faster.
+        limits : Limits
+            What the work may cost.
+
+        Returns and raises what `kovacic.evaluate` does, where each keyword is described.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> answer = kovacic.solve("x^2 + 3")      # y = x exp(x^2/2) has y(0) = 0, y'(0) = 1
+        >>> print(f"{answer.at(1, x0=0, y0=0, dy0=1):.12f}")
+        1.648721270700
+        >>> y, slope = answer.at(1, x0=0, y0=0, dy0=1, derivative=True)
+        >>> print(f"{slope:.12f}")
+        3.297442541400
+        >>> bessel = kovacic.solve("x^2*y'' + x*y' + x^2*y = 0")
+        >>> print([f"{value:.12f}" for value in bessel.at([1, 2], x0=0, which="regular")])
+        ['0.765197686558', '0.223890779141']
+        """
         from kovacic.enclosure.evaluate import Options, evaluate
 
         check_keywords("at", options, ["derivative", *Options.__annotations__])
-        return evaluate(self, x, x0=x0, **options)
+        return evaluate(self, x, x0=x0, derivative=derivative, **options)
 
     @limited
-    def lambdify(self, **options: Any) -> ProductForm | TabulatedFunction:
-        """A solution as a NumPy function, its error measured; see `kovacic.doubles.lambdify.lambdify`."""
+    def lambdify(self, **options: Unpack[LambdifyOptions]) -> ProductForm | TabulatedFunction:
+        """A solution as a vectorised NumPy function in double precision, its error measured.
+
+        Parameters
+        ----------
+        interval : pair
+            Two real numbers, or two corners of a rectangle of the complex plane (case 1); needed.
+        which : int or str
+            The number of the solution, 0 by default; with x0 "regular" or "decaying".
+        careful : bool or None
+            Double-doubles (True), plain doubles (False), or what the measured error asks for (None, the default).
+        check : bool
+            False leaves the measurement out.  True by default.
+        params, x0, y0, dy0, frobenius, path, limits
+            As for `at`: the solution with these initial values, which every equation has.
+
+        Returns, raises and warns as `kovacic.doubles.lambdify.lambdify`, where each keyword is described.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> f = kovacic.solve("x^2 + 3").lambdify(interval=(0, 2))      # x exp(x^2/2)
+        >>> print(f"{f(1.0):.12f}", f.measured.worst < 8)
+        1.648721270700 True
+        >>> airy = kovacic.solve("x").lambdify(interval=(-9, 2), x0=0, y0=1, dy0=0)
+        >>> print(f"{airy(1.0):.12f}")
+        1.172299970058
+        """
         with needs("numeric", "lambdify"):
             from kovacic.doubles.lambdify import lambdify
 
             return lambdify(self, **options)
 
     @limited
-    def plot(self, start: Any, stop: Any, **options: Any) -> Figure:
-        """A matplotlib figure of proven values over [start, stop]; see `kovacic.views.plot.plot`."""
+    def plot(
+        self,
+        start: object,
+        stop: object,
+        *,
+        title: str | None = None,
+        output: str | Path | None = None,
+        **options: Unpack[PlotOptions],
+    ) -> Figure:
+        """A matplotlib figure of proven values over [start, stop].
+
+        Parameters
+        ----------
+        start, stop : number
+            The ends of the interval, real; singular points between them are marked.
+        title : str
+            Above the picture; the equation by default.
+        output : str or Path
+            A file to which the picture is saved: png, svg or pdf.
+        x0, y0, dy0, frobenius, which
+            The solution to be drawn; by default y1 and y2 where they are known, else y(x0) = 1, y'(x0) = 0.
+        points, digits, params, method, limits
+            As for `kovacic.views.plot.plot`, which says what is returned and raised.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> figure = kovacic.solve("x^2 + 3").plot(-1, 1)
+        >>> [line.get_label()[:2] for line in figure.axes[0].get_lines()][:2]
+        ['y1', 'y2']
+        >>> figure = kovacic.solve("x").plot(-5, 1, x0=0, y0=1, dy0=0, title="Airy", points=200)
+        >>> figure.axes[0].get_title()
+        'Airy'
+        """
         with needs("plot", "a picture"):
             from kovacic.views.plot import plot
 
-            return plot(self, start, stop, **options)
+            return plot(self, start, stop, title=title, output=output, **options)
 
     @limited
     def compare_with_monodromy(

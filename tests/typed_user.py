@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import assert_type
 
 import kovacic
-from kovacic import InputError, Limits, Solution, Status
+from kovacic import Ball, InputError, Limits, Solution, Status
 
 
 def verdict(text: str) -> str:
@@ -34,3 +34,17 @@ def verdict(text: str) -> str:
 def many(texts: list[str]) -> dict[int, str]:
     """The outcomes by line."""
     return {record.number: record.label for record in kovacic.solve_many(texts)}
+
+
+def values(answer: Solution) -> None:
+    """Numbers and pictures; what is ignored here is what the type checker has to refuse."""
+    assert_type(answer.at(1, x0=0, y0=1, dy0=0, digits=30), Ball)
+    assert_type(answer.at("1/3", x0=0, which="regular", derivative=True), tuple[Ball, Ball])
+    assert_type(answer.at([1, 2], x0=0, frobenius=(1, 0)), tuple[Ball, ...])
+    answer.at(1, x0=0, y0=1, dy0=0, digts=30)  # type: ignore[call-overload]
+    answer.lambdify(interval=(0, 1), which=1, careful=True)
+    answer.lambdify(interval=(0, 1), x0=0, y0=1, dy0=0, path="above")
+    answer.lambdify(interval=(0, 1), chek=False)  # type: ignore[call-arg]
+    answer.lambdify(which=1)  # type: ignore[call-arg]
+    answer.plot(0, 1, x0=0, y0=1, dy0=0, points=100, title="y")
+    answer.plot(0, 1, digts=30)  # type: ignore[call-arg]

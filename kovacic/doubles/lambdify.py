@@ -18,8 +18,8 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Literal, Required, Unpack
 
 import numpy as np
 from flint import acb
@@ -30,9 +30,10 @@ from kovacic.doubles.chart import PieceChart, chart_of
 from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Measured, Region
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
-from kovacic.enclosure.evaluate import StartOptions
-from kovacic.enclosure.points import as_point, working_precision
+from kovacic.enclosure.evaluate import InitialValues
+from kovacic.enclosure.points import ExactPoint, as_point, working_precision
 from kovacic.enclosure.precision import AccuracyWarning
+from kovacic.enclosure.states import Path
 from kovacic.errors import InputError, LimitExceeded, check_keywords
 from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Limits, bounded_work, limited
@@ -57,56 +58,138 @@ _MANY, _EACH, _BESIDE = 400, 8, 0.01
 Function = ProductForm | TabulatedFunction
 
 
+class LambdifyStart(InitialValues, total=False):
+    """Which solution of an equation: the keywords of `lambdify` that say it, beside `x0` and `which`."""
+
+    path: Path
+
+
+class LambdifyOptions(LambdifyStart, total=False):
+    """The keywords of `lambdify`."""
+
+    interval: Required[tuple[object, object]]
+    which: int | Literal["regular", "decaying"]
+    careful: bool | None
+    check: bool
+    params: Mapping[str, object] | None
+    x0: object
+    limits: Limits | None
+
+
 @limited
 def lambdify(
     solution: object,
     *,
     interval: tuple[object, object],
-    which: object = 0,
+    which: int | Literal["regular", "decaying"] = 0,
     careful: bool | None = None,
     check: bool = True,
     params: Mapping[str, object] | None = None,
     x0: object = None,
     limits: Limits | None = None,
-    **given: Any,
+    **given: Unpack[LambdifyStart],
 ) -> Function:
-    """A solution as a NumPy function on an interval without singular points, with its error measured.
+    """A solution as a vectorised NumPy function in double precision, with its error measured.
 
-    `interval` is a pair of real numbers; or two opposite corners of a rectangle of the complex plane, for complex
-    arguments (case 1 only).  The solution is
+    Real solutions give doubles, others complex doubles.  A function keeps no state: threads may share it.  Making one sets
+    python-flint's precision, under the package's lock.
 
-    - the one that starts as `kovacic.evaluate` says it: x0 with y0 and dy0, with frobenius, or with which="regular" or
-      "decaying": a table, for every equation that `evaluate` takes;
-    - else the one with the logarithmic derivative number `which`.  In case 1 `which` numbers the conjugates of omega, or the
-      two rational ones; in cases 2 and 3 the roots of the polynomial of omega near the middle of the interval, by real and
-      then imaginary part.  The constant factor is that of `kovacic.doubles.product_form`; y = 1 near the middle for tables.
-      The ends of a product form may be singular points.  Constants must be rational, and the values of `params`.
+    Parameters
+    ----------
+    solution
+        What `kovacic.solve` returned.  With initial values also S or an equation, as text, SymPy expression or coefficients:
+        all that `kovacic.evaluate` takes.
+    interval : pair
+        Two real numbers between which there is no singular point; or, in case 1, two opposite corners of a rectangle of the
+        complex plane, for complex arguments.  The ends may be singular points unless the function is a table.
+    which : int or str
+        Without initial values: the number of the logarithmic derivative omega, 0 by default.  In case 1 it numbers the
+        conjugates of omega, or the two rational ones; in cases 2 and 3 the roots of the polynomial of omega near the middle of
+        the interval, by real and then imaginary part.  The constant factor is that of `kovacic.doubles.product_form`; tables
+        are 1 near the middle.  With x0: "regular" or "decaying", as for `kovacic.evaluate`.
+    careful : bool or None
+        True: the arithmetic is that of double-doubles, 20 times slower; False: that of plain doubles.  By default (None) plain
+        doubles, unless the measured error is above 8 (median) or 1,000 (worst) units.
+    check : bool
+        By default the error is measured; False leaves that out, which is faster, and `measured` is None.
+    params : mapping
+        Rational values of the parameters by name: {"a": 1}.
+    x0, y0, dy0, frobenius, path
+        The solution that starts at x0 in one of the ways of `kovacic.evaluate`, for every equation: it becomes a table.
+    limits : Limits
+        What the work may cost; by default those of `kovacic.Limits()`.
 
-    Real solutions give doubles, others complex doubles.  With `check` the error is measured, in units in the last place of
-    |y|, and stands in `measured`: at 24 points, which are the ends of the interval (if they are singular, a thousandth of its
-    length beside them), a point on either side of up to three zeros of a real solution, at a hundredth of the distance to
-    the next zero, and others in between; and at four of thousands, no nearer to zeros, where plain doubles differ most from
-    double-doubles.  The arithmetic is that of plain doubles, unless this error is above 8 (median) or 1,000 (worst): then it
-    is that of double-doubles, 20 times slower; `careful` True or False chooses.  An AccuracyWarning says where the error is
-    above these bounds after all, or where measuring it would take more steps than some 20 s have.  A function keeps no state:
-    threads may share it.  Making one sets python-flint's precision, under the package's lock.
+    Returns
+    -------
+    ProductForm or TabulatedFunction
+        Called with a number or an array.  `measured` has the error in units in the last place of |y|: at 24 points, which are
+        the ends of the interval (if they are singular, a thousandth of its length beside them), a point on either side of up to
+        three zeros of a real solution, at a hundredth of the distance to the next zero, and others in between; and at four of
+        thousands, no nearer to zeros, where plain doubles differ most from double-doubles.
 
-    Raises InputError without a Liouvillian solution and without initial values, for an interval that is empty or has a
-    singular point inside, for complex arguments in cases 2 and 3, and for a table up to a singular point.
+    Raises
+    ------
+    InputError
+        Without a Liouvillian solution and without initial values; for an interval that is empty or has a singular point
+        inside, for complex arguments in cases 2 and 3, for a table up to a singular point, for constants that aren't rational.
+    TypeError
+        For a keyword that isn't known.
+
+    Warns
+    -----
+    AccuracyWarning
+        Where the error is above these bounds after all, or measuring it would take more steps than some 20 s have.
+
+    Examples
+    --------
+    Without initial values; `which` chooses between two solutions, and complex arguments are those of a rectangle:
 
     >>> import kovacic
     >>> f = lambdify(kovacic.solve("x^2 + 3"), interval=(0, 2))   # x exp(x^2/2)
     >>> print(f"{f(1.0):.12f}", f.measured.worst < 8)
     1.648721270700 True
+    >>> second = lambdify(kovacic.solve("1"), interval=(0, 1), which=1, check=False)
+    >>> print(f"{second(1.0)/second(0.0):.12f}")
+    0.367879441171
+    >>> wave = lambdify(kovacic.solve("x^2 + 3"), interval=(0, 1 + 1j), check=False)
+    >>> print(f"{wave(0.5 + 0.5j):.10f}")
+    0.3607542312+0.6081581905j
+
+    With initial values, for any equation; and the solution that is regular at a singular point:
+
     >>> airy = lambdify("a*x", interval=(-9, 2), params={"a": 1}, x0=0, y0=1, dy0=0)
     >>> print(f"{airy(1.0):.12f}")
     1.172299970058
+    >>> J0 = lambdify("x^2*y'' + x*y' + x^2*y = 0", interval=(1, 5), x0=0, which="regular")
+    >>> print(f"{J0(2.0):.12f}")
+    0.223890779141
     """
-    check_keywords("lambdify", given, StartOptions.__annotations__)
+    check_keywords("lambdify", given, LambdifyOptions.__annotations__)
+    start, number = _question(which, x0, given)
+    chart = _chart(solution, start, params, limits)
+    region, candidates = chart.region(interval)
+    base = None
+    if not start:
+        base = chart.base(number, candidates)
+        chart = chart.beginning(number, base)
+    job = _Job(chart, interval, region, number, base, start, limits)
+    function = job.function(careful=bool(careful))
+    if not check:
+        return function
+    found = job.measured(function)
+    if careful is None and isinstance(found, Measured) and not found.keeps_the_promise:
+        function = job.function(careful=True, plain=function)
+        found = job.measured(function)
+    _warn_of(found)
+    return replace(function, measured=found) if isinstance(found, Measured) else function
+
+
+def _question(which: object, x0: object, given: LambdifyStart) -> tuple[dict[str, Any], int]:
+    """The initial values, if there are any, and else the number of the solution."""
     start: dict[str, Any] = {**given}
+    number = 0
     if isinstance(which, str):
         start["which"] = which
-        number = 0
     else:
         number = whole(which, "which")
     if start and x0 is None:
@@ -115,48 +198,77 @@ def lambdify(
         raise InputError("which= numbers the solutions where no initial values are given")
     if x0 is not None:
         start["x0"] = x0
+    return start, number
+
+
+def _chart(
+    solution: object, start: dict[str, Any], params: Mapping[str, object] | None, limits: Limits | None
+) -> PieceChart:
+    """The equation with the values of its parameters; without initial values, with a decision."""
     chart = chart_of(solution, start, params, constants=bool(start))
+    if start:
+        return chart
     problem = chart.problem
-    if not start and params and problem.S is not None:
+    if params and problem.S is not None:
+        # The answer was one for generic values.
         problem = replace(problem, decision=find_answer(problem.S, limits=limits or DEFAULT_LIMITS).decision)
         chart = replace(chart, problem=problem)
-    if not start and (problem.decision is None or problem.decision.semi_invariant is None):
+    if problem.decision is None or problem.decision.semi_invariant is None:
         raise InputError(
             "lambdify needs a Liouvillian solution, found by kovacic.solve, or initial values",
             hint="x0=, y0= and dy0= serve every S",
         )
-    region, candidates = chart.region(interval)
-    variants = (careful,) if careful is not None else (False, True) if check else (False,)
-    base = None if start else chart.base(number, candidates)
-    if base is not None:
-        chart = chart.beginning(number, base)
-    form: ProductForm | None = None
-    found: Measured | str | None
-    for variant in variants:
-        if base is not None and chart.answer is None and (form is None or form.polynomial is not None):
-            with working_precision(_PREC):
-                form = product_form(problem, number, region, base, variant)
-        if form is None and not region.is_real:
+    return chart
+
+
+@dataclass(frozen=True)
+class _Job:
+    """What is asked for: the solution with the initial values `start`, or solution `number`, which is finite at the `base`."""
+
+    chart: PieceChart
+    interval: tuple[object, object]
+    region: Region
+    number: int
+    base: ExactPoint | None
+    start: Mapping[str, Any]
+    limits: Limits | None
+
+    def function(self, *, careful: bool, plain: Function | None = None) -> Function:
+        """The solution in double-doubles or plain doubles, `plain` if that is known."""
+        if isinstance(plain, ProductForm) and plain.polynomial is None:
+            return replace(plain, careful=careful)  # the factors are the same
+        form = self._product_form(careful)
+        if form is not None:
+            return replace(form, careful=careful)
+        if not self.region.is_real:
             raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
-        function: Function = (
-            table_of(chart, interval, variant, limits) if form is None else replace(form, careful=variant)
-        )
+        return table_of(self.chart, self.interval, careful, self.limits)
+
+    def _product_form(self, careful: bool) -> ProductForm | None:
+        if self.base is None or self.chart.answer is not None:
+            return None
+        with working_precision(_PREC):
+            return product_form(self.chart.problem, self.number, self.region, self.base, careful)
+
+    def measured(self, function: Function) -> Measured | str:
+        """The error of the function, or why it isn't known."""
         try:
             with bounded_work(_MOST_WORK):
-                found = measure(function, chart, start=start, limits=limits) if check else None
+                return measure(function, self.chart, start=self.start, limits=self.limits)
         except LimitExceeded as limit:
-            found = str(limit)
-        if not isinstance(found, Measured) or found.keeps_the_promise:
-            break
-    if found is None:
-        return function
-    text = f"measured error of this function in units in the last place: {found}"
-    if isinstance(found, str) or not found.points:
+            return str(limit)
+
+
+def _warn_of(found: Measured | str) -> None:
+    """An AccuracyWarning at the line that called `lambdify`, where the error isn't known or too large."""
+    if isinstance(found, Measured) and found.keeps_the_promise:
+        return
+    if isinstance(found, Measured) and found.points:
+        text = f"measured error of this function in units in the last place: {found}"
+    else:
         reason = found if isinstance(found, str) else "all samples are beyond the range of doubles"
         text = f"the error of this function couldn't be measured: {reason}"
-    if isinstance(found, str) or not found.keeps_the_promise:
-        warnings.warn(text, AccuracyWarning, stacklevel=3)
-    return replace(function, measured=found) if isinstance(found, Measured) else function
+    warnings.warn(text, AccuracyWarning, stacklevel=4)
 
 
 def measure(

@@ -26,18 +26,23 @@ from kovacic.errors import NotRational, check_keywords
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 
 
-class StartOptions(TypedDict, total=False):
-    """Which solution: the keywords of `evaluate` that say it, beside `x0`, and those of `tabulate` and `lambdify`."""
+class InitialValues(TypedDict, total=False):
+    """Values at `x0` that say which solution is meant; see `evaluate`."""
 
     y0: object
     dy0: object
     frobenius: Sequence[object] | None
+
+
+class StartOptions(InitialValues, total=False):
+    """Which solution: the keywords of `evaluate` that say it, beside `x0`, and those of `tabulate`."""
+
     which: Literal["regular", "decaying"] | None
     path: Path
 
 
-class Options(StartOptions, total=False):
-    """The keywords of `evaluate` but `x0` and `derivative`."""
+class Accuracy(TypedDict, total=False):
+    """How well a solution is to be known, and for which values of the parameters; see `evaluate`."""
 
     params: Mapping[str, object] | None
     digits: int
@@ -45,25 +50,29 @@ class Options(StartOptions, total=False):
     limits: Limits | None
 
 
-_One = str | complex | Fraction | Decimal | Ball
-_Many = list[Any] | tuple[Any, ...] | range
+class Options(StartOptions, Accuracy, total=False):
+    """The keywords of `evaluate` but `x0` and `derivative`."""
+
+
+OnePoint = str | complex | Fraction | Decimal | Ball
+ManyPoints = list[Any] | tuple[Any, ...] | range
 
 
 @overload
 def evaluate(
-    equation: object, x: _One, *, x0: object, derivative: Literal[False] = ..., **options: Unpack[Options]
+    equation: object, x: OnePoint, *, x0: object, derivative: Literal[False] = ..., **options: Unpack[Options]
 ) -> Ball: ...
 @overload
 def evaluate(
-    equation: object, x: _One, *, x0: object, derivative: Literal[True], **options: Unpack[Options]
+    equation: object, x: OnePoint, *, x0: object, derivative: Literal[True], **options: Unpack[Options]
 ) -> tuple[Ball, Ball]: ...
 @overload
 def evaluate(
-    equation: object, x: _Many, *, x0: object, derivative: Literal[False] = ..., **options: Unpack[Options]
+    equation: object, x: ManyPoints, *, x0: object, derivative: Literal[False] = ..., **options: Unpack[Options]
 ) -> tuple[Ball, ...]: ...
 @overload
 def evaluate(
-    equation: object, x: _Many, *, x0: object, derivative: Literal[True], **options: Unpack[Options]
+    equation: object, x: ManyPoints, *, x0: object, derivative: Literal[True], **options: Unpack[Options]
 ) -> tuple[tuple[Ball, Ball], ...]: ...
 @overload
 def evaluate(equation: object, x: object, *, x0: object, derivative: bool = ..., **options: Unpack[Options]) -> Any: ...

@@ -18,7 +18,7 @@ from functools import partial
 from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from kovacic import derived
 from kovacic.answer import Answer
 from kovacic.doubles.chart import PieceChart, chart_of
 from kovacic.doubles.curve import Arc, Envelope, arcs, coefficients
-from kovacic.enclosure.evaluate import Options
+from kovacic.enclosure.evaluate import Accuracy, InitialValues
 from kovacic.enclosure.points import ExactPoint, as_point, midpoint
 from kovacic.errors import InputError, check_keywords
 from kovacic.exact import whole
@@ -41,12 +41,23 @@ if TYPE_CHECKING:
 _SHARE, _IRREGULAR_SHARE = Fraction(1, 256), Fraction(1, 16)
 """The curve ends this share of its interval before a singular point."""
 
-#: The keywords of `evaluate` that choose the solution and its accuracy; the path is above the axis.
-_OPTIONS = sorted(Options.__annotations__.keys() - {"path"})
 #: A formula of more characters isn't written into the legend.
 _LONGEST_LABEL = 50
 #: Where the largest value is more than so many times the usual one, the axis is logarithmic beyond the usual one.
 _RANGE = 20
+
+
+class SampleOptions(InitialValues, Accuracy, total=False):
+    """The keywords of `evaluate` that choose the solution and its accuracy; the path is above the axis."""
+
+    which: Literal["regular", "decaying"] | None
+
+
+class PlotOptions(SampleOptions, total=False):
+    """The keywords of `plot` but the title and the file."""
+
+    x0: object
+    points: int
 
 
 @dataclass(frozen=True)
@@ -68,7 +79,13 @@ class SampledCurve:
 
 @limited
 def sample(
-    equation: object, start: object, stop: object, *, x0: object | None = None, points: int = 400, **options: Any
+    equation: object,
+    start: object,
+    stop: object,
+    *,
+    x0: object | None = None,
+    points: int = 400,
+    **options: Unpack[SampleOptions],
 ) -> SampledCurve:
     """The solution over [start, stop] in proven values.
 
@@ -83,24 +100,24 @@ def sample(
     points
         The least number of samples; more are taken where the solution oscillates or bends.
     options
-        `y0` = 1, `dy0` = 0, `which`, `frobenius`, `params`, `digits` = 8 and `limits` as for `evaluate`.
+        `y0` = 1, `dy0` = 0, `which`, `frobenius`, `params`, `digits` = 8, `method` and `limits` as for `evaluate`.
 
     Raises InputError if start isn't below stop, and what `evaluate` raises.
     """
-    check_keywords("sample", options, _OPTIONS)
+    check_keywords("sample", options, SampleOptions.__annotations__)
     a, b = _ends(start, stop)
     points = whole(points, "points", least=2)
-    chart = chart_of(equation, {}, options.pop("params", None))
+    asked: dict[str, Any] = {**options}
+    chart = chart_of(equation, {}, asked.pop("params", None))
     intervals = _regular_intervals(chart, a, b)
     if x0 is None:
         x0 = _middle_of_the_longest(intervals)
-    if options.get("which") is None and options.get("frobenius") is None:
-        initial: dict[str, Any] = {"y0": 1, "dy0": 0}
+    if asked.get("which") is None and asked.get("frobenius") is None:
+        asked = {"y0": 1, "dy0": 0, **asked}
     else:
-        initial = {"y0": None, "dy0": None}
-    asked = {"limits": None, "digits": 8, **initial, **options}
-    digits = asked.pop("digits")
-    limits = asked.pop("limits")
+        asked = {"y0": None, "dy0": None, **asked}
+    digits = asked.pop("digits", 8)
+    limits = asked.pop("limits", None)
     chart = replace(chart, given={"x0": x0})
 
     def states(places: Sequence[ExactPoint]) -> Any:
@@ -152,26 +169,69 @@ def plot(
     *,
     title: str | None = None,
     output: str | Path | None = None,
-    **options: Any,
+    **options: Unpack[PlotOptions],
 ) -> Figure:
     """A figure with the real part over [start, stop], and the imaginary part unless it can't be told from zero.
 
     Parameters
     ----------
     equation
-        As for `sample`.  For an answer of `solve`, without initial values, its solutions y1 and y2 are drawn.
-    start, stop
-        The ends of the interval.
-    title
+        S or an equation, as for `kovacic.evaluate`, real for real x.  For an answer of `solve`, without initial values, its
+        solutions y1 and y2 are drawn.
+    start, stop : number
+        The ends of the interval, real, exact: 0.5 and "1/3".  Singular points may lie between them; they are marked.
+    title : str
         Above the picture; the equation by default.
-    output
-        A file to which the picture is saved; its type follows the suffix (png, svg, pdf).
-    options
-        Those of `sample`.
+    output : str or Path
+        A file to which the picture is saved; its type follows the suffix (png, svg, pdf).  None by default: nothing is saved.
+    x0 : number
+        Where the initial values are given, real; by default the middle of the longest interval without singular points.
+    y0, dy0 : number
+        y(x0) and y'(x0); 1 and 0 by default.
+    frobenius, which
+        Or else the solution at a singular point x0, as for `kovacic.evaluate`.
+    points : int
+        The least number of samples, 400 by default; more are taken where the solution oscillates or bends.
+    digits : int
+        To how many digits they are found: 8 by default.
+    params : mapping
+        Values of the parameters by name: {"a": 2}.
+    method : str
+        "taylor" or "closed form"; by default the one that is faster for this equation.
+    limits : Limits
+        What the work may cost.
 
-    Returns the matplotlib figure.
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown anywhere, unless it is the result of a notebook's cell.
+
+    Raises
+    ------
+    InputError
+        If start isn't below stop, and what `kovacic.evaluate` raises.
+    TypeError
+        For a keyword that isn't known.
+
+    Examples
+    --------
+    The solutions of an answer, the solution with given values, and a picture in a file:
+
+    >>> import io, kovacic
+    >>> figure = plot(kovacic.solve("x^2 + 3"), -1, 1)
+    >>> [line.get_label()[:2] for line in figure.axes[0].get_lines()][:2]
+    ['y1', 'y2']
+    >>> figure = plot("a*x", -5, 1, x0=0, y0=1, dy0=0, params={"a": 1}, title="Airy")
+    >>> figure.axes[0].get_title()
+    'Airy'
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     figure = plot("-1", 0, 6, output=Path(folder, "wave.svg"))
+    ...     Path(folder, "wave.svg").exists()
+    True
     """
-    check_keywords("plot", options, ["x0", "points", *_OPTIONS])
+    check_keywords("plot", options, PlotOptions.__annotations__)
     from matplotlib.figure import Figure as NewFigure
 
     curves = _curves(equation, start, stop, options)
@@ -206,7 +266,7 @@ def _variable(equation: object) -> str:
     return equation.variable if isinstance(equation, Answer) else "x"
 
 
-def _curves(equation: object, start: object, stop: object, options: dict[str, Any]) -> list[tuple[str, SampledCurve]]:
+def _curves(equation: object, start: object, stop: object, options: PlotOptions) -> list[tuple[str, SampledCurve]]:
     """What is drawn, and how the legend names it."""
     given = {name for name in ("y0", "dy0", "which", "frobenius") if options.get(name) is not None}
     if isinstance(equation, Answer) and not given:
@@ -219,7 +279,7 @@ def _curves(equation: object, start: object, stop: object, options: dict[str, An
     return [(f"y, where y({curve.x0}) = 1, y'({curve.x0}) = 0", curve)]
 
 
-def _solutions(answer: Answer, start: object, stop: object, options: dict[str, Any]) -> list[tuple[str, SampledCurve]]:
+def _solutions(answer: Answer, start: object, stop: object, options: PlotOptions) -> list[tuple[str, SampledCurve]]:
     """y1 and y2 of the answer, as the solutions with their values and slopes at x0; none where these aren't known.
 
     A solution that decays from x0 on needs initial values with the digits that the other one gains on the way.
@@ -242,7 +302,8 @@ def _solutions(answer: Answer, start: object, stop: object, options: dict[str, A
         values = [sympy.N(f.subs(x, place), digits) for f in (y, y.diff(x))]
         if not all(value.is_number and value.is_finite for value in values):
             return []
-        curve = sample(answer, start, stop, **{**options, "x0": at, "y0": str(values[0]), "dy0": str(values[1])})
+        asked: PlotOptions = {**options, "x0": at, "y0": str(values[0]), "dy0": str(values[1])}
+        curve = sample(answer, start, stop, **asked)
         text = of_sympy(y).text
         name = f"y{k}"
         found.append((f"{name} = {text}" if len(text) <= _LONGEST_LABEL else name, curve))
