@@ -12,6 +12,7 @@ For each line one of
 Exit status: 0 all checked, 1 one refuted, 2 one unreadable, 3 one not checked.  It needs Python 3.11 and python-flint alone.
 
 What "checked" means, for an S over Q(x):
+- S from input: S was given, with + - * / ^ and parentheses, and is this one.
 - y'' = S y from a, b, c, and gauge: S = (b/a)'/2 + (b/a)^2/4 - c/a and gauge = -b/(2a), where an equation was given.
 - case, omega, of a "yes": the product of W - omega over the conjugates of omega = y'/y belongs to a form in the solutions, over
   Q(c)(x), c a root of an irreducible polynomial; and no smaller degree is possible, by the exclusions.
@@ -21,7 +22,7 @@ What "checked" means, for an S over Q(x):
   poles).
 - group: its family, n, order and name follow from the above, and from the evidence that is given for it.
 Every key is either looked at, or named after "not checked", or refused.  What the keys that aren't looked at say is for the
-reader to compare: `input` and `equation.text` with S, or with a, b and c.
+reader to compare: `input` and `equation.text` with a, b and c, or with S.
 
 To be read from the end: `Answer.check` is the table of contents.
 
@@ -73,6 +74,12 @@ def demand_keys(data: Any, what: str, required: str, optional: str = "") -> None
     unknown = set(data) - set(required.split()) - set(optional.split())
     demand(not missing, f"{what} has the key {min(missing, default='')!r}")
     demand(not unknown, f"{what} has a key {ascii(min(unknown, default=''))[:60]}")
+
+
+def the_list(value: Any, what: str) -> list[Any]:
+    """The value, which must be a list."""
+    demand(isinstance(value, list), f"{what} is a list")
+    return list(value)
 
 
 def is_whole(value: Any) -> bool:
@@ -169,7 +176,7 @@ def read(text: str, names: dict[str, Value]) -> Value:
     def operand() -> Value:
         token = tokens.pop()
         if token == "-":
-            return Value(0) - expression(2)
+            return Value(0) - expression(3)
         if token == "(":
             value = expression(0)
             demand(tokens.pop() == ")", "each ( has its )")
@@ -439,11 +446,11 @@ class Exclusions:
     def hold(self, structure: str, evidence: list[Any]) -> None:
         """The group doesn't have this structure, by the evidence.
 
-        One necessary condition suffices, or the absence of the rational form; but a reducible group has one only where omega
+        One necessary condition, or the absence of the rational form; but a reducible group has one only where omega
         isn't unique, and then there must be no unique omega either.
         """
         conditions, forms, omegas = 0, 0, 0
-        for item in evidence:
+        for item in the_list(evidence, "the evidence"):
             kind = item["kind"]
             if kind == "necessary_condition":
                 self.condition(structure, item)
@@ -456,15 +463,15 @@ class Exclusions:
                 demand(kind == "no_rational_omega" and structure == "reducible", "the kind of the evidence is known")
                 self.no_omega(item)
                 omegas += 1
-        without_a_form = forms and (omegas or structure != "reducible")
-        demand(conditions or without_a_form, f"the group isn't {structure}")
+        without_a_form = (0, 1, 1) if structure == "reducible" else (0, 1, 0)
+        demand((conditions, forms, omegas) in ((1, 0, 0), without_a_form), f"the group isn't {structure}")
 
     def condition(self, structure: str, item: dict[str, Any]) -> None:
         """The rule holds at each of the places that are named; or these are all that can branch, fewer than two points."""
         demand_keys(item, "a necessary condition", "kind rule places statement")
         statement, holds = RULES[item["rule"]]
         demand_equal(item["statement"], statement, "the statement")
-        named = [self.place(name) for name in item["places"]]
+        named = [self.place(name) for name in the_list(item["places"], "what is named")]
         demand(len({place.name for place in named}) == len(named), "the places are different")
         demand(all(holds(place, structure) for place in named), f"these places are {item['rule']}")
         if item["rule"] == "too_few_branch_points":
@@ -727,7 +734,7 @@ class Imprimitive:
         """
         if not self.group.get("orders"):
             return None
-        for entry in self.group["orders"]:
+        for entry in the_list(self.group["orders"], "the evidence"):
             demand_keys(entry, "an order", "prime order")
         shown = {order_modulo(entry["prime"], entry["order"], self.eta) for entry in self.group["orders"]}
         demand(len(shown) > 1, "the order isn't finite")
@@ -997,7 +1004,7 @@ class Answer:
         gauge: Any = self.data.get("gauge")
         if equation is None:
             demand(gauge is None, "a gauge belongs to an equation")
-            return []
+            return self.input()
         demand_keys(equation, "the equation", "text unknown a b c f h field", "change")
         demand(isinstance(gauge, str), "the equation has a gauge")
         if equation["field"] is not None:
@@ -1009,10 +1016,22 @@ class Answer:
         demand(read(gauge, self.names).equals(Value(0) - half), "the gauge is -b/(2a)")
         return ["y'' = S y from a, b, c", "gauge"]
 
+    def input(self) -> list[str]:
+        """Where S itself was given, in the notation that can be read here, it is this S; any other notation isn't looked at."""
+        text = self.data["input"]
+        demand(isinstance(text, str), "the input is a text")
+        try:
+            given = read(str(text).replace("^", "**"), self.names)
+        except (AssertionError, LookupError, ValueError, NotImplementedError):
+            return []
+        demand(self.S.equals(given), "S is that of the input")
+        return ["S from input"]
+
     def not_looked_at(self, checked: list[str]) -> Iterator[str]:
         """The keys that have no part in what was checked."""
         data, equation = self.data, self.data.get("equation")
-        yield from (key for key in NOT_LOOKED_AT if key in data)
+        looked_at = "input" if "S from input" in checked else ""
+        yield from (key for key in NOT_LOOKED_AT if key in data and key != looked_at)
         if equation is not None and "gauge" in checked:
             yield from (f"equation.{key}" for key in NOT_LOOKED_AT_IN_THE_EQUATION if key in equation)
         elif equation is not None:
@@ -1029,8 +1048,9 @@ class Answer:
         """Everything before the structure is excluded, each once and in order; without a structure, all five are."""
         names = list(STRUCTURES)
         required = names if self.structure is None else names[: names.index(self.structure)]
-        demand_equal([entry["structure"] for entry in self.proof["excluded"]], required, "what is excluded")
-        for entry in self.proof["excluded"]:
+        excluded = the_list(self.proof["excluded"], "what is excluded")
+        demand_equal([entry["structure"] for entry in excluded], required, "what is excluded")
+        for entry in excluded:
             demand_keys(entry, "an exclusion", "structure case evidence")
             demand_equal(entry["case"], STRUCTURES[entry["structure"]].case, "the case of an exclusion")
             self.exclusions.hold(entry["structure"], entry["evidence"])
@@ -1044,7 +1064,7 @@ class Answer:
         demand_names(riccati["variable"], *self.names)
         f = form(semi_invariant, n, self.S, self.names, modulus)
         self.normal_form(semi_invariant)
-        a = [read(text, self.names) for text in reversed(riccati["coefficients"])]
+        a = [read(text, self.names) for text in reversed(the_list(riccati["coefficients"], "the polynomial"))]
         demand_equal((riccati["degree"], len(a) - 1), (n, n), "the degree of omega, twice")
         for k in range(n + 1):
             difference = a[k].num * f.G**k - (-1) ** k * f.N[k] * a[k].den

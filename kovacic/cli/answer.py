@@ -183,7 +183,7 @@ def check(files: tuple[str, ...]) -> int:
     kovacic solve --json --full "x^2 + 3" "x" | kovacic check -
 
     \b
-    checked: case; omega; group; not checked: input, notices, seconds
+    checked: S from input; case; omega; not checked: notices, seconds
     refuted: why
     not checked: why
     unreadable: why
