@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import inf
 
 from kovacic.limits import CLOCK
 
@@ -11,23 +12,32 @@ from kovacic.limits import CLOCK
 class Hands:
     """The time since midnight: it passes by `step` with each look at the clock, and as the test says."""
 
-    def __init__(self, step: float = 0.0) -> None:
+    def __init__(self, step: float = 0.0, looks_in_time: float = inf) -> None:
         self.step = step
+        self.looks_in_time = looks_in_time
         self.time = 0.0
         self.looks = 0
 
     def __call__(self) -> float:
         self.looks += 1
-        self.time += self.step
+        self.time += self.step if self.looks <= self.looks_in_time else 1000
         return self.time
+
+    @property
+    def late_looks(self) -> float:
+        """How often somebody has looked since the time is over for all, the first one included."""
+        return max(0, self.looks - self.looks_in_time)
 
     def move(self, seconds: float) -> None:
         self.time += seconds
 
 
 @contextmanager
-def controlled(step: float = 0.0) -> Iterator[Hands]:
-    """Inside `with`, all limits read this clock.  With a step, a look costs time, and so a search without end ends."""
-    hands = Hands(step)
+def controlled(step: float = 0.0, looks_in_time: float = inf) -> Iterator[Hands]:
+    """Inside `with`, all limits read this clock.
+
+    With a step, a look costs time, and so a search without end ends.  After `looks_in_time` looks, each takes 1000 s.
+    """
+    hands = Hands(step, looks_in_time)
     with CLOCK.read_from(hands):
         yield hands
