@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
 from typing import Any
@@ -41,7 +42,7 @@ from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System, check_segment
 from kovacic.errors import LimitExceeded
-from kovacic.limits import Budget, Limits
+from kovacic.limits import Budget, Limits, bounded_work
 from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
 from kovacic.special.search import find
 
@@ -51,6 +52,8 @@ _TRIED = 1, 2, 4  # multiples of the working precision at which a matrix may bec
 # Digits up to which the functions cost less than Taylor steps (measured): elementary ones, Airy's and Bessel's of rational
 # order, other confluent ones, Gauss'; and less than the series at a singular point
 _MOST, _MOST_FROM_ZERO = (10**9, 20_000, 2_000, 300), 2_000
+# What a target costs at 15 digits, in Taylor's polynomials of a disc (measured); the first two grow more slowly with the digits
+_RATIOS = 2.0, 3.0, 5.0, 7.0
 _NAMES = {Airy: "Airy's", Confluent: "Whittaker's", Gauss: "Gauss'"}
 _DEGREE = 24  # of S, up to which a pull-back is sought
 _LARGEST = 1_000  # parameters of special functions up to which a call of FLINT, which can't be stopped, is short
@@ -61,12 +64,14 @@ class NotServed(Exception):
 
 
 @lru_cache(maxsize=64)
-def classical_of(S: RatFunc) -> Classical | None:
-    """The standard equation that S is pulled back from over Q; None where none is found, or its parameters are large."""
+def classical_of(S: RatFunc, work: int | None) -> Classical | None:
+    """The standard equation that S is pulled back from over Q; None where none is found in so many units of work (None: however
+    long it takes), or its parameters are large."""
     if S.field != QQ or S.num.degree + S.den.degree > _DEGREE:
         return None
     budget = Budget(Limits(constants=1))
-    search = find(S, budget, extended=False)
+    with nullcontext() if work is None else bounded_work(work):
+        search = find(S, budget, extended=False)
     if search.stopped and budget.seconds_left <= 0:  # an exception isn't kept
         raise LimitExceeded(search.stopped, limit="seconds")
     found = search.pullback
@@ -82,18 +87,19 @@ def classical_of(S: RatFunc) -> Classical | None:
         kind = 1 if (q == 0 or r == 0) and isinstance(square_root(squares[0]), fmpq) else 2
     if any(abs(v) >= _LARGEST**2 for v in squares):
         return None
-    return Classical(found, _MOST[kind])
+    return Classical(found, _MOST[kind], _RATIOS[kind])
 
 
 @dataclass(frozen=True, eq=False)
 class Classical:
     """A pull-back, and the transition matrices and Frobenius solutions that follow from it.
 
-    `most` are the digits up to which the former are worth while.
+    `most` are the digits up to which the former are worth while, and `rate` is what a target costs at 15 digits.
     """
 
     pullback: Pullback
     most: int = 0
+    rate: float = 7.0
 
     def __str__(self) -> str:
         return f"FLINT's functions: {_NAMES[type(self.pullback.equation)]} equation in {self.pullback.f}"
@@ -101,6 +107,10 @@ class Classical:
     def is_cheap(self, digits: int, *, from_zero: bool) -> bool:
         """Do they cost less than the Taylor route, for a start at a zero of f or another?"""
         return digits <= (max(self.most, _MOST_FROM_ZERO) if from_zero else self.most)
+
+    def ratio(self, digits: int) -> float:
+        """What a target costs, in targets of a Taylor disc."""
+        return self.rate / (1 + digits / 100) if self.rate <= _RATIOS[1] else self.rate
 
     def leg(self, a: ExactPoint, b: ExactPoint) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment; raises NotServed."""

@@ -19,7 +19,7 @@ ones; in cases 2 and 3 the roots of the polynomial of omega at the point, by rea
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, cmp_to_key, lru_cache
 
 from flint import acb, acb_poly, arb, ctx
@@ -34,7 +34,10 @@ from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, mult
 from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.system import check_segment
-from kovacic.errors import InputError
+from kovacic.engine.decide import decide_reducible
+from kovacic.errors import InputError, VerificationFailed
+from kovacic.limits import Budget, Limits, check_time
+from kovacic.verify import verify
 
 _CHEAP = 400  # degree of P up to which the values of two exponentials cost less than the Taylor steps
 _LARGEST_SQUARE = 1_000  # degree up to which y1^2 is written out; it may be x^1000000
@@ -149,6 +152,11 @@ class CaseOneForm:
         poles = sum(factor.degree * e * e for factor, e in self._square or () if e > 0)
         return self.is_elementary and self.first.P.degree**2 + poles / 4 <= 4_000 + 70 * digits
 
+    def ratio(self, digits: int) -> float:
+        """What a target costs, in targets of a Taylor disc, whose polynomials grow with the digits (measured)."""
+        rate = 2.0 if len(self.branches) == 2 else 5.0
+        return (rate + self.first.P.degree / 40) / (1 + digits / 100)
+
     @cached_property
     def companion(self) -> Exponential | None:
         """y2 = y1 int y1^-2 where y1^2 is rational, of small degree, and the integral is rational too."""
@@ -193,6 +201,25 @@ def _integrand(closed: CaseOneForm, _prec: int) -> LogDerivative:
     """The rational function B/E^2 of equation (1), at the precision in force."""
     assert closed.rational_square is not None
     return LogDerivative.make(closed.reduction[1] / closed.rational_square, None)
+
+
+@lru_cache(maxsize=64)
+def decided(problem: NumericProblem, degree: int) -> NumericProblem | None:
+    """The problem with the decision of its answer; for an equation that wasn't solved with that of case 1, if this is the case
+    and is seen with a polynomial of at most this degree.  None without a Liouvillian solution."""
+    decision = problem.decision
+    if decision is not None:
+        return problem if decision.semi_invariant is not None else None
+    if problem.S is None:
+        return None
+    budget = Budget(Limits(unknown_degree=degree))
+    decision = decide_reducible(problem.S, budget)
+    check_time()  # what the clock stopped isn't kept
+    if decision is None:
+        return None
+    if not verify(problem.S, decision, budget=budget):
+        raise VerificationFailed(f"the closed form for S = {problem.S} failed its own check; please report it")
+    return replace(problem, decision=decision)
 
 
 def certified(problem: NumericProblem) -> Decision:

@@ -79,10 +79,9 @@ class Journey:
             states = [found[i] for i in range(len(stops))]
         return [spread(traveller.problem, target, state) for target, state in zip(targets, states, strict=True)]
 
-    @cached_property
-    def classical(self) -> Classical | None:
-        """The equation that S is pulled back from, if it is known."""
-        return None if self.problem.S is None else classical_of(self.problem.S)
+    def classical(self, work: int | None) -> Classical | None:
+        """The equation that S is pulled back from, if it is found in so much work."""
+        return None if self.problem.S is None else classical_of(self.problem.S, work)
 
     @cached_property
     def _begun(self) -> dict[tuple[Closed | None, int], tuple[Traveller, State]]:

@@ -9,13 +9,13 @@ from typing import Any, Literal
 
 from flint import arb
 
-from kovacic.enclosure.classical import Classical, NotServed
-from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of
+from kovacic.enclosure.classical import NotServed
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb, working_precision
 from kovacic.enclosure.precision import METHODS, Method, PointValue, number_of_digits, raise_precision
 from kovacic.enclosure.problem import NumericProblem, as_problem
+from kovacic.enclosure.routes import TAYLOR, route_of
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import read_start
 from kovacic.errors import InputError
@@ -25,12 +25,6 @@ _LOG = logging.getLogger(__name__)
 
 Path = Sequence[object] | Literal["chain", "above", "below"] | None
 _APART = arb(2) ** -200  # what is nearer to a singular point can't be told from it
-_NO_CLOSED_FORM = (
-    "the method 'closed form' is for solutions of case 1 without a quadrature, and pull-backs of Airy's, Bessel's, Whittaker's "
-    "and Gauss' equations over Q"
-)
-_TAYLOR = "method='taylor' treats every equation"
-_FEW = 16  # targets up to which a closed form costs less than the Taylor steps, which serve many at once
 
 
 def evaluate_states(
@@ -65,14 +59,14 @@ def evaluate_states(
     targets = tuple(as_number(p, "x") for p in points)
     _check_regular(problem, targets)
     with Budget(limits).watched():
-        closed = _closed_form(journey, targets, method, digits)
+        closed = route_of(journey, targets, method, digits)
         _LOG.info("route: %s", "Taylor's method" if closed is None else closed)
         if closed is not None:
             try:
                 return raise_precision(journey, targets, closed, digits, limits)
             except NotServed:
                 if method is not None:
-                    raise InputError("the closed form doesn't prove its values on this path", hint=_TAYLOR) from None
+                    raise InputError("the closed form doesn't prove its values on this path", hint=TAYLOR) from None
                 _LOG.info("it doesn't prove its values on this path: Taylor's method")
         return raise_precision(journey, targets, None, digits, limits)
 
@@ -124,34 +118,3 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
             near = any(abs(ball - z).lower() < _APART for z in singular)
             if near or (constants is not None and not constants.bound(ball).is_finite()):
                 raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
-
-
-def _closed_form(
-    journey: Journey, targets: Sequence[Number], method: Method | None, digits: int
-) -> CaseOneForm | Classical | None:
-    """The closed form, where it is asked for or the cheaper way by a rule that was measured
-    (`benchmarks/enclosure_work_precision.py`).
-
-    Closed forms of case 1 without quadrature, with a polynomial of moderate degree, cost less than the Taylor steps to a few
-    points, whatever the distance, the digits and the solution's zeros.  So do FLINT's functions up to some digits, for many
-    points beside the real axis, too; a pull-back is sought once, in about the time of a Taylor step.
-    """
-    problem = journey.problem
-    if method == "taylor" or (problem.right is not None and method is None):
-        return None
-    if problem.right is not None:
-        raise InputError("the method 'closed form' is for equations without a right-hand side", hint="method='taylor'")
-    few = method is not None or len(targets) <= _FEW
-    case_1 = problem.decision is not None and problem.decision.case == 1
-    from_zero = isinstance(journey.start.place, Singular)
-    if case_1 and few and not from_zero:
-        closed = closed_form_of(problem)
-        if closed is not None and (closed.is_elementary if method else closed.is_cheap(digits)):
-            return closed
-    if few or not all(isinstance(target, ExactPoint) and target.is_real() for target in targets):
-        classical = journey.classical
-        if classical is not None and (method or classical.is_cheap(digits, from_zero=from_zero)):
-            return classical
-    if method is not None:
-        raise InputError(_NO_CLOSED_FORM, hint=_TAYLOR)
-    return None

@@ -120,7 +120,7 @@ class Leg:
 def walk(system: System, a: ExactPoint, b: ExactPoint, prec: int, targets: int = 0) -> Iterator[Leg]:
     """The discs of the straight way from a to b; with so many `targets` beside it none of them is split."""
     begun, split = watched_seconds(math.inf), is_split(system, prec) and not targets
-    growth = max(_FEWER_BITS, prec * _GROWTH) if targets >= _MANY else None
+    growth = growth_of_disc(prec, targets)
     foreseen = False
     _LOG.debug("from %s to %s, %d bits%s", a, b, prec, ", by binary splitting" if split else "")
     for number, disc in enumerate(cover(system, a, b, prec, growth), 1):
@@ -151,6 +151,11 @@ def _refuse(system: System, a: ExactPoint, b: ExactPoint, prec: int, each: float
         raise LimitExceeded(f"{reason} or more, above the limit of {_MAX_DISCS}", limit="unknown_degree")
     if each * (least - _TRIED) > watched_seconds(math.inf):
         raise LimitExceeded(f"{reason} of {each:.2g} s each: more than the time limit allows", limit="seconds")
+
+
+def growth_of_disc(prec: int, targets: int) -> float:
+    """The bits by which the solutions may grow in a disc on a way with so many targets beside it."""
+    return max(_FEWER_BITS, prec * _GROWTH) if targets >= _MANY else _allowed_growth(prec)
 
 
 def _allowed_growth(prec: int) -> float:

@@ -55,6 +55,19 @@ def decide(S: RatFunc, budget: Budget, *, certify: bool = True) -> Decision:
     return Decision(None, tuple(exclusions))
 
 
+def decide_reducible(S: RatFunc, budget: Budget) -> Decision | None:
+    """The decision with its certificate in case 1, where the group is reducible; None elsewhere, or if the budget is exhausted."""
+    try:
+        with budget.watched():
+            problem = analyse(S, budget)
+            if Structure.REDUCIBLE in excluded_by_local_data(problem):
+                return None
+            outcome = reducible.decide(problem)
+            return _positive(problem, outcome, (), True) if isinstance(outcome, Found) else None
+    except LimitExceeded:
+        return None
+
+
 def _positive(problem: Problem, found: Found, exclusions: tuple[Exclusion, ...], certify: bool) -> Decision:
     invariant = None if found.invariant is None else found.invariant.semi_invariant(problem)
     if not certify:
