@@ -410,3 +410,53 @@ def test_a_search_for_a_pull_back_costs_no_more_than_the_way() -> None:
     S = kovacic.solve("(x+1)/((x^2+2)*(x^2+3)*(x^2+x+5))^2").S
     with bounded_work(100):
         assert find(S, Budget(), extended=False).pullback is None
+
+
+@pytest.mark.parametrize(
+    ("equation", "stop", "exact"),
+    [
+        ("2", 10, lambda x: math.cosh(math.sqrt(2) * x)),
+        ("y'' + 10^6*y' + y = 0", 10, lambda x: math.exp(-x * 1e-6) * (1 + 1e-12)),
+        ("-10000", 90, lambda x: math.cos(100 * x)),
+        ("x^2*y'' + 2*x*y' + 400*x^2*y = 0", 30, None),
+    ],
+)
+def test_text_has_the_closed_form_that_its_solution_has(equation: str, stop: int, exact: Any) -> None:
+    start: dict[str, Any] = {"x0": 1 if exact is None else 0, "y0": 1, "dy0": 0}
+    text = evaluate(equation, stop, method="closed form", **start)
+    default = evaluate(equation, stop, **start)
+    solved = kovacic.solve(equation).at(stop, **start)
+    assert text.route.method == solved.route.method == "closed form"
+    assert default.route.method == ("taylor" if equation == "2" else "closed form")  # two discs, less than a decision
+    assert text.overlaps(solved)
+    assert text.overlaps(default)
+    if exact is not None:
+        assert abs(float(text) - exact(stop)) < 1e-9 * abs(exact(stop))
+
+
+def test_many_targets_far_apart_in_phase_take_the_closed_form_and_near_ones_the_discs() -> None:
+    s = kovacic.solve("-10000")
+    far = [Fraction(k, 10) for k in range(200)]
+    near = [Fraction(k, 10**6) for k in range(200)]
+    for targets, method in ((far, "closed form"), (near, "taylor")):
+        values = s.at(targets, x0=0, y0=0, dy0=100)
+        assert {value.route.method for value in values[1:]} == {method}
+        assert all(abs(float(v) - math.sin(100 * float(x))) < 1e-12 for x, v in zip(targets, values, strict=True))
+
+
+def test_there_is_no_closed_form_where_none_exists() -> None:
+    with pytest.raises(InputError, match="is for solutions of case 1 without a quadrature, and pull-backs"):
+        evaluate("x^3 + x + 1", 2, x0=1, y0=1, dy0=0, method="closed form")
+
+
+@pytest.mark.parametrize("sign", ["", "-"])
+@pytest.mark.parametrize("method", [None, "taylor", "closed form"])
+def test_coefficients_of_thousands_of_digits_crash_nothing(sign: str, method: Any) -> None:
+    large = "1" + "0" * 4998 + "7"
+    limits = Limits(seconds=1)
+    for S, x in ((sign + large, 1), (f"{sign}x/{large}", 1), ("x", f"{sign}1/{large}")):
+        try:
+            value = evaluate(S, x, x0="1/2", y0=1, dy0=1, method=method, limits=limits)
+        except LimitExceeded:
+            continue
+        assert value.digits >= 15

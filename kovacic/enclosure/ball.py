@@ -67,8 +67,9 @@ def _to_fraction(number: Dyadic) -> Fraction:
     return Fraction(mantissa) * Fraction(2) ** exponent
 
 
-def _log10(number: Dyadic) -> float:
-    return (math.log2(abs(number[0])) + number[1]) * math.log10(2)
+def _log10(number: Dyadic, exponent: int) -> float:
+    """log10 of |m| 2^e over 2^exponent: e alone may be too large for a double."""
+    return (math.log2(abs(number[0])) + (number[1] - exponent)) * math.log10(2)
 
 
 def _operator(compute: Callable[[acb, acb], acb]) -> Callable[[Ball, object], Ball]:
@@ -175,10 +176,11 @@ class Ball:
         """
         if self.rad[0] == 0:
             return math.inf
-        sizes = [_log10(part) for part in (self.re, self.im) if part[0] != 0]
+        unit = self.rad[1]
+        sizes = [_log10(part, unit) for part in (self.re, self.im) if part[0] != 0]
         if not sizes:
             return -math.inf
-        return max(sizes) - _log10(self.rad)
+        return max(sizes) - _log10(self.rad, unit)
 
     def __float__(self) -> float:
         if not self.real:

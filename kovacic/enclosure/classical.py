@@ -53,7 +53,7 @@ _TRIED = 1, 2, 4  # multiples of the working precision at which a matrix may bec
 # order, other confluent ones, Gauss'; and less than the series at a singular point
 _MOST, _MOST_FROM_ZERO = (10**9, 20_000, 2_000, 300), 2_000
 # What a target costs at 15 digits, in Taylor's polynomials of a disc (measured); the first two grow more slowly with the digits
-_RATIOS = 2.0, 3.0, 5.0, 7.0
+_RATIOS, _LIMIT = (2.0, 3.0, 5.0, 7.0), 25.0
 _NAMES = {Airy: "Airy's", Confluent: "Whittaker's", Gauss: "Gauss'"}
 _DEGREE = 24  # of S, up to which a pull-back is sought
 _LARGEST = 1_000  # parameters of special functions up to which a call of FLINT, which can't be stopped, is short
@@ -87,7 +87,10 @@ def classical_of(S: RatFunc, work: int | None) -> Classical | None:
         kind = 1 if (q == 0 or r == 0) and isinstance(square_root(squares[0]), fmpq) else 2
     if any(abs(v) >= _LARGEST**2 for v in squares):
         return None
-    return Classical(found, _MOST[kind], _RATIOS[kind])
+    roots = [square_root(square) for square in squares]
+    # exponents that differ by an integer: FLINT takes limits
+    is_limit = isinstance(equation, Confluent | Gauss) and any(isinstance(r, fmpq) and r.q == 1 for r in roots)
+    return Classical(found, _MOST[kind], _LIMIT if is_limit else _RATIOS[kind])
 
 
 @dataclass(frozen=True, eq=False)

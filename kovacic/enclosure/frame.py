@@ -212,6 +212,17 @@ def least_growth(system: System, a: ExactPoint, b: ExactPoint) -> float:
 
 
 def log2(value: arb) -> float:
-    """log2 of the midpoint of a ball, a positive number of any size."""
+    """log2 of the midpoint of a ball, a positive number of any size; infinite where that isn't a double."""
     mantissa, exponent = value.mid().man_exp()
-    return math.log2(int(mantissa)) + int(exponent) if mantissa else -math.inf
+    if not mantissa:
+        return -math.inf
+    try:
+        return math.log2(int(mantissa)) + int(exponent)
+    except OverflowError:
+        return math.copysign(math.inf, int(exponent))
+
+
+def upper_exponent(value: arb) -> int:
+    """An integer e with |midpoint| < 2^e."""
+    mantissa, exponent = value.mid().man_exp()
+    return int(mantissa).bit_length() + int(exponent)

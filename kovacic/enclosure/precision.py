@@ -17,7 +17,7 @@ from flint import acb, arb
 
 from kovacic.enclosure.ball import Ball, Route, finite_ball
 from kovacic.enclosure.constants import Number
-from kovacic.enclosure.frame import log2
+from kovacic.enclosure.frame import upper_exponent
 from kovacic.enclosure.journey import Closed, Journey
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import working_precision
@@ -95,7 +95,7 @@ def raise_precision(
             with working_precision(prec + 40):
                 states = journey.states(targets, closed, prec)
                 route = Route(digits, METHODS[closed is not None], prec, runs)
-                lacking = [_missing_bits(y, digits, prec, first=runs == 1) for y, _ in states]
+                lacking = [_missing_bits(y, digits, prec, doubled=runs == 1 or closed is not None) for y, _ in states]
                 finite = all(y.is_finite() and dy.is_finite() for y, dy in states)
                 found = tuple(map(PointValue, targets, states, lacking, repeat(route))) if finite else None
                 missing = max(lacking, default=0)
@@ -115,6 +115,7 @@ def raise_precision(
         )
         if exact and found is not None and runs > 1:  # a recessive solution is as small as the others are large
             highest = max(highest, 2 * max(map(_growth, found)) + 2 * start_bits(digits))
+            highest = highest if closed is None else min(highest, most)
         if prec >= highest or stalled or highest > most:
             if found is None:
                 raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
@@ -123,17 +124,18 @@ def raise_precision(
         prec = min(prec + missing + 16, highest)
 
 
-def _missing_bits(y: acb, digits: int, prec: int, *, first: bool) -> int:
+def _missing_bits(y: acb, digits: int, prec: int, *, doubled: bool) -> int:
     """How many bits of precision the enclosure lacks (0: the goal is met).
 
-    The `first` ball that contains zero may be wide because the precision was low, which says nothing of the solutions.
+    A first ball that contains zero, and one of a closed form, may be wide because the precision was low, which says nothing of
+    the solutions: then the precision is `doubled`.
     """
     if not y.is_finite():
         return prec
     if y.is_exact():
         return 0
     goal = int(digits * 3.3219280948873626) + 2
-    if y.contains(0) and first:
+    if y.contains(0) and doubled:
         return prec
     if y.contains(0):  # if the solution is the recessive one, twice the growth of the others is lost
         return max(prec, 2 * _lost(y, prec) + goal - prec)
@@ -148,7 +150,7 @@ def _is_telling(result: PointValue, runs: int) -> bool:
 def _lost(y: acb, prec: int) -> int:
     """By how many bits other solutions grow, seen by an enclosure that contains zero."""
     largest = y.abs_upper()
-    return 0 if largest == 0 else max(0, math.ceil(log2(largest)) + prec)
+    return 0 if largest == 0 else max(0, upper_exponent(largest) + prec)
 
 
 def _growth(result: PointValue) -> int:
@@ -159,7 +161,8 @@ def _reason(result: PointValue) -> str:
     if result.y.contains_zero():
         known = arb(result.y.rad).mid().str(2, radius=False)
         growth = _growth(result)
-        lost = f": other solutions grow to about 10^{growth * math.log10(2):.0f} on the way, so that as many digits are lost"
+        power = in_a_message(growth * 30103 // 100000)  # as a decimal
+        lost = f": other solutions grow to about 10^{power} on the way, so that as many digits are lost"
         return (
             f"the value can't be told from zero (|y| is at most about {known}): no relative accuracy was reached"
             f" with {result.route.bits} bits{lost if growth > 200 else ''}"

@@ -1,9 +1,9 @@
 """Which way a value is computed: what the Taylor steps, the closed form of case 1 and FLINT's functions cost, by counted work.
 
-The unit is what Taylor's method takes for one more target in a disc, some 0.04 ms at 15 digits.  A disc takes _DISC of them.  How
-many discs there will be is foreseen by a walk in small balls that looks at the distances of singular points and at |S|^(1/2), and
-ends as soon as the answer is known.  A closed form takes its `ratio` for each target, and next to nothing before the first; an
-equation given as text has to be decided for it.  The numbers were measured; no clock decides.
+The unit is what Taylor's method takes for one more target in a disc, some 0.04 ms at 15 digits.  A disc takes _DISC of them.
+How many discs there will be is foreseen by a walk in small balls that looks at the distances of singular points and at
+|S|^(1/2), and ends as soon as the answer is known.  A closed form takes its `ratio` for each target, and next to nothing before
+the first; an equation given as text has to be decided for it.  The numbers were measured; no clock decides.
 """
 
 from __future__ import annotations

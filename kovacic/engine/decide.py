@@ -56,7 +56,7 @@ def decide(S: RatFunc, budget: Budget, *, certify: bool = True) -> Decision:
 
 
 def decide_reducible(S: RatFunc, budget: Budget) -> Decision | None:
-    """The decision with its certificate in case 1, where the group is reducible; None elsewhere, or if the budget is exhausted."""
+    """The decision with its certificate where the group is reducible (case 1); None elsewhere, or without budget."""
     try:
         with budget.watched():
             problem = analyse(S, budget)
