@@ -107,7 +107,7 @@ class Condition:
         -n - 1/2
         >>> sextic = kovacic.conditions("x^6 + a*x^2 + b", var="x").regions[0]
         >>> print(sextic.solution(0)[0])
-        y = exp(-x**4/4) where a = -3, b = 0
+        y = exp(-x^4/4) where a = -3, b = 0
         """
         return () if self.origin is None else self.origin(number)
 

@@ -445,7 +445,8 @@ class _Latex:
         if piece.startswith("\\"):
             known = name.removeprefix("var")
             if known not in GREEK:
-                raise self.error(f"{piece} isn't a command that is read here")
+                shown = piece if piece.isprintable() else repr(piece)
+                raise self.error(f"{shown} isn't a command that is read here")
             return self.indexed(known)
         return self.indexed(piece) if piece.isalpha() else piece
 
