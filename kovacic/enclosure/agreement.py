@@ -75,10 +75,32 @@ class Agreement:
 def agrees_with_group(
     answer: Answer, group: Group | None = None, *, digits: int = 15, limits: Limits | None = None
 ) -> Agreement:
-    """Does the monodromy of y'' = S y agree with `group`, by default with the one that the engine found?
+    """Does the monodromy of y'' = S y agree with a group?
 
-    Raises InputError if there is no group (an undecided equation), and what `monodromy` raises.
+    Parameters
+    ----------
+    answer : Solution
+        What `kovacic.solve` returned; constants and coefficients are rational or algebraic numbers, without parameters.
+    group : Group
+        The claim; by default the group that the engine found.
+    digits : int
+        The accuracy of the matrices: 15 by default.
+    limits : Limits
+        What the continuation may cost.
 
+    Returns
+    -------
+    Agreement
+        `verdict` is False, a proof that it isn't this group; True, where nothing contradicts it and all was seen that matrices
+        show; or None, where they can't tell.  `reason` is a sentence that says what was seen.
+
+    Raises
+    ------
+    InputError
+        Where there is no group, since the equation is undecided, and what `kovacic.monodromy` raises.
+
+    Examples
+    --------
     >>> import kovacic
     >>> from kovacic.galois import Ground
     >>> equation = kovacic.solve("-3/(16*x^2)")
@@ -86,6 +108,8 @@ def agrees_with_group(
     Agreement(verdict=True, reason='the monodromy group has 4 elements, with the traces of mu_4')
     >>> agrees_with_group(equation, Group(GroupKind.CYCLIC, Ground.RESIDUES, 2)).verdict
     False
+    >>> agrees_with_group(kovacic.solve("x"))
+    Agreement(verdict=None, reason='there is no finite singular point, so the monodromy is trivial')
     """
     group = derived.group(answer) if group is None else group
     if group is None:
@@ -168,45 +192,90 @@ def _enumerate(generators: list[acb_mat], angles: dict[Fraction, int], group: Gr
     return Agreement(True, f"the monodromy group has {order} {plural}, with the traces of {group}")
 
 
+@dataclass(frozen=True)
+class _Possible:
+    """Which of the conditions (1) the balls leave open, for matrices of the monodromy group: False is a proof."""
+
+    words: list[acb_mat]
+    commutators: list[acb_mat]
+    commuting: bool
+    reducible: bool
+    monomial: bool
+
+    @classmethod
+    def of(cls, words: list[acb_mat]) -> _Possible:
+        commutators = [_commutator(a, b) for a, b in combinations(words, 2)]
+        of_squares = [_commutator(a**2, b**2) for a, b in combinations(words, 2)]
+        return cls(
+            words,
+            commutators,
+            commuting=all(_may_be_identity(c) for c in commutators),
+            reducible=all(c.trace().overlaps(_TWO) for c in commutators),
+            monomial=all(_may_be_identity(c) for c in of_squares),
+        )
+
+    def torsion(self) -> bool:
+        """Is it possible that all the eigenvalues are roots of unity?"""
+        return all(any(_may_have_order(word, k) for k in range(1, _HIGHEST_ORDER + 1)) for word in self.words)
+
+    def primitive(self) -> bool:
+        """Is one of the three finite groups possible?"""
+        products = [a * b for a, b in combinations(self.words, 2)]
+        longer = [*self.words, *self.commutators, *products]
+        return any(all(_may_be_in(word, kind) for word in longer) for kind in _PRIMITIVE)
+
+
 def _families(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
     """An infinite group (or a large one): the conditions (1)."""
-    commutators = [_commutator(a, b) for a, b in combinations(words, 2)]
-    commuting = all(_may_be_identity(c) for c in commutators)
-    reducible = all(c.trace().overlaps(_TWO) for c in commutators)
-    monomial = all(_may_be_identity(_commutator(a**2, b**2)) for a, b in combinations(words, 2))
-    n = group.n if group.kind in (GroupKind.CYCLIC, GroupKind.ADDITIVE) else None
-    contradictions = {
-        "the monodromy matrices have no common eigenvector, unlike": group.kind in _TRIANGULAR and not reducible,
-        "the monodromy matrices don't commute, unlike": group.kind in _DIAGONAL and not commuting,
-        "the squares of the monodromy matrices don't commute, unlike those of": group.kind in _IMPRIMITIVE
-        and not monomial,
-        "an eigenvalue of a monodromy matrix isn't a root of unity of": n is not None
-        and not all((word**n).trace().overlaps(_TWO) for word in words),
-        "the eigenvalues of the monodromy matrices have a lower order than those of": n is not None
-        and fuchsian
-        and _is_proper_order(words, n),
-    }
-    for sentence, contradicted in contradictions.items():
-        if contradicted:
-            return Agreement(False, f"{sentence} {group}")
+    possible = _Possible.of(words)
+    contradiction = _contradiction(possible, group, fuchsian)
+    if contradiction is not None:
+        return Agreement(False, f"{contradiction} {group}")
     if group.kind is GroupKind.SL2:
-        longer = [*words, *commutators, *(a * b for a, b in combinations(words, 2))]
-        finite = any(all(_may_be_in(word, kind) for word in longer) for kind in _PRIMITIVE)
-        if not reducible and not monomial and not finite:
-            return Agreement(True, "the monodromy matrices generate a group that is dense in SL2")
-        return Agreement(None, "the monodromy matrices alone don't exclude every smaller group")
+        if possible.reducible or possible.monomial or possible.primitive():
+            return Agreement(None, "the monodromy matrices alone don't exclude every smaller group")
+        return Agreement(True, "the monodromy matrices generate a group that is dense in SL2")
     if not fuchsian:
         return Agreement(True, f"the monodromy lies in {group} (irregular: it needn't be dense)")
-    torsion = all(any((word**k).trace().overlaps(_TWO) for k in range(1, _HIGHEST_ORDER + 1)) for word in words)
-    smaller = {
-        GroupKind.MULTIPLICATIVE: torsion,
-        GroupKind.ADDITIVE: commuting and all(_may_be_identity(word ** (group.n or 1)) for word in words),
-        GroupKind.BOREL: commuting or torsion,
-        GroupKind.INFINITE_DIHEDRAL: reducible or torsion,
-    }
-    if smaller.get(group.kind, True):
+    if _may_be_smaller(possible, group):
         return Agreement(None, f"the monodromy lies in {group}, and perhaps in a smaller group")
     return Agreement(True, f"the monodromy lies in {group}, and in none of the smaller groups that were tried")
+
+
+def _contradiction(possible: _Possible, group: Group, fuchsian: bool) -> str | None:
+    """Why the monodromy can't be that of the group, as a sentence that its name ends; None if nothing says so."""
+    if group.kind in _TRIANGULAR and not possible.reducible:
+        return "the monodromy matrices have no common eigenvector, unlike"
+    if group.kind in _DIAGONAL and not possible.commuting:
+        return "the monodromy matrices don't commute, unlike"
+    if group.kind in _IMPRIMITIVE and not possible.monomial:
+        return "the squares of the monodromy matrices don't commute, unlike those of"
+    if group.n is None or group.kind not in (GroupKind.CYCLIC, GroupKind.ADDITIVE):
+        return None
+    if not all(_may_have_order(word, group.n) for word in possible.words):
+        return "an eigenvalue of a monodromy matrix isn't a root of unity of"
+    if fuchsian and _is_proper_order(possible.words, group.n):
+        return "the eigenvalues of the monodromy matrices have a lower order than those of"
+    return None
+
+
+def _may_be_smaller(possible: _Possible, group: Group) -> bool:
+    """Is the closure of the monodromy perhaps a proper subgroup of this infinite group, in which it lies?"""
+    if group.kind is GroupKind.MULTIPLICATIVE:
+        return possible.torsion()
+    if group.kind is GroupKind.ADDITIVE:
+        powers = [word ** (group.n or 1) for word in possible.words]
+        return possible.commuting and all(_may_be_identity(power) for power in powers)
+    if group.kind is GroupKind.BOREL:
+        return possible.commuting or possible.torsion()
+    if group.kind is GroupKind.INFINITE_DIHEDRAL:
+        return possible.reducible or possible.torsion()
+    return True  # of the others nothing is tried
+
+
+def _may_have_order(m: acb_mat, k: int) -> bool:
+    """Can the eigenvalues be k-th roots of unity?"""
+    return bool((m**k).trace().overlaps(_TWO))
 
 
 def _is_proper_order(words: list[acb_mat], n: int) -> bool:

@@ -197,7 +197,8 @@ def _also(regions: list[Condition], *conditions: Vanishes) -> list[Condition]:
 
 def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Condition]:
     """The regions where a polynomial vanishes, except for the points that `missed` is about; the last one is all the rest."""
-    statement, surface = Vanishes(function), hypersurface(function)
+    statement = Vanishes(function)
+    surface = hypersurface(function)
     try:
         restricted = surface.restricted(S)
     except ZeroDivisionError:
@@ -205,11 +206,16 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
     inner = partition(restricted, settings)
     rest = _rest(statement, surface, restricted, inner, settings)
     special = _special(inner.regions, surface)
-    while (
-        special and special[-1].defined and (special[-1].verdict, special[-1].complete) == (rest.verdict, rest.complete)
-    ):
+    while special and _says_the_same(special[-1], rest):
         special.pop()
     return [*_also(special, statement), rest]
+
+
+def _says_the_same(region: Condition, rest: Condition) -> bool:
+    """Is a region like the one that follows it, so that it needn't be named?"""
+    if not region.defined:
+        return False
+    return region.verdict == rest.verdict and region.complete == rest.complete
 
 
 def _rest(statement: Vanishes, surface: Hypersurface, S: RatFunc, inner: Partition, settings: Settings) -> Condition:
