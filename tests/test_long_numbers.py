@@ -24,6 +24,7 @@ EQUATIONS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("equation", EQUATIONS.values(), ids=EQUATIONS.keys())
 def test_every_view_of_an_answer(equation: str) -> None:
     answer = kovacic.solve(equation)
@@ -56,6 +57,7 @@ def _schema() -> str:
     return (files("kovacic") / "views" / "schema.json").read_text(encoding="utf-8")
 
 
+@pytest.mark.long
 def test_the_command() -> None:
     equation = EQUATIONS["exponents"]
     command = [sys.executable, "-m", "kovacic"]
