@@ -1,5 +1,7 @@
 """`dsolve`: linear equations of second order, a y'' + b y' + c y = f, with conditions: y = C1 y1 + C2 y2 + y0.
 
+Riccati equations are made linear, and back, in `riccati_equation`.
+
 The steps, each in a module of this package:
 
 1. `question`: the equation, the unknown function, the conditions, and the user's own symbols;
@@ -14,18 +16,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import suppress
+from functools import partial
 from typing import Any
 from warnings import warn
 
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.general_solution.check import check_answer
+from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
 from kovacic.general_solution.constants import Case, Outcome, condition_of
 from kovacic.general_solution.determined import constants_of
 from kovacic.general_solution.homogeneous import find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
 from kovacic.general_solution.places import limit_points, real_basis_at, real_particular_at, start_of
-from kovacic.general_solution.question import Question, read_question
+from kovacic.general_solution.question import Question, apart, read_question
+from kovacic.general_solution.riccati_equation import RiccatiEquation, read_riccati
+from kovacic.general_solution.riccati_equation import solved as riccati_solution
 from kovacic.general_solution.variation import Basis
 from kovacic.general_solution.written import combination, free_constants, written
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
@@ -53,6 +59,8 @@ def dsolve(
     limits: Limits = DEFAULT_LIMITS,
 ) -> Any:
     """The general solution of a linear equation of second order as a SymPy `Eq(y(x), ...)` with constants C1 and C2.
+
+    Or of a Riccati equation w' = p + q w + r w^2, with one constant C1, which may be infinite.
 
     What is returned has been put into the equation (numerically, at points) and into the conditions.  With parameters it
     holds for generic values; what SymPy knows of the user's symbols (integer, positive, ...) is used throughout.
@@ -122,6 +130,13 @@ def dsolve(
     >>> print(dsolve(y(x).diff(x, 2) + n**2 * y(x), ics={y(0): 0, y(sympy.pi): 0}))
     Eq(y(x), C2*sin(n*x))
 
+    Riccati equations:
+
+    >>> print(dsolve("w' = 1 + w^2"))
+    Eq(w(x), tan(C1 + x))
+    >>> print(dsolve("w' = 2*w/x + w^2", ics="w(1)=1"))
+    Eq(w(x), -3*x**2/(x**3 - 4))
+
     At singular points and at infinity:
 
     >>> print(dsolve("x*y'' + y' + x*y = 0", ics="y(0)=1"))
@@ -180,11 +195,32 @@ def _answered(
     """The answer, and what is to be said beside."""
     budget = Budget(limits)
     with budget.watched():
-        question = read_question(eq, func, ics, var, budget.limits)
+        try:
+            question = read_question(eq, func, ics, var, budget.limits)
+        except InputError as reason:
+            riccati = _riccati_equation(eq, func, ics, var, budget.limits)
+            if riccati is None:
+                raise reason from None
+            return riccati_solution(*riccati, partial(_answered, limits=limits))
         try:
             return _solved(question, budget, special=special)
         except LimitExceeded as limit:
             raise NotImplementedError(f"undecided: {limit}") from None
+
+
+def _riccati_equation(
+    eq: Any, func: Any, ics: Any, var: str | None, limits: Limits
+) -> tuple[RiccatiEquation, tuple[Condition, ...]] | None:
+    """The Riccati equation and its conditions; None where it isn't one, or can't be read."""
+    eq, ics = apart(eq, ics)
+    try:
+        found = read_riccati(eq, func, var, limits)
+    except InputError:
+        return None
+    if found is None:
+        return None
+    reader = ConditionReader(found.function, str(found.function.func))
+    return found, tuple(reader.read(key, value) for key, value in as_mapping(ics).items())
 
 
 def _solved(question: Question, budget: Budget, *, special: bool) -> tuple[Expr, list[str]]:

@@ -62,7 +62,7 @@ class Question:
 
 def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits) -> Question:
     """The question.  Raises `InputError` for what isn't one."""
-    eq, ics = _apart(eq, ics)
+    eq, ics = apart(eq, ics)
     values = as_mapping(ics)
     floats = _has_floats(eq) or any(_has_floats(value) for item in values.items() for value in item)
     if isinstance(eq, sympy.Basic):
@@ -92,7 +92,7 @@ def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits)
 _VALUE = re.compile(r"\w+['’′″]*\s*\([^=]*\)\s*=")
 
 
-def _apart(eq: Any, ics: Any) -> tuple[Any, Any]:
+def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
     """The equation and its values, where a text has both: y'' + y = 0, y(0) = 1, y'(0) = 0."""
     if not isinstance(eq, str):
         return eq, ics

@@ -10,6 +10,7 @@ import sympy
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import Equation
 from kovacic.errors import InputError
+from kovacic.general_solution.riccati_equation import read_riccati
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.solution import Solution, solve
 
@@ -36,20 +37,30 @@ class RiccatiSolutions:
 
 @limited
 def solve_riccati(
-    p: Any, q: Any, r: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS
+    p: Any, q: Any = None, r: Any = None, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS
 ) -> RiccatiSolutions:
     """All rational and algebraic solutions of the Riccati equation w' = p + q w + r w^2 with rational p, q, r.
 
-    The coefficients are texts, numbers or SymPy expressions.  If the group of the linear equation is trivial or {1, -1} all
+    The coefficients are texts, numbers or SymPy expressions; or `p` is the equation, as text or from
+    SymPy, and alone.  If the group of the linear equation is trivial or {1, -1} all
     solutions are rational, with a constant: then `family` has them.  Raises `InputError` for r = 0, which isn't a Riccati
     equation, and what `solve` raises.
 
     >>> found = solve_riccati("x^2 + 3", 0, -1)
     >>> found.rational, found.family, found.all_algebraic
     (((x**2 + 1)/x,), None, False)
+    >>> solve_riccati("w' = x^2 + 3 - w^2").rational
+    ((x**2 + 1)/x,)
     """
     from kovacic.reading.read import read_coefficients
 
+    if q is None and r is None:
+        equation = read_riccati(p, None, var, limits)
+        if equation is None:
+            raise InputError(f"{p} isn't a Riccati equation", hint="write w' = p + q*w + r*w^2, or give p, q and r")
+        p, q, r, var = equation.p, equation.q, equation.r, equation.x.name
+    elif q is None or r is None:
+        raise InputError("one of p, q, r is missing", hint="give all three, or an equation")
     if str(r).strip() in ("0", "0.0"):
         raise InputError("r is zero: the equation is linear of first order")
     given = read_coefficients(r, q, p, 0, var=var, limits=limits).equation

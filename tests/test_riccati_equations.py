@@ -1,0 +1,93 @@
+"""Riccati equations through `dsolve` and `solve_riccati`: built from the solutions of their linear equations."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mpmath
+import pytest
+import sympy
+from sympy import Rational, airyai, airybi, cos, erf, exp, log, sin
+
+import kovacic
+
+x, C1, a = sympy.symbols("x C1 a")
+w = sympy.Function("w")
+
+#: u1, u2 and r with w = -u'/(r u).
+PROBLEMS: list[tuple[Any, Any, Any]] = [
+    (cos(3 * x), sin(3 * x), sympy.Integer(2)),
+    (exp(x**2 / 2), exp(x**2 / 2) * erf(x / sympy.sqrt(2)), sympy.Integer(-1)),
+    (airyai(-x), airybi(-x), sympy.Integer(1)),
+    (x**2 * exp(a * x), x**2 * exp(a * x) * log(x), -x),
+    (x + 1, x**3, 1 / x),
+    (exp(x) * cos(x), exp(x) * sin(x), exp(x)),
+]
+POINT = Rational(5, 4)
+
+
+def coefficients(u1: Any, u2: Any, r: Any) -> list[Any]:
+    """p, q and r of the equation with the solutions -u'/(r u)."""
+    wronskian = sympy.simplify((u1 * u2.diff(x) - u1.diff(x) * u2).rewrite(airyai))
+    if u1.has(airyai):
+        b, c = sympy.Integer(0), x
+    else:
+        b = sympy.simplify(-wronskian.diff(x) / wronskian)
+        c = sympy.simplify(-(u1.diff(x, 2) + b * u1.diff(x)) / u1)
+    return [sympy.simplify(part) for part in (c / r, -b - r.diff(x) / r, r)]
+
+
+def number(e: Any, at: Any = 1.25, constant: Any = 2) -> Any:
+    slopes = {"airyaiprime": lambda z: mpmath.airyai(z, 1), "airybiprime": lambda z: mpmath.airybi(z, 1)}
+    plain = sympy.lambdify((x, C1, a), e, [slopes, "mpmath"])
+    with mpmath.workdps(40):
+        return plain(mpmath.mpf(at), mpmath.mpf(constant), mpmath.mpf(2) / 3)
+
+
+@pytest.mark.parametrize("problem", PROBLEMS, ids=lambda problem: str(problem[0]))
+def test_general_solution_and_values(problem: tuple[Any, Any, Any]) -> None:
+    p, q, r = coefficients(*problem)
+    equation = sympy.Eq(w(x).diff(x), p + q * w(x) + r * w(x) ** 2)
+    found = kovacic.dsolve(equation)
+    general = found.rhs
+    residual = general.diff(x) - p - q * general - r * general**2
+    assert found.lhs == w(x)
+    for constant in (2, -0.375):
+        assert abs(number(residual, constant=constant)) < 1e-15
+    assert abs(number(general, constant=2) - number(general, constant=3)) > 1e-6
+    u = problem[0] + 2 * problem[1]
+    wanted = -u.diff(x) / (r * u)
+    special = kovacic.dsolve(equation, ics={w(POINT): wanted.subs(x, POINT)}).rhs
+    assert not special.has(C1)
+    assert abs(number(special - wanted, at=1.6)) < 1e-15
+
+
+def test_known_forms() -> None:
+    assert kovacic.dsolve("w' = 1 + w^2").rhs == sympy.tan(x + C1)
+    assert kovacic.dsolve("w'(t) = w(t)^2, w(0) = 1/2").rhs == -1 / (sympy.Symbol("t") - 2)
+    assert kovacic.dsolve("w' = -w^2 + x*w + 1").rhs.has(erf)
+
+
+def test_the_unknown_may_stand_in_a_denominator() -> None:
+    found = kovacic.dsolve(sympy.Eq(w(x).diff(x) / w(x), 2 / x + w(x)))
+    assert sympy.checkodesol(sympy.Eq(w(x).diff(x), 2 * w(x) / x + w(x) ** 2), found) == (True, 0)
+
+
+def test_solve_riccati_takes_an_equation() -> None:
+    wanted = kovacic.solve_riccati("x^2 + 3", 0, -1).rational
+    assert kovacic.solve_riccati("w' = x^2 + 3 - w^2").rational == wanted
+    assert kovacic.solve_riccati(sympy.Eq(w(x).diff(x), x**2 + 3 - w(x) ** 2)).rational == wanted
+
+
+@pytest.mark.parametrize("equation", ["w' = w", "w' = w^3", "w'^2 = w", "w'' = w^2", "w' = sin(w)", "w' = w^2 + v'"])
+def test_others_are_refused(equation: str) -> None:
+    with pytest.raises(kovacic.InputError):
+        kovacic.dsolve(equation)
+    with pytest.raises(kovacic.InputError):
+        kovacic.solve_riccati(equation)
+
+
+@pytest.mark.parametrize("ics", ["w(0)=1, w(1)=2", "w'(0)=1", "w(0)=w(1)"])
+def test_one_value_is_expected(ics: str) -> None:
+    with pytest.raises(kovacic.InputError, match="has one value"):
+        kovacic.dsolve("w' = 1 + w^2", ics=ics)
