@@ -258,14 +258,17 @@ class Solution(Answer):
 
     @classmethod
     @limited
-    def from_json(cls, text: str | Mapping[str, Any], *, limits: Limits = DEFAULT_LIMITS) -> Solution:
-        """The answer that was written by `to_json`, verified again: `verified` says with what outcome.
+    def from_json(
+        cls, text: str | Mapping[str, Any], *, limits: Limits = DEFAULT_LIMITS, unverified: bool = False
+    ) -> Solution:
+        """The answer that was written by `to_json`, verified again.
 
-        Raises `InputError` where it isn't one.
+        Raises `InputError` where it isn't one, contradicts itself, or has a key twice; and `VerificationFailed` where it
+        doesn't pass its check.  With `unverified=True` it is returned all the same, and its `verified` is False.
         """
         from kovacic.views.json import loads
 
-        return cls.of(replace(loads(text), limits=limits))
+        return cls.of(replace(loads(text, unverified=unverified), limits=limits))
 
     @limited
     def explain(self, *, format: str = "text", solutions: bool = True) -> str:

@@ -14,7 +14,7 @@ from published import Published, load
 
 import kovacic
 from kovacic.checker import verdict
-from kovacic.errors import InputError
+from kovacic.errors import InputError, VerificationFailed
 from kovacic.limits import Limits
 
 loads = kovacic.Solution.from_json
@@ -102,7 +102,9 @@ def test_a_changed_certificate_fails_its_check() -> None:
     data = json.loads(kovacic.solve("x^2 + 3").to_json())
     assert loads(data).verify()
     data["riccati"]["coefficients"][0] = "(-x**2 - 2)/x"
-    assert not loads(data).verify()
+    with pytest.raises(VerificationFailed, match="doesn't pass its check"):
+        loads(data)
+    assert not loads(data, unverified=True).verify()
 
 
 def test_a_changed_proof_fails_its_check() -> None:
@@ -111,8 +113,61 @@ def test_a_changed_proof_fails_its_check() -> None:
     with pytest.raises(InputError, match="S isn't that of the input"):
         loads(data)
     data["input"] = "x^2 + 3"
-    assert not loads(data).verified
-    assert not loads(data).verify()
+    with pytest.raises(VerificationFailed):
+        loads(data)
+    assert not loads(data, unverified=True).verified
+    assert not loads(data, unverified=True).verify()
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "case",
+        "verified",
+        "riccati.variable",
+        "riccati.degree",
+        "constants.symbol",
+        "generic_conditions",
+        "proof.semi_invariant.degree",
+        "proof.semi_invariant.D",
+        "proof.excluded.0.case",
+        "proof.excluded.0.evidence.0.statement",
+        "equation.text",
+        "equation.unknown",
+        "equation.h",
+        "equation.field",
+        "group.name",
+        "group.order",
+        "group.n",
+    ],
+)
+def test_what_is_said_twice_must_agree(path: str) -> None:
+    """Every other value is refused, no value too, and a key that isn't known."""
+    *way, key = path.split(".")
+    equation = "x^2*y'' + x*y' + (4*x^3 - 1/4)*y = 0" if "equation" in path else "-3/(16*x^2) + 1/x"
+    data = json.loads(kovacic.solve("2" if "constants" in path else equation).to_json(full=True))
+    place = data
+    for step in way:
+        place = place[int(step) if step.isdigit() else step]
+    right = place[key]
+    for wrong in (None, True, False, 3, "t", "2*x", ["x"], {}):
+        if wrong == right and type(wrong) is type(right):
+            continue
+        place[key] = wrong
+        with pytest.raises((InputError, VerificationFailed)):
+            loads(data)
+    place[key] = right
+    loads(data)
+    if way:
+        place["another"] = right
+        with pytest.raises(InputError):
+            loads(data)
+
+
+def test_a_key_that_occurs_twice_is_refused() -> None:
+    line = kovacic.solve("x").to_json()
+    with pytest.raises(InputError, match="a key occurs twice"):
+        loads(line.replace('"S": ', '"S": "x", "S": '))
 
 
 def _without(key: str) -> dict[str, Any]:

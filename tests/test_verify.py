@@ -299,7 +299,7 @@ def test_a_forged_invariant_fails(text: str, invariant: Any) -> None:
     data = json.loads(kovacic.solve(text).to_json())
     assert data["proof"]["invariant"] != invariant
     data["proof"]["invariant"] = invariant
-    forged = kovacic.Solution.from_json(data)
+    forged = kovacic.Solution.from_json(data, unverified=True)
     if invariant is None and forged.case == 1:  # nothing but the group could depend on it, and that finds one by itself
         assert str(forged.group) == str(kovacic.solve(text).group)
     else:
@@ -378,7 +378,7 @@ def test_a_field_of_another_type_or_value_fails_or_is_refused_or_says_the_same(t
                 continue
             place[path[-1]] = wrong
             try:
-                forged = kovacic.Solution.from_json(data)
+                forged = kovacic.Solution.from_json(data, unverified=True)
                 passed = bool(forged.verify())
             except (InputError, LimitExceeded):
                 continue

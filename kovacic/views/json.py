@@ -41,7 +41,7 @@ from kovacic.decision import (
     Structure,
 )
 from kovacic.equation import Equation, parameters_of
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Limits
 from kovacic.numerals import as_text, for_json
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
@@ -67,13 +67,24 @@ def dumps(answer: Answer, *, full: bool = False) -> str:
     return json_line(to_dict(answer, full=full))
 
 
-def loads(text: str | Mapping[str, Any]) -> Answer:
+def loads(text: str | Mapping[str, Any], *, unverified: bool = False) -> Answer:
     """The answer that `dumps` wrote (or the object that the line stands for), verified again: its `verified` isn't believed.
 
-    Raises `InputError` where the text isn't an answer in schema 1, or contradicts itself.
+    What is said twice must agree, and the group, where it is given, must be that which is computed anew; `seconds`, `notices`,
+    `solutions`, the evidence for the group and keys of the user's own aren't looked at.
+
+    Raises `InputError` where the text isn't an answer in schema 1, or contradicts itself, and `VerificationFailed` where the
+    answer doesn't pass its check, unless `unverified` says that it is wanted all the same.
     """
+    answer = _loaded(text)
+    if not (answer.verified or unverified or answer.decision.undecided):
+        raise VerificationFailed("the answer that was read doesn't pass its check: it was changed, or never was right")
+    return answer
+
+
+def _loaded(text: str | Mapping[str, Any]) -> Answer:
     try:
-        data = json.loads(text) if isinstance(text, str) else text
+        data = json.loads(text, object_pairs_hook=_once) if isinstance(text, str) else text
     except (ValueError, RecursionError) as error:
         raise InputError(f"this isn't JSON: {error}") from None
     if not isinstance(data, Mapping):
@@ -197,7 +208,68 @@ def from_dict(data: Mapping[str, Any]) -> Answer:
         raise ValueError("status or case contradict the proof")
     notices = tuple(_typed({"notice": notice}, "notice", str) for notice in data["notices"])
     seconds = _typed(data, "seconds", int, float, type(None))
-    return Answer(text, variable, S, decision, notices, bool(verify(S, decision)), seconds, equation)
+    answer = Answer(text, variable, S, decision, notices, bool(verify(S, decision)), seconds, equation)
+    if answer.verified and not _typed(data, "verified", bool):
+        raise ValueError("the answer says that it failed its check, and passes it")
+    _demand_the_same(data, to_dict(answer), "")
+    _check_normal_form(answer)
+    if data.get("group") is not None and answer.verified:
+        _check_group(answer, data["group"])
+    return answer
+
+
+#: What is read by its value; what isn't looked at, or elsewhere; and what may be absent.
+_BY_VALUE = {"S", "theta", "P", "D", "coefficients", "minimal_polynomial", "a", "b", "c", "f", "gauge", "near"}
+_ELSEWHERE = {"verified", "notices", "seconds", "solutions", "group"}
+_MAY_BE_ABSENT = {"field", "generic_conditions", "equation", "gauge", "change", "near"}
+#: What shows a group, which is computed anew.
+_EVIDENCE = {"form", "function", "orders"}
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """A JSON object, whose keys must be different."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        raise ValueError("a key occurs twice in one object")
+    return found
+
+
+def _demand_the_same(found: Any, written: Any, path: str) -> None:
+    """Raises `ValueError` where what was found isn't what we would write; at the top there may be further keys."""
+    if isinstance(written, Mapping) and isinstance(found, Mapping):
+        unknown = set(found) - set(written) if path else set()
+        missing = set(written) - set(found) - _MAY_BE_ABSENT
+        if unknown or missing:
+            raise ValueError(
+                f"{path or 'the answer'} has other keys: {', '.join(sorted(map(repr, unknown | missing)))}"
+            )
+        for key in (set(found) & set(written)) - _BY_VALUE - _ELSEWHERE:
+            _demand_the_same(found[key], written[key], f"{path}.{key}" if path else key)
+    elif isinstance(written, list) and isinstance(found, list) and len(found) == len(written):
+        for k, (one, other) in enumerate(zip(found, written, strict=True)):
+            _demand_the_same(one, other, f"{path}.{k}")
+    elif found != written or type(found) is not type(written):
+        raise ValueError(f"{path} can't be {found!r}")
+
+
+def _check_normal_form(answer: Answer) -> None:
+    """Raises `ValueError` where P isn't monic, or D isn't the product of the factors to half the orders of the poles."""
+    form, riccati, field = answer.decision.semi_invariant, answer.decision.riccati, answer.S.field
+    if form is None or riccati is None:
+        return
+    D = field.poly([1])
+    for p, k in field.factor(answer.S.den) if answer.S.den.degree > 0 else []:
+        D *= p ** ((k + 1) // 2)
+    if form.P.lc != 1 or riccati.D != D:
+        raise ValueError("P or D isn't in its normal form")
+
+
+def _check_group(answer: Answer, data: Mapping[str, Any]) -> None:
+    """Raises `ValueError` where the group, computed and verified anew, is another one; its evidence isn't needed for that."""
+    found = group_dict(answer)
+    if found is not None:
+        facts = {key: found[key] for key in ("name", "order", "finite", "family", "n") if key in data}
+        _demand_the_same({key: value for key, value in data.items() if key not in _EVIDENCE}, facts, "group")
 
 
 def _check_equation(data: Mapping[str, Any], equation: Equation | None, variable: str) -> None:
