@@ -69,11 +69,36 @@ def decide(
 ) -> Verdict:
     """The case of y'' = S(x) y alone, without the polynomial of omega and without the second check.
 
-    Arguments and exceptions as for `kovacic.solve`.
+    Parameters
+    ----------
+    S : str, sympy.Expr or pair of sequences
+        A rational function, or an equation, as for `kovacic.solve`.
+    var : str
+        The name of the variable; by default the only symbol, or x.
+    assume : mapping
+        What is known of parameters, or their values, as for `kovacic.solve`.
+    limits : Limits
+        Bounds on the input and on the work; by default those of `Limits()`.
 
+    Returns
+    -------
+    Verdict
+        `status`; `case`, None without a solution; `reason`, where it is undecided.
+
+    Raises
+    ------
+    InputError, LimitExceeded
+        As `kovacic.solve`.
+
+    Examples
+    --------
     >>> import kovacic
     >>> kovacic.decide("-3/(16*x^2) + 1/x").case
     2
+    >>> kovacic.decide("x").status
+    <Status.NONE_EXISTS: 'none'>
+    >>> kovacic.decide("a/x^2", assume={"a": 2}).case
+    1
     """
     S, parsed, assume = _read(S, {}, var, assume, limits)
     decision, *_ = _decided(parsed, S, assume, Budget(limits), certify=False)

@@ -21,13 +21,41 @@ from kovacic.numerals import in_a_message
 class Limits:
     """Bounds on the input and on the work; every one is adjustable.
 
-    Input (exceeding one raises `LimitExceeded`): `text_length`, characters of an expression; `digits`, decimal digits of
-    one number; `exponent`, the absolute value of an exponent; `degree`, the predicted degree of a numerator or
-    denominator; `bits`, the predicted size of a coefficient in bits; `constants`, the degree of the field of algebraic
-    constants over Q; `parameters`, the number of symbols beside the variable.
-    Work (exceeding one gives the status UNDECIDED): `unknown_degree`, the degree bound of a polynomial to be found;
-    `seconds`, wall-clock time for one equation, checked between steps of algebra and so not a hard bound (None: the default
-    of ten minutes, so that nothing runs without end; math.inf: no limit).
+    Exceeding a bound on the input raises `LimitExceeded`; exceeding one on the work gives the status UNDECIDED.
+
+    Parameters
+    ----------
+    text_length : int
+        Input: characters of an expression; 1,000,000 by default.
+    digits : int
+        Input: decimal digits of one number; 100,000.
+    exponent : int
+        Input: the absolute value of an exponent; 100,000.
+    degree : int
+        Input: the predicted degree of a numerator or denominator; 20,000.
+    bits : int
+        Input: the predicted size of a coefficient in bits; 4,000,000.
+    constants : int
+        Input: the degree of the field of algebraic constants over Q; 24.
+    parameters : int
+        Input: the number of symbols beside the variable; 8.
+    unknown_degree : int
+        Work: the degree bound of a polynomial to be found; 20,000.
+    seconds : float or None
+        Work: wall-clock time for one equation, checked between steps of algebra and so not a hard bound.  None, the default,
+        stands for ten minutes, so that nothing runs without end; math.inf for no limit.
+
+    Raises `InputError` for a bound that isn't a natural number, or a time that is negative.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> kovacic.solve("x^9 + 1", limits=Limits(degree=5))
+    Traceback (most recent call last):
+    ...
+    kovacic.errors.LimitExceeded: x^9 at position 0 would have a degree of up to 9, above the limit of 5
+    >>> print(kovacic.solve("x^2 + 201", limits=Limits(unknown_degree=5)).reason)
+    the polynomial part of a solution may have degree 8, above the limit of 5
     """
 
     text_length: int = 1_000_000

@@ -35,21 +35,45 @@ def conditions(
 ) -> Conditions:
     """The exact values of the parameters for which y'' = S(x) y has Liouvillian solutions.
 
-    Every symbol besides the variable is a parameter.  `assume={"n": "positive integer"}` leaves out what then can't happen;
-    its words are integer, even, odd, half-integer, rational, irrational, noninteger, nonzero, positive, negative, nonnegative,
-    nonpositive, and inequalities such as ">=1/2", for a real number; a number, {"n": 3}, is put in for the parameter.
-    Assumptions of SymPy symbols are used in the same way.  Where a condition has a natural number d in it, its determinants
-    are shown up to d = `max_degree`; `determinant` computes others.  A budget that is used up (`limits.seconds`, 30 s where
-    there is none) gives a partial list, and `complete` says that as well.
+    Parameters
+    ----------
+    S : str, sympy.Expr or pair
+        A rational function, or an equation, as for `kovacic.solve`, with parameters.
+    var : str or sympy.Symbol
+        The variable; by default x, or the only symbol.  Every other symbol is a parameter.
+    assume : mapping
+        Leaves out what then can't happen: {"n": "positive integer"}.  The words are integer, even, odd, half-integer, rational,
+        irrational, noninteger, nonzero, positive, negative, nonnegative, nonpositive, and inequalities such as ">=1/2", for a
+        real number.  A number, {"n": 3}, is put in for the parameter.  Assumptions of SymPy symbols are used in the same way.
+    max_degree : int
+        Where a condition has a natural number d in it, its determinants are shown up to d = `max_degree`, 2 by default;
+        `determinant` of the condition computes others.
+    limits : Limits
+        Bounds on the input and on the work; without `seconds` the search has 30 s.
 
-    Raises `InputError` for what isn't a rational function with parameters, and `LimitExceeded` for an input above the limits.
+    Returns
+    -------
+    Conditions
+        Its regions in their order: the first one that holds decides.  `complete` is True where that is proven to be all, else
+        a sentence that says what isn't, as for a budget that was used up.
 
+    Raises
+    ------
+    InputError
+        For what isn't a rational function or an equation with parameters.
+    LimitExceeded
+        For an input above the limits.
+
+    Examples
+    --------
     >>> import kovacic
     >>> print(kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1"))
     y'' = ((-4*x^2 + 4*n^2 - 1)/(4*x^2)) y, parameters n
       n - 1/2 in Z: case 1
       otherwise: no Liouvillian solution
       (proven to be complete; Whittaker's equation in x: Martinet & Ramis)
+    >>> len(kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1", assume={"n": "integer"}).regions)
+    0
 
     References: T. Kimura, Funkcial. Ekvac. 12 (1969); J. Martinet & J.-P. Ramis (1989); A. Duval & M. Loday-Richaud,
     AAECC 3 (1992).

@@ -232,7 +232,32 @@ class Solution(Answer):
     def compare_with_monodromy(
         self, group: Group | None = None, *, digits: int = 15, limits: Limits | None = None
     ) -> Agreement:
-        """Does the monodromy, by analytic continuation, agree with `group`?  See `kovacic.enclosure.agreement`."""
+        """Does the monodromy, by analytic continuation, agree with the differential Galois group?
+
+        Parameters
+        ----------
+        group : Group
+            The claim; by default the group that the engine found.
+        digits : int
+            The accuracy of the matrices: 15 by default.
+        limits : Limits
+            What the continuation may cost.
+
+        Returns
+        -------
+        Agreement
+            `verdict` is False (a proof that it isn't this group), True, or None where matrices can't tell; `reason` says why.
+
+        Raises `InputError` for an undecided equation, and what `kovacic.monodromy` raises.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> kovacic.solve("-3/(16*x^2)").compare_with_monodromy().reason
+        'the monodromy group has 4 elements, with the traces of mu_4'
+        >>> print(kovacic.solve("x").compare_with_monodromy().verdict)
+        None
+        """
         from kovacic.enclosure.agreement import agrees_with_group
 
         return agrees_with_group(self, group, digits=digits, limits=limits)
@@ -251,7 +276,32 @@ class Solution(Answer):
 
     @limited
     def to_json(self, *, full: bool = False) -> str:
-        """The answer as one line of JSON, schema 1; `full` adds the group and two solutions in closed form."""
+        """The answer as one line of JSON, schema 1, which `from_json` reads and verifies again.
+
+        Parameters
+        ----------
+        full : bool
+            With True, the group and two solutions in closed form are added, which have to be computed.  False by default.
+
+        Returns
+        -------
+        str
+            ASCII without a line break; `kovacic/views/schema.json` describes it.
+
+        Raises `LimitExceeded` where the solutions take longer than the limits of the answer allow.
+
+        Examples
+        --------
+        >>> import json, kovacic
+        >>> answer = kovacic.solve("x^2 + 3")
+        >>> data = json.loads(answer.to_json())
+        >>> data["case"], data["riccati"]["degree"], "group" in data
+        (1, 1, False)
+        >>> json.loads(answer.to_json(full=True))["group"]["name"]
+        'Borel'
+        >>> kovacic.Solution.from_json(answer.to_json()) == answer
+        True
+        """
         from kovacic.views.json import dumps
 
         return dumps(self, full=full)
@@ -272,9 +322,35 @@ class Solution(Answer):
 
     @limited
     def explain(self, *, format: str = "text", solutions: bool = True) -> str:
-        """The derivation as a reader of Kovacic's paper follows it: "text", "markdown", "latex", or "html" (a page of its own).
+        """The derivation as a reader of Kovacic's paper follows it: its own steps, and then what is claimed and proven here.
 
-        With `solutions=False` the closed forms are left out.  See `kovacic.views.explain`.
+        Parameters
+        ----------
+        format : str
+            "text" (the default), "markdown", "latex" (the body of a document with amsmath, amssymb and graphicx), or "html": a
+            page that needs nothing from elsewhere, in ASCII, with MathML and with the picture of a real solution where there is
+            one (for rational coefficients, if matplotlib is installed).
+        solutions : bool
+            False leaves the closed forms out, which take the most time.  True by default.
+
+        Returns
+        -------
+        str
+            Formulas that fill more than some screens aren't printed, and parts that would take longer than the limits allow are
+            left out; both are said.
+
+        Raises `ValueError` for another format.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> answer = kovacic.solve("x^2 + 3")
+        >>> print(answer.explain().splitlines()[0])
+        The equation
+        >>> print(answer.explain(format="markdown", solutions=False).splitlines()[0])
+        # The equation
+        >>> answer.explain(format="html", solutions=False)[:15]
+        '<!doctype html>'
         """
         from kovacic.views.explain import explain
 
@@ -319,18 +395,41 @@ def solve(
 ) -> Solution:
     """Decide whether y'' = S(x) y has Liouvillian (closed-form) solutions, with a certificate; verified.
 
-    S is a rational function over Q: a string ("x^2 + 3"), a SymPy expression, or a pair of coefficient sequences
-    (numerator, denominator), low to high, of integers or fractions.  Or it is a linear equation of second order, whose
-    normal form is decided: a string ("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"), a SymPy `Eq` with a function y(x), or the
-    coefficients of a y'' + b y' + c y = f as keywords.  `var` names the variable; by default it is the only symbol of S, or
-    x.  `limits` bounds the input and the work.  Every other symbol is a parameter, for whose generic values the equation is
-    decided; `assume={"n": "integer"}`, {"n": ">=0"}, or assumptions of SymPy symbols, say more (see `conditions`), and a notice
-    says for which of these values the answer holds; with {"n": 3} the number is put in for the parameter.
+    Parameters
+    ----------
+    S : str, sympy.Expr or pair of sequences
+        A rational function over Q: "x^2 + 3", a SymPy expression, or the coefficients of numerator and denominator, low to
+        high, integers or fractions.  Or a linear equation of second order, whose normal form is decided:
+        "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0", or a SymPy `Eq` with a function y(x).
+    a, b, c, f
+        Instead of S: the coefficients of a y'' + b y' + c y = f.  `a` is needed, the others are 0 by default.
+    var : str
+        The name of the variable; by default the only symbol, or x.  Every other symbol is a parameter, for whose generic
+        values the equation is decided.
+    assume : mapping
+        What is known of parameters: {"n": "integer"} or {"n": ">=0"}, in the words of `conditions`; a notice says for which of
+        these values the answer holds.  With {"n": 3} the number is put in.  Assumptions of SymPy symbols are used, too.
+    limits : Limits
+        Bounds on the input and on the work; by default those of `Limits()`.
 
-    Returns a `Solution`.  Its `status` is UNDECIDED exactly when a limit of the work was reached, or where the assumptions
-    imply a case with an omega that depends on the values of the parameters; `reason` says so.  Raises `InputError` for
-    what isn't such a function, `LimitExceeded` for an input above the limits, or that isn't read in time, and
-    `VerificationFailed` if the answer doesn't pass its own check, which is a defect of this package.
+    Returns
+    -------
+    Solution
+        Its `status` is UNDECIDED exactly when a limit of the work was reached, or where the assumptions imply a case with an
+        omega that depends on the values of the parameters; `reason` says so.
+
+    Raises
+    ------
+    InputError
+        For what isn't such a function or equation.
+    LimitExceeded
+        For an input above the limits, or that isn't read in time.
+    VerificationFailed
+        If the answer doesn't pass its own check, which is a defect of this package.
+
+    Examples
+    --------
+    A solution, none, and an exhausted limit:
 
     >>> import kovacic
     >>> answer = kovacic.solve("x^2 + 3")
@@ -340,9 +439,25 @@ def solve(
     (x**2 + 1)/x
     >>> kovacic.solve("x").status
     <Status.NONE_EXISTS: 'none'>
+    >>> print(kovacic.solve("x^2 + 201", limits=kovacic.Limits(unknown_degree=5)).reason)
+    the polynomial part of a solution may have degree 8, above the limit of 5
+
+    Equations, as text and by coefficients:
+
     >>> bessel = kovacic.solve("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0")
     >>> print(bessel.S, bessel.gauge)
     -1 -1/(2*x)
+    >>> kovacic.solve(a="x", b=2, c="x").case
+    1
+
+    Parameters, generic, with an assumption and with a value:
+
+    >>> kovacic.solve("n*(n + 1)/x^2 - 1").status
+    <Status.NONE_EXISTS: 'none'>
+    >>> kovacic.solve("n*(n + 1)/x^2 - 1", assume={"n": "integer"}).reason[:42]
+    'with n integer the equation is in case 1 ('
+    >>> kovacic.solve("n*(n + 1)/x^2 - 1", assume={"n": 1}).case
+    1
 
     Reference: J. Kovacic, J. Symb. Comp. 2 (1986) 3-43.
     """

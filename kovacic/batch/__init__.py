@@ -37,16 +37,50 @@ def solve_many(
 ) -> Iterator[Record]:
     """One `Record` for each equation, lazily, in their order or (`ordered=False`) as they finish.
 
-    An equation is whatever `kovacic.solve` takes, or a mapping with the keys "S", and perhaps "id" and "var".  A bad one
-    gives a record with an `error` and nothing is raised for it.  `Record.number` counts from 1; `label` and `case` are the
-    verdict in short, `solution` is the answer as an object and `json` is its line in schema 1.
+    Parameters
+    ----------
+    equations : iterable
+        Each is whatever `kovacic.solve` takes, or a mapping with the keys "S", and perhaps "id" and "var".  It may be a
+        generator without an end.
+    var : str
+        The name of the variable where an equation doesn't say.
+    jobs : int
+        The number of worker processes; one for each core by default.
+    timeout : float
+        Seconds for each equation; a process that exceeds them is killed and replaced, and its equation is undecided.
+    memory : int
+        MiB for each equation, above what an idle worker has; as `timeout`.
+    group : bool
+        With True each record has the Galois group as well.  False by default.
+    ordered : bool
+        The records come in the order of the equations (the default), or with False as they finish.
+    backend : str
+        "dask" or "ray" runs the same on a cluster; None, the default, on this machine.
+    scheduler : str
+        The address of Dask's scheduler.
+    limits : Limits
+        Those of `kovacic.solve`, for each equation.
 
-    `jobs` worker processes (by default one for each core) take the equations in turn.  `timeout`, in seconds, and `memory`,
-    in MiB, hold for each equation: a process that exceeds one is killed and replaced, and its equation is undecided.
-    With `group` each record has the Galois group as well.
-    `backend` ("dask", "ray") runs the same on a cluster, for Dask on that of the `scheduler`.
+    Returns
+    -------
+    iterator of Record
+        A bad equation gives a record with an `error`, and nothing is raised for it.  `number` counts from 1; `label` and `case`
+        are the verdict in short, `solution` is the answer as an object and `json` is its line in schema 1.  Closing the
+        iterator ends the processes.
 
-    Raises `InputError` for options that don't fit together.  Closing the iterator ends the processes.
+    Raises
+    ------
+    InputError
+        For options that don't fit together, and for one text instead of several.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> for record in kovacic.solve_many(["x^2 + 3", "x", "x^2 +"], jobs=1):
+    ...     print(record.number, record.label)
+    1 case 1
+    2 none
+    3 bad input
     """
     from kovacic.batch.files import item_from
 

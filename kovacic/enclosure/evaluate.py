@@ -80,36 +80,69 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = ...,
 def evaluate(equation: object, x: object, *, x0: object, derivative: bool = False, **options: Unpack[Options]) -> Any:
     """A ball that contains y(x) for one solution y of the equation, given by its start at x0.
 
-    `equation` is S of y'' = S y (text, SymPy expression, rational function, or a pair of coefficient lists from low to high),
-    an equation a y'' + b y' + c y = f, or a solution of this package; f is rational, or has exp, log, sin, cos, ... in it.  a,
-    b and c may be rational in exp(k x), sin(k x), ..., too (then with y0 and dy0, where that function is real and monotone).
-
-    The start is one of
-    - `y0`, `dy0`: y(x0) and y'(x0);
-    - `frobenius=(c1, c2)`: y = c1 y1 + c2 y2 with the Frobenius basis at x0, a regular singular point or an ordinary one (or
-      infinity, "oo").  y1 is the dominant one: the leading terms are t^lambda log(t)^k, t = x - x0 (1/x at infinity), by
-      the real part of lambda upwards, and the logarithm first.  Either has the coefficient 1 at its own leading term and 0
-      at the other's;
-    - `which="regular"`: frobenius=(0, 1), the solution that is smaller than all others at x0;
-    - `which="decaying"` and `y0`: y(x0), and y is the solution that becomes smaller than all others as x goes to +infinity.
-    S or the equation may have algebraic constants, and parameters, which get values: `params={"n": "sqrt(2)"}`.  Then no bound
-    is lost, but the start is at a regular point.
-
     Numbers are exact: int, Fraction, float and complex (their binary values), Decimal and decimal text, mpmath and SymPy
     numbers; or constants such as "sqrt(2)" and "1 + 2*I"; or balls (ours, python-flint's, mpmath's), and then the result
-    holds for every number in them.  A ball, or a constant that isn't rational, stands as `x0` of a Frobenius basis for the only
-    singular point that it contains.
+    holds for every number in them.
 
-    `x` is a number, or a sequence of numbers (a tuple comes back, in the same order), or a NumPy array (an array of balls of
-    the same shape; NaN stays NaN).  With `derivative` there are pairs (y, y') of balls.
+    Parameters
+    ----------
+    equation
+        S of y'' = S y (text, SymPy expression, rational function, or a pair of coefficient lists from low to high), an equation
+        a y'' + b y' + c y = f, or a solution of this package.  f is rational, or has exp, log, sin, cos, ... in it.  a, b and
+        c may be rational in exp(k x), sin(k x), ..., too (then with y0 and dy0, where that function is real and monotone).
+        There may be algebraic constants; then no bound is lost, but the start is at a regular point.
+    x : number, sequence or array
+        Where: a number, a sequence of numbers, or a NumPy array.
+    x0 : number
+        Where the solution starts; infinity is "oo".  A ball, or a constant that isn't rational, stands as x0 of a Frobenius
+        basis for the only singular point that it contains.
+    derivative : bool
+        With True pairs (y, y') of balls come back.  False by default.
+    y0, dy0 : number
+        y(x0) and y'(x0).
+    frobenius : pair of numbers
+        Instead: (c1, c2) stands for y = c1 y1 + c2 y2 with the Frobenius basis at x0, a regular singular point or an ordinary
+        one, or infinity.  y1 is the dominant one: the leading terms are t^lambda log(t)^k, t = x - x0 (1/x at infinity), by the
+        real part of lambda upwards, and the logarithm first.  Either has the coefficient 1 at its own leading term and 0 at
+        the other's.
+    which : str
+        Instead: "regular" is frobenius=(0, 1), the solution that is smaller than all others at x0; "decaying", with y0, is the
+        one with y(x0) = y0 that becomes smaller than all others as x goes to +infinity.
+    path : str or sequence of numbers
+        By default the straight line from x0 to each x (from infinity: along the line through 0); through a singular point it
+        is refused.  "above" or "below" says on which side of the real axis to go around; [v1, v2, ...] goes through these
+        vertices first; "chain" visits the points of x one after the other.  At x0 the logarithm is the principal one.
+    params : mapping
+        Values of the parameters by name: {"n": "sqrt(2)"}; then the start is at a regular point.
+    digits : int
+        The accuracy, relative to the value: 15 by default.
+    method : str
+        "taylor" (the equation itself, for all) or "closed form" (the certificate, or FLINT's special functions); by default
+        the one that is faster.
+    limits : Limits
+        What the work may cost.
 
-    The path is the straight line from x0 to each x (from infinity: along the line through 0).  A path through a singular
-    point is refused, unless `path` says on which side of the real axis to go around: "above" or "below".  `path=[v1, v2,
-    ...]` goes through these vertices first; `path="chain"` visits the points of x one after the other.  At x0 the logarithm
-    is the principal one.
+    Returns
+    -------
+    Ball, tuple or array
+        A tuple for a sequence, in the same order; an array of balls of the same shape for an array (NaN stays NaN).
 
-    Raises InputError (a singular point at an end or on the path, with its distance; an irregular one as the start; digits out
-    of range; a number that isn't finite; an unknown method) and LimitExceeded (nothing could be said within the limits).
+    Raises
+    ------
+    InputError
+        A singular point at an end or on the path, with its distance; an irregular one as the start; digits out of range; a
+        number that isn't finite; an unknown method.
+    LimitExceeded
+        Where nothing could be said within the limits.
+
+    Warns
+    -----
+    AccuracyWarning
+        Where the ball is wider than was asked for, with the reason.
+
+    Examples
+    --------
+    With initial values, from a singular point, and around one:
 
     >>> airy = ([0, 1], [1])                                     # y'' = x y
     >>> value = evaluate(airy, 2, x0=0, y0=1, dy0=0, digits=20)
@@ -118,6 +151,14 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = Fals
     >>> bessel = "x^2*y'' + x*y' + x^2*y = 0"
     >>> print(f"{evaluate(bessel, 1, x0=0, which='regular'):.15f}")      # J0
     0.765197686557967
+    >>> y, slope = evaluate("-1", "1/2", x0=0, y0=0, dy0=1, derivative=True)
+    >>> print(f"{y:.10f} {slope:.10f}")                                  # sin and cos
+    0.4794255386 0.8775825619
+    >>> decaying = evaluate("x^2 + a", [1, 2], x0=0, y0=1, which="decaying", params={"a": -1})
+    >>> print([f"{value:.10f}" for value in decaying])                   # exp(-x^2/2)
+    ['0.6065306597', '0.1353352832']
+    >>> evaluate("-1/(4*x^2)", -1, x0=1, y0=1, dy0="1/2", path="above").contains(1j)      # x^(1/2)
+    True
     """
     check_keywords("evaluate", options, Options.__annotations__)
     given: dict[str, Any] = {"x0": x0, **options}
