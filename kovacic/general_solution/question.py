@@ -15,13 +15,13 @@ import sympy
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
 from kovacic.equation import EULER, PI, Equation, parameters_of
-from kovacic.errors import InputError
+from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping, exact
 from kovacic.limits import Limits
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.reading.parser import listed
 from kovacic.reading.read import read_input
-from kovacic.reading.symbolic import function_of
+from kovacic.reading.symbolic import function_of, functions_in
 
 Expr = Any  # SymPy publishes no types
 
@@ -128,11 +128,21 @@ def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple
     else:
         if func is not None and applied is None:
             applied = _applied_in(eq, func)
-        unknown = applied = function_of(eq) if applied is None else applied
+        unknown = applied = _only_function(eq) if applied is None else applied
     equation = read_input(eq, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True).equation
     assert equation is not None
     variable = equation.variable if equation.change is None else equation.change.variable
     return equation, applied or (name or sympy.Function(equation.unknown))(sympy.Symbol(variable))
+
+
+def _only_function(eq: Expr) -> Expr:
+    """y(x), where no other function occurs.  Raises `NotLinear`."""
+    function = function_of(eq)
+    others = sorted({str(f) for f in functions_in(eq) if f.func != function.func})
+    if others:
+        hint = f"if {', '.join(others)} is given, say what is sought: func={function}"
+        raise NotLinear(f"{', '.join([str(function), *others])}: which is the unknown function?", hint=hint)
+    return function
 
 
 def _applied_in(eq: Any, func: Any) -> Expr:

@@ -102,7 +102,11 @@ class EquationReader(RationalReader):
         from sympy import Symbol
 
         plain = node.xreplace({symbol: Symbol(symbol.name) for symbol in node.free_symbols})
-        if functions_in(plain):
+        if node.func.__name__ == self.unknown:
+            raise NotLinear(
+                f"{plain} beside {self.unknown}({self.variable}): the argument is another one, as with delays"
+            )
+        if any(f.func.__name__ == self.unknown for f in functions_in(plain)):
             raise NotLinear(f"{self.unknown}({self.variable}) within {plain}: the equation isn't linear")
         return plain
 

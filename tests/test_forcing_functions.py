@@ -1,0 +1,45 @@
+"""A right-hand side with a function that isn't known: the formula of variation of parameters holds for any."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+import sympy
+from sympy import cos, exp, sin
+
+import kovacic
+
+x, k = sympy.Symbol("x"), sympy.Symbol("k", positive=True)
+y, g = sympy.Function("y"), sympy.Function("g")
+D2, D1, D0 = y(x).diff(x, 2), y(x).diff(x), y(x)
+
+PROBLEMS = [D2 + k**2 * D0 - g(x), D2 - 2 * D1 + D0 - exp(x) * g(x), x**2 * D2 + x * D1 - D0 - x * g(x) - x**3]
+
+
+@pytest.mark.parametrize("equation", PROBLEMS)
+@pytest.mark.parametrize("func", [y(x), y])
+def test_the_formula_holds_for_functions_that_are_put_in(equation: Any, func: Any) -> None:
+    found = kovacic.dsolve(equation, func).rhs
+    residual = equation.subs(D0, found)
+    for function in (x**2, exp(3 * x), sin(5 * x)):
+        value = residual.subs(g(x), function).doit().subs({x: 0.75, k: 2, "C1": 3, "C2": 4})
+        assert abs(sympy.N(value, 20)) < 1e-12
+
+
+def test_values() -> None:
+    found = kovacic.dsolve(PROBLEMS[0], y(x), ics={y(0): 0, D1.subs(x, 0): 1}).rhs
+    value = found.replace(g, lambda argument: argument).doit()
+    assert sympy.simplify(value - x / k**2 - (1 - 1 / k**2) * sin(k * x) / k) == 0
+    assert not found.has(cos(k * x) ** 2)
+
+
+def test_two_functions_without_func_are_refused() -> None:
+    with pytest.raises(kovacic.InputError, match=r"which is the unknown function.*\n.*func=y\(x\)"):
+        kovacic.dsolve(PROBLEMS[0])
+
+
+@pytest.mark.parametrize("term", [y(x - 1), y(2 * x), y(-x)])
+def test_other_arguments_are_refused(term: Any) -> None:
+    with pytest.raises(kovacic.InputError, match="the argument is another one"):
+        kovacic.dsolve(D2 + term, y(x))
