@@ -45,7 +45,10 @@ class Limits:
         Work: wall-clock time for one equation, checked between steps of algebra and so not a hard bound.  None, the default,
         stands for ten minutes, so that nothing runs without end; math.inf for no limit.
 
-    Raises `InputError` for a bound that isn't a natural number, or a time that is negative.
+    Raises
+    ------
+    InputError
+        For a bound that isn't a natural number, or a time that is negative.
 
     Examples
     --------

@@ -134,7 +134,9 @@ class Solution(Answer):
         limits : Limits
             What the work may cost.
 
-        Returns and raises what `kovacic.evaluate` does, where each keyword is described.
+        Notes
+        -----
+        See `kovacic.evaluate` for each keyword, and for what is returned, raised and warned of.
 
         Examples
         --------
@@ -171,7 +173,9 @@ class Solution(Answer):
         params, x0, y0, dy0, frobenius, path, limits
             As for `at`: the solution with these initial values, which every equation has.
 
-        Returns, raises and warns as `kovacic.doubles.lambdify.lambdify`, where each keyword is described.
+        Notes
+        -----
+        See `kovacic.doubles.lambdify.lambdify` for each keyword, and for what is returned, raised and warned of.
 
         Examples
         --------
@@ -248,7 +252,10 @@ class Solution(Answer):
         Agreement
             `verdict` is False (a proof that it isn't this group), True, or None where matrices can't tell; `reason` says why.
 
-        Raises `InputError` for an undecided equation, and what `kovacic.monodromy` raises.
+        Raises
+        ------
+        InputError
+            For an undecided equation, and where `kovacic.monodromy` raises it.
 
         Examples
         --------
@@ -288,7 +295,10 @@ class Solution(Answer):
         str
             ASCII without a line break; `kovacic/views/schema.json` describes it.
 
-        Raises `LimitExceeded` where the solutions take longer than the limits of the answer allow.
+        Raises
+        ------
+        LimitExceeded
+            Where the solutions take longer than the limits of the answer allow.
 
         Examples
         --------
@@ -339,7 +349,10 @@ class Solution(Answer):
             Formulas that fill more than some screens aren't printed, and parts that would take longer than the limits allow are
             left out; both are said.
 
-        Raises `ValueError` for another format.
+        Raises
+        ------
+        ValueError
+            For another format.
 
         Examples
         --------

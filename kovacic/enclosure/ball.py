@@ -169,7 +169,7 @@ class Ball:
 
     @property
     def digits(self) -> float:
-        """Correct decimal digits, -log10(radius / |midpoint|): inf for an exact ball, 0 or less where nothing is known.
+        """Correct decimal digits, -log10(radius / |midpoint|); inf for an exact ball, 0 or less where nothing is known.
 
         >>> Ball((1, 0), rad=(1, -10)).digits > 3
         True
