@@ -310,20 +310,20 @@ def test_an_order_modulo_primes_doesnt_make_a_finite_group_infinite() -> None:
 
 
 def test_orders_modulo_primes_are_those_of_the_kernel() -> None:
-    """Linear algebra in the checker, Euclid's algorithm in the kernel: every prime and order."""
+    """Linear algebra in the checker, Euclid's algorithm in the kernel: beside one right order every prime and order."""
     agreed = 0
     for S, data in lines_with_orders():
-        data["group"].pop("orders")
+        known = data["group"].pop("orders")[0]
         decision = solve(S).decision
         for p in (5, 7, 11, 13, 17, 19):
             for k in range(1, 13):
-                claim = GroupClaim("infinite dihedral", None, orders=((p, k), (p, k)))
-                data["group"]["orders"] = [{"prime": p, "order": k}]
+                claim = GroupClaim("infinite dihedral", None, orders=((known["prime"], known["order"]), (p, k)))
+                data["group"]["orders"] = [known, {"prime": p, "order": k}]
                 said = checker.verdict(json.dumps(data))
                 verified = bool(verify(S, decision, claim))
                 assert verified == said.startswith(GROUP_TOO), (str(S), p, k, said)
                 agreed += verified
-    assert agreed > 12
+    assert agreed > 6
 
 
 def test_a_quaternion_group_with_irrational_constants_is_checked() -> None:

@@ -160,7 +160,7 @@ def test_large_orders_and_large_multiples_on_curves(f: RatFunc, difference: tupl
     solution = kovacic.solve(S)
     assert solution.group.order == 4 * n
     assert solution.verify()
-    assert checker.verdict(solution.to_json(full=True)).startswith("checked: case; omega; group")
+    assert "; case; omega; group;" in checker.verdict(solution.to_json(full=True))
 
 
 @pytest.mark.parametrize(("constant", "order"), [(6, 8), (-6, None)])
@@ -172,7 +172,7 @@ def test_the_same_divisor_with_another_holomorphic_part(constant: int, order: in
     assert group.function is not None
     assert bool(group.function.rest) is (order is None)
     assert solution.verify()
-    assert checker.verdict(solution.to_json(full=True)).startswith("checked: case; omega; group")
+    assert "; case; omega; group;" in checker.verdict(solution.to_json(full=True))
     without = replace(group.function, rest=group.function.rest * 0)
     family, n = ("dicyclic", 2) if order is None else ("infinite dihedral", None)
     for function in (group.function, without):
