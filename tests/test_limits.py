@@ -112,10 +112,7 @@ WHOLE = ("verify", "closed_form", "solutions", "from_json")
 @pytest.mark.parametrize("looks", [3, 60])
 @pytest.mark.parametrize("name", CALLS)
 def test_every_call_ends_once_its_time_is_over(name: str, looks: int) -> None:
-    """What comes then is a value, `LimitExceeded`, or dsolve's NotImplementedError with the reason.
-
-    How long it is between two looks at the clock is measured by `benchmarks/limits.py`.
-    """
+    """What comes then is a value, `LimitExceeded`, or dsolve's NotImplementedError with the reason."""
     if not name.startswith(("solve", "dsolve", "decide")):
         for text in PREPARED:
             solved(text)
