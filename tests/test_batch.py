@@ -352,7 +352,7 @@ def _alive(pid: int) -> bool:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"jobs": 0}, "at least one"),
+        ({"jobs": 0}, "at least 1"),
         ({"timeout": 0}, "timeout"),
         ({"memory": 0}, "memory"),
         ({"scheduler": "tcp://localhost:1"}, "needs a backend"),
