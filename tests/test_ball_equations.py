@@ -51,11 +51,11 @@ def test_every_printed_formula_is_derived_for_all_parameters():
 
 
 def planted() -> list[ParameterSet]:
-    """Every formula; all but the last of each of the paper's numbers in the long tests."""
+    """Every formula; all but the last of each of the paper's numbers in the slow tests."""
     cases = []
     for key, formulas in PRINTED.items():
         *others, last = formulas
-        cases += [pytest.param(key, name, marks=pytest.mark.long) for name in others]
+        cases += [pytest.param(key, name, marks=pytest.mark.slow) for name in others]
         cases.append(pytest.param(key, last))
     return cases
 

@@ -41,13 +41,16 @@ def solutions_are_right(name: str, points: int) -> None:
     assert not wrong, wrong[:3]
 
 
+#: Every twelfth family in the long tests, each of them in the slow ones.
+EACH = [pytest.param(name, marks=pytest.mark.slow if k % 12 else pytest.mark.long) for k, name in enumerate(ALL)]
+
+
 @pytest.mark.parametrize("name", SOME)
 def test_solutions_solve_the_equation(name: str) -> None:
     solutions_are_right(name, 3)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("name", EACH)
 def test_all_solutions_solve_the_equation(name: str) -> None:
     solutions_are_right(name, 20)
 
@@ -119,8 +122,7 @@ def test_answers_are_read_back(name: str) -> None:
     assert Conditions.from_json(answer.to_json()) == answer
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("name", EACH)
 def test_all_answers_are_read_back(name: str) -> None:
     test_answers_are_read_back(name)
 
@@ -142,8 +144,7 @@ def test_texts_say_what_is_meant(name: str) -> None:
     texts_say_what_is_meant(name, 6)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("name", EACH)
 def test_all_texts_say_what_is_meant(name: str) -> None:
     texts_say_what_is_meant(name, 20)
 
@@ -202,8 +203,7 @@ def test_an_invariant_of_degree_4_alone_shows_no_case_1() -> None:
     assert answer.check(30)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("name", EACH)
 def test_all_families_agree_with_the_engine(name: str) -> None:
     """Where a natural number is involved, statements are decided by ranks, and the engine by its own way."""
     assert kovacic.conditions(FAMILIES[name], var="x", max_degree=0).check(40)
