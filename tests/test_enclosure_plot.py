@@ -97,7 +97,7 @@ def difference(random: Random) -> float:
 
 
 @pytest.mark.parametrize(
-    ("seed", "count"), [pytest.param(1, 12), pytest.param(2, 200, marks=pytest.mark.long)], ids=["some", "many"]
+    ("seed", "count"), [pytest.param(1, 12), pytest.param(2, 200, marks=pytest.mark.slow)], ids=["some", "many"]
 )
 def test_the_line_is_the_solution_or_the_envelope_is_shown(seed: int, count: int) -> None:
     random = Random(seed)
@@ -156,6 +156,7 @@ def test_the_plot_command_writes_a_picture(tmp_path: Path, capsys: pytest.Captur
         (["x+", "--from", "1", "--to", "2", "-o", "a.png"], 2, "ends after"),
         (["x", "--from", "nan", "--to", "2", "-o", "a.png"], 2, "from isn't"),
         (["1/x", "--from", "-1", "--to", "2", "--x0", "0", "-o", "a.png"], 2, "singular point"),
+        (["x", "--from", "0", "--to", "100000", "-o", "a.png"], 3, "beyond the range of doubles"),
         (["x^3+x", "--from", "-90", "--to", "90", "-o", "a.png", "--limit", "seconds=0.001"], 3, "time limit"),
     ],
 )

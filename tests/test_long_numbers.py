@@ -24,7 +24,7 @@ EQUATIONS = {
 }
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("equation", EQUATIONS.values(), ids=EQUATIONS.keys())
 def test_every_view_of_an_answer(equation: str) -> None:
     answer = kovacic.solve(equation)
@@ -57,7 +57,7 @@ def _schema() -> str:
     return (files("kovacic") / "views" / "schema.json").read_text(encoding="utf-8")
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_command() -> None:
     equation = EQUATIONS["exponents"]
     command = [sys.executable, "-m", "kovacic"]

@@ -226,12 +226,14 @@ def _sampled(x: Floats, states: Callable[[Sequence[ExactPoint]], Sequence[Any]])
     found = states([ExactPoint(Fraction(float(at))) for at in x])
     values = [finite_ball(y) for y, _ in found]
     slopes = [finite_ball(dy) for _, dy in found]
-    return Arc(
-        x,
-        np.array([complex(ball.mid) for ball in values]),
-        np.array([complex(ball.mid) for ball in slopes]),
-        np.array([float(ball.radius) for ball in values]),
-    )
+    try:
+        y = np.array([complex(ball.mid) for ball in values])
+        dy = np.array([complex(ball.mid) for ball in slopes])
+        radius = np.array([float(ball.radius) for ball in values])
+    except OverflowError:
+        said = "the solution grows beyond the range of doubles, and can't be drawn: take a shorter interval"
+        raise LimitExceeded(said, limit="digits") from None
+    return Arc(x, y, dy, radius)
 
 
 def _check(count: int) -> None:
