@@ -92,6 +92,16 @@ def test_a_command_without_its_extra_says_so_in_one_line(arguments: str, tmp_pat
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.parametrize("missing", ["numpy", "matplotlib"])
+def test_a_page_is_whole_without_a_picture(missing: str) -> None:
+    program = (
+        f"import sys; sys.modules[{missing!r}] = None\nimport kovacic\nprint(kovacic.solve('x').explain(format='html'))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=60)
+    assert "<svg" not in done.stdout
+    assert done.stdout.rstrip().endswith("</html>")
+
+
 @pytest.mark.parametrize(
     "text",
     ["x^2 + 3", "0", "-3/7", "(x^2 - 1/2)/(3*x^3 - x)", "n*x/(m^2 - n*x)", "sqrt(2)*x + 1/(x - sqrt(2))", "I/(x^2 + I)",

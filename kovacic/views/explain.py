@@ -89,11 +89,15 @@ def _in_time(part: Callable[[], Iterator[Block]]) -> Iterator[Block]:
 
 
 def _picture(answer: Answer) -> str:
-    """A real solution between and beside the singular points on the axis; nothing where its values can't be had."""
+    """A real solution between and beside the singular points on the axis; nothing where its values can't be had.
+
+    Without NumPy or matplotlib there is no picture either: the page is whole without it.
+    """
     from kovacic.enclosure.problem import as_problem
-    from kovacic.views.plot import plot
 
     try:
+        from kovacic.views.plot import plot
+
         singular = [float(z.re) for z in as_problem(answer).singular_points(64) if z.is_real()]
         low, high = round(min(singular, default=-3)) - 2, round(max(singular, default=3)) + 2
         with bounded_work(_PICTURE_WORK):
