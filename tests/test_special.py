@@ -21,9 +21,11 @@ from kovacic.cli import main
 from kovacic.general_solution import in_special_functions
 from kovacic.general_solution.variation import special_wronskian as wronskian
 from kovacic.limits import Budget, Limits
-from kovacic.special import confluent, gauss
-from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
-from kovacic.special.search import find, special_functions
+from kovacic.special.airy import Airy
+from kovacic.special.gauss import Gauss
+from kovacic.special.pullback import Pullback
+from kovacic.special.search import EQUATIONS, find, special_functions
+from kovacic.special.whittaker import Whittaker
 from kovacic.special.writer import Writer
 from kovacic.views.sentences import SCREEN
 from kovacic.views.text import solution_lines
@@ -221,11 +223,11 @@ def test_nothing_is_returned_that_does_not_satisfy_the_identity(kind: str, monke
         Pullback(found.equation, found.f * found.f),
         Pullback(found.equation, RatFunc(one)),
         Pullback(Airy(one * 7), found.f),
-        Pullback(Confluent(one, one, one * 5), found.f),
+        Pullback(Whittaker(one, one, one * 5), found.f),
         Pullback(Gauss(one * 2, one * 3, one * 5), found.f),
     ):
-        for module in (confluent, gauss):
-            monkeypatch.setattr(module, "candidates", lambda problem, spoiled=spoiled, **_: iter([spoiled]))
+        for equation in EQUATIONS:
+            monkeypatch.setattr(equation, "candidates", lambda problem, spoiled=spoiled, **_: iter([spoiled]))
         assert find(case.S, Budget()).pullback is None
 
 

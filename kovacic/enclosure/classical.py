@@ -6,7 +6,7 @@ matrices along the leg.  S = f'^2 S0(f) - {f, x}/2 was verified exactly (`kovaci
     y_i = f'^(-1/2) z^alpha_i (1 - z)^beta_i E_i(z),    z = f(x),    i = 1, 2,                                           (1)
         = W^(-1/2) n^alpha_i (d - n)^beta_i d^(1 - alpha_i - beta_i) E_i(f),    W = n' d - n d',
 
-are solutions, with the functions E_i of `kovacic.enclosure.classical_functions`.  The matrix is Y(b) Y(a)^-1, if Y(a) is
+are solutions, with the functions E_i of the modules of `kovacic.special`.  The matrix is Y(b) Y(a)^-1, if Y(a) is
 invertible (its ball tells), if the powers are followed continuously (`_followed`), and if no E_i is carried over its slit
 (`_avoids`).  Where one of these isn't proven, there is no matrix.
 
@@ -26,16 +26,7 @@ from typing import Any
 from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
-from kovacic.enclosure.classical_functions import (
-    StandardForm,
-    choice_at,
-    form_of,
-    is_integer,
-    rational,
-    square_root,
-    value_at,
-)
+from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.enclosure.log_derivative import log_derivative
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
@@ -43,18 +34,14 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System, check_segment
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits, bounded_work
-from kovacic.special.pullback import Airy, Confluent, Gauss, Pullback
+from kovacic.special.pullback import Pullback
 from kovacic.special.search import find
+from kovacic.special.values import Cost, StandardForm, is_integer
 
 _BITS = 64  # in which the course of a leg is proven
 _PIECES = 400  # into which a leg is cut for that, at most
 _TRIED = 1, 2, 4  # multiples of the working precision at which a matrix may become finite
-# Digits up to which the functions cost less than Taylor steps (measured): elementary ones, Airy's and Bessel's of rational
-# order, other confluent ones, Gauss'; and less than the series at a singular point
-_MOST, _MOST_FROM_ZERO = (10**9, 20_000, 2_000, 300), 2_000
-# What a target costs at 15 digits, in Taylor's polynomials of a disc (measured); the first two grow more slowly with the digits
-_RATIOS, _LIMIT = (2.0, 3.0, 5.0, 7.0), 25.0
-_NAMES = {Airy: "Airy's", Confluent: "Whittaker's", Gauss: "Gauss'"}
+_MOST_FROM_ZERO = 2_000  # digits up to which the functions cost less than the series at a singular point (measured)
 _DEGREE = 24  # of S, up to which a pull-back is sought
 _LARGEST = 1_000  # parameters of special functions up to which a call of FLINT, which can't be stopped, is short
 
@@ -77,43 +64,41 @@ def classical_of(S: RatFunc, work: int | None) -> Classical | None:
     found = search.pullback
     if found is None or found.f.field != QQ:
         return None
-    equation, squares, kind = found.equation, [], 1
-    if isinstance(equation, Gauss):
-        squares = [rational(v) for v in (equation.A, equation.B, equation.C)]
-        kind = 0 if squares.count(fmpq(1, 4)) > 1 else 3
-    elif isinstance(equation, Confluent):
-        q, r, M = (rational(v) for v in (equation.q, equation.r, equation.M))
-        squares = [4 * M + 1, r * r / q if q != 0 else fmpq(0)]
-        kind = 1 if (q == 0 or r == 0) and isinstance(square_root(squares[0]), fmpq) else 2
-    if any(abs(v) >= _LARGEST**2 for v in squares):
+    if any(abs(square) >= _LARGEST**2 for square in found.equation.parameters):
         return None
-    roots = [square_root(square) for square in squares]
-    # exponents that differ by an integer: FLINT takes limits
-    is_limit = isinstance(equation, Confluent | Gauss) and any(isinstance(r, fmpq) and r.q == 1 for r in roots)
-    return Classical(found, _MOST[kind], _LIMIT if is_limit else _RATIOS[kind])
+    return Classical(found)
 
 
 @dataclass(frozen=True, eq=False)
 class Classical:
-    """A pull-back, and the transition matrices and Frobenius solutions that follow from it.
-
-    `most` are the digits up to which the former are worth while, and `rate` is what a target costs at 15 digits.
-    """
+    """A pull-back, and the transition matrices and Frobenius solutions that follow from it."""
 
     pullback: Pullback
-    most: int = 0
-    rate: float = 7.0
 
     def __str__(self) -> str:
-        return f"FLINT's functions: {_NAMES[type(self.pullback.equation)]} equation in {self.pullback.f}"
+        return f"FLINT's functions: {self.pullback.equation.name} equation in {self.pullback.f}"
+
+    @cached_property
+    def cost(self) -> Cost:
+        """What a target costs."""
+        return self.pullback.equation.cost
 
     def is_cheap(self, digits: int, *, from_zero: bool) -> bool:
         """Do they cost less than the Taylor route, for a start at a zero of f or another?"""
-        return digits <= (max(self.most, _MOST_FROM_ZERO) if from_zero else self.most)
+        return digits <= (max(self.cost.most, _MOST_FROM_ZERO) if from_zero else self.cost.most)
 
-    def ratio(self, digits: int) -> float:
-        """What a target costs, in targets of a Taylor disc."""
-        return self.rate / (1 + digits / 100) if self.rate <= _RATIOS[1] else self.rate
+    def coordinate(self, point: ExactPoint) -> int:
+        """That of the standard equation which serves best there."""
+        n, d = (value_at(poly, point) for poly in self.fraction)
+        return self.pullback.equation.coordinate(n, d)
+
+    @property
+    def fraction(self) -> tuple[fmpq_poly, fmpq_poly]:
+        """n and d."""
+        f = self.pullback.f
+        assert isinstance(f.num, RationalPoly)
+        assert isinstance(f.den, RationalPoly)
+        return f.num.rep, f.den.rep
 
     def leg(self, a: ExactPoint, b: ExactPoint) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment; raises NotServed."""
@@ -150,13 +135,13 @@ def _settled(compute: Callable[[], Matrix], bits: int) -> Matrix:
 @lru_cache(maxsize=64)
 def _start(classical: Classical, a: ExactPoint, is_zero: bool, prec: int) -> Solutions:
     """The solutions from a, perhaps an ordinary zero of f, on, at this precision, which is in force."""
-    form = _form(classical, choice_at(classical.pullback, a), prec)
+    form = _form(classical, classical.coordinate(a), prec)
     return Solutions.make(form, a, (fmpq(0), fmpq(1)) if is_zero else None)
 
 
 @lru_cache(maxsize=16)
-def _form(classical: Classical, choice: int, prec: int) -> StandardForm:
-    return form_of(classical.pullback, choice)
+def _form(classical: Classical, coordinate: int, prec: int) -> StandardForm:
+    return classical.pullback.equation.form(*classical.fraction, coordinate)
 
 
 @lru_cache(maxsize=64)
@@ -167,7 +152,7 @@ def _frobenius(
         raise NotServed
     with working_precision(_sharper(prec)):
         x0, (lower, upper) = point.near.x, point.exponents()
-        form = _form(classical, choice_at(classical.pullback, point.near), ctx.prec)
+        form = _form(classical, classical.coordinate(point.near), ctx.prec)
     if not acb(upper).imag.is_zero() or form.n(x0) != 0 or form.d(x0) == 0 or form.powers[0][0] == 0:
         raise NotServed
     if needed[0] and point.difference is not None:
@@ -278,6 +263,11 @@ class Solutions:
             power = t ** int(exponent.p) if is_integer(exponent) else (exponent * t.log()).exp()
             columns.append((y * power, dy * power))
         return columns
+
+
+def value_at(poly: fmpq_poly, x: ExactPoint) -> Any:
+    """A rational number at a rational point, else a ball."""
+    return poly(x.x) if x.is_real() else acb_poly(poly)(to_acb(x))
 
 
 def _sharper(bits: int) -> int:

@@ -101,7 +101,7 @@ def _functions(journey: Journey, foreseen: Foreseen) -> Classical | None:
     classical = journey.classical(foreseen.work())
     if classical is None or not classical.is_cheap(foreseen.digits, from_zero=from_zero):
         return None
-    return classical if from_zero or beside or foreseen.pays(classical.ratio(foreseen.digits)) else None
+    return classical if from_zero or beside or foreseen.pays(classical.cost.ratio(foreseen.digits)) else None
 
 
 class Foreseen:

@@ -1,7 +1,9 @@
 """Special functions: S goes in, two solutions in Airy's, Bessel's, Kummer's or Gauss' functions come out.
 
-`answer.special_functions` is the entry, and the module to read first.  Its `find` searches: `confluent` and `gauss` propose
-pull-backs of the standard equations (`pullback`) from the polar parts and the exponents of S; none is returned that doesn't
-satisfy its identity exactly.  `express` and `hypergeometric` write the solutions down, out of the parts in `writer`.
+A file a standard equation: `airy`, `bessel`, `whittaker` and `gauss` have its S0, its pull-backs, how its solutions are written
+and what their values are; `pullback.StandardEquation` says what such a file has to have, and `airy` is the one to read first.
+`search` goes through them; it returns nothing that doesn't satisfy its identity exactly.  What they share: `polar_parts` and
+`fibres` find functions f from the polar parts and from the exponents of S; `numbers` and `writer` write; `values` are what
+FLINT's functions have in common.
 `mathieu` is for coefficients that are waves.
 """

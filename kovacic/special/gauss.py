@@ -1,168 +1,344 @@
-"""Gauss' equation pulled back by a rational function.
+"""Gauss' hypergeometric equation, with the squares A, B, C of the exponent differences at 0, 1 and infinity.
 
-All singular points are regular.  Those that aren't apparent lie over 0, 1 or infinity, and where f has the multiplicity m over
-a point with exponent difference e, the exponent difference of S is m e.  So the singular places are distributed: zeros of f,
-poles of f, and the rest, zeros of f - 1.  The first two groups have to be complete; then f is known up to a constant factor,
-which a place of the third group determines, or, where that has none because m e = 1 at its points, a critical value of f.
+Pull-backs: f from its fibres over 0, 1 and infinity, `fibres`.
 
-Reference: M. van Hoeij, R. Vidunas, J. Algebra 441 (2015) 626-659, for the patterns of branching.
+Solutions: with the exponent differences alpha, beta, gamma at 0, 1, infinity, in any order of these points, with any signs,
+
+    u = z^((1-alpha)/2) (1-z)^((1-beta)/2) 2F1((1-alpha-beta-gamma)/2, (1-alpha-beta+gamma)/2; 1-alpha; z).
+
+The second solution has -alpha; where alpha is an integer, it is the one of this kind at 1.  These are independent if no
+combination (1 +- alpha +- beta +- gamma)/2 is an integer: a common solution would be elementary.  P_N^(a,b)(1 - 2 z) is a
+multiple of 2F1(-N, N + a + b + 1; 1 + a; z); beside it there is one with another exponent at 0 or at infinity, and, for a = b,
+the one of the other parity.  K, E and P_nu are written where 2F1 is one of them.
+
+Values, with e0, e1, einf for alpha, beta, gamma:
+
+    2F1(a, b; 1 +- e0; z),      a, b = (1 +- e0 + e1 +- einf)/2,
+
+with 2F1(a, b; 1 + e1; 1 - z) for the lower sign where e0 is an integer.  Where two of the differences are 1/2 (the dihedral
+case) the solutions are elementary:
+
+    e1 = einf = 1/2    ((1 + sqrt(1 - z))/2)^(-+e0)
+    e0 = e1 = 1/2      sin(einf theta)/(einf sqrt(z)), cos(einf theta),    sin(theta)^2 = z
+
+Reference: DLMF 14.3, 15.4.11-18, 15.10, 18.5, 18.7, 19.5.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from fractions import Fraction
-from itertools import combinations
-from math import gcd, lcm
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from kovacic.algebra.extension import AlgebraicField
+from flint import acb, fmpq, fmpq_poly
+
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
-from kovacic.errors import LimitExceeded
-from kovacic.limits import count_work
-from kovacic.special.pullback import Gauss, Pullback
+from kovacic.engine.places import Problem
+from kovacic.special import fibres
+from kovacic.special.numbers import HALF, Number
+from kovacic.special.pullback import Pullback, StandardEquation, variable
+from kovacic.special.values import (
+    LIMIT,
+    Cost,
+    Solution,
+    StandardForm,
+    State,
+    each,
+    ends,
+    is_integer,
+    rational,
+    square_root,
+)
 
-#: What a function f costs, in pairs of fibres, about.
-_TRIAL = 20
-#: The most places that are distributed, up to which number apparent ones are among them, and the most functions f.
-_PLACES, _WITH_APPARENT, _TRIALS = 14, 7, 1000
+if TYPE_CHECKING:
+    from kovacic.closed_form.atoms import Expr
+    from kovacic.special.writer import Term, Writer, WrittenFactor
 
 
 @dataclass(frozen=True)
-class _Fibre:
-    """All points over one of 0, 1, infinity: places with multiplicities, and the square of the exponent difference."""
+class Gauss(StandardEquation):
+    """S0 = (A - 1)/(4 z^2) + (B - 1)/(4 (z-1)^2) + (1 - A - B + C)/(4 z (z-1))."""
 
-    places: tuple[tuple[Place, int], ...]
-    square: Poly
-    degree: int
-    mask: int
+    A: Poly
+    B: Poly
+    C: Poly
+
+    searched: ClassVar[str] = (
+        "Gauss' hypergeometric equation in f(x), f rational, all points singular over two of 0, 1 and infinity"
+    )
+    irregular: ClassVar[bool] = False
+    name = "Gauss'"
 
     @property
-    def points(self) -> int:
-        return sum(place.degree for place, _ in self.places)
+    def S(self) -> RatFunc:
+        z = variable(self.A.field)
+        w = z - 1
+        A, B, C = self.A, self.B, self.C
+        return RatFunc(w * w * (A - 1) + z * z * (B - 1) + z * w * (1 - A - B + C), z * z * w * w * 4)
+
+    @classmethod
+    def candidates(cls, problem: Problem, *, extended: bool) -> Iterator[Pullback]:
+        for covering in fibres.coverings(problem, extended=extended):
+            yield Pullback(Gauss(covering.zeros, covering.ones, covering.poles), covering.f)
+
+    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr] | None:
+        forms = sorted(_Form.of(self, writer, f).arranged, key=lambda form: form.cost)
+        for signed in (signed for form in forms for signed in form.signs):
+            apart = (writer.is_natural(-value) or not writer.is_integer(value) for value in (signed.alpha, signed.beta))
+            if writer.is_degree(signed.degree) and all(apart):
+                return _jacobi(signed)
+        first = forms[0]
+        if any(writer.is_integer(form.degree) for form in first.signs):
+            return _reducible(writer, forms)
+        if not writer.is_integer(first.alpha):
+            return writer.pair(first.term, first.turned.term)
+        return writer.pair(first.regular.term, first.swapped.regular.term)
 
     @property
-    def polynomial(self) -> Poly:
-        """The product over the finite places."""
-        result = self.square.field.poly([1])
-        for place, k in self.places:
-            if not place.at_infinity:
-                result = result * place.factor**k
-        return result
+    def parameters(self) -> list[fmpq]:
+        return [rational(v) for v in (self.A, self.B, self.C)]
+
+    @property
+    def cost(self) -> Cost:
+        is_dihedral = self.parameters.count(fmpq(1, 4)) > 1
+        takes_limits = any(is_integer(square_root(v)) for v in self.parameters)
+        if is_dihedral:
+            return Cost(most=10**9, target=LIMIT if takes_limits else 2.0, grows_slowly=not takes_limits)
+        return Cost(most=300, target=LIMIT if takes_limits else 7.0)
+
+    def coordinate(self, n: Any, d: Any) -> int:
+        """The smallest of z, 1 - z, 1/z, ...: there z is between 0 and 1/2 where f is real."""
+        sizes = [(abs(acb(top / bottom)), k) for k, (top, bottom, *_) in enumerate(_maps(n, d, 0, 0, 0)) if bottom != 0]
+        return min(sizes, key=lambda item: float(item[0]))[1]
+
+    def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
+        return _values(_maps(n, d, *map(square_root, self.parameters))[coordinate])
 
 
-def candidates(problem: Problem, *, extended: bool = True) -> Iterator[Pullback]:
-    """Pull-backs that are possible, those of small degree first; each of them has to be verified.
-
-    With `extended`, conjugate places are separated over a larger field.
-    """
-    regular = [place for place in problem.places if place.kind is Kind.REGULAR]
-    places = [place for place in regular if not place.is_apparent]
-    different = next((place for place in places if place.delta_squared is None), None)
-    separable = different is not None and different.degree == 2
-    if extended and separable:  # over the field with a root of their polynomial
-        assert different is not None
-        field = AlgebraicField(problem.field, different.factor)
-        S = RatFunc(problem.S.num.over(field), problem.S.den.over(field), reduced=True)
-        yield from candidates(analyse(S, problem.budget), extended=extended)
-    if len(places) > _PLACES or different is not None:
-        return
-    # f of degree n has 2 n - 2 ramification points, so that there are n + 2 + R points over 0, 1 and infinity, R being the
-    # ramification elsewhere, which the apparent places show.
-    points = sum(place.degree for place in places)
-    elsewhere = sum(int(place.delta or 1) * place.degree for place in regular if place.is_apparent)
-    among = regular if len(regular) <= _WITH_APPARENT else places
-    fibres: dict[int, list[_Fibre]] = {}
-    for fibre in _fibres(among, 2 * sum(place.degree for place in among) - 4):
-        problem.budget.check()
-        count_work(1)
-        if fibre.degree >= points - 2 - elsewhere:
-            fibres.setdefault(fibre.degree, []).append(fibre)
-    tried = set()
-    for n, some in sorted(fibres.items()):
-        for zeros, poles in combinations(some, 2):
-            problem.budget.check()
-            count_work(1)
-            if zeros.mask & poles.mask:
-                continue
-            used = zeros.mask | poles.mask
-            rest = [place for place in places if not used >> among.index(place) & 1]
-            third = sum(place.degree for place in rest)
-            if zeros.points + poles.points + third + (n - third) // 2 < n + 2:
-                continue
-            for f in _scaled(zeros.polynomial, poles.polynomial, rest):
-                if f not in tried:
-                    tried.add(f)
-                    count_work(_TRIAL)
-                    if len(tried) > _TRIALS:
-                        raise LimitExceeded(f"there are more than {_TRIALS} functions f to try", limit="degree")
-                    yield from _with_third(f, zeros, poles, regular)
+# ------------------------------------------------------------------------------------------ written
 
 
-def _fibres(places: list[Place], most: int) -> Iterator[_Fibre]:
-    """Every set of places that can be a whole fibre of a function of degree `most` or less, with its multiplicities."""
+@dataclass(frozen=True)
+class _Form:
+    """f with the exponent differences at its zeros, at its ones and at its poles."""
 
-    def extend(index: int, chosen: list[Place], size: int, mask: int) -> Iterator[tuple[list[Place], int]]:
-        if chosen:
-            yield chosen, mask
-        for k in range(index, len(places)):
-            more = size + places[k].degree
-            if more <= most and (not chosen or _ratio(places[k], chosen[0]) is not None):
-                yield from extend(k + 1, [*chosen, places[k]], more, mask | 1 << k)
+    writer: Writer
+    f: RatFunc
+    alpha: Number
+    beta: Number
+    gamma: Number
 
-    for chosen, mask in extend(0, [], 0, 0):
-        first = chosen[0].delta_squared
-        assert first is not None
-        ratios = [_ratio(place, chosen[0]) for place in chosen]
-        if not first:  # all of them 0: the multiplicities are free, and only equal ones are tried
-            ratios = [Fraction(1)] * len(chosen)
-        known = [ratio for ratio in ratios if ratio is not None]
-        unit = Fraction(gcd(*(r.numerator for r in known)), lcm(*(r.denominator for r in known)))
-        least = [int(ratio / unit) for ratio in known]
-        size = sum(m * place.degree for m, place in zip(least, chosen, strict=True))
-        for k in range(1, most // size + 1):
-            square = first * unit * unit * Fraction(1, k * k)
-            yield _Fibre(tuple((place, k * m) for place, m in zip(chosen, least, strict=True)), square, k * size, mask)
+    @classmethod
+    def of(cls, equation: Gauss, writer: Writer, f: RatFunc) -> _Form:
+        return cls(writer, f, *(writer.square_root(v) for v in (equation.A, equation.B, equation.C)))
+
+    @property
+    def arranged(self) -> list[_Form]:
+        """The points 0, 1 and infinity in all orders."""
+        return [_Form(self.writer, *parts) for parts in _orders(self.f, self.alpha, self.beta, self.gamma)]
+
+    @property
+    def signs(self) -> Iterator[_Form]:
+        """The same with all signs of the differences."""
+        for s, t, u in product((1, -1), repeat=3):
+            yield _Form(self.writer, self.f, s * self.alpha, t * self.beta, u * self.gamma)
+
+    @property
+    def turned(self) -> _Form:
+        """The same with -alpha."""
+        return replace(self, alpha=-self.alpha)
+
+    @property
+    def factor(self) -> WrittenFactor:
+        """The powers, and what belongs to the pull-back."""
+        powers = [((1 - self.alpha) * HALF, self.f), ((1 - self.beta) * HALF, self.f - 1)]
+        return self.writer.factor(self.f, powers)
+
+    @property
+    def term(self) -> Term:
+        """u, with the sign of beta that leaves fewer factors."""
+        forms = [replace(self, beta=sign * self.beta) for sign in (1, -1)]
+        form = min(forms, key=lambda form: form.factor.size)
+        return form.factor, _named(form)
+
+    @property
+    def swapped(self) -> _Form:
+        """The same with 0 and 1 exchanged."""
+        return _Form(self.writer, 1 - self.f, self.beta, self.alpha, self.gamma)
+
+    @property
+    def regular(self) -> _Form:
+        """The sign of alpha for which 1 - alpha isn't an integer <= 0, as far as that is known."""
+        is_pole = self.writer.is_integer(self.alpha) and not self.writer.is_natural(-self.alpha)
+        return self.turned if is_pole else self
+
+    @property
+    def degree(self) -> Number:
+        """N with a = -N."""
+        return (self.alpha + self.beta + self.gamma - 1) * HALF
+
+    @property
+    def cost(self) -> tuple[bool | int | str, ...]:
+        """What is preferred: polynomials, differences that aren't integers at 0 (unless those at 1 are the same), short f."""
+        f = self.f
+        natural = self.writer.is_integer(self.alpha)
+        terms = sum(bool(c) for c in (*f.num, *f.den))
+        uneven = natural and self.alpha != self.beta
+        return not f.is_polynomial, uneven, natural, terms, not self.writer.is_negative(f.num.lc), str(f)
 
 
-def _ratio(place: Place, other: Place) -> Fraction | None:
-    """The quotient of the exponent differences if it is rational; 1 where both vanish."""
-    over, under = place.delta_squared, other.delta_squared
-    assert over is not None
-    assert under is not None
-    if not over or not under:
-        return Fraction(1) if not over and not under else None
-    return rational_square_root(over / under)
+def _orders(f: RatFunc, alpha: Number, beta: Number, gamma: Number) -> list[tuple[RatFunc, Number, Number, Number]]:
+    return [
+        (f, alpha, beta, gamma),
+        (1 - f, beta, alpha, gamma),
+        (1 / f, gamma, beta, alpha),
+        (1 - 1 / f, beta, gamma, alpha),
+        (1 / (1 - f), gamma, alpha, beta),
+        (f / (f - 1), alpha, gamma, beta),
+    ]
 
 
-def _scaled(zeros: Poly, poles: Poly, rest: list[Place]) -> Iterator[RatFunc]:
-    """The multiples of zeros/poles that are 1 at the places of the rest, or have 1 for a critical value."""
-    f = RatFunc(zeros, poles)
-    slope = f.derivative().num
-    if rest:
-        finite = [] if rest[0].at_infinity else [rest[0].factor]
+def _named(form: _Form) -> Expr:
+    """2F1, or a multiple: the complete elliptic integrals K, E and Legendre's function P_nu, where SymPy keeps it as it is."""
+    import sympy
+
+    writer = form.writer
+    top = [(1 - form.alpha - form.beta + sign * form.gamma) * HALF for sign in (-1, 1)]
+    a, b, c = (writer.constant(value) for value in (*top, 1 - form.alpha))
+    z = writer.argument(form.f)
+    half = sympy.S.Half
+    if c == 1 and {a, b} == {half}:
+        return sympy.elliptic_k(z)
+    if c == 1 and {a, b} == {half, -half}:
+        return sympy.elliptic_e(z)
+    if c == 1 and sympy.expand(a + b) == 1:
+        degree = -b if (-a).could_extract_minus_sign() else -a
+        P = sympy.legendre(degree, sympy.expand(1 - 2 * z))
+        if isinstance(P, sympy.legendre):
+            return P
+    return writer.hypergeometric(top, (1 - form.alpha,), z)
+
+
+def _reducible(writer: Writer, forms: list[_Form]) -> tuple[Expr, Expr] | None:
+    """Where the assumptions make the equation reducible; None where it isn't known which pair is independent."""
+    free = next((form for form in forms if not writer.is_integer(form.alpha)), None)
+    if free is not None:
+        return writer.pair(free.term, free.turned.term)
+    even = next((signed for form in forms for signed in form.signs if signed.alpha == signed.beta), None)
+    return None if even is None else writer.pair(*_even_and_odd(even))
+
+
+def _jacobi(form: _Form) -> tuple[Expr, Expr]:
+    """P_N^(a,b)(1 - 2 f) with a = -alpha, b = -beta, and a second solution."""
+    import sympy
+
+    writer, f = form.writer, form.f
+    N, a, b = (writer.constant(value) for value in (form.degree, -form.alpha, -form.beta))
+    t = writer.argument(1 - 2 * f)
+    if form.alpha == form.beta:
+        polynomial = sympy.gegenbauer(N, a + sympy.S.Half, t) if a else sympy.legendre(N, t)
+        even, odd = _even_and_odd(form)
+        second = form.factor, writer.by_parity(N, odd[1], even[1])
     else:
-        finite = [p for p, _ in slope.field.factor(slope)] if slope.degree > 0 else []
-    values = [f.num * f.den.inverse_modulo(p) % p for p in finite if f.den.gcd(p).degree == 0]
-    if f.degree == 0 and not (rest and finite):
-        values.append(f.num.lc)
-    for value in values:
-        if value.degree == 0:
-            yield f / value
+        polynomial = sympy.jacobi(N, a, b, t)
+        if writer.is_integer(form.alpha):  # at infinity the polynomial has the exponent -N, and this one N + 1 + a + b
+            second = _Form(writer, 1 / f, -form.gamma, form.beta, form.alpha).term
+        else:
+            second = form.turned.term
+    return writer.pair((form.factor, writer.without_constant(polynomial)), second)
 
 
-def _with_third(f: RatFunc, zeros: _Fibre, poles: _Fibre, regular: list[Place]) -> Iterator[Pullback]:
-    """The exponent difference over 1 from the exponent difference and the multiplicity of one point there."""
-    over_one = f.num - f.den
-    if over_one.degree < 0:
-        return
-    at_infinity = zeros.degree - over_one.degree
-    if at_infinity:
-        square, m = next((place.delta_squared for place in regular if place.at_infinity), None), at_infinity
-    else:
-        p, m = max(over_one.field.factor(over_one), key=lambda pair: pair[1])
-        square = next((place.delta_squared for place in regular if place.factor == p and not place.at_infinity), None)
-    square = over_one.field.poly([1]) if square is None else square
-    yield Pullback(Gauss(zeros.square, square * Fraction(1, m * m), poles.square), f)
+def _even_and_odd(form: _Form) -> tuple[Term, Term]:
+    """The even and the odd solution in 1 - 2 f, for alpha = beta."""
+    writer = form.writer
+    t = writer.argument(1 - 2 * form.f)
+    N, index = writer.constant(form.degree), writer.constant(HALF - form.alpha)
+    even = writer.even((-N / 2, N / 2 + index), t**2)
+    odd = writer.odd(((1 - N) / 2, (1 + N) / 2 + index), t, t**2)
+    return (form.factor, even), (form.factor, odd)
+
+
+# ------------------------------------------------------------------------------------------ values
+
+
+def _maps(n: Any, d: Any, e0: Any, e1: Any, e2: Any) -> list[tuple[Any, Any, Any, Any, Any]]:
+    """z = n/d, 1 - z, 1/z, z/(z - 1), 1/(1 - z) and (z - 1)/z, with what belongs to their points 0, 1 and infinity."""
+    return [
+        (n, d, e0, e1, e2),
+        (d - n, d, e1, e0, e2),
+        (d, n, e2, e1, e0),
+        (n, n - d, e0, e2, e1),
+        (d, d - n, e2, e0, e1),
+        (n - d, n, e1, e2, e0),
+    ]
+
+
+def _values(mapped: tuple[Any, Any, Any, Any, Any]) -> StandardForm:
+    """About the point 0 of the coordinate n/d with these exponent differences."""
+    half = fmpq(1, 2)
+    n, d, e0, e1, e2 = mapped
+    if e0 == half == e2:  # in z/(z - 1)
+        n, d, e0, e1, e2 = _maps(n, d, e0, e1, e2)[3]
+    upper, lower, right = (1 + e0) / 2, (1 - e0) / 2, (1 + e1) / 2
+    is_dihedral = e1 == half and half in (e0, e2)
+    if is_dihedral and e0 != 0:
+        pair = (_root(e0), _root(-e0)) if e2 == half else (_sine(e2), _cosine(e2))
+        return StandardForm(n, d, ((upper, half / 2), (lower, half / 2)), each(*pair), (None, 1))
+    first = _hypergeometric(e0, e1, e2, mirrored=False)
+    if not is_integer(e0):
+        second = _hypergeometric(-e0, e1, e2, mirrored=False)
+        return StandardForm(n, d, ((upper, right), (lower, right)), each(first, second), (None, 1))
+    second = _hypergeometric(e1, e0, e2, mirrored=True)
+    independent = not any(ends((1 + e0 + e1 + e) / 2) for e in (e2, -e2))
+    return StandardForm(n, d, ((upper, right), (upper, right)), each(first, second), (1, 1), independent)
+
+
+def _root(e: Any) -> Solution:
+    """((1 + w)/2)^(-e), w = sqrt(1 - z)."""
+
+    def value(z: acb) -> State:
+        w = (1 - z).sqrt()
+        power = (-(e * ((1 + w) / 2).log())).exp()
+        return power, power * e / (2 * w * (1 + w))
+
+    return value
+
+
+def _sine(e: Any) -> Solution:
+    """sin(e theta)/(e sqrt(z)), theta/sqrt(z) for e = 0."""
+
+    def value(z: acb) -> State:
+        root = z.sqrt()
+        theta = root.asin()
+        sine, slope = (theta, acb(1)) if e == 0 else ((e * theta).sin() / e, (e * theta).cos())
+        return sine / root, (slope / (1 - z).sqrt() - sine / root) / (2 * z)
+
+    return value
+
+
+def _cosine(e: Any) -> Solution:
+    """cos(e theta)."""
+
+    def value(z: acb) -> State:
+        root = z.sqrt()
+        angle = e * root.asin()
+        return angle.cos(), -angle.sin() * e / (2 * root * (1 - z).sqrt())
+
+    return value
+
+
+def _hypergeometric(e0: Any, e1: Any, e2: Any, *, mirrored: bool) -> Solution:
+    """2F1 with the exponent differences e0 at 0, e1 at 1, e2 at infinity, in z, or in 1 - z if it is mirrored."""
+    a, b, c = (1 + e0 + e1 + e2) / 2, (1 + e0 + e1 - e2) / 2, 1 + e0
+    whole = [is_integer(v) for v in (e2, a - c, b - c, e1)]
+    first, second, third = acb(a), acb(b), acb(c)
+
+    def value(z: acb) -> State:
+        w = 1 - z if mirrored else z
+        F = w.hypgeom_2f1(first, second, third, False, *whole)
+        slope = w.hypgeom_2f1(first + 1, second + 1, third + 1, False, *whole) * first * second / third
+        return F, -slope if mirrored else slope
+
+    return value

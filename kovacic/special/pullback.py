@@ -1,76 +1,96 @@
-"""Pull-backs of the standard equations: what is searched for, and the identity by which it is verified.
+"""Standard equations, and pull-backs of them: what is searched for, and the identity by which it is verified.
 
 If u'' = S0(z) u and z = f(x), then y = u(f)/sqrt(f') satisfies y'' = S y with
 
     S = f'^2 S0(f) - {f, x}/2,        {f, x} = f'''/f' - (3/2) (f''/f')^2.                                       (1)
 
-The standard equations are written so that their coefficients, and f, lie in the field of S:
-
-- `Airy`: S0 = q z, solutions Ai(q^(1/3) z), Bi;
-- `Confluent`: S0 = q - r/z + M/z^2.  For q != 0 it is Whittaker's, kappa = r/(2 sqrt q), mu^2 = M + 1/4, in 2 sqrt(q) z; there
-  r = 0 gives Bessel's of order mu in sqrt(-q) z.  For q = 0 it is Bessel's of order nu, nu^2 = 4 M + 1, in 2 sqrt(r z);
-- `Gauss`: the hypergeometric one with the squares A, B, C of the exponent differences at 0, 1 and infinity.
-
-Reference: DLMF 9.2, 10.13, 13.14, 15.10.
+A `StandardEquation` is a module of this folder: its coefficients and S0, how a pull-back of it is found in S, how its solutions
+are written, and their values.  It is written so that its coefficients, and f, lie in the field of S.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.engine.places import Problem
+
+if TYPE_CHECKING:
+    from flint import fmpq, fmpq_poly
+
+    from kovacic.closed_form.atoms import Expr
+    from kovacic.special.values import Cost, StandardForm
+    from kovacic.special.writer import Writer
 
 
-@dataclass(frozen=True)
-class Airy:
-    """S0 = q z."""
+class StandardEquation(ABC):
+    """u'' = S0(z) u."""
 
-    q: Poly
+    #: Which pull-backs are sought, for a user who reads that none was found.
+    searched: ClassVar[str]
+    #: Have pull-backs irregular singular points?
+    irregular: ClassVar[bool]
 
-    @property
-    def S(self) -> RatFunc:
-        return RatFunc(_variable(self.q.field) * self.q)
-
-
-@dataclass(frozen=True)
-class Confluent:
-    """S0 = q - r/z + M/z^2."""
-
-    q: Poly
-    r: Poly
-    M: Poly
-
-    @property
-    def S(self) -> RatFunc:
-        z = _variable(self.M.field)
-        return RatFunc(z * z * self.q - z * self.r + self.M, z * z)
-
-
-@dataclass(frozen=True)
-class Gauss:
-    """S0 = (A - 1)/(4 z^2) + (B - 1)/(4 (z-1)^2) + (1 - A - B + C)/(4 z (z-1))."""
-
-    A: Poly
-    B: Poly
-    C: Poly
+    # ----------------------------------------------------------------------------------------- the equation
 
     @property
+    @abstractmethod
+    def name(self) -> str:
+        """Whose equation it is."""
+
+    @property
+    @abstractmethod
     def S(self) -> RatFunc:
-        z = _variable(self.A.field)
-        w, A, B, C = z - 1, self.A, self.B, self.C
-        return RatFunc(w * w * (A - 1) + z * z * (B - 1) + z * w * (1 - A - B + C), z * z * w * w * 4)
+        """S0."""
 
+    # ----------------------------------------------------------------------------------------- found, and written
 
-Standard = Airy | Confluent | Gauss
+    @classmethod
+    @abstractmethod
+    def candidates(cls, problem: Problem, *, extended: bool) -> Iterator[Pullback]:
+        """Pull-backs that are possible, the likely ones first; each of them has to be verified.
+
+        With `extended`, f may have coefficients in a larger field than S.
+        """
+
+    @abstractmethod
+    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr] | None:
+        """Two independent solutions pulled back by f; None where the assumptions leave open which are independent.
+
+        With `singular`, solutions are analytic wherever this denominator of S isn't zero, even where f is.
+        """
+
+    # ----------------------------------------------------------------------------------------- values, over the rationals
+
+    @property
+    @abstractmethod
+    def parameters(self) -> list[fmpq]:
+        """The squares of the numbers on which the functions depend."""
+
+    @property
+    @abstractmethod
+    def cost(self) -> Cost:
+        """What FLINT's functions cost beside Taylor's method."""
+
+    def coordinate(self, n: Any, d: Any) -> int:
+        """Which coordinate serves best where f has the value n/d, as a number for `form`."""
+        return 0
+
+    @abstractmethod
+    def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
+        """Two solutions by FLINT's functions, pulled back by n/d, in this coordinate."""
 
 
 @dataclass(frozen=True)
 class Pullback:
     """A standard equation and the function f that it is pulled back by."""
 
-    equation: Standard
+    equation: StandardEquation
     f: RatFunc
 
     @property
@@ -84,6 +104,12 @@ class Pullback:
         return self.f.derivative() != 0 and self.S == S
 
 
+def standard_part(S: RatFunc, f: RatFunc) -> RatFunc:
+    """S0(f) = (S + {f, x}/2)/f'^2."""
+    slope = f.derivative()
+    return (S + schwarzian(f) / 2) / (slope * slope)
+
+
 def schwarzian(f: RatFunc) -> RatFunc:
     """{f, x} for a function that isn't constant."""
     slope = f.derivative()
@@ -91,5 +117,6 @@ def schwarzian(f: RatFunc) -> RatFunc:
     return ratio.derivative() - ratio * ratio * Fraction(1, 2)
 
 
-def _variable(field: Field) -> Poly:
+def variable(field: Field) -> Poly:
+    """z."""
     return field.poly([0, 1])

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.engine.places import analyse
-from kovacic.errors import LimitExceeded
+from kovacic.engine.places import Problem, analyse
+from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
-from kovacic.special import confluent, gauss
-from kovacic.special.pullback import Pullback
+from kovacic.special.airy import Airy
+from kovacic.special.bessel import Bessel
+from kovacic.special.gauss import Gauss
+from kovacic.special.polar_parts import irregular_places
+from kovacic.special.pullback import Pullback, StandardEquation
+from kovacic.special.whittaker import Whittaker
 
-_CONFLUENT = (
-    "Airy's equation in f(x), f rational",
-    "Whittaker's equation (with Kummer's, Weber's and Bessel's) in f(x), f rational",
-    "Bessel's equation in the square root of f(x), f rational",
-)
-_GAUSS = ("Gauss' hypergeometric equation in f(x), f rational, all points singular over two of 0, 1 and infinity",)
+if TYPE_CHECKING:
+    from kovacic.closed_form.atoms import Expr
+
+#: In the order in which they are tried.
+EQUATIONS: tuple[type[StandardEquation], ...] = (Airy, Whittaker, Bessel, Gauss)
 
 
 @dataclass(frozen=True)
@@ -55,7 +58,7 @@ class SpecialFunctions:
 
 
 def find(S: RatFunc, budget: Budget, *, extended: bool = True) -> SpecialFunctions:
-    """The first pull-back of Airy's, Whittaker's, Bessel's or Gauss' equation that gives S, checked exactly; not yet written.
+    """The first pull-back of one of the `EQUATIONS` that gives S, checked exactly; not yet written.
 
     Without `extended`, functions f over a larger field than that of S aren't sought.  An exhausted budget is a value: `stopped`
     is its sentence.
@@ -70,16 +73,30 @@ def find(S: RatFunc, budget: Budget, *, extended: bool = True) -> SpecialFunctio
     try:
         with budget.watched():
             problem = analyse(S, budget)
-            regular = not confluent.irregular_places(problem)
-            searched = _GAUSS if regular else _CONFLUENT
-            found = gauss.candidates(problem, extended=extended) if regular else confluent.candidates(problem)
-            for pullback in found:
-                budget.check()
-                if pullback.gives(S):
-                    return SpecialFunctions(pullback, searched)
+            irregular = bool(irregular_places(problem))
+            equations = [equation for equation in EQUATIONS if equation.irregular == irregular]
+            searched = tuple(equation.searched for equation in equations)
+            return SpecialFunctions(_first(problem, equations, extended=extended), searched)
     except LimitExceeded as limit:
         return SpecialFunctions(None, searched, str(limit))
-    return SpecialFunctions(None, searched)
+
+
+def _first(problem: Problem, equations: list[type[StandardEquation]], *, extended: bool) -> Pullback | None:
+    """Raises `LimitExceeded` in the end where a limit on constants kept one of the equations from being sought."""
+    stopped: LimitExceeded | None = None
+    for equation in equations:
+        try:
+            for pullback in equation.candidates(problem, extended=extended):
+                problem.budget.check()
+                if pullback.gives(problem.S):
+                    return pullback
+        except LimitExceeded as limit:
+            if limit.limit != "constants":
+                raise
+            stopped = limit
+    if stopped is not None:
+        raise stopped
+    return None
 
 
 def special_functions(
@@ -108,14 +125,35 @@ def special_functions(
     search = find(S, budget)
     if search.pullback is None:
         return search
-    from kovacic.special.express import solutions  # imports SymPy
-
     try:
         with budget.watched():
-            found = solutions(search.pullback, S, gauge, variable, symbols or {}, joined=joined)
+            found = _written(search.pullback, S, gauge, variable, symbols or {}, joined=joined)
     except LimitExceeded as limit:
         return SpecialFunctions(None, search.searched, str(limit))
     if found is None:
         said = "the assumptions don't tell which solutions are independent"
         return SpecialFunctions(None, search.searched, said)
     return SpecialFunctions(search.pullback, search.searched, None, *found)
+
+
+def _written(
+    pullback: Pullback, S: RatFunc, gauge: RatFunc, variable: str, symbols: Mapping[str, Any], *, joined: bool
+) -> tuple[Expr, Expr] | None:
+    """y1 and y2, checked at a point; None where the assumptions on the symbols leave open which solutions are independent.
+
+    Raises `VerificationFailed` if the check fails, which is a defect of this package; `LimitExceeded` within `Budget.watched`.
+    """
+    import sympy
+
+    from kovacic.closed_form.check import is_numerical_solution
+    from kovacic.special.writer import Writer
+
+    writer = Writer(gauge, sympy.Symbol(variable), symbols)
+    found = pullback.equation.written(writer, pullback.f, S.den if joined else None)
+    for y in found or ():
+        if not is_numerical_solution(y, writer.atoms.x, S, gauge):
+            raise VerificationFailed(
+                f"a special function for S = {S} failed its check; please report the equation: {y}"
+            )
+    own = {plain: symbol for plain, symbol in writer.symbols.items() if plain != symbol}
+    return (found[0].xreplace(own), found[1].xreplace(own)) if found and own else found

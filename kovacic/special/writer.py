@@ -1,7 +1,7 @@
 """Parts of the solutions as SymPy expressions: y = G u(f)/sqrt(f'), G the gauge factor, u a solution of the standard equation.
 
-Parameters of the functions are linear in square roots of constants of the field (`Number`).  Powers and exponentials with
-exponents in the field are gathered in one product; the others stand beside it (`WrittenFactor`).
+Powers and exponentials with exponents in the field are gathered in one product; the others, whose exponents are a `Number`
+with square roots, stand beside it (`WrittenFactor`).
 """
 
 from __future__ import annotations
@@ -14,46 +14,12 @@ from typing import Any
 import sympy
 from sympy import Mul, exp
 
-from kovacic.algebra.poly import Poly, Scalar
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms, Expr, display, factors
+from kovacic.closed_form.atoms import Atoms, Expr, display, factors, hypergeometric
 from kovacic.closed_form.product import Power, Product, product
-from kovacic.special.confluent import root
-
-HALF = Fraction(1, 2)
-
-
-@dataclass(frozen=True)
-class Number:
-    """part + sum of coefficient * sqrt(square) over `roots`, pairs (square, coefficient) of constants of one field."""
-
-    part: Poly
-    roots: tuple[tuple[Poly, Poly], ...] = ()
-
-    def __add__(self, other: Number | Poly | Scalar) -> Number:
-        if not isinstance(other, Number):
-            return Number(self.part + other, self.roots)
-        total = dict(self.roots)
-        for square, coefficient in other.roots:
-            total[square] = total[square] + coefficient if square in total else coefficient
-        return Number(self.part + other.part, tuple((square, c) for square, c in total.items() if c))
-
-    __radd__ = __add__
-
-    def __mul__(self, factor: Poly | Scalar) -> Number:
-        return Number(self.part * factor, tuple((square, c * factor) for square, c in self.roots))
-
-    __rmul__ = __mul__
-
-    def __neg__(self) -> Number:
-        return self * -1
-
-    def __sub__(self, other: Number | Poly | Scalar) -> Number:
-        return self + -other
-
-    def __rsub__(self, other: Poly | Scalar) -> Number:
-        return -self + other
+from kovacic.special.numbers import HALF, Number, multiplicities, root
 
 
 @dataclass(frozen=True)
@@ -81,6 +47,11 @@ class Writer:
         self.symbols = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
         self._squares: list[Poly] = []
         self._shown: dict[Number | Poly, Expr] = {}
+
+    @property
+    def exponential_rate(self) -> RatFunc:
+        """That of the exponential of a rational function in the gauge factor."""
+        return product(self.gauge).exponential.derivative()
 
     def factor(
         self, f: RatFunc, powers: Sequence[tuple[Number, RatFunc]], exponent: tuple[Number, RatFunc] | None = None
@@ -179,13 +150,23 @@ class Writer:
         scale, shown = factors(Product(tuple(powers), (), f * 0), self.atoms, around_zero=False)
         return self.root(f.num.lc, 2) * Mul(scale, *shown)
 
+    def hypergeometric(self, top: Sequence[Number], bottom: Sequence[Number], z: Expr) -> Expr:
+        """The hypergeometric function of these parameters."""
+        above, below = (tuple(self.constant(value) for value in values) for values in (top, bottom))
+        return hypergeometric(above, below, z)
 
-def multiplicities(f: RatFunc) -> list[tuple[Poly, int]]:
-    """The monic irreducible factors with their multiplicities, negative in the denominator."""
-    parts = ((f.num, 1), (f.den, -1))
-    return [(p, sign * k) for part, sign in parts if part.degree > 0 for p, k in f.field.factor(part)]
+    def even(self, top: Sequence[Expr], z: Expr) -> Expr:
+        """The hypergeometric function with the lower parameter 1/2: even in a square root of z."""
+        return hypergeometric(tuple(top), (sympy.S.Half,), z)
 
+    def odd(self, top: Sequence[Expr], root: Expr, z: Expr) -> Expr:
+        """With the lower parameter 3/2, times this square root of z."""
+        return root * hypergeometric(tuple(top), (sympy.Rational(3, 2),), z)
 
-def by_parity(N: Expr, odd: Expr, even: Expr) -> Expr:
-    """For a polynomial of degree N that is even or odd as N is: the solution of the other parity."""
-    return sympy.cos(sympy.pi * N / 2) * odd + sympy.sin(sympy.pi * N / 2) * even
+    def by_parity(self, N: Expr, odd: Expr, even: Expr) -> Expr:
+        """For a polynomial of degree N that is even or odd as N is: the solution of the other parity."""
+        return sympy.cos(sympy.pi * N / 2) * odd + sympy.sin(sympy.pi * N / 2) * even
+
+    def without_constant(self, polynomial: Expr) -> Expr:
+        """Without the (-1)**N of P_N(-z)."""
+        return polynomial.as_independent(self.atoms.x, as_Add=False)[1]

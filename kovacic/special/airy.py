@@ -1,0 +1,88 @@
+"""Airy's equation, S0 = q z: Ai(q^(1/3) z) and Bi(q^(1/3) z).
+
+q f'^2 f = S + ... shows f up to its constant term: it is a cubic root of -9 t/q, where t'^2/t = -S + ... at all poles.
+
+Reference: DLMF 9.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from flint import acb, arb, fmpq, fmpq_poly
+
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.engine.places import Problem
+from kovacic.special.polar_parts import (
+    check_conjugates,
+    integral_of_cubic_root,
+    irregular_places,
+    leading_square,
+    scales,
+)
+from kovacic.special.pullback import Pullback, StandardEquation, standard_part, variable
+from kovacic.special.values import Cost, StandardForm, State, rational
+
+if TYPE_CHECKING:
+    from kovacic.closed_form.atoms import Expr
+    from kovacic.special.writer import Writer
+
+
+@dataclass(frozen=True)
+class Airy(StandardEquation):
+    """S0 = q z."""
+
+    q: Poly
+
+    searched: ClassVar[str] = "Airy's equation in f(x), f rational"
+    irregular: ClassVar[bool] = True
+    name = "Airy's"
+
+    @property
+    def S(self) -> RatFunc:
+        return RatFunc(variable(self.q.field) * self.q)
+
+    @classmethod
+    def candidates(cls, problem: Problem, *, extended: bool) -> Iterator[Pullback]:
+        S = problem.S
+        places = irregular_places(problem)
+        if any((place.order - 2) % 3 for place in places):
+            return
+        check_conjugates(problem, places)
+        for q in scales(places, lambda place: leading_square(place) * -9, 3):
+            parts = [part for place in places if (part := integral_of_cubic_root(place, q)) is not None]
+            if len(parts) < len(places):
+                continue
+            f = sum(parts, RatFunc(q * 0))
+            c = standard_part(S, f) / q - f
+            if c.is_polynomial and c.num.degree <= 0:
+                yield Pullback(Airy(q), f + c)
+
+    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:
+        import sympy
+
+        z = writer.root(self.q, 3) * writer.argument(f)
+        before = writer.factor(f, ())
+        return writer.pair((before, sympy.airyai(z)), (before, sympy.airybi(z)))
+
+    @property
+    def parameters(self) -> list[fmpq]:
+        return []
+
+    @property
+    def cost(self) -> Cost:
+        return Cost(most=20_000, target=3.0, grows_slowly=True)
+
+    def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
+        q = rational(self.q)
+        size = acb(1) if abs(q) == 1 else acb(arb(abs(q)).root(3))
+        c = size if q > 0 else -size
+
+        def values(z: acb, needed: Sequence[bool]) -> list[State]:
+            Ai, dAi, Bi, dBi = (c * z).airy()
+            return [(Ai, c * dAi), (Bi, c * dBi)]
+
+        return StandardForm(n, d, ((0, 0), (0, 0)), values)

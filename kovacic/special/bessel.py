@@ -1,0 +1,261 @@
+"""Bessel's equation in the square root of f, S0 = -r/z + M/z^2: of order nu, nu^2 = 4 M + 1, in 2 sqrt(r z).
+
+Pull-backs: where the orders of all poles of S are odd, all polar parts of f are determined.  Else its zeros are taken from the
+regular places: the exponent difference is the multiplicity times nu.
+
+Solutions: sqrt(t) J_nu(2 sqrt t) and Y_nu, t = r f, and I_nu, K_nu of -t.  Y_nu and K_nu are independent of J_nu and I_nu for
+every nu.  For nu = N + 1/2 with a symbolic natural number N there are spherical Bessel functions.
+
+Values: z^((1 +- nu)/2) 0F1(; 1 +- nu; -r z).  Where the exponents differ by an integer the second is sqrt(z) Y_nu(2 sqrt(r z)),
+or sqrt(z) K_nu(2 sqrt(-r z)).
+
+Reference: DLMF 10.2, 10.13, 10.25, 10.39, 10.47.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from flint import acb, fmpq, fmpq_poly
+
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.engine.places import Kind, Place, Problem, rational_square_root
+from kovacic.special.numbers import HALF, Number, multiplicities
+from kovacic.special.polar_parts import irregular_places, leading_square, square, with_constant
+from kovacic.special.pullback import Pullback, StandardEquation, variable
+from kovacic.special.values import (
+    LIMIT,
+    Cost,
+    Solution,
+    StandardForm,
+    State,
+    each,
+    is_integer,
+    rational,
+    square_root,
+)
+
+if TYPE_CHECKING:
+    from kovacic.closed_form.atoms import Expr
+    from kovacic.special.writer import Writer
+
+
+@dataclass(frozen=True)
+class Bessel(StandardEquation):
+    """S0 = -r/z + M/z^2."""
+
+    r: Poly
+    M: Poly
+
+    searched: ClassVar[str] = "Bessel's equation in the square root of f(x), f rational"
+    irregular: ClassVar[bool] = True
+    name = "Bessel's"
+
+    @property
+    def S(self) -> RatFunc:
+        z = variable(self.M.field)
+        return RatFunc(self.M - z * self.r, z * z)
+
+    @classmethod
+    def candidates(cls, problem: Problem, *, extended: bool) -> Iterator[Pullback]:
+        places = irregular_places(problem)
+        one = problem.field.poly([1])
+        if any(place.order % 2 == 0 for place in places):
+            yield from _by_zeros(problem, places)
+            return
+        polar_parts = sum((square(place) for place in places), RatFunc(one * 0))
+        found = with_constant(problem.S, polar_parts, one * 0, one)
+        if found is not None:
+            f, M = found
+            yield Pullback(Bessel(one, M), f)
+
+    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:
+        return written(writer, 4 * self.M + 1, f * self.r, singular)
+
+    @property
+    def parameters(self) -> list[fmpq]:
+        return [4 * rational(self.M) + 1]
+
+    @property
+    def cost(self) -> Cost:
+        return cost(square_root(self.parameters[0]))
+
+    def coordinate(self, n: Any, d: Any) -> int:
+        return sign_of(n, d)
+
+    def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
+        r = rational(self.r)
+        if coordinate:  # the symmetry z -> -z
+            n = -n
+            r = -r
+        nu = square_root(4 * rational(self.M) + 1)
+        return standard_form(n, d, nu / 2, values(-r, nu, squared=False))
+
+
+# ------------------------------------------------------------------------------------------ found by zeros
+
+
+def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[Pullback]:
+    """r = 1: f is a constant times the product of its zeros, by their multiplicities, over that of its poles."""
+    one = problem.field.poly([1])
+    poles = one
+    for place in irregular:
+        if not place.at_infinity:
+            poles = poles * place.factor ** (place.order - 2)
+    n = sum((place.order - 2) * place.degree for place in irregular)
+    regular = [place for place in problem.places if place.kind is Kind.REGULAR and place.delta_squared is not None]
+    for zeros in _zeros(regular, n):
+        numerator = one
+        for place, k in zeros:
+            if not place.at_infinity:
+                numerator = numerator * place.factor**k
+        f = RatFunc(numerator, poles)
+        scale = _scale(f, irregular[0])
+        if scale is not None:
+            place, k = zeros[0]
+            assert place.delta_squared is not None
+            nu_squared = place.delta_squared * Fraction(1, k * k)
+            yield Pullback(Bessel(one, (nu_squared - 1) * Fraction(1, 4)), f * scale)
+
+
+def _scale(f: RatFunc, place: Place) -> Poly | None:
+    """The constant c for which c f has the leading coefficient at the pole that S shows; None if there is none."""
+    field, p, d = f.field, place.factor, place.order - 2
+    local = f(RatFunc(field.poly([1]), field.poly([0, 1]))) if place.at_infinity else f
+    if local.den.remove(p)[1] != d:
+        return None
+    scale = leading_square(place) * (local.den // p**d) * local.num.inverse_modulo(p) % p
+    return scale if scale.degree == 0 else None
+
+
+def _zeros(regular: list[Place], n: int) -> Iterator[list[tuple[Place, int]]]:
+    """Sets of places with multiplicities proportional to the exponent differences, n zeros in all."""
+    logarithmic = [place for place in regular if not place.delta_squared]
+    if logarithmic:  # nu = 0: all zeros are here, and the exponents don't tell the multiplicities
+        yield from _of_degree(n, logarithmic, product(*(range(1, n // place.degree + 1) for place in logarithmic)))
+        return
+    tried = set()
+    for first in regular:
+        for m in range(1, n // first.degree + 1):
+            assert first.delta_squared is not None
+            nu_squared = first.delta_squared * Fraction(1, m * m)
+            if nu_squared in tried:
+                continue
+            tried.add(nu_squared)
+            found = [(place, k) for place in regular if (k := _multiplicity(place, nu_squared))]
+            for zeros in (found, [(place, k) for place, k in found if not place.is_apparent]):
+                if zeros and sum(k * place.degree for place, k in zeros) == n:
+                    yield zeros
+
+
+def _of_degree(n: int, places: list[Place], choices: Iterator[tuple[int, ...]]) -> Iterator[list[tuple[Place, int]]]:
+    """The places with those multiplicities that make n zeros."""
+    for choice in choices:
+        zeros = list(zip(places, choice, strict=True))
+        if sum(k * place.degree for place, k in zeros) == n:
+            yield zeros
+
+
+def _multiplicity(place: Place, nu_squared: Poly) -> int | None:
+    """k with Delta = k nu at a regular place, None if there is no such positive integer."""
+    assert place.delta_squared is not None
+    ratio = rational_square_root(place.delta_squared / nu_squared) if nu_squared else None
+    return int(ratio) if ratio is not None and ratio.denominator == 1 else None
+
+
+# ------------------------------------------------------------------------------------------ written
+
+
+def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:
+    """u = sqrt(t) J_nu(2 sqrt t), or with I, K and -t where the constant factor of t is negative.
+
+    Where t vanishes at a point that isn't `singular`, nu isn't an integer, and t^((1 +- nu)/2) 0F1(; 1 +- nu; -t) are analytic.
+    """
+    nu = writer.square_root(nu_squared)
+    if singular is not None and any(k > 0 and p.gcd(singular).degree == 0 for p, k in multiplicities(t)):
+        first, second = (
+            (writer.factor(t, [((m + 1) * HALF, t)]), writer.hypergeometric((), (m + 1,), writer.argument(-t)))
+            for m in (nu, -nu)
+        )
+        return writer.pair(first, second)
+    modified = writer.is_negative(t.num.lc)
+    z = writer.root_of(t * (-4 if modified else 4))
+    degree = next((m - HALF for m in (nu, -nu) if writer.is_degree(m - HALF)), None)
+    if degree is not None and not modified:
+        return _spherical(writer, degree, t, z)
+    return _cylindrical(writer, nu, t, z, modified=modified)
+
+
+def _spherical(writer: Writer, degree: Number, t: RatFunc, z: Expr) -> tuple[Expr, Expr]:
+    """J_nu = sqrt(2 z/pi) j_n, n the degree."""
+    import sympy
+
+    n = writer.constant(degree)
+    before = writer.factor(t, [(Number(degree.part * 0 + Fraction(3, 4)), t)])
+    return writer.pair((before, sympy.jn(n, z)), (before, sympy.yn(n, z)))
+
+
+def _cylindrical(writer: Writer, nu: Number, t: RatFunc, z: Expr, *, modified: bool) -> tuple[Expr, Expr]:
+    import sympy
+
+    order = writer.constant(nu)
+    kinds = (sympy.besseli, sympy.besselk) if modified else (sympy.besselj, sympy.bessely)
+    first, second = (kind(order, z, evaluate=False) for kind in kinds)
+    before = writer.factor(t, [(Number(nu.part * 0 + HALF), t)])
+    return writer.pair((before, first), (before, second))
+
+
+# ------------------------------------------------------------------------------------------ values
+
+
+def cost(order: Any) -> Cost:
+    """Of the functions of this order."""
+    if is_integer(order):
+        return Cost(most=20_000, target=LIMIT)
+    if isinstance(order, fmpq):
+        return Cost(most=20_000, target=3.0, grows_slowly=True)
+    return Cost(most=2_000, target=5.0)
+
+
+def sign_of(n: Any, d: Any) -> int:
+    """Is Re f negative?  Then -f is taken, by the symmetry z -> -z, r -> -r."""
+    return int(d != 0 and bool(acb(n / d).real < 0))
+
+
+def standard_form(n: fmpq_poly, d: fmpq_poly, mu: Any, found: tuple[Solution, Solution, Any]) -> StandardForm:
+    """With the exponents 1/2 +- mu at 0, two solutions, and the factor of the slit of the second, which then is of the second
+    kind."""
+    first, second, slit = found
+    half = fmpq(1, 2)
+    lower = half - mu if slit is None else half
+    return StandardForm(n, d, ((half + mu, 0), (lower, 0)), each(first, second), (slit, None))
+
+
+def values(factor: Any, order: Any, *, squared: bool) -> tuple[Solution, Solution, Any]:
+    """0F1(; 1 +- order; argument), the argument factor z or, `squared`, factor z^2/4; and the factor of the slit."""
+
+    def first(order: Any) -> Solution:
+        c = acb(1 + order)
+
+        def value(z: acb) -> State:
+            argument, slope = (z * z * (factor / 4), z * (factor / 2)) if squared else (z * factor, acb(factor))
+            return argument.hypgeom_0f1(c), argument.hypgeom_0f1(c + 1) * slope / c
+
+        return value
+
+    if not is_integer(order):
+        return first(order), first(-order), None
+    nu = acb(order)
+    root = acb(abs(factor)).sqrt()
+
+    def second(z: acb) -> State:
+        w, slope = (root * z, acb(root)) if squared else (2 * root * z.sqrt(), root / z.sqrt())
+        value, above = (w.bessel_k(v) if factor > 0 else w.bessel_y(v) for v in (nu, nu + 1))
+        return value, (nu / w * value - above) * slope
+
+    return first(order), second, 1

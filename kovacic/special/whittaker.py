@@ -1,0 +1,280 @@
+"""Whittaker's equation, S0 = q - r/z + M/z^2, q != 0: kappa = r/(2 sqrt q), mu^2 = M + 1/4, in 2 sqrt(q) z.
+
+Kummer's and Weber's equations are transforms of it; for r = 0 it is Bessel's of order mu in sqrt(-q) z.
+
+Pull-backs: all orders of poles of S are even, and f is the integral of the polar parts of sqrt(S/q).
+
+Solutions, z = 2 sqrt(q) f:
+
+    M_mu = exp(-z/2) z^(1/2 + mu) 1F1(1/2 + mu - kappa; 1 + 2 mu; z),      M_-mu, where 2 mu isn't an integer,
+    W = exp(-z/2) z^kappa 2F0(1/2 + mu - kappa, 1/2 - mu - kappa; -1/z),   W', with -kappa and -z.
+
+W and W' are independent always, by their behaviour at infinity; M_mu and W where 1/2 + mu - kappa isn't an integer <= 0, since
+a common solution would be elementary.  For a symbolic natural number N there are polynomials: 1F1(-N; 1 + a; z) is a multiple
+of L_N^(a)(z), and W for mu^2 = 1/16, w^2 = z, of exp(-w^2/2) w^(1/2) H_N(w) with N = 2 kappa - 1/2, Weber's function.
+
+Values, rho^2 = q, with U where the exponents differ by an integer:
+
+    e^(-rho z) 1F1(1/2 +- mu - kappa; 1 +- 2 mu; 2 rho z),      else e^(-rho z) U(1/2 + mu - kappa, 1 + 2 mu, 2 rho z).
+
+Reference: DLMF 12.7, 13.2, 13.6, 13.14, 18.5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import product
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from flint import acb, fmpq, fmpq_poly
+
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.engine.places import Problem
+from kovacic.special import bessel
+from kovacic.special.numbers import HALF, Number, multiplicities
+from kovacic.special.polar_parts import (
+    PolarPart,
+    check_conjugates,
+    integral_of_square_root,
+    irregular_places,
+    scales,
+    unit,
+    with_constant,
+)
+from kovacic.special.pullback import Pullback, StandardEquation, variable
+from kovacic.special.values import (
+    LIMIT,
+    Cost,
+    Solution,
+    StandardForm,
+    State,
+    each,
+    ends,
+    is_integer,
+    rational,
+    square_root,
+)
+
+if TYPE_CHECKING:
+    from kovacic.closed_form.atoms import Expr
+    from kovacic.special.writer import Term, Writer, WrittenFactor
+
+#: Irregular places up to which all signs are tried where no residue tells them.
+_MOST_SIGNS = 10
+
+
+@dataclass(frozen=True)
+class Whittaker(StandardEquation):
+    """S0 = q - r/z + M/z^2."""
+
+    q: Poly
+    r: Poly
+    M: Poly
+
+    searched: ClassVar[str] = "Whittaker's equation (with Kummer's, Weber's and Bessel's) in f(x), f rational"
+    irregular: ClassVar[bool] = True
+
+    @property
+    def name(self) -> str:
+        return "Whittaker's" if self.r else "Bessel's"
+
+    @property
+    def S(self) -> RatFunc:
+        z = variable(self.M.field)
+        return RatFunc(z * z * self.q - z * self.r + self.M, z * z)
+
+    @classmethod
+    def candidates(cls, problem: Problem, *, extended: bool) -> Iterator[Pullback]:
+        places = irregular_places(problem)
+        if any(place.order % 2 for place in places):
+            return
+        check_conjugates(problem, places)
+        for q in scales(places, lambda place: unit(place, 1), 2):
+            parts = [part for place in places if (part := integral_of_square_root(place, q)) is not None]
+            if len(parts) < len(places):
+                continue
+            r = parts[0].residue * q * Fraction(2, parts[0].order)
+            for signs in _signs(parts):
+                f = sum((part.part * sign for part, sign in zip(parts, signs, strict=True)), RatFunc(q * 0))
+                found = with_constant(problem.S, f, q, r)
+                if found is not None:
+                    f, M = found
+                    yield Pullback(Whittaker(q, r, M), f)
+
+    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> tuple[Expr, Expr]:
+        if not self.r:
+            return bessel.written(writer, self.M + Fraction(1, 4), f * f * self.q * Fraction(-1, 4), singular)
+        form = _Form.of(self, writer, f)
+        for turned in (form, form.turned):
+            polynomial = _hermite(turned) or _laguerre(turned)
+            if polynomial is not None:
+                return polynomial
+        return _kummer_or_tricomi(form)
+
+    @property
+    def parameters(self) -> list[fmpq]:
+        q, r, M = (rational(v) for v in (self.q, self.r, self.M))
+        return [4 * M + 1, r * r / q]
+
+    @property
+    def cost(self) -> Cost:
+        doubled = square_root(self.parameters[0])  # 2 mu
+        if not self.r:
+            return bessel.cost(doubled / 2)
+        return Cost(most=2_000, target=LIMIT if is_integer(doubled) else 5.0)
+
+    def coordinate(self, n: Any, d: Any) -> int:
+        return bessel.sign_of(n, d)
+
+    def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
+        q, r, M = (rational(v) for v in (self.q, self.r, self.M))
+        if coordinate:  # the symmetry z -> -z
+            n = -n
+            r = -r
+        mu = square_root(M + fmpq(1, 4))
+        if r == 0:
+            return bessel.standard_form(n, d, mu, bessel.values(q, mu, squared=True))
+        first, second, slit = _values(q, r, mu)
+        half = fmpq(1, 2)
+        upper = (half + mu, 0)
+        if slit is None:
+            return StandardForm(n, d, (upper, (half - mu, 0)), each(first, second))
+        independent = not ends(half + mu - r / (2 * slit))
+        return StandardForm(n, d, (upper, upper), each(first, second), (slit, None), independent)
+
+
+def _signs(parts: list[PolarPart]) -> Iterator[Sequence[int]]:
+    """The signs of the parts: their residues are proportional to the orders; all signs where the residues vanish."""
+    rates = [part.residue * Fraction(1, part.order) for part in parts]
+    if not any(rates):
+        if len(parts) <= _MOST_SIGNS:
+            yield from product((1,), *[(1, -1)] * (len(parts) - 1))
+    elif all(rate in (rates[0], -rates[0]) for rate in rates):
+        yield [1 if rate == rates[0] else -1 for rate in rates]
+
+
+# ------------------------------------------------------------------------------------------ written
+
+
+@dataclass(frozen=True)
+class _Form:
+    """Whittaker's equation in 2 q f: the parameters, and q for sqrt(q)."""
+
+    writer: Writer
+    f: RatFunc
+    q: Number
+    kappa: Number
+    mu: Number
+
+    @classmethod
+    def of(cls, equation: Whittaker, writer: Writer, f: RatFunc) -> _Form:
+        """The sign of sqrt(q) makes the exponential vanish where it can, or z positive."""
+        q = writer.square_root(equation.q)
+        given = writer.exponential_rate
+        slope = f.derivative() * q.part
+        vanishes = bool(given) and given in (slope, -slope)
+        turned = given == -slope if vanishes else writer.is_negative(f.num.lc)
+        if turned:
+            q = -q
+        mu = writer.square_root(equation.M + Fraction(1, 4))
+        return cls(writer, f, q, q * (equation.r / (2 * equation.q)), mu)
+
+    @property
+    def turned(self) -> _Form:
+        """The same with -z and -kappa."""
+        return replace(self, q=-self.q, kappa=-self.kappa)
+
+    @property
+    def z(self) -> Expr:
+        return self.writer.multiple(self.q * 2, self.f)
+
+    def factor(self, power: Number) -> WrittenFactor:
+        """exp(-z/2) z^power, and what belongs to the pull-back."""
+        return self.writer.factor(self.f, [(power, self.f)], (-self.q, self.f))
+
+    def kummer(self, mu: Number) -> Term:
+        """M_mu."""
+        return self.factor(mu + HALF), self.writer.hypergeometric((mu - self.kappa + HALF,), (2 * mu + 1,), self.z)
+
+    @property
+    def tricomi(self) -> Term:
+        """W."""
+        top = [mu - self.kappa + HALF for mu in (self.mu, -self.mu)]
+        return self.factor(self.kappa), self.writer.hypergeometric(top, (), -1 / self.z)
+
+
+def _kummer_or_tricomi(form: _Form) -> tuple[Expr, Expr]:
+    """M_mu and M_-mu, or with W where 2 mu is an integer."""
+    writer, mu = form.writer, form.mu
+    if not writer.is_integer(2 * mu):
+        return writer.pair(form.kummer(mu), form.kummer(-mu))
+    natural = next((m for m in (mu, -mu) if writer.is_natural(2 * m)), None)
+    reducible = any(writer.is_integer(form.kappa + m - HALF) for m in (mu, -mu))
+    if natural is None or reducible:
+        return writer.pair(form.turned.tricomi, form.tricomi)
+    return writer.pair(form.kummer(natural), form.tricomi)
+
+
+def _hermite(form: _Form) -> tuple[Expr, Expr] | None:
+    import sympy
+
+    writer, degree = form.writer, 2 * form.kappa - HALF
+    is_weber = not form.mu.roots and form.mu.part == Fraction(1, 4)
+    is_square = not form.q.roots and all(k % 2 == 0 for _, k in multiplicities(form.f))
+    if not (writer.is_degree(degree) and is_weber and is_square):
+        return None
+    N = writer.constant(degree)
+    root = writer.root_of(form.f * form.q.part * 2)
+    even = writer.even((-N / 2,), form.z)
+    odd = writer.odd(((1 - N) / 2,), root, form.z)
+    before = form.factor(form.mu)
+    return writer.pair((before, sympy.hermite(N, root)), (before, writer.by_parity(N, odd, even)))
+
+
+def _laguerre(form: _Form) -> tuple[Expr, Expr] | None:
+    import sympy
+
+    writer = form.writer
+    for mu in (form.mu, -form.mu):
+        degree = form.kappa - mu - HALF
+        integer = writer.is_integer(2 * mu)
+        if writer.is_degree(degree) and (writer.is_natural(2 * mu) or not integer):
+            N, a = writer.constant(degree), writer.constant(2 * mu)
+            polynomial = sympy.assoc_laguerre(N, a, form.z) if a else sympy.laguerre(N, form.z)
+            second = form.turned.tricomi if integer else form.kummer(-mu)
+            return writer.pair((form.factor(mu + HALF), polynomial), second)
+    return None
+
+
+# ------------------------------------------------------------------------------------------ values
+
+
+def _values(q: Any, r: Any, mu: Any) -> tuple[Solution, Solution, Any]:
+    """Two solutions, and the factor of the slit of the second where that is U."""
+    rho = square_root(q)
+    kappa = r / (2 * rho)
+    half = fmpq(1, 2)
+
+    def first(mu: Any) -> Solution:
+        a, b = acb(half + mu - kappa), acb(1 + 2 * mu)
+
+        def value(z: acb) -> State:
+            decay, w = (-(rho * z)).exp(), 2 * rho * z
+            F, above = w.hypgeom_1f1(a, b), w.hypgeom_1f1(a + 1, b + 1)
+            return decay * F, decay * rho * (2 * a / b * above - F)
+
+        return value
+
+    if not is_integer(2 * mu):
+        return first(mu), first(-mu), None
+    a, b = acb(half + mu - kappa), acb(1 + 2 * mu)
+
+    def second(z: acb) -> State:
+        decay, w = (-(rho * z)).exp(), 2 * rho * z
+        U, above = w.hypgeom_u(a, b), w.hypgeom_u(a + 1, b + 1)
+        return decay * U, -decay * rho * (U + 2 * a * above)
+
+    return first(mu), second, rho
