@@ -97,11 +97,11 @@ def special(answer: Answer) -> SpecialFunctions:
 
 def _in_given_variable(answer: Answer, found: Any) -> Any:
     """The same with y1 and y2 in the user's variable."""
-    if answer.change is None or found.y1 is None:
+    if answer.equation is None or answer.change is None or found.y1 is None:
         return found
-    from kovacic.reading.change_of_variable import solution_in_terms_of
+    from kovacic.reading.change_of_variable import solution_in_x
 
-    y1, y2 = (solution_in_terms_of(answer.change, y, answer.variable) for y in (found.y1, found.y2))
+    y1, y2 = (solution_in_x(answer.equation, y) for y in (found.y1, found.y2))
     return replace(found, y1=y1, y2=y2)
 
 

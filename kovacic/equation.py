@@ -41,6 +41,10 @@ class Change:
     variable: str
     expression: str
 
+    def to_dict(self) -> dict[str, str]:
+        """For JSON; `Change(**data)` is the way back."""
+        return {"variable": self.variable, "expression": self.expression}
+
 
 @dataclass(frozen=True)
 class Equation:

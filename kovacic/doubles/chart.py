@@ -57,11 +57,11 @@ class PieceChart:
         """t, a SymPy expression, and expressions as functions of x in balls or series."""
         import sympy
 
-        from kovacic.enclosure.change import function_of_x
+        from kovacic.enclosure.change import function_with_values
+        from kovacic.reading.change_of_variable import user_variable
 
-        change = self.answer.equation.change
-        x = sympy.Symbol(change.variable)
-        t = function_of_x(change, self.params).rewrite([sympy.sinh, sympy.cosh], sympy.exp)
+        x = user_variable(self.answer.equation)
+        t = function_with_values(self.answer.equation, self.params).rewrite([sympy.sinh, sympy.cosh], sympy.exp)
         return t, lambda f, at: in_balls(f, {x: at})
 
     def _values(self, x: acb) -> tuple[acb, acb]:
@@ -107,7 +107,7 @@ class PieceChart:
         from kovacic.enclosure.change import evaluate_in_x
 
         options |= {"params": self.params, "derivative": True, "path": self.given.get("path")}  # along the real axis
-        found = evaluate_in_x(self.answer, self.answer.equation.change, [*points], **options)
+        found = evaluate_in_x(self.answer, [*points], **options)
         return [(ball_to_flint(y), ball_to_flint(dy)) for y, dy in found]
 
     def _closed(self, branch: Exponential, points: Sequence[ExactPoint], digits: int) -> list[State]:
@@ -207,9 +207,9 @@ def chart_of(
             answer = read_input(equation, exponentials=True)
             if answer.equation is None or answer.equation.change is None:
                 raise reason from None
-    plain = replace(answer.equation, change=None)
-    inner = replace(answer, equation=plain) if hasattr(answer, "decision") else plain
-    return PieceChart(_real_problem(inner, params, constants), given, None, answer, params)
+    from kovacic.reading.change_of_variable import without_change  # imports SymPy
+
+    return PieceChart(_real_problem(without_change(answer), params, constants), given, None, answer, params)
 
 
 def _real_problem(equation: object, params: Mapping[str, object] | None, constants: bool) -> NumericProblem:

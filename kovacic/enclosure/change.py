@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import sympy
@@ -23,9 +22,10 @@ from kovacic.enclosure.points import ExactPoint, to_acb, working_precision
 from kovacic.enclosure.precision import AccuracyWarning, PointValue, number_of_digits, start_bits
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
-from kovacic.equation import Change
+from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.limits import limits_of
+from kovacic.reading.change_of_variable import function_of_x, user_variable, without_change
 from kovacic.reading.symbolic import read_expression
 
 _BALLS = 5000  # bits of what is computed from a slope that is a ball
@@ -36,7 +36,6 @@ _SHIFTS = {"cos": arb(0), "sin": arb(0.5), "tan": arb(0.5)}
 
 def evaluate_in_x(
     answer: Any,
-    change: Change,
     x: Any,
     *,
     x0: Any,
@@ -49,9 +48,9 @@ def evaluate_in_x(
 ) -> Any:
     """A ball that contains y(x), or a pair with y'(x), from y(x0) and y'(x0); for a list of points a tuple.
 
-    `answer` is a solution whose variable t is a function of x, `change`.  Numbers are real, exact numbers or constants such as
-    "sqrt(2)"; from x0 to x the function t must be real and monotone.  Raises `InputError` where it isn't, and what
-    `kovacic.evaluate` raises.
+    `answer` is a solution, or an equation that was read, whose variable t is a function of x.  Numbers are real: exact numbers
+    or constants such as "sqrt(2)"; from x0 to x the function t must be real and monotone.  Raises `InputError` where it isn't,
+    and what `kovacic.evaluate` raises.
     """
     if y0 is None or dy0 is None:
         raise InputError("both y0 and dy0 are needed where coefficients are functions of x")
@@ -61,7 +60,8 @@ def evaluate_in_x(
                 f"{name} isn't for equations whose coefficients are functions of x", hint="give y0 and dy0"
             )
     digits = number_of_digits(digits, limits_of(options.get("limits")))
-    t, variable = function_of_x(change, params), sympy.Symbol(change.variable)
+    t = function_with_values(answer.equation, params)
+    variable = user_variable(answer.equation)
     slope, rate = t.diff(variable), t.args[0].diff(variable)
     circle = isinstance(t, sympy.exp) and bool(in_balls(rate, {}).real.is_zero())
     many = isinstance(x, list | tuple | range)
@@ -70,8 +70,7 @@ def evaluate_in_x(
     if None in cells or len(set(cells)) > 1:
         hint = f"give points between neighbouring zeros and poles of {slope}, or evaluate the solutions with SymPy"
         raise InputError(f"{t} isn't known to be real and monotone from x0 to x", hint=hint)
-    plain = replace(answer.equation, change=None)
-    given = replace(answer, equation=plain) if hasattr(answer, "decision") else plain
+    given = without_change(answer)
     options |= {"x0": t.subs(variable, start), "y0": y0, "digits": digits, "params": params}
     options["dy0"] = _over(dy0, slope.subs(variable, start))
     real = (
@@ -91,10 +90,10 @@ def evaluate_in_x(
     return tuple(found) if many else found[0]
 
 
-def function_of_x(change: Change, params: Mapping[str, Any] | None) -> Any:
-    """t as a SymPy expression, with these values of its parameters."""
+def function_with_values(equation: Equation, params: Mapping[str, Any] | None) -> Any:
+    """t as a SymPy expression in x, with these values of its parameters."""
     values = {sympy.Symbol(name): _exact(value, f"the parameter {name}") for name, value in (params or {}).items()}
-    return read_expression(change.expression).xreplace(values)
+    return function_of_x(equation).xreplace(values)
 
 
 def _over(dy0: Any, slope: Any) -> Any:

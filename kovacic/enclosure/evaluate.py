@@ -200,4 +200,4 @@ def _in_given_variable(equation: Any, x: object, derivative: bool, options: Mapp
     """As `evaluate`, where the coefficients are rational in a function of x."""
     from kovacic.enclosure.change import evaluate_in_x  # imports SymPy
 
-    return evaluate_in_x(equation, equation.equation.change, x, derivative=derivative, **options)
+    return evaluate_in_x(equation, x, derivative=derivative, **options)

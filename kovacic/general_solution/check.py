@@ -24,7 +24,7 @@ from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import ball, samples
-from kovacic.reading.change_of_variable import in_terms_of
+from kovacic.reading.change_of_variable import function_of_x
 
 Expr = Any  # SymPy publishes no types
 _INFINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
@@ -109,7 +109,7 @@ def _coefficients(question: Question) -> tuple[Expr, Expr, Expr, Expr]:
     f = (atoms.sum(equation.f) + (equation.h or 0)).xreplace(plain)
     if equation.change is None:
         return a, b, c, f
-    value = in_terms_of(equation.change, t, t.name)
+    value = function_of_x(equation)
     slope = value.diff(question.x)
     a, b, c, f = (part.subs(t, value) for part in (a, b, c, f))
     return a / slope**2, b / slope - a * slope.diff(question.x) / slope**3, c, f

@@ -20,7 +20,7 @@ from kovacic.general_solution.variation import Basis
 from kovacic.limits import Budget
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.reading.change_of_variable import solution_in_terms_of
+from kovacic.reading.change_of_variable import solution_in_x
 from kovacic.solution import Solution, solve
 from kovacic.special.mathieu import mathieu
 from kovacic.special.search import special_functions
@@ -39,11 +39,7 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
         pair = _in_special_functions(question, solution, budget, special=special)
     else:
         pair = _liouvillian(question, solution, budget)
-    change = question.equation.change
-    if change is not None:
-        name = question.equation.variable
-        pair = solution_in_terms_of(change, pair[0], name), solution_in_terms_of(change, pair[1], name)
-    y1, y2 = (y.xreplace(NUMBERS) for y in pair)
+    y1, y2 = (solution_in_x(question.equation, y).xreplace(NUMBERS) for y in pair)
     return Basis(y1, y2, question.x, question.equation), solution
 
 
@@ -78,7 +74,7 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
     )
     equation = question.equation
     if not found and equation.change is not None:
-        found = mathieu(solution.S, solution.gauge, equation.change, equation.variable) or found
+        found = mathieu(solution.S, solution.gauge, equation) or found
     if not found:
         raise NotImplementedError(f"{no_solution(solution, question.assumptions)}; {found}")
     y1, y2 = found

@@ -30,18 +30,9 @@ from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import values_at
 from kovacic.general_solution.variation import Basis
 from kovacic.limits import Budget
-from kovacic.reading.change_of_variable import in_terms_of
+from kovacic.reading.change_of_variable import in_x, slope_squared
 
 Expr = Any  # SymPy publishes no types
-#: (dt/du)^2 for functions t of u, in t.
-_SQUARES: dict[Any, Callable[[Expr], Expr]] = {
-    sympy.exp: lambda t: t**2,
-    sympy.sin: lambda t: 1 - t**2,
-    sympy.cos: lambda t: 1 - t**2,
-    sympy.tan: lambda t: (1 + t**2) ** 2,
-    sympy.sinh: lambda t: t**2 + 1,
-    sympy.cosh: lambda t: t**2 - 1,
-}
 #: The most terms of a right-hand side that are treated one by one.
 _LARGEST_SUM = 30
 
@@ -53,12 +44,9 @@ def particular_solution(basis: Basis, start: Expr | None, budget: Budget) -> Exp
     right = (Atoms(x).sum(equation.f) + (equation.h or 0)).xreplace(NUMBERS)
     if right == 0:
         return sympy.Integer(0)
-    change = equation.change
-    if change is not None:  # in x, where y'' = (dt/dx)^2 Y'' + ...
-        t = in_terms_of(change, x, x.name)
-        square = _SQUARES[t.func](x) * t.args[0].diff(basis.x) ** 2
-        right = sympy.factor(right / Atoms(x).ratio(equation.a).xreplace(NUMBERS) * square)
-        return basis.with_integrals(in_terms_of(change, right, x.name), start)
+    if equation.change is not None:  # in x, where y'' = (dt/dx)^2 Y'' + ...
+        right = sympy.factor(right / Atoms(x).ratio(equation.a).xreplace(NUMBERS) * slope_squared(equation))
+        return basis.with_integrals(in_x(equation, right), start)
 
     def at_once(right: Expr) -> Expr:
         f, field = ratfunc(right, x), equation.a.field

@@ -23,7 +23,7 @@ from kovacic.general_solution.real_basis import negative_arguments, real_basis, 
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.variation import Basis, starting_at
 from kovacic.general_solution.zero import is_zero
-from kovacic.reading.change_of_variable import in_terms_of
+from kovacic.reading.change_of_variable import function_of_x, user_variable
 from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types
@@ -72,9 +72,7 @@ def is_singular(question: Question, point: Expr) -> bool:
     """Is a finite point a pole of b/a, c/a or f/a, or one where the rest of the right-hand side has no value?"""
     equation = question.equation
     atoms = Atoms(sympy.Symbol(equation.variable))
-    at = point
-    if equation.change is not None:
-        at = in_terms_of(equation.change, atoms.x, equation.variable).subs(equation.change.variable, point)
+    at = function_of_x(equation).subs(user_variable(equation), point)
     for part in (equation.b, equation.c, equation.f):
         den = (part / equation.a).den
         if den.degree > 0:
@@ -190,7 +188,7 @@ def _changed_poles(question: Question, first: Expr, last: Expr) -> Iterator[Expr
     if equation.change is None:
         return
     t = sympy.Symbol(equation.variable)
-    value = in_terms_of(equation.change, t, t.name)
+    value = function_of_x(equation)
     rates = _rates_in_x(question, value)
     quotients = [part / equation.a for part in (equation.b, equation.c, equation.f)]
     dens = [Atoms(t).poly(q.den) for q in quotients if q.den.degree > 0]

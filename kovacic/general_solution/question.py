@@ -154,10 +154,10 @@ def _applied_in(eq: Any, func: Any) -> Expr:
     return applied
 
 
-Change = tuple[dict[Expr, Expr], dict[Expr, Expr]]
+Renamed = tuple[dict[Expr, Expr], dict[Expr, Expr]]
 
 
-def _changes_of(eq: Any) -> list[Change]:
+def _changes_of(eq: Any) -> list[Renamed]:
     """Symbols that are replaced in a SymPy expression, and the way back: roots, and symbols with the names of numbers."""
     if not isinstance(eq, sympy.Basic):
         return []
@@ -169,7 +169,7 @@ def _changes_of(eq: Any) -> list[Change]:
     return found
 
 
-def _root_of_parameter(eq: Expr) -> Change | None:
+def _root_of_parameter(eq: Expr) -> Renamed | None:
     """For a square root r of an expression that is linear in a parameter p: p in terms of r."""
     roots = [power for power in eq.atoms(sympy.Pow) if power.exp.is_Rational and power.exp.q == 2]
     variables = {symbol for f in eq.atoms(AppliedUndef) for symbol in f.free_symbols} if roots else set()

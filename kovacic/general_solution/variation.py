@@ -22,11 +22,11 @@ from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import one_exponential
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
-from kovacic.equation import Change, Equation
+from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import NUMBERS, antiderivative, prepared
 from kovacic.general_solution.substitution import finite_value, size
-from kovacic.reading.change_of_variable import in_terms_of
+from kovacic.reading.change_of_variable import function_of_x, in_x
 
 Expr = Any  # SymPy publishes no types
 #: Points x/101 + i y/89 in each quadrant and on the axis, where a solution is substituted: wrong branches of roots don't pass.
@@ -75,7 +75,7 @@ class Basis:
         if known is not None:
             return known
         if self.equation.change is not None:
-            return self._changed(self.equation.change) or self._by_definition
+            return self._changed or self._by_definition
         if not self.y1.has(*_UNKNOWN) and not self.y2.has(*_UNKNOWN):
             kernel = display(product(self.equation.gauge * 2), Atoms(self.x)).xreplace(NUMBERS)
             for c in self._quotients(kernel):
@@ -87,17 +87,18 @@ class Basis:
                     break
         return self._by_definition
 
-    def _changed(self, change: Change) -> Expr | None:
+    @property
+    def _changed(self) -> Expr | None:
         """From that in t = t(x), the variable of the equation, for solutions that are functions of t."""
         own, t = sympy.Symbol(self.equation.variable), sympy.Dummy()
-        value = in_terms_of(change, own, own.name)
+        value = function_of_x(self.equation)
         whole = value.func is not sympy.exp  # else roots of t are exponentials
         old, new = (value, t) if whole else (self.x, sympy.log(t) / value.exp.diff(self.x))
         y1, y2 = (y.subs(old, new) for y in (self.y1, self.y2))
         if y1.has(self.x) or y2.has(self.x):
             return None
         basis = Basis(y1.xreplace({t: own}), y2.xreplace({t: own}), own, replace(self.equation, change=None))
-        return in_terms_of(change, basis.wronskian, own.name) * value.diff(self.x)
+        return in_x(self.equation, basis.wronskian) * value.diff(self.x)
 
     @property
     def _by_definition(self) -> Expr:

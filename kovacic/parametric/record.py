@@ -73,7 +73,7 @@ def equation_data(equation: Equation | None) -> dict[str, Any] | None:
     if equation is None:
         return None
     change = equation.change
-    shown = None if change is None else {"variable": change.variable, "expression": change.expression}
+    shown = None if change is None else change.to_dict()
     return {"text": equation.text(caret=False), "unknown": equation.unknown, "change": shown}
 
 
@@ -84,7 +84,7 @@ def equation_from(data: Mapping[str, Any] | None, variable: str, names: tuple[st
     read = read_input(data["text"], var=variable, unknown=data["unknown"], limits=_LIMITS, equation=True).equation
     if read is None:
         raise InputError(f"{data['text']!r} isn't an equation")
-    change = data["change"] and Change(data["change"]["variable"], data["change"]["expression"])
+    change = data["change"] and Change(**data["change"])
     return replace(
         read,
         a=_in_order(read.a, names),

@@ -27,7 +27,7 @@ from kovacic.limits import Budget
 from kovacic.parametric.exponents import Exponents
 from kovacic.parametric.formulas import equation_written
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
-from kovacic.reading.change_of_variable import solution_in_terms_of
+from kovacic.reading.change_of_variable import solution_in_x
 from kovacic.writing.formula import caret
 
 
@@ -109,9 +109,7 @@ class Given:
         equation = self.equation
         if equation.gauge:
             y = y * display(product(equation.gauge), Atoms(sympy.Symbol(equation.variable)))
-        if equation.change is not None:
-            y = solution_in_terms_of(equation.change, y, equation.variable)
-        return y
+        return solution_in_x(equation, y)
 
 
 def solution_of_degree(exponents: Exponents, d: int, variable: str, given: FunctionPoly) -> PolynomialSolution | None:

@@ -7,6 +7,7 @@ position in the text, what would be too large `LimitExceeded` before it is compu
 `read` is the door: read it first, and then `source`, which every text and SymPy expression goes through.  A text is read by
 `lexer` and `parser`, a SymPy expression is walked by `symbolic`: both call a reader, which says what numbers, names and calls
 mean: `expression` (S), `differential` (equations), or `symbolic` (SymPy's expressions).  Readers calculate with `arithmetic`,
-or with `linear` where an unknown function or what isn't rational may occur; `change_of_variable` makes exp(k x) a variable;
+or with `linear` where an unknown function or what isn't rational may occur; `exponentials` makes exp(k x) a variable, and
+`change_of_variable` has the way back;
 `constants` has the field, `names` the names with a meaning; the results, `Equation` and `Parsed`, are `kovacic.equation`'s.
 """

@@ -1,95 +1,65 @@
-"""Coefficients that are rational in exp(k x): in sin, cos, tan, sinh, cosh, tanh, ... of multiples of k x.
+"""The change of variable t = t(x) of an equation whose coefficients are rational in exp(k x), a sine, ...: the way back to x.
 
-With t = exp(k x), d/dx = k t d/dt turns a y'' + b y' + c y = f into an equation with rational coefficients,
-
-    k^2 t^2 a Y'' + (k^2 t a + k t b) Y' + c Y = f,        y(x) = Y(exp(k x)),                                          (1)
-
-with the same differential Galois group, since C(exp(k x)) with d/dx is C(t) with k t d/dt.  Where everything depends on t^g
-alone, t^g is the variable.  Trigonometric functions have k = i kappa.  Other variables are cosh(k x), sinh(k x), cos(kappa x)
-and sin(kappa x), where the equation is invariant under t -> 1/t or t -> -1/t; and t = tan(kappa x/2), where the coefficients
-would not be real: exp(i kappa x) = (1 + i t)/(1 - i t).
-
-Reference: P. Acosta-Humanez & D. Blazquez-Sanz, Non-integrability of some Hamiltonians with rational potentials, Discrete and
-Continuous Dynamical Systems B 10 (2008) 265-293 (Hamiltonian algebrization).
+`exponentials` reads such an equation as one in t = exp(k x + c), or in a cosine, a sine or a tangent, and keeps the function
+as `Equation.change`; everything is then computed in t.  Here is what takes the results to the user's x.  Every function serves
+where the equation has no change, too: there t = x.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from contextlib import suppress
-from math import gcd
+from dataclasses import replace
 from typing import Any
 
 import sympy
-from sympy.functions.elementary.hyperbolic import HyperbolicFunction
-from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
-from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.equation import UNKNOWN, Change, Equation, Parsed, lowered, over
-from kovacic.errors import NotLinear, NotRational
-from kovacic.limits import Limits
-from kovacic.numerals import as_text
-from kovacic.reading.arithmetic import Term
-from kovacic.reading.differential import EquationReader
-from kovacic.reading.linear import REST, Symbols
-from kovacic.reading.source import Source, read_source, source_of
+from kovacic.equation import Equation
 from kovacic.reading.symbolic import read_expression
 
-_RIGHT = "put 0 there: two solutions give one with any right-hand side, by variation of parameters"
-_HINT = "coefficients are rational in x, or in exp(k*x) and sines, cosines, ... of rational multiples of k*x"
+#: (dt/du)^2 for functions t of u = k x + c, in t.
+_SQUARES: dict[Any, Any] = {
+    sympy.exp: lambda t: t**2,
+    sympy.sin: lambda t: 1 - t**2,
+    sympy.cos: lambda t: 1 - t**2,
+    sympy.tan: lambda t: (1 + t**2) ** 2,
+    sympy.sinh: lambda t: t**2 + 1,
+    sympy.cosh: lambda t: t**2 - 1,
+}
 
 
-def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
-    """The equation (1) for an input with such coefficients; None for any other input.
-
-    Raises `NotRational` where x occurs beside exp(k x), for rates whose quotient isn't rational, and for a right-hand side that
-    isn't rational in exp(k x).
-    """
-    x, reader = sympy.Symbol(source.variable), EquationReader(source.variable, source.unknown, limits, Symbols())  # type: ignore[arg-type]
-    reader.arithmetic.coefficient = lambda expression: expression  # any one
-    value = source.walk(reader)
-    parts = getattr(value, "parts", {}) if source.unknown else {2: Term(1, 0), 0: reader.arithmetic.negate(value)}
-    found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
-    if max(found, default=0) != 2:
-        raise NotLinear("a linear equation of second order is expected")
-    rewritten = [_in_exponentials(found.get(k, sympy.Integer(0)), x) for k in (2, 1, 0, REST)]
-    if all(part.is_rational_function(x) for part in rewritten[:3]):
-        with suppress(NotRational):
-            return _without_exponentials(rewritten, source, limits)
-    exponentials = {e for part in rewritten for e in part.atoms(sympy.exp) if e.has(x)}
-    if not exponentials:
-        return None
-    T = sympy.Dummy("T")
-    k, offset, powers = _powers(exponentials, x, T)
-    a, b, c, rest = (part.xreplace(powers) for part in rewritten)
-    if any(part.has(x) for part in (a, b, c)):
-        raise NotRational(f"{x} beside exp({k * x}): that isn't rational in one exponential function", hint=_HINT)
-    if not rest.is_rational_function(T) or rest.has(x):
-        raise NotRational(
-            f"a right-hand side that isn't rational in exp({k * x}), as the coefficients are", hint=_RIGHT
-        )
-    unknown = reader.unknown or UNKNOWN
-    names = {s.name for part in (a, b, c, rest, k) for s in part.free_symbols} | {x.name, unknown}
-    t = sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
-    Y = sympy.Function(f"{unknown}_")(t)
-    whole = k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y + rest
-    read = read_source(source_of(whole.xreplace({T: t}), None, equation=True), limits)
-    assert read.equation is not None
-    assert read.equation.h is None
-    (p, q, f), expression = _best(read.equation, k, x + offset)
-    denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
-    p, q, f = p * denominator, q * denominator, f * denominator
-    result = Equation(denominator, p, q, f, None, t.name, unknown, Change(x.name, expression))
-    return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *reader.notices(), *read.notices), result)
+def function_of_x(equation: Equation) -> Any:
+    """t, a SymPy expression in x."""
+    if equation.change is None:
+        return sympy.Symbol(equation.variable)
+    return read_expression(equation.change.expression)
 
 
-def in_terms_of(change: Change, expression: Any, variable: str) -> Any:
+def user_variable(equation: Equation) -> Any:
+    """x as a SymPy symbol."""
+    return sympy.Symbol(equation.variable if equation.change is None else equation.change.variable)
+
+
+def slope_squared(equation: Equation) -> Any:
+    """(dt/dx)^2, a SymPy expression in t."""
+    if equation.change is None:
+        return sympy.Integer(1)
+    t = function_of_x(equation)
+    rate = t.args[0].diff(user_variable(equation))
+    return _SQUARES[t.func](sympy.Symbol(equation.variable)) * rate**2
+
+
+def without_change(given: Any) -> Any:
+    """The equation in t alone, of a read input; or the same answer about it."""
+    plain = replace(given.equation, change=None)
+    return replace(given, equation=plain) if hasattr(given, "decision") else plain
+
+
+def in_x(equation: Equation, expression: Any) -> Any:
     """A SymPy expression in t as one in x; exp(2*x) + 1 becomes 2*exp(x)*cosh(x), powers of exponentials exponentials."""
-    t, own = read_expression(change.expression), sympy.Symbol(variable)
-    x = sympy.Symbol(change.variable)
+    if equation.change is None:
+        return expression
+    own, x, t = sympy.Symbol(equation.variable), user_variable(equation), function_of_x(equation)
     integrals = {
-        integral: sympy.Integral(in_terms_of(change, integral.function, variable) * t.diff(x), x)
+        integral: sympy.Integral(in_x(equation, integral.function) * t.diff(x), x)
         for integral in expression.atoms(sympy.Integral)
         if integral.limits == (sympy.Tuple(own),)
     }
@@ -97,25 +67,30 @@ def in_terms_of(change: Change, expression: Any, variable: str) -> Any:
     if t.func in (sympy.cos, sympy.cosh):  # roots of t + 1 and t - 1 as powers that join where t is 1 or -1
         roots = {e for e in result.atoms(sympy.Pow) if e.base in (t + 1, t - 1, 1 - t) and not e.exp.is_Integer}
         return result.xreplace({e: _by_halves(t, e) for e in roots})
-    if t.func is not sympy.exp:
-        return result
-    result = result.replace(
-        lambda e: e.func is sympy.log and e.args[0].func is sympy.exp, lambda e: e.args[0].exp
-    ).replace(_is_exponential_and_one, _hyperbolic)
-    powers = result.replace(
-        lambda e: e.is_Pow and e.base.is_Mul and e.base.has(x), lambda e: sympy.expand_power_base(e, force=True)
-    )
-    powers = powers.replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
-    return sympy.powsimp(powers, combine="exp")
+    return _with_joined_powers(result, x) if t.func is sympy.exp else result
 
 
-def solution_in_terms_of(change: Change, solution: Any, variable: str) -> Any:
+def solution_in_x(equation: Equation, y: Any) -> Any:
     """The same for a solution, up to a number as a factor."""
-    result = in_terms_of(change, solution, variable)
+    if equation.change is None:
+        return y
+    result = in_x(equation, y)
     if not result.free_symbols:
         return result
     number, rest = result.as_independent(*result.free_symbols, as_Add=False)
     return rest if number.is_number else result
+
+
+def _with_joined_powers(expression: Any, x: Any) -> Any:
+    """One exponential function in each product, hyperbolic functions for exp(k x) + 1, no logarithm of an exponential."""
+    plain = expression.replace(
+        lambda e: e.func is sympy.log and e.args[0].func is sympy.exp, lambda e: e.args[0].exp
+    ).replace(_is_exponential_and_one, _hyperbolic)
+    powers = plain.replace(
+        lambda e: e.is_Pow and e.base.is_Mul and e.base.has(x), lambda e: sympy.expand_power_base(e, force=True)
+    )
+    powers = powers.replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
+    return sympy.powsimp(powers, combine="exp")
 
 
 def _by_halves(t: Any, power: Any) -> Any:
@@ -133,155 +108,3 @@ def _is_exponential_and_one(e: Any) -> bool:
 def _hyperbolic(e: Any) -> Any:
     half = e.args[1].exp / 2
     return 2 * sympy.exp(half) * (sympy.cosh(half) if e.args[0] == 1 else sympy.sinh(half))
-
-
-def _without_exponentials(parts: Sequence[Any], source: Source, limits: Limits) -> Parsed:
-    """What is left where everything that isn't rational cancels or has the factor zero: 0*sech(x)^2 - 1."""
-    a, b, c, rest = parts
-    if not source.unknown:
-        return read_source(source_of(-c, source.variable, limits), limits)
-    x = sympy.Symbol(source.variable)
-    y = sympy.Function(source.unknown)(x)
-    equation = a * y.diff(x, 2) + b * y.diff(x) + c * y + rest
-    return read_source(source_of(equation, source.variable, limits, unknown=y, equation=True), limits)
-
-
-def _in_exponentials(expression: Any, x: Any) -> Any:
-    """The expression with exp(k x) in the place of sin(x), tanh(x), 2^x, ..."""
-
-    def is_such(e: Any) -> bool:
-        return isinstance(e, TrigonometricFunction | HyperbolicFunction) or bool(e.is_Pow and e.exp.has(x))
-
-    return expression.replace(is_such, lambda e: e.rewrite(sympy.exp, deep=False))
-
-
-def _powers(exponentials: set[Any], x: Any, T: Any) -> tuple[Any, Any, dict[Any, Any]]:
-    """k and c, and each exponential as a power of T = exp(k (x + c)), times a number; c leaves as few exp(n) as can be."""
-    rates: dict[Any, tuple[Any, Any]] = {}
-    for e in sorted(exponentials, key=str):
-        argument = sympy.expand(e.exp)
-        rate, shift = argument.coeff(x, 1), argument.coeff(x, 0)
-        if sympy.expand(argument - rate * x - shift) != 0 or rate.has(x):
-            raise NotRational(f"{e} isn't the exponential function of a multiple of {x}", hint=_HINT)
-        rates[e] = rate, shift
-    first = next(iter(rates.values()))[0]
-    ratios = {e: sympy.cancel(rate / first) for e, (rate, _) in rates.items()}
-    if not all(ratio.is_Rational for ratio in ratios.values()):
-        raise NotRational(f"exponentials of {x} whose rates have no rational quotient", hint=_HINT)
-    common = int(sympy.ilcm(*(r.q for r in ratios.values()), 1))
-    unit = sympy.Rational(gcd(*(int(r.p * common // r.q) for r in ratios.values())), common)
-    k = sympy.expand(first * unit)
-    if k.could_extract_minus_sign():
-        k, unit = -k, -unit
-
-    def constants(offset: Any) -> dict[Any, Any]:
-        return {e: sympy.exp(sympy.expand(shift - rate * offset)) for e, (rate, shift) in rates.items()}
-
-    offsets = [sympy.Integer(0), *(sympy.expand(shift / rate) for rate, shift in rates.values())]
-    offset = min(offsets, key=lambda offset: sum(c.has(sympy.exp, sympy.E) for c in constants(offset).values()))
-    for e, constant in constants(offset).items():
-        if any(not power.exp.is_Integer for power in constant.atoms(sympy.exp)):
-            raise NotRational(f"{e} has a constant in its exponent", hint=f"write a letter for the factor {constant}")
-    return k, offset, {e: constant * T ** (ratios[e] / unit) for e, constant in constants(offset).items()}
-
-
-Monic = tuple[RatFunc, RatFunc, RatFunc]
-
-
-def _best(equation: Equation, k: Any, x: Any) -> tuple[Monic, str]:
-    """Y'' + p Y' + q Y = f in the variable that has real coefficients if one has, and then the fewest singular points."""
-    kappa = sympy.expand(-sympy.I * k)
-    trigonometric = not kappa.has(sympy.I)
-    rate = kappa if trigonometric else k
-    field, i = equation.a.field, None
-    if trigonometric:
-        i = field.sqrt(field.poly([-1]))
-        if i is None and not isinstance(field, AlgebraicField):
-            field = AlgebraicField(field, field.poly([1, 0, 1]), "I")
-            i = field.generator
-    T = RatFunc(field.poly([0, 1]))
-    p, q, f = (over(part / equation.a, field) for part in (equation.b, equation.c, equation.f))
-    # With theta = T d/dT: theta^2 Y + P theta Y + Q Y = F.
-    theta = p * T - 1, q * T * T, f * T * T
-    g = gcd(*(i for part in theta for poly in (part.num, part.den) for i, c in enumerate(poly) if c)) or 1
-    found: list[tuple[Monic, Any]] = []
-    for h in (g, g // 2) if g % 2 == 0 else (g,):
-        P, Q, F = (_deflated(part, h) / scale for part, scale in zip(theta, (h, h * h, h * h), strict=True))
-        if h == g:
-            found.append((((P + 1) / T, Q / T**2, F / T**2), sympy.exp(sympy.expand(g * k * x))))
-        for sign, name in ((1, "cos"), (-1, "sin")):
-            quotient = _quotient(P, Q, F, sign)
-            if quotient is not None and trigonometric and sign == -1:  # (T - 1/T)/2 = i sin
-                quotient = None if i is None else _substituted(quotient, T * i)
-            if quotient is None:
-                continue
-            function = getattr(sympy, name if trigonometric else f"{name}h")
-            found.append((quotient, function(sympy.expand(h * rate * x))))
-    if i is not None:
-        found.append((_substituted(found[0][0], (1 + T * i) / (1 - T * i)), sympy.tan(sympy.expand(g * rate * x / 2))))
-    below = [(_over_base(*monic), expression) for monic, expression in found]
-
-    def cost(pair: tuple[Monic, Any]) -> tuple[bool, int, bool]:
-        """Three singular points are those of Gauss' equation, which is real in cos(x) and sin(x)."""
-        monic, expression = pair
-        places = _singular_points(*monic)
-        is_real = expression.func in (sympy.cos, sympy.sin) and expression.args[0] == sympy.expand(rate * x)
-        return isinstance(monic[0].field, AlgebraicField), places, places == 3 and not is_real
-
-    best, variable = min(below, key=cost)
-    return best, as_text(variable)
-
-
-def _substituted(equation: Monic, M: RatFunc) -> Monic:
-    """The equation in w where its variable is M(w)."""
-    slope = M.derivative()
-    p, q, f = (part(M) for part in equation)
-    return p * slope - slope.derivative() / slope, q * slope**2, f * slope**2
-
-
-def _quotient(P: RatFunc, Q: RatFunc, F: RatFunc, sign: int) -> Monic | None:
-    """The equation in w = (T + sign/T)/2, where it is invariant under T -> sign/T; theta w is (T - sign/T)/2."""
-    T = RatFunc(P.field.poly([0, 1]))
-    parts = [_invariant(part, sign) for part in (P * (T * T - sign) / (2 * T), Q, F)]
-    if None in parts:
-        return None
-    first, second, third = (part for part in parts if part is not None)
-    square = T * T - sign
-    return (T + first) / square, second / square, third / square
-
-
-def _invariant(function: RatFunc, sign: int) -> RatFunc | None:
-    """r with function = r((T + sign/T)/2), by T^2 = 2 w T - sign; None where there is none."""
-    field = function.field
-    w, zero = RatFunc(field.poly([0, 1])), RatFunc(field.poly([]))
-    pairs = []
-    for poly in (function.num, function.den):
-        low, high = zero, zero
-        for power in range(poly.degree, -1, -1):
-            low, high = poly[power] - high * sign, low + 2 * w * high
-        pairs.append((low, high))
-    (n0, n1), (d0, d1) = pairs
-    if n1 * d0 != n0 * d1:
-        return None
-    return n0 / d0 if d0 else n1 / d1
-
-
-def _singular_points(p: RatFunc, q: RatFunc, _: RatFunc) -> int:
-    """How many singular points the normal form has, infinity included."""
-    S = p.derivative() / 2 + p * p / 4 - q
-    den = S.den
-    finite = den.degree - den.gcd(den.derivative()).degree
-    return int(finite + (bool(S) and den.degree - S.num.degree < 4))
-
-
-def _over_base(*parts: RatFunc) -> Monic:
-    """The functions over the field below, if all of them are defined there."""
-    known = {lowered(part).field for part in parts if part}
-    p, q, f = (over(lowered(part), *known) for part in parts) if len(known) == 1 else parts
-    return p, q, f
-
-
-def _deflated(function: RatFunc, g: int) -> RatFunc:
-    """f with function = f(T^g)."""
-    num, den = ([poly[i] for i in range(0, poly.degree + 1, g)] for poly in (function.num, function.den))
-    return RatFunc(function.field.poly(num), function.field.poly(den), reduced=True)

@@ -52,7 +52,7 @@ def read_input(
                     return read_source(source_of(f"y'' = ({S})*y", variable, limits), limits)
             if not exponentials:
                 raise
-            from kovacic.reading.change_of_variable import in_exponentials
+            from kovacic.reading.exponentials import in_exponentials
             from kovacic.reading.symbolic import divided
 
             if not isinstance(S, str) and (quotient := divided(S)) is not None:

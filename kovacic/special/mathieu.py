@@ -18,19 +18,22 @@ from sympy import I, atan, cancel, mathieuc, mathieus, pi, tan
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr, display
 from kovacic.closed_form.product import product
-from kovacic.equation import Change
-from kovacic.reading.symbolic import read_expression
+from kovacic.equation import Equation
+from kovacic.reading.change_of_variable import function_of_x, user_variable
 
 
-def mathieu(S: RatFunc, gauge: RatFunc, change: Change, variable: str) -> tuple[Expr, Expr] | None:
+def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> tuple[Expr, Expr] | None:
     """Two solutions, functions of x; None where f isn't such a wave.  Their Wronskian isn't zero: an even and an odd one.
 
     >>> import kovacic
     >>> print(kovacic.dsolve("y'' + (a - 2*q*cos(2*x))*y = 0"))
     Eq(y(x), C1*mathieuc(a, q, x) + C2*mathieus(a, q, x))
     """
-    t, x, T = sympy.Symbol(variable), sympy.Symbol(change.variable), read_expression(change.expression)
-    angle, waves = T.args[0], T.func is tan
+    t = sympy.Symbol(equation.variable)
+    x = user_variable(equation)
+    T = function_of_x(equation)
+    angle = T.args[0]
+    waves = T.func is tan
     s = T.diff(x).xreplace({T: t})
     f = cancel(s**2 * Atoms(t).ratio(S) - s * s.diff(t, 2) / 2 + s.diff(t) ** 2 / 4)
     n = sympy.degree(sympy.fraction(f)[1], t)

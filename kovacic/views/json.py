@@ -291,7 +291,7 @@ def _equation(equation: Equation) -> dict[str, Any]:
         **{name: getattr(equation, name).to_str(x) for name in ("a", "b", "c", "f")},
         "h": None if equation.h is None else as_text(equation.h),
         "field": _field(equation.a.field),
-        "change": equation.change and {"variable": equation.change.variable, "expression": equation.change.expression},
+        "change": equation.change and equation.change.to_dict(),
     }
 
 
