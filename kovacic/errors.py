@@ -22,7 +22,8 @@ class InputError(KovacicError, ValueError):
     """The input isn't an equation that the package can treat.
 
     Attributes: `text`, the whole input where it is text; `position`, the 0-based offset of the offending part, and
-    `length`, its length; both None where the input isn't text; `hint`, what the user could write instead.
+    `length`, its length; both None where the input isn't text; `hint`, what the user could write instead in Python, and
+    `shell`, the same for the command line (`hint` itself where both are written alike).
     """
 
     def __init__(
@@ -33,6 +34,7 @@ class InputError(KovacicError, ValueError):
         position: int | None = None,
         length: int = 1,
         hint: str | None = None,
+        shell: str | None = None,
     ) -> None:
         super().__init__(message)
         self.message = message
@@ -40,6 +42,7 @@ class InputError(KovacicError, ValueError):
         self.position = position
         self.length = length
         self.hint = hint
+        self.shell = hint if shell is None else shell
 
     @property
     def excerpt(self) -> str | None:
@@ -47,11 +50,18 @@ class InputError(KovacicError, ValueError):
         return None if self.text is None or self.position is None else self.text[self.position :][: self.length]
 
     def __str__(self) -> str:
+        return self._told(self.hint)
+
+    def for_shell(self) -> str:
+        """What `str` says, with the hint for the command line."""
+        return self._told(self.shell)
+
+    def _told(self, hint: str | None) -> str:
         parts = [self.message]
         if self.text is not None and self.position is not None:
             parts.append(f"  at position {self.position}:\n{self._marked(self.text, self.position)}")
-        if self.hint:
-            parts.append(f"  hint: {self.hint}")
+        if hint:
+            parts.append(f"  hint: {hint}")
         return visible("\n".join(parts))
 
     def _marked(self, text: str, position: int) -> str:

@@ -466,7 +466,7 @@ def test_a_run_cut_anywhere_is_completed(tmp_path_factory: pytest.TempPathFactor
 def test_the_command_answers_every_line(tmp_path: Path) -> None:
     path = tmp_path / "in.txt"
     path.write_text("\n".join([*QUICK, "x +"]) + "\n")
-    ran = command(str(path), "--jobs", "2", "--group", "--progress")
+    ran = command(str(path), "--jobs", "2", "--group", "--progress")  # which nothing shows in a pipe
     assert ran.returncode == 2
     answers = [json.loads(line) for line in ran.stdout.splitlines()]
     assert [answer["line"] for answer in answers] == list(range(1, 7))
@@ -474,7 +474,7 @@ def test_the_command_answers_every_line(tmp_path: Path) -> None:
     assert answers[0]["group"] == {"name": "Borel", "order": None, "finite": False, "family": "borel", "n": None}
     assert re.search(r"case 1\s+3\n", ran.stderr)
     assert re.search(r"bad input\s+1\n", ran.stderr)
-    assert "6/6" in ran.stderr
+    assert "6/6" not in ran.stderr
 
 
 def test_the_command_reads_standard_input_and_answers_at_once() -> None:

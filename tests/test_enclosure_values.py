@@ -740,7 +740,7 @@ def test_a_ball_is_printed_with_the_digits_that_were_asked_for(digits: int) -> N
         du, dw = mpmath.airyai(0, derivative=1), mpmath.airybi(0, derivative=1)
         exact = (dw * v - du * z) / (u * dw - w * du)
         assert abs(mpmath.mpf(text) - exact) < abs(exact) * mpmath.mpf(10) ** -digits
-        assert abs(mpmath.mpf(text) - exact) <= mpmath.mpf(radius) * 2
+        assert abs(mpmath.mpf(text) - exact) <= mpmath.mpf(radius)
     assert len(repr(value)) < 80
 
 

@@ -490,7 +490,7 @@ def test_the_command_solves_equations_in_every_view(capsys: pytest.CaptureFixtur
     assert "normal form: y'' = -y" in capsys.readouterr().out
     assert run(["solve", "--latex", bessel]) == 0
     assert r"\frac{\cos{\left(x \right)}}{\sqrt{x}}" in capsys.readouterr().out
-    assert run(["solve", "--explain", bessel, "x"]) == 0
+    assert run(["explain", bessel, "x"]) == 0
     assert capsys.readouterr().out.count("The equation\n===") == 2
     assert run(["solve", "--json", "--full", bessel]) == 0
     assert '"group": {"name": "G_m"' in capsys.readouterr().out

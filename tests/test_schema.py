@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import cmath
 import json
+import math
 from collections.abc import Iterator
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +31,8 @@ EQUATIONS = [
     "x^2*y'' + x*y' + (x^2 - 1/4)*y = exp(x)",
 ]
 WRONG = ['{"S": "x+", "id": [1, {"a": null}]}', '{"id": 3}', "5", '{"S": 5}', "not json", '{"S": "x/0"}', "\x00"]
+#: None of their solutions is known, proven for Liouvillian ones: with values and as a Riccati equation, too.
+WITHOUT = ["y'' = (x^5+1/x^3)*y", "y'' = (x^5+1/x^3)*y, y(1)=1", "w' = x^5 + 1/x^3 + w^2"]
 BALL = ["--mass", "1", "--radius", "1", "--sphere", "3"]
 
 
@@ -60,6 +65,45 @@ def test_lines_of_solve(validator: jsonschema.Draft202012Validator, capsys: pyte
     ]
     assert len(lines) == len(EQUATIONS) + 5
     for line in lines:
+        validator.validate(line)
+
+
+def test_lines_of_bad_input(validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]) -> None:
+    """Every text has its line, in order, with a hint for the command line."""
+    bad, ambiguous, good, large = printed(capsys, "solve", "--json", "1/2x", "a*b", "x", "x^100001", status=2)
+    assert (bad["input"], bad["error"]["position"], bad["error"]["hint"]) == ("1/2x", 0, "write 1/(2x) or (1/2)*x")
+    assert ambiguous["error"]["hint"] == "name it: --var a; the others are parameters"
+    assert (good["status"], large["status"]) == ("none", "undecided")
+    for line in (bad, ambiguous, good, large):
+        validator.validate(line)
+
+
+def test_lines_of_dsolve(validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]) -> None:
+    (general,) = printed(capsys, "dsolve", "--json", "y'' + y = x")
+    (special,) = printed(capsys, "dsolve", "--json", "w'' + w = 0, w(0)=1, w'(0)=0")
+    (also,) = printed(capsys, "dsolve", "--json", "y'' + y = 0", "--ics", "y(0)=1, y'(0)=0")
+    none = [line for text in WITHOUT for line in printed(capsys, "dsolve", "--json", text)]
+    (bad,) = printed(capsys, "dsolve", "--json", "y'' + y = x+", status=2)
+    (late,) = printed(capsys, "dsolve", "--json", "y'' = x*y", "--limit", "seconds=0.000001", status=3)
+    assert (general["unknown"], general["solution"]) == ("y(x)", "C1*cos(x) + C2*sin(x) + x")
+    assert (special["solution"], also["solution"], also["ics"]) == ("cos(x)", "cos(x)", "y(0)=1, y'(0)=0")
+    assert [line["status"] for line in none] == ["none"] * len(WITHOUT)
+    assert (bad["status"], late["status"]) == ("error", "undecided")
+    for line in (general, special, also, *none, bad, late):
+        validator.validate(line)
+
+
+def test_lines_of_evaluate(validator: jsonschema.Draft202012Validator, capsys: pytest.CaptureFixture[str]) -> None:
+    """The disc contains the value of cos(2 x), and that of a solution far beyond the doubles is written out."""
+    start = ["--x0", "0", "--y0", "1", "--dy0", "0"]
+    near, far = printed(capsys, "evaluate", "--json", "-k^2", "--param", "k=2", "--var", "x", *start, "--at", "1/2,1+I")
+    (huge,) = printed(capsys, "evaluate", "--json", "x", *start, "--at", "2000")
+    assert abs(float(near["y"]["re"]) - math.cos(1)) < 1e-15
+    assert abs(complex(float(far["y"]["re"]), float(far["y"]["im"])) - cmath.cos(2 + 2j)) < 1e-13
+    assert float(near["y"]["radius"]) < 1e-15
+    assert near["x"] == "1/2"
+    assert Decimal(huge["y"]["re"]) > 10**20000
+    for line in (near, far, huge):
         validator.validate(line)
 
 

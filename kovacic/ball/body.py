@@ -141,8 +141,8 @@ class RollingBall:
         """On a sphere of radius R1 > 0, or inside one for R1 < -R; raises `InputError` for another R1."""
         radius = exact(R1, "R1")
         if radius == 0:
-            hint = "the plane is R1 = infinity: on_plane(), --sphere plane"
-            raise InputError("the fixed sphere needs a radius R1 other than 0", hint=hint)
+            what = "the fixed sphere needs a radius R1 other than 0"
+            raise InputError(what, hint="the plane is R1 = infinity: on_plane()", shell="the plane is --sphere plane")
         if sign(radius) == -1 and sign(self.R + radius) in (0, 1):
             raise InputError(f"the ball doesn't fit inside the sphere: R < |R1| fails, as {self.R} >= {-radius}")
         return self._rolling(radius)

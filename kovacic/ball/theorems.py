@@ -171,7 +171,8 @@ def read_ratio(text: str) -> sp.Expr:
     known = {symbol.name for symbol in (X, x1, x2, A1, A3, C1, C2)}
     rho = sp.Symbol(text) if text.isidentifier() and text not in {*known, "u", "pi", "e"} else exact(text, "R/R1")
     if rho == 0:
-        raise InputError("R/R1 = 0 has no R1", hint="a plane is --sphere plane, with --mass and --radius")
+        shell = "a plane is --sphere plane, with --mass and --radius"
+        raise InputError("R/R1 = 0 has no R1", hint="a plane is RollingBall(...).on_plane()", shell=shell)
     if sign(rho + 1) in (0, -1):
         raise InputError(f"the ball doesn't fit inside the sphere: R < |R1| fails, as R/R1 = {rho}")
     return rho

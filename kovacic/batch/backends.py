@@ -90,8 +90,9 @@ def _dask(scheduler: str | None) -> Iterator[_Engine]:
         client = get_client() if scheduler is None else Client(scheduler, set_as_default=False)
     except (OSError, ValueError) as error:
         if scheduler is None:
-            raise InputError("there is no Dask client", hint="--scheduler tcp://host:8786, or make a client") from None
-        hint = "dask scheduler --port 8786, and --scheduler tcp://host:8786"
+            hint = "scheduler='tcp://host:8786', or make a distributed.Client before"
+            raise InputError("there is no Dask client", hint=hint, shell="--scheduler tcp://host:8786") from None
+        hint = "start it: dask scheduler --port 8786"
         raise InputError(f"the scheduler at {scheduler} can't be reached: {error}", hint=hint) from None
     executor = client.get_executor(pure=False)
     try:

@@ -126,7 +126,7 @@ class Job:
         if self.memory is not None and not os.path.exists("/proc/self/statm"):
             raise InputError("memory limits need a Linux system", hint="leave the memory limit out")
         if self.scheduler is not None and self.backend is None:
-            raise InputError("a scheduler needs a backend", hint="backend='dask' (--backend dask)")
+            raise InputError("a scheduler needs a backend", hint="backend='dask'", shell="--backend dask")
 
     def _set(self, **values: Any) -> None:
         """A field as it was read, when the object is made."""
@@ -169,14 +169,14 @@ def label_of(data: Mapping[str, Any]) -> str:
     return label
 
 
-def refused(item: Item, error: KovacicError, seconds: float = 0.0) -> Record:
-    """The record of an input that isn't an equation or is too large, or of a failure."""
+def refused(item: Item, error: KovacicError, seconds: float = 0.0, *, shell: bool = False) -> Record:
+    """The record of an input that isn't an equation or is too large, or of a failure; with the hint for the `shell`."""
     if isinstance(error, LimitExceeded):
         return stopped(item, str(error), seconds)
     details: dict[str, Any] = {"type": type(error).__name__, "message": str(error)}
     if not isinstance(error, InputError):
         return _without_answer(item, FAILED, {"status": "error", "error": details}, seconds)
-    details |= {"message": error.message, "position": error.position, "hint": error.hint}
+    details |= {"message": error.message, "position": error.position, "hint": error.shell if shell else error.hint}
     return _without_answer(item, ERROR, {"status": "error", "error": details}, seconds)
 
 

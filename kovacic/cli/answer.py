@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -11,121 +12,158 @@ import click
 from kovacic.cli import options
 from kovacic.cli.main import DECIDED, UNDECIDED
 from kovacic.cli.options import fitted
+from kovacic.errors import KovacicError
+from kovacic.shown import json_line
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from kovacic.solution import Solution
 
-_ICS = click.option(
-    "--ics",
-    metavar="VALUES",
-    multiple=True,
-    callback=lambda _, __, values: ", ".join(values),
-    help='Conditions: "y(0)=1, y\'(0)=0", "y(0)=0, y(pi)=0", "y(0)=bounded, y(oo)=0".',
-)
+#: The formats of an explanation, by the suffixes of files.
+_FORMATS = {".html": "html", ".md": "markdown", ".tex": "latex", ".txt": "text"}
 
 
 @options.equation_command()
-@options.equation_argument("equations", metavar="S...", nargs=-1, required=True)
+@click.argument("equations", metavar="S...", nargs=-1, required=True)
 @click.option("--json", "as_json", is_flag=True, help="One JSON object (schema 1) a line for each equation.")
 @click.option("--full", is_flag=True, help="With --json: the group and two solutions in closed form as well.")
 @click.option("--latex", is_flag=True, help="The equation and its solutions in LaTeX.")
-@click.option("--explain", "derived", is_flag=True, help="The derivation, step by step (see `kovacic explain`).")
 @click.option("--no-solutions", is_flag=True, help="Only the verdict and omega: faster.")
-@_ICS
+@click.option("--explain", "derived", is_flag=True, hidden=True)
+@click.option("--ics", multiple=True, hidden=True)
 @options.VAR
 @options.ASSUME
 @options.LIMIT
+@click.pass_context
 def solve(
+    context: click.Context,
+    /,
     equations: tuple[str, ...],
     as_json: bool,
     full: bool,
     latex: bool,
-    derived: bool,
     no_solutions: bool,
-    ics: str,
+    derived: bool,
+    ics: tuple[str, ...],
     **given: Any,
 ) -> int:
     """Decide y'' = S(x) y for every S, or an equation with y'' in it; "-" reads one a line from standard input.
 
-    Two solutions are printed where there are Liouvillian ones; the general solution for an equation with a right-hand side,
-    and the only one where initial values are given.
+    Two solutions are printed where there are Liouvillian ones, and the general solution for an equation with a right-hand
+    side.  `kovacic dsolve` takes initial values, and `kovacic explain` has the derivation.
 
     \b
     kovacic solve "x^2 + 3"
     kovacic solve "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"
-    kovacic solve "y'' + 4*y = sin(x)" --ics "y(0)=1, y'(0)=0"
+    kovacic solve "y'' + 4*y = sin(x)"
     kovacic solve --json "x" "1/x - 3/(16*x^2)"
     """
     from kovacic.views.text import render, solution_lines
 
-    if ics and (as_json or latex or derived or no_solutions):
-        raise click.UsageError("--ics belongs to the solutions as text (kovacic dsolve --latex has the others)")
+    if derived:  # the former names of what explain and dsolve do
+        return int(context.invoke(explain, equations=equations, no_solutions=no_solutions, **given))
+    if ics:
+        del given["assume"]
+        return _with_values(context, equations, ", ".join(ics), latex=latex, as_json=as_json, **given)
 
     def show(answer: Solution) -> Iterable[str]:
         if as_json:
             return (answer.to_json(full=full),)
         if latex:
             return (answer._repr_latex_(),)
-        if derived:
-            return (fitted(answer.explain().rstrip("\n")),)
         homogeneous = answer.equation is None or answer.equation.is_homogeneous
-        solutions = solution_lines(answer) if homogeneous and not ics else _inhomogeneous(answer, ics)
+        solutions = solution_lines(answer) if homogeneous else _inhomogeneous(answer)
         return map(fitted, render(answer, style=options.styled, solutions=None if no_solutions else solutions))
 
-    return options.answer_each(equations, show, gap="" if as_json or latex else "\n", **given)
+    refuse = _print_refusal if as_json else None
+    return options.answer_each(equations, show, gap="" if as_json or latex else "\n", refuse=refuse, **given)
 
 
-def _inhomogeneous(answer: Solution, values: str) -> Iterator[str]:
-    """The general solution, or that with the initial values; why not; no line for an undecided equation."""
-    if answer.status == "undecided":
-        return
-    from kovacic.equation import Equation
+def _print_refusal(text: str, error: KovacicError) -> None:
+    """The line of JSON of a text that has no answer, as those of a batch."""
+    from kovacic.batch.records import Item, refused
+
+    data = refused(Item(0, text), error, shell=True).data
+    del data["line"]
+    print(json_line(data), flush=True)
+
+
+def _with_values(context: click.Context, equations: tuple[str, ...], ics: str, **given: Any) -> int:
+    """What `kovacic dsolve --ics` says of each equation, S standing for y'' = S y; the largest of its exit statuses."""
+    from kovacic.reading.lexer import is_equation
+
+    texts = [text if is_equation(text) else f"y'' = ({text.strip()})*y" for text in equations]
+    return max(int(context.invoke(dsolve, equation=text, ics=ics, **given)) for text in texts)
+
+
+def _inhomogeneous(answer: Solution) -> Iterator[str]:
+    """The general solution; why not; no line for an undecided equation."""
     from kovacic.writing.formula import shortened
 
-    zero = answer.S * 0
-    normal = Equation(zero + 1, zero, -answer.S, zero, variable=answer.variable)
-    equation = answer.text if answer.change else answer.equation or normal
+    if answer.status == "undecided":
+        return
+    equation = answer.text if answer.change else answer.equation
     try:
-        yield from map(shortened, _general(equation, ics=values, limits=answer.limits))
+        yield from map(shortened, _solution_lines(equation, limits=answer.limits))
     except NotImplementedError as reason:
         nothing = answer.case is None and not answer.special
         yield str(answer.special) if nothing else f"the solution wasn't written out: {reason}"
 
 
 @options.equation_command()
-@options.equation_argument("equation", metavar="EQUATION")
+@click.argument("equation", metavar="EQUATION")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object (schema 1).")
 @click.option("--latex", is_flag=True, help="The solution in LaTeX.")
-@_ICS
+@click.option(
+    "--ics",
+    metavar="VALUES",
+    multiple=True,
+    callback=lambda _, __, values: ", ".join(values),
+    help='Conditions: "y(0)=1, y\'(0)=0", "y(0)=0, y(pi)=0", "y(0)=bounded, y(oo)=0".',
+)
 @options.VAR
 @options.LIMIT
-def dsolve(equation: str, latex: bool, ics: str, **given: Any) -> int:
-    """The general solution of a linear equation of second order; with --ics the one that has these values.
+def dsolve(equation: str, as_json: bool, latex: bool, ics: str, **given: Any) -> int:
+    """The general solution of a linear equation of second order; with values, or --ics, the one that has these.
 
     The right-hand side may contain exp, log, sin, cos and the like.  Where nothing is Liouvillian, special functions are
     looked for; where none is found either, this is said, with the reason, and the exit status is 0 as well.
 
     \b
     kovacic dsolve "y'' + 4*y' + 4*y = exp(-2*x)/x^2"
-    kovacic dsolve "y'' - 2*x*y' + 2*y = 0" --ics "y(0)=0, y'(0)=5"
+    kovacic dsolve "y'' - 2*x*y' + 2*y = 0, y(0)=0, y'(0)=5"
     kovacic dsolve "x*y'' + y' - x*y = 0" --ics "y(0)=bounded, y(1)=1"
+    kovacic dsolve --json "y'' + y = 0"
     """
-    from kovacic.decision import Status
-    from kovacic.solution import solve
+    from kovacic.general_solution import NothingKnown
 
     try:
-        for line in _general(equation, latex=latex, ics=ics, **given):
-            print(line if latex else fitted(line))
-    except NotImplementedError as reason:
-        answer = solve(equation, **given)
-        if answer.status is Status.NONE_EXISTS and not answer.special:
-            print(fitted(str(reason)))
+        if as_json:
+            print(_solution_in_json(equation, ics, **given))
             return DECIDED
-        print(f"kovacic: {reason}", file=sys.stderr)
-        return UNDECIDED
-    return DECIDED
+        with options.waiting("solving"):
+            lines = list(_solution_lines(equation, latex=latex, ics=ics, **given))
+        for line in lines:
+            print(line if latex else fitted(line))
+        return DECIDED
+    except KovacicError as error:
+        if as_json:
+            _print_refusal(equation, error)
+        raise
+    except NotImplementedError as reason:
+        is_proven = isinstance(reason, NothingKnown) and reason.is_proven
+        if as_json:
+            status = "none" if is_proven else "undecided"
+            print(json_line({"schema": 1, "input": equation, "status": status, "reason": str(reason)}))
+        elif is_proven:
+            print(fitted(str(reason)))
+        else:
+            print(f"kovacic: {reason}", file=sys.stderr)
+        return DECIDED if is_proven else UNDECIDED
 
 
-def _general(equation: Any, *, latex: bool = False, **given: Any) -> Iterator[str]:
+def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iterator[str]:
     """What `dsolve` finds; beside formulas of many lines a shorter one in special functions, if one is known."""
     from kovacic.general_solution import dsolve, in_special_functions
     from kovacic.numerals import as_latex, as_text
@@ -142,34 +180,75 @@ def _general(equation: Any, *, latex: bool = False, **given: Any) -> Iterator[st
             yield f"{'  ' if k else ''}{solution.lhs} = {caret(as_text(solution.rhs))}"
 
 
+def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
+    """What `dsolve` finds and notices, as a line of JSON."""
+    from kovacic.general_solution import dsolve, in_special_functions
+    from kovacic.numerals import as_latex, as_text
+
+    with options.waiting("solving"), warnings.catch_warnings(record=True, action="always") as noticed:
+        found = dsolve(equation, ics=ics, **given)
+        shorter = in_special_functions(found, equation, ics=ics, **given)
+        data = {
+            "schema": 1,
+            "input": equation,
+            "ics": ics or None,
+            "status": "solved",
+            "unknown": str(found.lhs),
+            "solution": as_text(found.rhs),
+            "latex": as_latex(found),
+            "special": None if shorter is None else as_text(shorter.rhs),
+            "notices": [str(warning.message) for warning in noticed],
+        }
+    return json_line(data)
+
+
 @options.equation_command()
-@options.equation_argument("equations", metavar="EQUATION...", nargs=-1, required=True)
+@click.argument("equations", metavar="EQUATION...", nargs=-1, required=True)
 @click.option(
     "--format",
     "form",
     type=click.Choice(["text", "markdown", "latex", "html"]),
-    default="text",
-    help="Text; Markdown with formulas between dollar signs; the body of a LaTeX document (amsmath, amssymb, graphicx); "
-    "or a page of its own for a browser.",
+    help="Text (the default); Markdown with formulas between dollar signs; the body of a LaTeX document (amsmath, amssymb, "
+    "graphicx); or a page of its own for a browser.",
+)
+@click.option(
+    "-o",
+    "--output",
+    type=options.OutputFile(tuple(_FORMATS)),
+    help=f"Write to this file; without --format its suffix says which: {', '.join(_FORMATS)}.",
 )
 @click.option("--cite", is_flag=True, help="Only the references, as BibTeX.")
 @click.option("--no-solutions", is_flag=True, help="Leave the closed forms out.")
 @options.VAR
 @options.ASSUME
 @options.LIMIT
-def explain(equations: tuple[str, ...], form: str, cite: bool, no_solutions: bool, **given: Any) -> int:
+def explain(
+    equations: tuple[str, ...],
+    form: str | None = None,
+    output: Path | None = None,
+    cite: bool = False,
+    no_solutions: bool = False,
+    **given: Any,
+) -> int:
     """Explain the answer for y'' = S(x) y, or for an equation with y'' in it; "-" reads one a line.
 
     \b
     kovacic explain "x^2 + 3"
-    kovacic explain --format html "x^2*y'' + x*y' + (x^2-1/4)*y = 0" > bessel.html
+    kovacic explain "x^2*y'' + x*y' + (x^2-1/4)*y = 0" -o bessel.html
     """
+    if form is None:
+        form = "text" if output is None else _FORMATS[output.suffix.lower()]
+    if output is not None and (len(equations) > 1 or equations == ("-",)):
+        raise click.UsageError("--output takes the explanation of one equation")
 
-    def show(answer: Solution) -> tuple[str]:
+    def show(answer: Solution) -> Iterable[str]:
         if cite:
             return (answer.citation(style="bibtex"),)
         text = answer.explain(format=form, solutions=not no_solutions).rstrip("\n")
-        return (fitted(text) if form == "text" else text,)
+        if output is None:
+            return (fitted(text) if form == "text" else text,)
+        output.write_text(f"{text}\n", encoding="utf-8")
+        return (f"wrote {output}",)
 
     return options.answer_each(equations, show, gap="\n", **given)
 

@@ -57,19 +57,12 @@ class LazyGroup(click.Group):
             near = get_close_matches(arguments[0], COMMANDS, n=1, cutoff=0.5)
             hint = f"did you mean {near[0]}?" if near else f"the commands are {', '.join(COMMANDS)}"
             context.fail(f"no such command: {arguments[0]} ({hint})")
-        # A formula such as -2/cosh(x)^2 isn't a row of short options, among them -h; a space in front says so.
-        return super().resolve_command(context, [f" {text}" if _is_negative(text) else text for text in arguments])
+        return super().resolve_command(context, arguments)
 
     def format_commands(self, context: click.Context, formatter: click.HelpFormatter) -> None:
         """The list of commands, without importing them."""
         with formatter.section("Commands"):
             formatter.write_dl([(name, what) for name, (_, what) in COMMANDS.items()])
-
-
-def _is_negative(text: str) -> bool:
-    """Is it an expression such as -x^2, and no option: a letter, -j4, -o file, -q, -vv, or a long one?"""
-    is_option = text[1:2] in "-joq" or not text[2:] or text == "-vv"
-    return text.startswith("-") and not is_option
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
@@ -168,7 +161,8 @@ def _given_up(status: int) -> int:
 
 def reported(error: Exception) -> int:
     """Say what was wrong, on standard error; the exit status for it."""
-    print(f"kovacic: {visible(str(error))}", file=sys.stderr)
+    said = error.for_shell() if isinstance(error, kovacic.InputError) else str(error)
+    print(f"kovacic: {visible(said)}", file=sys.stderr)
     if isinstance(error, kovacic.InputError | ImportError):
         return BAD_INPUT
     return UNDECIDED if isinstance(error, kovacic.LimitExceeded) else CHECK_FAILED

@@ -5,9 +5,10 @@ from __future__ import annotations
 import csv
 import sys
 import time
-from collections.abc import Callable, Iterable
-from contextlib import ExitStack
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, contextmanager
 from functools import partial
+from itertools import repeat
 from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
@@ -34,7 +35,11 @@ _OPTIONS = [
     options.LIMIT,
     click.option("--backend", type=click.Choice(["dask", "ray"]), help="Run on a cluster."),
     click.option("--scheduler", metavar="ADDRESS", help="The engine's address, for example tcp://host:8786."),
-    click.option("--progress/--no-progress", default=None, help="By default if standard error is a terminal."),
+    click.option(
+        "--progress/--no-progress",
+        default=None,
+        help="On a terminal; by default if the answers go to a file or a pipe.",
+    ),
     click.option("-q", "--quiet", is_flag=True, help="No summary."),
 ]
 
@@ -81,12 +86,15 @@ def batch(
     items = read_items(file, form=form, var=var, limits=limits)
     count = None if stream else partial(count_items, file.name, form=form)
     with answers(output) as write:
-        return _answer_all(items, write, count=count, done=done, limits=limits, stream=stream, **run)
+        on_screen = output is None and sys.stdout.isatty()
+        return _answer_all(
+            items, write, count=count, done=done, on_screen=on_screen, limits=limits, stream=stream, **run
+        )
 
 
 @options.equation_command()
-@options.equation_argument("expression", metavar="S")
-@options.equation_argument("ranges", metavar="NAME=START:STOP:STEP...", nargs=-1, required=True)
+@click.argument("expression", metavar="S")
+@click.argument("ranges", metavar="NAME=START:STOP:STEP...", nargs=-1, required=True)
 @click.option("-o", "--output", type=options.OutputFile(), help="Write to this file.")
 @click.option("--resume", is_flag=True, help="Take an interrupted scan up again (JSONL).")
 @click.option("--format", "form", type=click.Choice(["jsonl", "csv"]), help="By default by the name of the output.")
@@ -145,9 +153,11 @@ def scan(
             if picture is not None:
                 labels[record.number] = record.label
 
-        status = _answer_all(items, noted, count=lambda: prod(map(len, grids)), done=done, **run)
+        on_screen = output is None and sys.stdout.isatty()
+        status = _answer_all(items, noted, count=lambda: prod(map(len, grids)), done=done, on_screen=on_screen, **run)
     if picture is not None:
-        draw_map(expression, (grids[0], grids[1]), labels, picture)
+        with options.waiting("drawing"):
+            draw_map(expression, (grids[0], grids[1]), labels, picture)
     return status
 
 
@@ -170,12 +180,14 @@ def _answer_all(
     *,
     count: Callable[[], int] | None,
     done: Done,
+    on_screen: bool,
     progress: bool | None,
     quiet: bool,
     **run: Any,
 ) -> int:
     """Write a record for every item that isn't done, with a line of progress where it is wanted, and at the end, be it an
-    interruption, the summary; the exit status.  `count` tells how many items there are, where that is possible.
+    interruption, the summary; the exit status.  `count` tells how many items there are, where that is possible, and
+    `on_screen` whether the answers themselves are seen.
     """
     from kovacic.batch import Job, run_items
     from kovacic.batch.records import Summary
@@ -185,33 +197,41 @@ def _answer_all(
     with ExitStack() as stack:
         if not quiet:
             stack.callback(lambda: _print_summary(summary, len(done), time.monotonic() - start))
-        if progress is None:
-            progress = sys.stderr.isatty() and not sys.stdout.isatty()
-        size, shown = count() - len(done) if progress and count else None, -_REFRESH
-        if progress:
-            stack.callback(sys.stderr.write, "\n")
-            stack.callback(lambda: _show_progress(summary, size, time.monotonic() - start))
+        wanted = not on_screen if progress is None else progress
+        refresh = None
+        if wanted and sys.stderr.isatty():
+            refresh = stack.enter_context(_progress(summary, count() - len(done) if count else None))
         for record in run_items((item for item in items if item not in done), job):
             write(record)
             summary.add(record)
-            now = time.monotonic() - start
-            if progress and now > shown + _REFRESH:
-                _show_progress(summary, size, now)
-                shown = now
+            if refresh is not None:
+                refresh()
     return summary.exit_status
 
 
-def _show_progress(summary: Summary, total: int | None, seconds: float) -> None:
-    """The number done, the rate, the remaining time and the counts by case, in one line of standard error."""
-    from shutil import get_terminal_size
+@contextmanager
+def _progress(summary: Summary, total: int | None) -> Iterator[Callable[[], None]]:
+    """A bar on standard error with the number done, the time that is left and the counts by case, and what draws it anew."""
 
-    rate = summary.total / max(seconds, 1e-9)
-    left = "" if total is None else f"  {max(total - summary.total, 0) / max(rate, 1e-9):.0f} s left"
-    counts = "  ".join(f"{label} {count}" for label, count in summary.rows())
-    line = f"{summary.total}/{'?' if total is None else total}  {rate:.3g}/s{left}  {counts}"
-    width = get_terminal_size().columns - 1
-    sys.stderr.write("\r" + line[:width].ljust(width))
-    sys.stderr.flush()
+    def counts(_: object) -> str:
+        return "  ".join(f"{label} {count}" for label, count in summary.rows())
+
+    drawn = -_REFRESH
+    steps = repeat(None) if total is None else None
+    bar = click.progressbar(steps, total, show_pos=True, item_show_func=counts, width=20, file=sys.stderr)
+    with bar:
+
+        def refresh() -> None:
+            nonlocal drawn
+            now = time.monotonic()
+            if now > drawn + _REFRESH:
+                bar.update(summary.total - bar.pos)
+                drawn = now
+
+        try:
+            yield refresh
+        finally:
+            bar.update(summary.total - bar.pos)
 
 
 def _print_summary(summary: Summary, answered: int, seconds: float) -> None:

@@ -5,14 +5,19 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import fields, replace
 from functools import partial
+from itertools import islice, repeat
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from kovacic.cli.main import BAD_INPUT, CHECK_FAILED, DECIDED, UNDECIDED, reported
+from kovacic.errors import KovacicError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -79,18 +84,84 @@ def parse_assumptions(settings: Sequence[str]) -> dict[str, str] | None:
     return found or None
 
 
-def _no_option(_: click.Context, __: click.Parameter, given: Any) -> Any:
-    """Unknown options come through as expressions, because -x^2 is one; --jsn isn't."""
-    for argument in (given,) if isinstance(given, str) else given:
-        if argument.startswith("--") and argument[2:3].isalpha():
-            raise click.UsageError(f"no such option: {argument} (write (--x) if it is an expression)")
-    return given
+def parse_values(settings: Sequence[str]) -> dict[str, str] | None:
+    """The values of the parameters, each `NAME=NUMBER`; None without any.  Raises `click.UsageError`."""
+    found: dict[str, str] = {}
+    for setting in settings:
+        name, separator, value = (part.strip() for part in setting.partition("="))
+        if not (separator and name and value):
+            raise click.UsageError(f"--param {setting}: write NAME=NUMBER, such as n=1/2")
+        found[name] = value
+    return found or None
 
 
-#: What commands share; equations that begin with - aren't options.
-equation_command = partial(click.command, context_settings={"ignore_unknown_options": True})
-equation_argument = partial(click.argument, callback=_no_option)
+class EquationCommand(click.Command):
+    """A command with expressions among its arguments: what isn't exactly the name of an option is one, -x^2 and -j*x too.
+
+    Beside the names, -j4 and -vv are options.  Two minus signs and a word are an option always, a misspelt one perhaps.
+    """
+
+    def parse_args(self, context: click.Context, args: list[str]) -> list[str]:
+        arguments, doubtful = self._told_apart(args)
+        try:
+            return super().parse_args(context, arguments)
+        except click.UsageError as error:
+            if not doubtful:
+                raise
+            how = f"(an expression that looks like an option goes last, after --: -- '{doubtful[0]}')"
+            raise click.UsageError(f"{error.format_message()} {how}", context) from error
+
+    def _told_apart(self, arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+        """The arguments with a space in front of expressions that begin with -; and those that may be meant otherwise."""
+        options = self._options()
+        found: list[str] = []
+        doubtful: list[str] = []
+        rest = iter(arguments)
+        for argument in rest:
+            if argument == "--":
+                return [*found, argument, *rest], doubtful
+            option = options.get(argument)
+            if option is not None and not (option.is_flag or option.count):
+                found += [argument, *islice(rest, option.nargs)]
+                continue
+            found.append(f" {argument}" if _is_expression(argument, options) else argument)
+            if argument[:2] in options or (argument.startswith("--") and argument.partition("=")[0] not in options):
+                doubtful.append(argument)
+        return found, doubtful
+
+    def _options(self) -> dict[str, click.Option | None]:
+        """The options by all of their names; None for --help."""
+        found: dict[str, click.Option | None] = {"-h": None, "--help": None}
+        for option in self.params:
+            if isinstance(option, click.Option):
+                found |= dict.fromkeys([*option.opts, *option.secondary_opts], option)
+        return found
+
+
+def _is_expression(argument: str, options: Mapping[str, click.Option | None]) -> bool:
+    """Does it begin with a minus sign, and is no option?"""
+    if argument[:1] != "-" or argument == "-" or argument in options:
+        return False
+    if argument.startswith("--"):
+        return not argument[2:3].isalpha()
+    option = options.get(argument[:2])
+    if option is None:
+        return True
+    is_number = isinstance(option.type, click.IntRange) and argument[2:].isdigit()
+    is_repeated = option.count and set(argument[1:]) == {argument[1]}
+    return not (is_number or is_repeated)
+
+
+equation_command = partial(click.command, cls=EquationCommand)
 VAR = click.option("--var", metavar="NAME", help="The name of the variable; by default the only symbol of S, or x.")
+PARAM = click.option(
+    "--param",
+    "params",
+    metavar="NAME=NUMBER",
+    multiple=True,
+    callback=lambda _, __, settings: parse_values(settings),
+    help="The value of a parameter: n=1/2, a=sqrt(2).",
+)
 ASSUME = click.option(
     "--assume",
     metavar="NAME=WHAT",
@@ -132,6 +203,52 @@ VERBOSE = click.option(
 )
 
 
+#: Seconds between two states of the line that says how long a command has worked.
+_REFRESH = 0.2
+
+
+@contextmanager
+def waiting(what: str, *, patience: float = 1.0) -> Iterator[None]:
+    """Inside `with`, after some seconds of `patience`, a terminal shows a moving bar and the time; they go with the end."""
+    if not sys.stderr.isatty() or os.environ.get("TERM") == "dumb":
+        yield
+        return
+    over = threading.Event()
+    shown = threading.Thread(target=_show_waiting, args=(what, over, patience), daemon=True)
+    shown.start()
+    try:
+        yield
+    finally:
+        over.set()
+        shown.join()
+
+
+def _show_waiting(what: str, over: threading.Event, patience: float) -> None:
+    start = time.monotonic()
+    if over.wait(patience):
+        return
+
+    def elapsed(_: object) -> str:
+        return f"{time.monotonic() - start:.0f} s"
+
+    with click.progressbar(repeat(None), label=what, item_show_func=elapsed, width=10, file=sys.stderr) as bar:
+        for _ in bar:
+            if over.wait(_REFRESH):
+                break
+    click.echo("\x1b[1A\x1b[2K", nl=False, err=True)  # the line of the bar
+
+
+def each_waited_for(lines: Iterable[str], what: str) -> Iterator[str]:
+    """The lines, each with `waiting`."""
+    iterator = iter(lines)
+    while True:
+        with waiting(what):
+            line = next(iterator, None)
+        if line is None:
+            return
+        yield line
+
+
 def answer_each(
     equations: Sequence[str],
     show: Callable[[Solution], Iterable[str]],
@@ -140,26 +257,30 @@ def answer_each(
     limits: Limits,
     assume: dict[str, str] | None,
     gap: str,
+    refuse: Callable[[str, KovacicError], None] | None = None,
 ) -> int:
     """Solve every equation and print the lines that `show` makes of it, each when it is there.
 
-    The status is that of the most serious outcome.
+    `refuse` gets each text that has no answer, with the reason, which is said in any case.  The status is that of the most
+    serious outcome.
     """
     from kovacic.decision import Status
-    from kovacic.errors import KovacicError
     from kovacic.solution import solve
 
     outcomes = [DECIDED]
     between = ""
     for text in _expressions(equations):
         try:
-            answer = solve(text, var=var, assume=assume, limits=limits)
+            with waiting("deciding"):
+                answer = solve(text, var=var, assume=assume, limits=limits)
             outcomes.append(UNDECIDED if answer.status is Status.UNDECIDED else DECIDED)
-            for line in show(answer):
+            for line in each_waited_for(show(answer), "writing"):
                 print(between + line, flush=True)
                 between = ""
             between = gap
         except KovacicError as error:
+            if refuse is not None:
+                refuse(text, error)
             outcomes.append(reported(error))
     return max(outcomes, key=(DECIDED, UNDECIDED, BAD_INPUT, CHECK_FAILED).index)
 

@@ -11,10 +11,11 @@ import click
 
 from kovacic.cli import options
 from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
+from kovacic.shown import json_line
 
 
 @options.equation_command()
-@options.equation_argument("equation", metavar="S")
+@click.argument("equation", metavar="S")
 @click.option("--x0", required=True, metavar="NUMBER", help="Where the solution is given.")
 @click.option("--y0", metavar="NUMBER", help="y(x0).")
 @click.option("--dy0", metavar="NUMBER", help="y'(x0).")
@@ -23,9 +24,12 @@ from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
 @click.option("--at", "points", required=True, multiple=True, metavar="NUMBERS", help='Where: 1,5/2,0.1,"1+2*I".')
 @click.option("--digits", default=15, show_default=True, type=click.IntRange(min=1), help="Proven digits.")
 @click.option("--path", type=click.Choice(["above", "below"]), help="The side on which singular points are passed.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object (schema 1) a line for each point.")
+@options.PARAM
+@options.VAR
 @options.VERBOSE
 @options.LIMIT
-def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, **given: Any) -> None:
+def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, as_json: bool, **given: Any) -> None:
     """Values of one solution of y'' = S(x) y, or of an equation with y'' in it, and of its derivative.
 
     The exact value differs from what is printed by at most the bound after it; that is proven.  Numbers are exact: integers,
@@ -34,6 +38,7 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, **gi
     \b
     kovacic evaluate "x" --x0 0 --y0 1 --dy0 0 --at 1,2,3 --digits 30
     kovacic evaluate "x^2*y'' + x*y' + x^2*y = 0" --x0 0 --regular --at 1/2,10
+    kovacic evaluate "-k*x" --param k=2 --x0 0 --y0 1 --dy0 0 --at 1 --json
     """
     from kovacic.enclosure.evaluate import evaluate
     from kovacic.enclosure.precision import AccuracyWarning
@@ -41,17 +46,23 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, **gi
 
     places = [place for text in points for place in listed(text)]
     basis = None if frobenius is None else listed(frobenius)
-    with warnings.catch_warnings(record=True, action="always", category=AccuracyWarning) as notes:
+    with (
+        options.waiting("computing"),
+        warnings.catch_warnings(record=True, action="always", category=AccuracyWarning) as notes,
+    ):
         found = evaluate(equation, places, derivative=True, frobenius=basis, **given)
     for place, (y, dy) in zip(places, found, strict=True):
-        print(f"y({place}) = {y}")
-        print(f"y'({place}) = {dy}")
+        if as_json:
+            print(json_line({"schema": 1, "input": equation, "x": place, "y": y.to_dict(), "dy": dy.to_dict()}))
+        else:
+            print(f"y({place}) = {y}")
+            print(f"y'({place}) = {dy}")
     for note in notes:
         print(f"kovacic: {note.message}", file=sys.stderr)
 
 
 @options.equation_command()
-@options.equation_argument("equation", metavar="EQUATION")
+@click.argument("equation", metavar="EQUATION")
 @click.option("--from", "start", required=True, metavar="A", help="Left end of the interval (a number or p/q).")
 @click.option("--to", "stop", required=True, metavar="B", help="Right end of the interval.")
 @click.option("-o", "--output", type=options.PICTURE, required=True, help="The file: png, svg or pdf.")
@@ -62,6 +73,8 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, **gi
 @click.option(
     "--digits", default=8, show_default=True, type=click.IntRange(1, 1000), help="Proven digits of each value."
 )
+@options.PARAM
+@options.VAR
 @options.LIMIT
 def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> None:
     """Draw the solution of y'' = S(x) y, or of an equation with y'' in it, with y(x0) = y0, y'(x0) = dy0.
@@ -73,13 +86,14 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
     \b
     kovacic plot "x" --from -12 --to 2 -o airy.png
     kovacic plot "-1/x - 3/(16*x^2)" --from -3 --to 30 -o bessel.png
+    kovacic plot "-omega^2*x" --param omega=2 --from -1 --to 5 -o waves.png
     """
     from kovacic.errors import needs
 
     title, S = equation, equation.strip()
     if "=" not in equation:
         title = f"y'' = {equation} y" if S.isalnum() else f"y'' = ({S}) y"
-    with needs("plot", "a picture"):
+    with needs("plot", "a picture"), options.waiting("drawing"):
         from kovacic.views.plot import plot
 
         plot(equation, start, stop, title=title, output=output, **given)
@@ -87,7 +101,7 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
 
 
 @options.equation_command()
-@options.equation_argument("equation", metavar="S")
+@click.argument("equation", metavar="S")
 @click.option("--json", "as_json", is_flag=True, help="One line of JSON.")
 @click.option("--latex", "as_latex", is_flag=True, help="A LaTeX formula.")
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
@@ -108,10 +122,16 @@ def conditions(
     """
     from kovacic.parameters import conditions
 
-    answer = conditions(equation, **given)
-    report = None if samples is None else answer.check(samples)
-    shown = answer.explain() if explained else answer.text(all=everything)
-    print(answer.to_json() if as_json else answer.latex() if as_latex else options.fitted(shown))
+    with options.waiting("searching"):
+        answer = conditions(equation, **given)
+        report = None if samples is None else answer.check(samples)
+        if as_json:
+            shown = answer.to_json()
+        elif as_latex:
+            shown = answer.latex()
+        else:
+            shown = options.fitted(answer.explain() if explained else answer.text(all=everything))
+    print(shown)
     if report is not None:
         agreement = "all agree" if report.inside + report.outside else "no point with these properties was found"
         if not report:

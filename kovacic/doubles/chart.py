@@ -25,7 +25,7 @@ from kovacic.enclosure.log_derivative import LogDerivative, embed
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb, to_double, working_precision
 from kovacic.enclosure.precision import start_bits
-from kovacic.enclosure.problem import NumericProblem, as_problem
+from kovacic.enclosure.problem import NumericProblem, as_problem, change_of
 from kovacic.enclosure.states import evaluate_states
 from kovacic.errors import InputError, NotRational
 from kovacic.limits import Limits, check_time, count_work
@@ -200,7 +200,7 @@ def chart_of(
 ) -> PieceChart:
     """The chart of an equation, as `evaluate` takes it; right-hand sides and constants only where a solution is `given`."""
     answer: Any = equation
-    if getattr(equation, "change", None) is None:
+    if change_of(equation) is None:
         try:
             return PieceChart(_real_problem(equation, params, constants), given)
         except NotRational as reason:

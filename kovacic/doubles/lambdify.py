@@ -33,6 +33,7 @@ from kovacic.doubles.tabulate import TabulatedFunction, table_of
 from kovacic.enclosure.evaluate import InitialValues
 from kovacic.enclosure.points import ExactPoint, as_point, working_precision
 from kovacic.enclosure.precision import AccuracyWarning
+from kovacic.enclosure.problem import with_variable
 from kovacic.enclosure.states import Path
 from kovacic.errors import InputError, LimitExceeded, check_keywords
 from kovacic.exact import whole
@@ -72,6 +73,7 @@ class LambdifyOptions(LambdifyStart, total=False):
     careful: bool | None
     check: bool
     params: Mapping[str, object] | None
+    var: str | None
     x0: object
     limits: Limits | None
 
@@ -85,6 +87,7 @@ def lambdify(
     careful: bool | None = None,
     check: bool = True,
     params: Mapping[str, object] | None = None,
+    var: str | None = None,
     x0: object = None,
     limits: Limits | None = None,
     **given: Unpack[LambdifyStart],
@@ -114,6 +117,8 @@ def lambdify(
         By default the error is measured; False leaves that out, which is faster, and `measured` is None.
     params : mapping
         Rational values of the parameters by name: {"a": 1}.
+    var : str
+        The name of the variable, where an equation is given as text; by default as for `kovacic.solve`.
     x0, y0, dy0, frobenius, path
         The solution that starts at x0 in one of the ways of `kovacic.evaluate`, for every equation: it becomes a table.
     limits : Limits
@@ -166,7 +171,7 @@ def lambdify(
     """
     check_keywords("lambdify", given, LambdifyOptions.__annotations__)
     start, number = _question(which, x0, given)
-    chart = _chart(solution, start, params, limits)
+    chart = _chart(with_variable(solution, var, limits), start, params, limits)
     region, candidates = chart.region(interval)
     base = None
     if not start:

@@ -36,6 +36,7 @@ from kovacic.doubles.region import BLOCK, Measured, Region, in_blocks
 from kovacic.enclosure.evaluate import StartOptions
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.points import ExactPoint, power_of_two, working_precision
+from kovacic.enclosure.problem import with_variable
 from kovacic.errors import InputError, LimitExceeded, check_keywords
 from kovacic.limits import Limits, check_time, limited
 
@@ -127,6 +128,7 @@ def tabulate(
     x0: object,
     careful: bool = True,
     params: Mapping[str, object] | None = None,
+    var: str | None = None,
     limits: Limits | None = None,
     **given: Unpack[StartOptions],
 ) -> TabulatedFunction:
@@ -146,7 +148,8 @@ def tabulate(
     -0.177596771314338
     """
     check_keywords("tabulate", given, StartOptions.__annotations__)
-    return table_of(chart_of(equation, {"x0": x0, **given}, params), (start, stop), careful, limits)
+    chart = chart_of(with_variable(equation, var, limits), {"x0": x0, **given}, params)
+    return table_of(chart, (start, stop), careful, limits)
 
 
 def table_of(

@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from decimal import Decimal
+from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
 from fractions import Fraction
 from typing import Any, Literal
 
@@ -210,6 +210,25 @@ class Ball:
         value = ball_to_flint(self)
         return value.real if self.real else value
 
+    def to_dict(self) -> dict[str, str]:
+        """Real and imaginary part of a midpoint, and a radius, as decimal text: the exact value lies in that disc.
+
+        The midpoint is rounded to some digits more than are known, and the radius covers that.
+
+        Returns
+        -------
+        dict
+            Keys "re", "im", "radius": what `kovacic evaluate --json` prints.
+
+        Examples
+        --------
+        >>> Ball((3, -1), rad=(1, -30)).to_dict()
+        {'re': '1.500000000000', 'im': '0', 'radius': '9.4e-10'}
+        """
+        shown = int(_SHOWN if self.is_exact() else max(3.0, self.digits + 4))
+        re, im, radius = self._decimal_disc(shown)
+        return {"re": re, "im": im, "radius": radius}
+
     @property
     def lower(self) -> float:
         """The largest double that isn't above any number of a real ball."""
@@ -288,20 +307,40 @@ class Ball:
         return re if self.real else f"({re} {'-' if im.startswith('-') else '+'} {im.lstrip('-')}j)"
 
     def __str__(self) -> str:
-        """All digits that are known, and the radius; 40 digits of an exact number."""
-        return self._shown(_SHOWN if self.digits == math.inf else max(3.0, self.digits + 2))
+        """All digits that are known, and a radius that covers what was rounded; 40 digits of an exact number."""
+        re, im, radius = self._decimal_disc(int(_SHOWN if self.is_exact() else max(3.0, self.digits + 2)))
+        middle = self._as_number(re, im)
+        return middle if radius == "0" else f"{middle} ± {radius}"
 
     def __repr__(self) -> str:
-        return f"<Ball {self._shown(min(max(3.0, self.digits + 2), _SHOWN))}>"
+        """The first digits, and the radius of the ball itself."""
+        if self.is_exact() or self.digits + 2 <= _SHOWN:
+            return f"<Ball {self}>"
+        re, im, _ = self._decimal_disc(_SHOWN)
+        return f"<Ball {self._as_number(re, im)}... ± {_rounded_up(arb(self.rad))}>"
 
-    def _shown(self, digits: float) -> str:
-        shown = int(digits)
-        with working_precision(int(shown * 3.33) + 40):
-            text, imaginary = (arb(part).str(shown, radius=False) for part in (self.re, self.im))
-            if not self.real:
-                text = f"({text} {'-' if imaginary.startswith('-') else '+'} {imaginary.lstrip('-')}j)"
-            radius = (arb(self.rad) * arb(1 + 2.0**-7)).mid().str(2, radius=False)
-            return text if self.rad[0] == 0 else f"{text} ± {radius}"
+    def _as_number(self, re: str, im: str) -> str:
+        return re if self.real else f"({re} {'-' if im.startswith('-') else '+'} {im.lstrip('-')}j)"
+
+    def _decimal_disc(self, digits: int) -> tuple[str, str, str]:
+        """A disc around this one in decimals: its midpoint is that of the ball to so many digits, its radius covers that."""
+        with working_precision(int(digits * 3.33) + 100):
+            re, im = (arb(part).str(digits, radius=False) for part in (self.re, self.im))
+            radius = arb(self.rad) + abs(arb(re) - arb(self.re)) + abs(arb(im) - arb(self.im))
+            return re, im, _rounded_up(radius.upper())
+
+
+def _rounded_up(radius: arb) -> str:
+    """A decimal number of two digits that isn't below this one."""
+    if radius == 0:
+        return "0"
+    text: str = radius.str(2, radius=False)
+    if arb(text).lower() >= radius:
+        return text
+    near = Decimal(text)
+    unit = Decimal((0, (1,), int(near.as_tuple().exponent)))
+    with localcontext(Context(prec=_SHOWN, Emax=MAX_EMAX, Emin=MIN_EMIN)):
+        return str(near + unit).lower()
 
 
 def _ends(middle: Dyadic, rad: Dyadic) -> tuple[Dyadic, Dyadic]:

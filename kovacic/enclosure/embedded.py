@@ -129,7 +129,8 @@ def check_apart(points: Iterable[acb], a: acb, b: acb) -> None:
     if not all(ratio.real > 0 or not ratio.imag.contains(0) for ratio in ratios):
         raise InputError(
             "the path runs through a singular point of the equation, or so near that its constants don't tell",
-            hint="go around it: path=[...] with a vertex off the axis",
+            hint="go around it: path='above', or path=[...] with a vertex off the axis",
+            shell="go around it: --path above, or --path below",
         )
 
 

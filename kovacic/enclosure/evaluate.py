@@ -21,6 +21,7 @@ from typing import Any, Literal, TypedDict, Unpack, overload
 
 from kovacic.enclosure.ball import Ball
 from kovacic.enclosure.precision import AccuracyWarning, Method
+from kovacic.enclosure.problem import change_of, with_variable
 from kovacic.enclosure.states import Path, evaluate_states
 from kovacic.errors import NotRational, check_keywords
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
@@ -45,6 +46,7 @@ class Accuracy(TypedDict, total=False):
     """How well a solution is to be known, and for which values of the parameters; see `evaluate`."""
 
     params: Mapping[str, object] | None
+    var: str | None
     digits: int
     method: Method | None
     limits: Limits | None
@@ -114,6 +116,8 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = Fals
         vertices first; "chain" visits the points of x one after the other.  At x0 the logarithm is the principal one.
     params : mapping
         Values of the parameters by name: {"n": "sqrt(2)"}; then the start is at a regular point.
+    var : str
+        The name of the variable, where the equation is text or a SymPy expression; by default as for `kovacic.solve`.
     digits : int
         The accuracy, relative to the value: 15 by default.
     method : str
@@ -162,7 +166,8 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = Fals
     """
     check_keywords("evaluate", options, Options.__annotations__)
     given: dict[str, Any] = {"x0": x0, **options}
-    if getattr(equation, "change", None) is not None:
+    equation = with_variable(equation, given.pop("var", None), given.get("limits"))
+    if change_of(equation) is not None:
         return _in_given_variable(equation, x, derivative, given)
     shape = getattr(x, "shape", None)
     many = shape != () and isinstance(x, Iterable) and not isinstance(x, str | bytes | Mapping | Set)

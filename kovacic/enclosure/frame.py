@@ -170,7 +170,8 @@ def _blur(system: System, centre: ExactPoint, e: int, poles: list[tuple[arb, int
     if not least > d:
         raise InputError(
             f"the path runs through a singular point near {centre}, or so near to one that the constants don't tell",
-            hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis",
+            hint="go around it through the complex plane: path='above', or path=[...] with a vertex off the axis",
+            shell="go around it through the complex plane: --path above, or --path below",
         )
     return ((size * d / least + n) / (least - d) * unit * unit).upper()
 

@@ -280,7 +280,11 @@ class Traveller:
         elif isinstance(here, Singular):
             here = here.near
         if not (here.is_real() and last.is_real()):
-            raise InputError("a side of the real axis needs a start and points on it", hint="path=[v1, v2, ...]")
+            raise InputError(
+                "a side of the real axis needs a start and points on it",
+                hint="path=[v1, v2, ...]",
+                shell="leave --path out, where the straight line meets no singular point",
+            )
         sign = 1 if last.x > here.x else -1
         cuts = {p.x for p in singular if p.is_real() and 0 < sign * (p.x - here.x) < sign * (last.x - here.x)}
         for cut in sorted(cuts, reverse=sign < 0):

@@ -25,7 +25,7 @@ from kovacic.enclosure.journey import Traveller
 from kovacic.enclosure.matrices import Matrix, fundamental, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb, working_precision
 from kovacic.enclosure.precision import number_of_digits, start_bits
-from kovacic.enclosure.problem import NumericProblem, as_problem
+from kovacic.enclosure.problem import NumericProblem, as_problem, with_variable
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import place_of
 from kovacic.errors import InputError, LimitExceeded
@@ -78,6 +78,7 @@ def connection_matrix(
     path: Sequence[object],
     *,
     params: Mapping[str, object] | None = None,
+    var: str | None = None,
     digits: int = 15,
     limits: Limits | None = None,
 ) -> tuple[tuple[Ball, Ball], tuple[Ball, Ball]]:
@@ -101,7 +102,7 @@ def connection_matrix(
     """
     limits = limits_of(limits)
     digits = number_of_digits(digits, limits)
-    problem = as_problem(equation, params, constants=True)
+    problem = as_problem(with_variable(equation, var, limits), params, constants=True)
     if len(path) < 2:
         raise InputError("a path needs at least two vertices")
     ends = [_end(problem, value) for value in (path[0], path[-1])]
@@ -159,7 +160,12 @@ def _connection(
 
 @limited
 def monodromy(
-    equation: object, *, params: Mapping[str, object] | None = None, digits: int = 15, limits: Limits | None = None
+    equation: object,
+    *,
+    params: Mapping[str, object] | None = None,
+    var: str | None = None,
+    digits: int = 15,
+    limits: Limits | None = None,
 ) -> tuple[LocalMonodromy, ...]:
     """The local monodromy of y'' = S y at every finite singular point, for one base point above all of them.
 
@@ -173,7 +179,7 @@ def monodromy(
     """
     limits = limits_of(limits)
     digits = number_of_digits(digits, limits)
-    given = as_problem(equation, params, constants=True)
+    given = as_problem(with_variable(equation, var, limits), params, constants=True)
     constants = given.embedded and replace(given.embedded, gauge=None)
     problem = NumericProblem(given.system, embedded=constants)
     budget = Budget(limits)

@@ -74,8 +74,11 @@ def number_of_digits(given: object, limits: Limits) -> int:
     """As Python's integer; raises InputError unless this is a number of digits within the limits."""
     digits = whole(given, "digits", least=1)
     if digits > limits.digits:
+        shown = in_a_message(digits)
         raise InputError(
-            f"digits = {in_a_message(digits)} is beyond the limit of {limits.digits}", hint="raise limits.digits"
+            f"digits = {shown} is beyond the limit of {limits.digits}",
+            hint=f"limits=kovacic.Limits(digits={shown})",
+            shell=f"--limit digits={shown}",
         )
     return digits
 

@@ -20,8 +20,9 @@ from kovacic.enclosure.constants import Number, as_number
 from kovacic.enclosure.embedded import Embedded
 from kovacic.enclosure.points import ExactPoint, working_precision
 from kovacic.enclosure.system import System, Zeros
-from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
+from kovacic.equation import EULER, PI, Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError
+from kovacic.limits import Limits, limits_of
 
 _BITS = 40  # to which constants are known where nothing was asked for
 
@@ -129,6 +130,26 @@ def as_problem(
     return found
 
 
+def with_variable(equation: object, var: object, limits: Limits | None = None) -> object:
+    """The equation, read with this name of its variable; as it was given where none is named."""
+    if var is None:
+        return equation
+    if isinstance(equation, Answer):
+        if str(var) != equation.variable:
+            raise InputError(f"the variable of this answer is {equation.variable}, not {var}")
+        return equation
+    from kovacic.reading.read import read_input
+
+    return read_input(equation, var=var, limits=limits_of(limits), exponentials=True)
+
+
+def change_of(equation: object) -> Change | None:
+    """The change of variable of an answer, or of an equation that was read; None for everything else."""
+    if isinstance(equation, Answer | Parsed) and equation.equation is not None:
+        return equation.equation.change
+    return None
+
+
 @computed_once
 def problem_of(answer: Answer) -> NumericProblem:
     """The numerical problem of an answer, read once."""
@@ -146,6 +167,9 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     if isinstance(equation, Answer):
         found = equation
         decision: Decision | None = equation.decision
+    elif isinstance(equation, Parsed):
+        found = equation
+        decision = None
     else:
         from kovacic.reading.read import read_input
 
@@ -189,7 +213,8 @@ def _values(names: tuple[str, ...], params: Mapping[str, object]) -> dict[str, N
         wanted = ", ".join(names) or "no parameter"
         raise InputError(
             f"values are needed for {wanted}; given are {', '.join(given) or 'none'}",
-            hint="params={'n': 3}, for instance",
+            hint=f"params={dict.fromkeys(names, 3)}, for instance" if names else "leave params out",
+            shell=" ".join(f"--param {name}=3" for name in names) + ", for instance" if names else "leave --param out",
         )
     return given
 

@@ -32,6 +32,9 @@ from kovacic.enclosure.system import System
 from kovacic.enclosure.transport import piece_matrices
 from kovacic.errors import InputError, LimitExceeded
 
+_STARTS = "y0=... and dy0=..., or frobenius=(c1, c2), or which='regular'"
+_SHELL_STARTS = "--y0 and --dy0, or --frobenius C1,C2, or --regular"
+
 
 @dataclass(frozen=True)
 class Start:
@@ -92,18 +95,23 @@ def read_start(
             raise InputError("the decaying solution is given by y0 alone")
         return Start(as_number(x0, "x0"), (as_number(1 if y0 is None else y0, "y0"), ExactPoint(0)), True)
     if sum((y0 is not None or dy0 is not None, frobenius is not None, which is not None)) != 1:
-        raise InputError("one start is expected", hint="y0= and dy0=, or frobenius=(c1, c2), or which='regular'")
+        raise InputError("one start is expected", hint=_STARTS, shell=_SHELL_STARTS)
     if frobenius is None and which is None:
         if y0 is None or dy0 is None:
-            raise InputError("both y0 and dy0 are needed", hint="or frobenius=(c1, c2), or which='regular'")
+            raise InputError("both y0 and dy0 are needed", hint=_STARTS, shell=_SHELL_STARTS)
         return Start(as_number(x0, "x0"), (as_number(y0, "y0"), as_number(dy0, "dy0")))
     place = place_of(problem, x0, "x0")
     if frobenius is None:
         if not place.has_regular:
-            raise InputError(f"no solution is smaller than all others at {place}", hint="give frobenius=(c1, c2)")
+            said = f"no solution is smaller than all others at {place}"
+            raise InputError(said, hint="give frobenius=(c1, c2)", shell="give --frobenius C1,C2")
         frobenius = (0, 1)
     if isinstance(frobenius, str) or len(frobenius) != 2:
-        raise InputError("frobenius needs two coordinates", hint="frobenius=(c1, c2), the dominant solution first")
+        raise InputError(
+            "frobenius needs two coordinates",
+            hint="frobenius=(c1, c2), the dominant solution first",
+            shell="--frobenius C1,C2, the dominant solution first",
+        )
     first, second = (as_number(value, "a coordinate") for value in frobenius)
     return Start(place, (first, second))
 
@@ -129,6 +137,7 @@ def logarithmic_derivative(system: System, x0: ExactPoint, prec: int) -> acb:
         raise InputError(
             "no solution decays for large x: S must be positive there, and x^2 S unbounded",
             hint="for a regular singular point at infinity: x0='oo', which='regular'",
+            shell="for a regular singular point at infinity: --x0 oo --regular",
         )
     roots = [root.real for which in ("num", "den") for root, _ in system.roots(which, 64)]
     first = max(math.ceil(max((float(root.upper()) for root in roots), default=0.0)) + 1, math.ceil(x0.re))

@@ -192,8 +192,10 @@ def check_segment(system: System, a: ExactPoint, b: ExactPoint) -> None:
                 raise InputError(
                     f"the path from {a} to {b} runs through the singular point {name_of(system, to_acb(a) + to_acb(step) * t)} "
                     f"(distance 0; {distance:.6g} from the start)",
-                    hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
-                    "the result depends on the side",
+                    hint="go around it through the complex plane: path='above' or 'below', or path=[...] with a vertex off "
+                    "the axis; the result depends on the side",
+                    shell="go around it through the complex plane: --path above or --path below; the result depends on "
+                    "the side",
                 )
         prec *= 2
 

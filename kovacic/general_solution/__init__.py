@@ -7,7 +7,16 @@ right-hand side by the cheapest way: `undetermined` coefficients, or `variation`
 """
 
 from kovacic.general_solution.dsolve import dsolve, in_special_functions
+from kovacic.general_solution.homogeneous import NothingKnown
 from kovacic.general_solution.riccati import RiccatiSolutions, solve_riccati
 from kovacic.general_solution.sympy_hint import register, unregister
 
-__all__ = ["RiccatiSolutions", "dsolve", "in_special_functions", "register", "solve_riccati", "unregister"]
+__all__ = [
+    "NothingKnown",
+    "RiccatiSolutions",
+    "dsolve",
+    "in_special_functions",
+    "register",
+    "solve_riccati",
+    "unregister",
+]

@@ -29,6 +29,14 @@ Expr = Any  # SymPy publishes no types
 Pair = tuple[Expr, Expr]
 
 
+class NothingKnown(NotImplementedError):
+    """No solutions are known; `is_proven` says whether it is proven that none is Liouvillian."""
+
+    def __init__(self, reason: str, *, is_proven: bool) -> None:
+        super().__init__(reason)
+        self.is_proven = is_proven
+
+
 def find_basis(question: Question, budget: Budget, *, special: bool = False) -> tuple[Basis, Solution]:
     """Two independent solutions in the user's variable, and what was decided.
 
@@ -76,7 +84,8 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
     if not found and equation.change is not None:
         found = mathieu(solution.S, solution.gauge, equation) or found
     if not found:
-        raise NotImplementedError(f"{no_solution(solution, question.assumptions)}; {found}")
+        reason = f"{no_solution(solution, question.assumptions)}; {found}"
+        raise NothingKnown(reason, is_proven=solution.status is Status.NONE_EXISTS)
     y1, y2 = found
     if special and not are_independent(y1, y2, sympy.Symbol(solution.variable)):
         raise NotImplementedError(f"{no_solution(solution, question.assumptions)}; {found}")

@@ -46,7 +46,9 @@ def find_conditions(
     if not names:
         used = f": {parsed.variable} is taken for the variable" if var is None and parsed.S.degree else ""
         what = "every parameter has a value" if parsed is not given else f"S has no parameters{used}"
-        raise InputError(what, hint="solve decides equations without parameters; var= says which name is the variable")
+        hint = "solve decides equations without parameters;"
+        python = f"{hint} var= says which name is the variable"
+        raise InputError(what, hint=python, shell=f"{hint} --var says which name is the variable")
     most = whole(max_degree, "max_degree")
     known = read_assumptions(assume, S, names)
     if PI in names:

@@ -86,7 +86,8 @@ class RationalReader:
         if name in NUMBER_NAMES:
             raise NotRational(
                 f"{name} is {NUMBER_NAMES[name]}; constants are rational or algebraic numbers",
-                hint=f"if {name} is the variable, say so: var={name!r} (--var {name})",
+                hint=f"if {name} is the variable, say so: var={name!r}",
+                shell=f"if {name} is the variable, say so: --var {name}",
             )
         if name == UNKNOWN:
             hint = f"y is the unknown function: give S alone, from y'' = S({self.variable}) y"

@@ -80,7 +80,7 @@ _HINTS = {
     "°": "angles are in radians: 90 degrees are pi/2",
     "$": "LaTeX and Maple's $ aren't read; write (x^2 + 1)/(2*x), diff(y, x, 2)",
     **dict.fromkeys(
-        "<>≤≥≠", "an equation has the sign =, conditions on parameters are given apart (assume=, --assume)"
+        "<>≤≥≠", "an equation has the sign =; what is known about a parameter is given apart, as assumption"
     ),
 }
 
@@ -123,11 +123,18 @@ class Tokens:
         return self.starts[begin], self.ends[end - 1] - self.starts[begin]
 
     def error(
-        self, kind: type[InputError], message: str, begin: int, end: int, *, hint: str | None = None
+        self,
+        kind: type[InputError],
+        message: str,
+        begin: int,
+        end: int,
+        *,
+        hint: str | None = None,
+        shell: str | None = None,
     ) -> InputError:
         """An error at the tokens begin, ..., end - 1."""
         position, length = self.span(begin, end)
-        return kind(message, text=self.text, position=position, length=max(1, length), hint=hint)
+        return kind(message, text=self.text, position=position, length=max(1, length), hint=hint, shell=shell)
 
     def names(self) -> dict[str, int]:
         """The different plain names in order of appearance, each with the number of its first token."""

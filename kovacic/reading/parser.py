@@ -60,7 +60,9 @@ class Site:
             begin, hint = (self.begin, "0^0 isn't defined") if power else (self.right, "this is zero")
             return self.tokens.error(NotRational, str(error), begin, self.end, hint=hint)
         if isinstance(error, InputError) and error.text is None:
-            return self.tokens.error(type(error), error.message, self.begin, self.end, hint=error.hint)
+            return self.tokens.error(
+                type(error), error.message, self.begin, self.end, hint=error.hint, shell=error.shell
+            )
         return error
 
 
@@ -444,6 +446,8 @@ def _syntax_error(tokens: Tokens, k: int, opened: Sequence[int]) -> InputError:
         hint = "write the number or name that belongs there"
     elif kind == "COMMA":
         message, hint = "a comma doesn't belong here", "decimals are written with a point, and one expression is one S"
+        if "EQUAL" in tokens.kinds[:k]:
+            hint = "values, y(0) = 1, are for dsolve, which takes them after the equation"
     elif kind == "EQUAL":
         hint = "an equation has one equals sign, outside all parentheses"
     return tokens.error(ParseError, message, first, k + 1, hint=hint)

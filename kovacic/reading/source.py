@@ -117,7 +117,8 @@ def _chosen_variable(names: list[str]) -> str:
     if len(names) > 1 and DEFAULT_VARIABLE not in names:
         raise InputError(
             f"which of {', '.join(names[:6])} is the variable?",
-            hint=f"name it: var={names[0]!r} (--var {names[0]}); the others are parameters",
+            hint=f"name it: var={names[0]!r}; the others are parameters",
+            shell=f"name it: --var {names[0]}; the others are parameters",
         )
     return names[0] if len(names) == 1 else DEFAULT_VARIABLE
 
@@ -131,7 +132,7 @@ def _variable_of_S(tokens: Tokens, variable: str | None) -> str:
             variable = _chosen_variable(names)
         except InputError as error:
             k = found[names[1]]
-            raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint) from None
+            raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint, shell=error.shell) from None
     for k, (kind, text) in enumerate(zip(tokens.kinds, tokens.pieces, strict=True) if variable in ("e", "E") else ()):
         if kind == "NUMBER" and variable in text:  # 2e-3 is 0.002, or 2*e - 3
             mantissa, _, rest = text.partition(variable)
@@ -187,10 +188,12 @@ def _variable_of(tokens: Tokens, unknown: str, preferred: str | None) -> tuple[s
         return default, ()
     usual = [name for name in names if name in _USUAL_VARIABLES]
     if len(usual) > 1:
-        hint = f"write {unknown}''(x) for the derivative, or name the variable: var='x' (--var x)"
+        hint = f"write {unknown}''(x) for the derivative, or name the variable:"
         k = tokens.names()[usual[-1]]
         message = f"{', '.join(usual[:6])}: which is the variable?"
-        raise tokens.error(InputError, message, k, k + 1, hint=hint)
+        raise tokens.error(
+            InputError, message, k, k + 1, hint=f"{hint} var={usual[0]!r}", shell=f"{hint} --var {usual[0]}"
+        )
     if usual:
         return usual[0], ()
     which = "a parameter" if len(names) == 1 else "parameters"

@@ -28,9 +28,12 @@ from kovacic.doubles.chart import PieceChart, chart_of
 from kovacic.doubles.curve import Arc, Envelope, arcs, coefficients
 from kovacic.enclosure.evaluate import Accuracy, InitialValues
 from kovacic.enclosure.points import ExactPoint, as_point, midpoint
+from kovacic.enclosure.problem import change_of, with_variable
+from kovacic.equation import Parsed
 from kovacic.errors import InputError, check_keywords
 from kovacic.exact import whole
-from kovacic.limits import limited
+from kovacic.limits import Limits, limited, limits_of
+from kovacic.reading.read import read_input
 from kovacic.views.sentences import equation_of
 from kovacic.writing.formula import of_sympy
 
@@ -108,6 +111,7 @@ def sample(
     a, b = _ends(start, stop)
     points = whole(points, "points", least=2)
     asked: dict[str, Any] = {**options}
+    equation = with_variable(equation, asked.pop("var", None), asked.get("limits"))
     chart = chart_of(equation, {}, asked.pop("params", None))
     intervals = _regular_intervals(chart, a, b)
     if x0 is None:
@@ -196,6 +200,8 @@ def plot(
         To how many digits they are found: 8 by default.
     params : mapping
         Values of the parameters by name: {"a": 2}.
+    var : str
+        The name of the variable, where the equation is text or a SymPy expression; by default as for `kovacic.solve`.
     method : str
         "taylor" or "closed form"; by default the one that is faster for this equation.
     limits : Limits
@@ -232,6 +238,8 @@ def plot(
     True
     """
     check_keywords("plot", options, PlotOptions.__annotations__)
+    if isinstance(equation, str) or options.get("var") is not None:
+        equation = _read(equation, options.pop("var", None), options.get("limits"))
     from matplotlib.figure import Figure as NewFigure
 
     curves = _curves(equation, start, stop, options)
@@ -262,8 +270,18 @@ def _title(equation: object, title: str | None) -> str:
     return ""
 
 
+def _read(equation: object, var: str | None, limits: Limits | None) -> object:
+    """The equation with the name of its variable, which the axis has."""
+    if isinstance(equation, str) and var is None:
+        return read_input(equation, limits=limits_of(limits), exponentials=True)
+    return with_variable(equation, var, limits)
+
+
 def _variable(equation: object) -> str:
-    return equation.variable if isinstance(equation, Answer) else "x"
+    change = change_of(equation)
+    if change is not None:
+        return change.variable
+    return equation.variable if isinstance(equation, Answer | Parsed) else "x"
 
 
 def _curves(equation: object, start: object, stop: object, options: PlotOptions) -> list[tuple[str, SampledCurve]]:
