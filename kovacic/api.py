@@ -57,10 +57,26 @@ def find_answer(
     if not verified and (verification.checks or decision.status is not Status.UNDECIDED):
         said = f"the answer for S = {parsed.S} failed its own check; please report it"
         raise VerificationFailed(f"{said}\n{verification}")
-    text, seconds = S.strip() if isinstance(S, str) else parsed.text, time.perf_counter() - start
+    seconds = time.perf_counter() - start
     return Answer(
-        text, parsed.variable, parsed.S, decision, notices, verified, seconds, parsed.equation, assumed, limits, known
+        _text_of(S, parsed),
+        parsed.variable,
+        parsed.S,
+        decision,
+        notices,
+        verified,
+        seconds,
+        parsed.equation,
+        assumed,
+        limits,
+        known,
     )
+
+
+def _text_of(S: Any, parsed: Parsed) -> str:
+    """The input as it was given; in our own spelling where it is no text, or constants became parameters."""
+    in_letters = bool(parsed.letters) and (parsed.equation is None or parsed.equation.change is None)
+    return parsed.text if in_letters or not isinstance(S, str) else S.strip()
 
 
 @limited

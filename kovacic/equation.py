@@ -113,13 +113,15 @@ class Equation:
 class Parsed:
     """S as a rational function, the name of its variable, and what the user should know about how it was read.
 
-    `equation` is the equation that was given, None where S itself was.
+    `equation` is the equation that was given, None where S itself was.  `letters` are the parameters that stand for
+    constants, as SymPy expressions: sin_theta for sin(theta).
     """
 
     S: RatFunc
     variable: str
     notices: tuple[str, ...] = ()
     equation: Equation | None = None
+    letters: tuple[tuple[str, Any], ...] = ()
 
     @property
     def text(self) -> str:

@@ -18,6 +18,7 @@ from typing import Any
 
 import sympy
 from flint import acb, acb_poly, acb_series, arb, ctx, fmpq, fmpz_poly
+from sympy.core.function import AppliedUndef
 
 Number = Any  # flint's acb
 Value = Any  # flint's acb_series, or an acb where the variable doesn't occur
@@ -104,9 +105,25 @@ class _Evaluator:
             return _taylor(z, rule(parameters, z[0]))
         if e.is_Symbol:
             return parameter_value(e.name)
+        if isinstance(e, sympy.Abs | sympy.sign):
+            return self._of_sign(e)
+        is_unit = e.is_Atom and not e.is_number
+        if is_unit or (isinstance(e, AppliedUndef) and not e.has(*self.bindings)):
+            return parameter_value(str(e))
         if not e.free_symbols:
             return _number(e)
         raise NotImplementedError(f"the function {e.func} can't be evaluated")
+
+    def _of_sign(self, e: Any) -> Value:
+        """|f| or the sign of f: for a function of the variable, near a point where it isn't zero, and real."""
+        value = self(e.args[0])
+        middle = value if isinstance(value, acb) else value[0]
+        if isinstance(value, acb) and isinstance(e, sympy.Abs):
+            return acb(abs(value))
+        if middle.imag != 0 or middle.contains(0):
+            raise NotImplementedError(f"{e} isn't evaluated here")
+        sign = 1 if middle.real > 0 else -1
+        return value * sign if isinstance(e, sympy.Abs) else acb(sign)
 
     def _roots(self, polynomial: Any) -> list[Number]:
         """The complex roots, which are simple."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import sympy
@@ -28,18 +29,19 @@ Expr = Any  # SymPy publishes no types
 
 @dataclass(frozen=True)
 class Question:
-    """`function` is y(x) with the user's symbol for x, `symbols` are the user's own by name.
+    """`function` is y(x) with the user's symbol for x, `symbols` are the user's own by name, and letters for constants.
 
-    `back` are replacements that lead from the symbols of the equation to what was given: sqrt_k to sqrt(k).  `has_floats`:
-    floats were given, as coefficients or as values.
+    `meanings` say what letters stand for, sqrt_k for sqrt(k), in the user's symbols.  `renamed` are other symbols for those
+    with the names of numbers.  `has_floats`: floats were given, as coefficients or as values.
     """
 
     equation: Equation
     function: Expr
     conditions: tuple[Condition, ...]
     symbols: Mapping[str, Expr]
+    meanings: Mapping[Expr, Expr]
+    renamed: Mapping[Expr, Expr]
     assumptions: Assumptions
-    back: tuple[dict[Expr, Expr], ...]
     has_floats: bool
 
     @property
@@ -49,15 +51,20 @@ class Question:
 
     @property
     def parameters(self) -> dict[str, Expr]:
-        """The user's symbols without that of the variable."""
+        """The user's symbols without that of the variable, and letters."""
         return {name: symbol for name, symbol in self.symbols.items() if name != self.x.name}
 
     def own(self, expression: Expr) -> Expr:
-        """The expression in the user's symbols for the parameters."""
-        pairs = {sympy.Symbol(name): symbol for name, symbol in self.parameters.items()}
+        """The expression in the user's symbols for the parameters, with what letters stand for."""
         # A replacement of symbols by themselves would build the whole expression anew.
-        changed = {plain: symbol for plain, symbol in pairs.items() if plain != symbol}
-        return expression.xreplace(changed) if changed else expression
+        own = expression.xreplace(self._own) if self._own else expression
+        return own.xreplace(self.meanings) if self.meanings else own
+
+    @cached_property
+    def _own(self) -> dict[Expr, Expr]:
+        """The user's symbols, and letters with what is known of their signs, for plain ones."""
+        pairs = {sympy.Symbol(name): symbol for name, symbol in self.parameters.items()}
+        return {plain: symbol for plain, symbol in pairs.items() if plain != symbol}
 
 
 def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits) -> Question:
@@ -65,25 +72,33 @@ def read_question(eq: Any, func: Any, ics: Any, var: str | None, limits: Limits)
     eq, ics = apart(eq, ics)
     values = as_mapping(ics)
     floats = _has_floats(eq) or any(_has_floats(value) for item in values.items() for value in item)
+    renamed: dict[Expr, Expr] = {}
     if isinstance(eq, sympy.Basic):
+        renamed = _renamed(eq)
         eq = exact(eq)
-    changes = _changes_of(eq)
-    for forward, _ in changes:
-        eq = _substituted(eq, forward)
-        func = _substituted(func, forward)
-        values = {_substituted(key, forward): _substituted(value, forward) for key, value in values.items()}
-    equation, function = _read_equation(eq, func, var, limits)
-    if equation.variable in (PI, EULER):
-        raise InputError(f"{equation.variable} is a number", hint="take another name for the variable")
-    reader = ConditionReader(function, equation.unknown)
+    if renamed:
+        eq, func = _in_symbols(eq, renamed), _in_symbols(func, renamed)
+        values = {_in_symbols(key, renamed): _in_symbols(value, renamed) for key, value in values.items()}
+    read = _read_equation(eq, func, var, limits)
+    if read.equation.variable in (PI, EULER):
+        raise InputError(f"{read.equation.variable} is a number", hint="take another name for the variable")
+    reader = ConditionReader(read.function, read.equation.unknown)
     conditions = tuple(reader.read(key, value) for key, value in values.items())
+    symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
+    plain = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
+    meanings: dict[Expr, Expr] = {}
+    for name, meaning in read.letters:
+        whole = meaning.xreplace(plain)
+        symbols[name] = _letter(name, whole)
+        meanings[symbols[name]] = whole
     return Question(
-        equation=equation,
-        function=function,
+        equation=read.equation,
+        function=read.function,
         conditions=conditions,
-        symbols={symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())},
-        assumptions=read_assumptions(None, eq, parameters_of(equation.S.field)),
-        back=tuple(back for _, back in reversed(changes)),
+        symbols=symbols,
+        meanings=meanings,
+        renamed=renamed,
+        assumptions=read_assumptions(None, sympy.Tuple(*symbols.values()), parameters_of(read.equation.S.field)),
         has_floats=floats,
     )
 
@@ -108,18 +123,22 @@ def _has_floats(given: Any) -> bool:
     return isinstance(given, float) or bool(isinstance(given, sympy.Basic) and given.atoms(sympy.Float))
 
 
-def _substituted(e: Any, forward: Mapping[Any, Any]) -> Any:
-    return e.subs(forward) if isinstance(e, sympy.Basic) else e
+@dataclass(frozen=True)
+class _Read:
+    """An equation, the unknown function as the user writes it, and letters for constants with what they stand for."""
+
+    equation: Equation
+    function: Expr
+    letters: tuple[tuple[str, Expr], ...] = ()
 
 
-def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple[Equation, Any]:
-    """The equation and the unknown function as the user writes it."""
+def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> _Read:
     applied = func if isinstance(func, AppliedUndef) else None
     name = func if applied is None else applied.func  # y of y(x)
     if func is not None and not isinstance(name, UndefinedFunction):
         raise InputError(f"{func!r} isn't a function", hint="give y(x), or y = Function('y')")
     if isinstance(eq, Equation):
-        return eq, applied or (name or sympy.Function(eq.unknown))(sympy.Symbol(eq.variable))
+        return _Read(eq, applied or (name or sympy.Function(eq.unknown))(sympy.Symbol(eq.variable)))
     unknown: Any = None if func is None else str(name)
     if isinstance(eq, str):
         var = var if applied is None else str(applied.args[0])
@@ -129,16 +148,20 @@ def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits) -> tuple
         if func is not None and applied is None:
             applied = _applied_in(eq, func)
         unknown = applied = _only_function(eq) if applied is None else applied
-    equation = read_input(eq, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True).equation
+    parsed = read_input(eq, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True)
+    equation = parsed.equation
     assert equation is not None
     variable = equation.variable if equation.change is None else equation.change.variable
-    return equation, applied or (name or sympy.Function(equation.unknown))(sympy.Symbol(variable))
+    return _Read(
+        equation, applied or (name or sympy.Function(equation.unknown))(sympy.Symbol(variable)), parsed.letters
+    )
 
 
 def _only_function(eq: Expr) -> Expr:
     """y(x), where no other function occurs.  Raises `NotLinear`."""
     function = function_of(eq)
-    others = sorted({str(f) for f in functions_in(eq) if f.func != function.func})
+    x = function.args[0]
+    others = sorted({str(f) for f in functions_in(eq) if f.func != function.func and f.has(x)})
     if others:
         hint = f"if {', '.join(others)} is given, say what is sought: func={function}"
         raise NotLinear(f"{', '.join([str(function), *others])}: which is the unknown function?", hint=hint)
@@ -154,33 +177,20 @@ def _applied_in(eq: Any, func: Any) -> Expr:
     return applied
 
 
-Renamed = tuple[dict[Expr, Expr], dict[Expr, Expr]]
+def _renamed(eq: Expr) -> dict[Expr, Expr]:
+    """Other symbols for those with the names of numbers."""
+    return {s: sympy.Symbol(f"{s.name}_", **s.assumptions0) for s in eq.free_symbols if s.name in (PI, EULER)}
 
 
-def _changes_of(eq: Any) -> list[Renamed]:
-    """Symbols that are replaced in a SymPy expression, and the way back: roots, and symbols with the names of numbers."""
-    if not isinstance(eq, sympy.Basic):
-        return []
-    root = _root_of_parameter(eq)
-    names = {s: sympy.Symbol(f"{s.name}_", **s.assumptions0) for s in eq.free_symbols if s.name in (PI, EULER)}
-    found = [] if root is None else [root]
-    if names:
-        found.append((names, {new: symbol for symbol, new in names.items()}))
-    return found
+def _in_symbols(given: Any, renamed: Mapping[Expr, Expr]) -> Any:
+    return given.xreplace(renamed) if isinstance(given, sympy.Basic) else given
 
 
-def _root_of_parameter(eq: Expr) -> Renamed | None:
-    """For a square root r of an expression that is linear in a parameter p: p in terms of r."""
-    roots = [power for power in eq.atoms(sympy.Pow) if power.exp.is_Rational and power.exp.q == 2]
-    variables = {symbol for f in eq.atoms(AppliedUndef) for symbol in f.free_symbols} if roots else set()
-    for power in sorted(roots, key=str):
-        if power.base.free_symbols & variables:
-            continue
-        candidates = sorted(power.base.free_symbols, key=str)
-        linear = next((symbol for symbol in candidates if power.base.diff(symbol).is_Rational), None)
-        if linear is not None:
-            slope = power.base.diff(linear)
-            new = sympy.Symbol(f"sqrt_{linear.name}", positive=True)
-            rest = (power.base - slope * linear).expand()
-            return {linear: (new**2 - rest) / slope}, {new: sympy.sqrt(power.base)}
-    return None
+def _letter(name: str, meaning: Expr) -> Expr:
+    """The symbol for a constant, with what is known of its sign; powers are principal ones, and taken for positive."""
+    is_power = (meaning.is_Pow or isinstance(meaning, sympy.exp)) and not meaning.as_base_exp()[0].is_negative
+    if meaning.is_positive or is_power:
+        return sympy.Symbol(name, positive=True)
+    if meaning.is_negative:
+        return sympy.Symbol(name, negative=True)
+    return sympy.Symbol(name, real=True if meaning.is_real else None)

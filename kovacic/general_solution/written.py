@@ -48,13 +48,12 @@ def combination(question: Question, basis: Basis, particular: Expr, constants: t
 
 
 def written(question: Question, value: Expr) -> Expr:
-    """Eq(y(x), value) with the user's symbols for the variable and for what was replaced in the equation."""
+    """Eq(y(x), value) with the user's symbols for the variable and for those with the names of numbers."""
     x = question.function.args[0]
     if x != question.x:
         value = value.xreplace({question.x: x})
     found = sympy.Eq(question.function, value, evaluate=False)
-    for back in question.back:
-        found = found.subs(back)
+    found = found.xreplace({new: symbol for symbol, new in question.renamed.items()})
     if question.has_floats:
         return sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False)
     return found

@@ -15,7 +15,6 @@ Continuous Dynamical Systems B 10 (2008) 265-293 (Hamiltonian algebrization).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from contextlib import suppress
 from math import gcd
 from typing import Any
@@ -27,12 +26,10 @@ from sympy.functions.elementary.trigonometric import TrigonometricFunction
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import UNKNOWN, Change, Equation, Parsed, lowered, over
-from kovacic.errors import NotLinear, NotRational
+from kovacic.errors import NotRational
 from kovacic.limits import Limits
 from kovacic.numerals import as_text
-from kovacic.reading.arithmetic import Term
-from kovacic.reading.differential import EquationReader
-from kovacic.reading.linear import REST, Symbols
+from kovacic.reading.parts import parts_of, source_of_parts
 from kovacic.reading.source import Source, read_source, source_of
 
 _RIGHT = "put 0 there: two solutions give one with any right-hand side, by variation of parameters"
@@ -45,17 +42,14 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     Raises `NotRational` where x occurs beside exp(k x), for rates whose quotient isn't rational, and for a right-hand side that
     isn't rational in exp(k x).
     """
-    x, reader = sympy.Symbol(source.variable), EquationReader(source.variable, source.unknown, limits, Symbols())  # type: ignore[arg-type]
-    reader.arithmetic.coefficient = lambda expression: expression  # any one
-    value = source.walk(reader)
-    parts = getattr(value, "parts", {}) if source.unknown else {2: Term(1, 0), 0: reader.arithmetic.negate(value)}
-    found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
-    if max(found, default=0) != 2:
-        raise NotLinear("a linear equation of second order is expected")
-    rewritten = [_in_exponentials(found.get(k, sympy.Integer(0)), x) for k in (2, 1, 0, REST)]
+    x = sympy.Symbol(source.variable)
+    parts, notices = parts_of(source, limits)
+    rewritten = [_in_exponentials(part, x) for part in parts]
     if all(part.is_rational_function(x) for part in rewritten[:3]):
         with suppress(NotRational):
-            return _without_exponentials(rewritten, source, limits)
+            return read_source(
+                source_of_parts(rewritten, source), limits
+            )  # everything else cancels, or has the factor 0
     exponentials = {e for part in rewritten for e in part.atoms(sympy.exp) if e.has(x)}
     if not exponentials:
         return None
@@ -68,7 +62,7 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
         raise NotRational(
             f"a right-hand side that isn't rational in exp({k * x}), as the coefficients are", hint=_RIGHT
         )
-    unknown = reader.unknown or UNKNOWN
+    unknown = source.unknown or UNKNOWN
     names = {s.name for part in (a, b, c, rest, k) for s in part.free_symbols} | {x.name, unknown}
     t = sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
     Y = sympy.Function(f"{unknown}_")(t)
@@ -80,18 +74,7 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
     p, q, f = p * denominator, q * denominator, f * denominator
     result = Equation(denominator, p, q, f, None, t.name, unknown, Change(x.name, expression))
-    return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *reader.notices(), *read.notices), result)
-
-
-def _without_exponentials(parts: Sequence[Any], source: Source, limits: Limits) -> Parsed:
-    """What is left where everything that isn't rational cancels or has the factor zero: 0*sech(x)^2 - 1."""
-    a, b, c, rest = parts
-    if not source.unknown:
-        return read_source(source_of(-c, source.variable, limits), limits)
-    x = sympy.Symbol(source.variable)
-    y = sympy.Function(source.unknown)(x)
-    equation = a * y.diff(x, 2) + b * y.diff(x) + c * y + rest
-    return read_source(source_of(equation, source.variable, limits, unknown=y, equation=True), limits)
+    return Parsed(result.S, t.name, (f"in {t} = {expression}: {result}", *notices, *read.notices), result)
 
 
 def _in_exponentials(expression: Any, x: Any) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -15,7 +16,7 @@ from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.exact import exact_real, exact_text, is_rational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.parser import shown
-from kovacic.reading.source import read_source, source_of
+from kovacic.reading.source import Source, read_source, source_of
 
 
 def read_input(
@@ -44,29 +45,7 @@ def read_input(
     variable = _variable_name(var)
     if isinstance(S, str) or _is_sympy(S):
         source = source_of(S, variable, limits, unknown=unknown, equation=equation)
-        try:
-            return read_source(source, limits)
-        except NotRational as error:
-            if not source.unknown and error.excerpt == PI:
-                with suppress(InputError):  # a constant of equations
-                    return read_source(source_of(f"y'' = ({S})*y", variable, limits), limits)
-            if not exponentials:
-                raise
-            from kovacic.reading.exponentials import in_exponentials
-            from kovacic.reading.symbolic import divided
-
-            if not isinstance(S, str) and (quotient := divided(S)) is not None:
-                with suppress(NotRational):
-                    return read_source(source_of(quotient, variable, limits, unknown=unknown, equation=True), limits)
-            try:
-                found = in_exponentials(source, limits)
-            except NotRational as other:
-                if other.position is None:  # what isn't rational is the same
-                    other.text, other.position, other.length = error.text, error.position, error.length
-                raise
-            if found is None:
-                raise
-            return found
+        return _read(S, source, limits, exponentials=exponentials)
     if is_rational(S):
         return Parsed(RatFunc(QQ.poly([exact_real(S, "S")])), variable or DEFAULT_VARIABLE)
     if isinstance(S, RatFunc):
@@ -86,6 +65,77 @@ def read_input(
         f"{type(S).__name__!r} isn't a form of S that can be read",
         hint='give a string "x^2 + 3", a SymPy expression, or the pair of coefficient sequences ([3, 0, 1], [1])',
     )
+
+
+def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> Parsed:
+    """What a source means, made of the text or expression that was given.
+
+    With `exponentials`, coefficients that aren't rational are tried as functions of exp(k x), and constants as letters.
+    """
+    try:
+        return read_source(source, limits)
+    except NotRational as error:
+        if not source.unknown and error.excerpt == PI:
+            with suppress(InputError):  # a constant of equations
+                return read_source(source_of(f"y'' = ({given})*y", source.variable, limits), limits)
+        if not exponentials:
+            raise
+        from kovacic.reading.exponentials import in_exponentials
+
+        if not isinstance(given, str) and (found := _divided(given, source, limits)) is not None:
+            return found
+        reason = error
+        try:
+            found = in_exponentials(source, limits)
+        except NotRational as other:
+            if other.position is None:  # what isn't rational is the same
+                other.text, other.position, other.length = error.text, error.position, error.length
+            reason, found = other, None
+        found = found or _in_letters(source, limits)
+        if found is None:
+            raise reason from None
+        return found
+
+
+def _divided(given: Any, source: Source, limits: Limits) -> Parsed | None:
+    """An equation divided by the coefficient of its second derivative; None where that doesn't help."""
+    from sympy import Function, Symbol
+
+    from kovacic.reading.symbolic import divided
+
+    quotient = divided(given)
+    if quotient is None:
+        return None
+    y = Function(source.unknown)(Symbol(source.variable))
+    with suppress(NotRational):
+        return read_source(source_of(quotient, source.variable, limits, unknown=y, equation=True), limits)
+    return None
+
+
+def _in_letters(source: Source, limits: Limits) -> Parsed | None:
+    """With letters for constants that aren't rational in symbols; None where that doesn't help."""
+    from sympy import Symbol
+
+    from kovacic.reading.exponentials import in_exponentials
+    from kovacic.reading.letters import with_letters
+    from kovacic.reading.parts import parts_of, source_of_parts
+
+    parts, notices = parts_of(source, limits)
+    lettered = with_letters(parts, 3, Symbol(source.variable))
+    if lettered is None:
+        return None
+    written = source_of_parts(lettered.parts, source)
+    found = None
+    with suppress(NotRational):
+        found = read_source(written, limits)
+    if found is None:
+        with suppress(NotRational):
+            found = in_exponentials(written, limits)
+    if found is None:
+        return None
+    said = [f"{letter} is {meaning}" for letter, meaning in lettered.meanings.items()]
+    letters = tuple((letter.name, meaning) for letter, meaning in lettered.meanings.items())
+    return replace(found, notices=(*said, *notices, *found.notices), letters=letters)
 
 
 def read_coefficients(a: Any, b: Any, c: Any, f: Any, *, var: Any = None, limits: Limits = DEFAULT_LIMITS) -> Parsed:

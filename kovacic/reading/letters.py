@@ -1,0 +1,225 @@
+"""Constants that aren't rational in symbols, sin(theta), exp(-b), a^(1/3), log(2), as letters: names of parameters.
+
+A letter stands for a maximal part without x of one of these kinds, and what a letter stands for may contain others: inner ones
+come first.  What depends on others algebraically is written by them where that is known:
+
+    roots of one base        by the root with the common index; a symbol beside its root by the root: a = t^2
+    powers a^p, a^(2 p)      by the one with the greatest common divisor of the exponents, and so are exponentials; those of
+                             numbers by those of primes
+    waves of one argument    by sine and cosine, with sin^2 = 1 - cos^2; of multiples of it by the addition theorems
+    logarithms of numbers    by those of primes
+
+Any other relation isn't used: what holds for generic values of letters holds for theirs, if nothing is divided by zero.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import reduce
+from typing import Any
+
+import sympy
+from sympy.functions.elementary.hyperbolic import HyperbolicFunction
+from sympy.functions.elementary.trigonometric import TrigonometricFunction
+
+from kovacic.equation import EULER, PI, UNKNOWN
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
+
+Expr = Any  # SymPy publishes no types
+Meanings = dict[Expr, Expr]  # of letters
+#: The most letters of an equation, and characters of their names.
+_MOST, _LONGEST = 20, 30
+#: The largest number whose factors are asked for.
+_LARGEST = 10**12
+
+
+@dataclass(frozen=True)
+class Lettered:
+    """`parts` in letters, and what these stand for in the symbols that were given."""
+
+    parts: tuple[Expr, ...]
+    meanings: Meanings
+
+
+def with_letters(parts: Sequence[Expr], coefficients: int, x: Expr) -> Lettered | None:
+    """Expressions in which constants have become letters; None where the first ones, the `coefficients`, have none.
+
+    >>> x, a, b = sympy.symbols("x a b")
+    >>> found = with_letters((1 + sympy.sqrt(a), a * x, sympy.exp(2 * b)), 3, x)
+    >>> found.parts, found.meanings
+    ((sqrt_a + 1, sqrt_a**2*x, exp_2_b), {exp_2_b: exp(2*b), sqrt_a: sqrt(a)})
+    """
+    letters = _Letters(x, parts)
+    found = tuple(parts)
+    for _ in range(_MOST):
+        inner = _innermost(found[:coefficients], x)
+        if not inner:
+            break
+        found = letters.replaced(found, inner)
+    used = set().union(*(part.free_symbols for part in found))
+    meanings = {letter: meaning for letter, meaning in letters.meanings.items() if letter in used}
+    return Lettered(found, meanings) if found != tuple(parts) else None
+
+
+def _innermost(parts: Sequence[Expr], x: Expr) -> list[Expr]:
+    """The constants that are no rational functions of symbols and numbers, and have no such constants within them."""
+    both = any(
+        part.has(sympy.pi) for part in parts
+    )  # pi and e: e becomes a letter, for two numbers aren't known to be independent
+    found = {kernel for part in parts for kernel in _kernels(part, x, e_is_known=not both)}
+    return sorted(found, key=sympy.default_sort_key)
+
+
+def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> Iterator[Expr]:
+    """Of one expression; `e_is_known`: powers of Euler's number are none."""
+    if e.is_Symbol or e.is_Rational or e is sympy.I or e is sympy.pi:
+        return
+    constant = not e.has(x)
+    if constant and e.is_number and e.is_algebraic:
+        return
+    inner = False
+    for argument in e.args:
+        for kernel in _kernels(argument, x, e_is_known=e_is_known):
+            inner = True
+            yield kernel
+    is_exponential = e is sympy.E or isinstance(e, sympy.exp)
+    is_rational = e.is_Add or e.is_Mul or (e.is_Pow and e.exp.is_Integer and not is_exponential)
+    if not constant or is_rational or inner:
+        return
+    is_power_of_e = e is sympy.E or (is_exponential and e.args[0].is_Integer)
+    if not (e_is_known and is_power_of_e):
+        yield e
+
+
+class _Letters:
+    """Letters with what they stand for; new ones have names that nothing else has."""
+
+    def __init__(self, x: Expr, parts: Sequence[Expr]) -> None:
+        self.x = x
+        symbols = set().union(*(part.free_symbols for part in parts))
+        self.taken = {symbol.name for symbol in symbols} | {x.name, UNKNOWN, PI, EULER, *NUMBER_NAMES, *FUNCTION_NAMES}
+        self.meanings: Meanings = {}
+
+    def letter(self, meaning: Expr) -> Expr:
+        """A new letter for what may contain others."""
+        whole = meaning.xreplace(self.meanings)
+        name = re.sub(r"\W+", "_", str(whole)).strip("_")[:_LONGEST].rstrip("_")
+        if not name.isidentifier():
+            name = f"c_{name}"
+        while name in self.taken:
+            name += "_"
+        self.taken.add(name)
+        new = sympy.Symbol(name)
+        self.meanings[new] = whole
+        return new
+
+    def replaced(self, parts: Sequence[Expr], kernels: Sequence[Expr]) -> tuple[Expr, ...]:
+        """The expressions with letters in the place of these constants."""
+        related = {kernel: _by_others(kernel, kernels) for kernel in kernels}
+        changed = {kernel: other for kernel, other in related.items() if other != kernel}
+        if changed:
+            return tuple(part.xreplace(changed) for part in parts)
+        parts = [_without_squares(part, kernels) for part in parts]
+        powers = [kernel for kernel in kernels if kernel.is_Pow or _base(kernel) is sympy.E]
+        replacements = {kernel: self.letter(kernel) for kernel in kernels if kernel not in powers}
+        bases = dict.fromkeys(_base(power) for power in powers)
+        symbols: Meanings = {}
+        for base in bases:
+            self._powers_of(base, [power for power in powers if _base(power) == base], replacements, symbols)
+        return tuple(part.xreplace(replacements).xreplace(symbols) for part in parts)
+
+    def _powers_of(self, base: Expr, powers: Sequence[Expr], replacements: Meanings, symbols: Meanings) -> None:
+        """base^(sum of r m), r rational and m monomials, by letters for base^(u m) with rational u.
+
+        A base that is linear in a symbol becomes a power of the letter, and so does the symbol (`symbols`), each once.
+        """
+        exponents = {power: _monomials(power) for power in powers}
+        rates: dict[Expr, list[Expr]] = {}
+        for terms in exponents.values():
+            for monomial, rate in terms.items():
+                rates.setdefault(monomial, []).append(rate)
+        linear = _solved_for(base, symbols) if sympy.S.One in rates else None
+        if linear is not None:
+            rates[sympy.S.One].append(sympy.S.One)
+        letters: dict[Expr, tuple[Expr, Expr]] = {}
+        for monomial, all_rates in rates.items():
+            unit = _unit(all_rates)
+            if monomial != 1 and not base.is_negative:
+                unit /= 2  # so that the root, which solutions often have, is rational
+            letters[monomial] = self.letter(base ** (unit * monomial)), unit
+        for power, terms in exponents.items():
+            factors = [letters[monomial][0] ** (rate / letters[monomial][1]) for monomial, rate in terms.items()]
+            replacements[power] = sympy.Mul(*factors)
+        if linear is not None:
+            letter, unit = letters[sympy.S.One]
+            symbol, slope, rest = linear
+            symbols[symbol] = sympy.expand((letter ** (1 / unit) - rest) / slope)
+
+
+def _base(power: Expr) -> Expr:
+    return power.as_base_exp()[0]
+
+
+def _monomials(power: Expr) -> dict[Expr, Expr]:
+    """The exponent as a sum of rational numbers times monomials."""
+    exponent = power.as_base_exp()[1]
+    found: dict[Expr, Expr] = {}
+    for term in sympy.Add.make_args(sympy.expand(exponent)):
+        rate, monomial = term.as_coeff_Mul(rational=True)
+        found[monomial] = found.get(monomial, sympy.S.Zero) + rate
+    return found
+
+
+def _unit(rates: Sequence[Expr]) -> Expr:
+    """The greatest common divisor of rational numbers, negative where they all are negative."""
+    divisor = reduce(sympy.gcd, rates)
+    return -divisor if all(rate < 0 for rate in rates) and divisor > 0 else divisor
+
+
+def _solved_for(base: Expr, known: Meanings) -> tuple[Expr, Expr, Expr] | None:
+    """(s, slope, rest) with base = slope s + rest for a symbol that isn't replaced yet; pi is one, too."""
+    if base is sympy.pi:
+        return base, sympy.S.One, sympy.S.Zero
+    for symbol in sorted(base.free_symbols - known.keys(), key=str):
+        slope = base.diff(symbol)
+        rest = sympy.expand(base - slope * symbol)
+        if slope.is_Rational and not rest.free_symbols & known.keys():
+            return symbol, slope, rest
+    return None
+
+
+def _by_others(kernel: Expr, kernels: Sequence[Expr]) -> Expr:
+    """A constant in terms of the others, where it depends on them in a known way; else itself."""
+    if isinstance(kernel, sympy.log) and kernel.args[0].is_Rational and abs(kernel.args[0]) < _LARGEST:
+        return sympy.expand_log(kernel, factor=True)
+    base, exponent = kernel.as_base_exp()
+    if base.is_Rational and 0 < base < _LARGEST and 1 / base < _LARGEST:
+        return sympy.Mul(*(prime ** (k * exponent) for prime, k in sympy.factorrat(base).items()))
+    if not isinstance(kernel, TrigonometricFunction | HyperbolicFunction):
+        return kernel
+    (argument,) = kernel.args
+    family = TrigonometricFunction if isinstance(kernel, TrigonometricFunction) else HyperbolicFunction
+    others = [other for other in kernels if isinstance(other, family) and other != kernel]
+    first, second = (sympy.sin, sympy.cos) if family is TrigonometricFunction else (sympy.sinh, sympy.cosh)
+    if family is HyperbolicFunction and any(isinstance(other, sympy.exp) for other in kernels):
+        return kernel.rewrite(sympy.exp)
+    if any((argument / other.args[0]).is_Integer for other in others if other.args != kernel.args):
+        return sympy.expand_trig(kernel)
+    if any(other.args == kernel.args for other in others) and not isinstance(kernel, (first, second)):
+        sine, cosine = first(argument), second(argument)
+        forms = {"tan": sine / cosine, "cot": cosine / sine, "sec": 1 / cosine, "csc": 1 / sine}
+        return forms[kernel.func.__name__.removesuffix("h")]
+    return kernel
+
+
+def _without_squares(part: Expr, kernels: Sequence[Expr]) -> Expr:
+    """With 1 - cos^2 in the place of sin^2, where sine and cosine of one argument are among the constants; and with sinh^2."""
+    squares: Meanings = {}
+    for sine, cosine, sign in ((sympy.sin, sympy.cos, 1), (sympy.sinh, sympy.cosh, -1)):
+        for wave in kernels:
+            if isinstance(wave, sine) and cosine(*wave.args) in kernels:
+                squares[wave] = sign * (1 - cosine(*wave.args) ** 2)
+    powers = {p for p in part.atoms(sympy.Pow) if p.base in squares and p.exp.is_Integer}
+    return part.xreplace({p: p.base ** (p.exp % 2) * squares[p.base] ** (p.exp // 2) for p in powers})
