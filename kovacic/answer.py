@@ -26,16 +26,7 @@ _T = TypeVar("_T")
 
 @dataclass(frozen=True, repr=False)
 class Answer:
-    """The answer for one equation y'' = S y: frozen, comparable, picklable.
-
-    `text` is the input as it was given, `variable` the name of x, `S` the coefficient, `decision` the claim with its
-    certificates, `notices` what was noticed when the input was read (decimals taken as exact fractions, ...), `verified`
-    whether the decision has passed its independent check (always, for what `solve` returns), and `seconds` the wall-clock
-    time of reading, deciding and verifying together (None for an answer that was read from JSON).  `equation` is the
-    equation of which y'' = S y is the normal form, None where S itself was given.  `assumed` says that a theorem proves the
-    answer for all values with the assumptions, `known`, but for those that the notices name.  `limits` hold for each view that
-    is computed later: where one would take longer, it raises `LimitExceeded`, and the groups are None.
-    """
+    """The frozen data of an answer for one equation y'' = S y; `Solution`, which adds the methods, tells what each field is."""
 
     text: str
     variable: str

@@ -365,6 +365,24 @@ def test_matrices_that_cannot_tell_say_so() -> None:
     assert larger.verdict is None
 
 
+@pytest.mark.parametrize(
+    ("S", "larger"),
+    [
+        ("-3/(16*x^2)", claimed(GroupKind.MULTIPLICATIVE)),  # mu_4
+        ("-3/(16*x^2)", claimed(GroupKind.ADDITIVE, 4)),
+        ("1/x^2", claimed(GroupKind.BOREL)),  # G_m: the exponents have the square root of 5
+        ("1/x^2", claimed(GroupKind.INFINITE_DIHEDRAL)),
+        (published_S("poschl-teller-2"), claimed(GroupKind.BOREL)),  # G_a
+        (published_S("kimura-red-2"), claimed(GroupKind.BOREL)),  # G_a extended by mu_15
+        (published_S("lame-half-B0"), claimed(GroupKind.INFINITE_DIHEDRAL)),  # dicyclic of order 8
+    ],
+)
+def test_a_group_that_is_larger_than_the_monodromy_is_not_confirmed(S: str, larger: Group) -> None:
+    found = agrees_with_group(kovacic.solve(S), larger)
+    assert found.verdict is None
+    assert "perhaps in a smaller group" in found.reason
+
+
 @pytest.mark.slow
 def test_no_published_equation_disagrees_with_its_group() -> None:
     verdicts = [kovacic.solve(entry.S).compare_with_monodromy().verdict for entry in load()]

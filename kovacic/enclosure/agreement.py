@@ -75,32 +75,8 @@ class Agreement:
 def agrees_with_group(
     answer: Answer, group: Group | None = None, *, digits: int = 15, limits: Limits | None = None
 ) -> Agreement:
-    """Does the monodromy of y'' = S y agree with a group?
+    """Does the monodromy of y'' = S y agree with a group?  `Solution.compare_with_monodromy` tells of it.
 
-    Parameters
-    ----------
-    answer : Solution
-        What `kovacic.solve` returned; constants and coefficients are rational or algebraic numbers, without parameters.
-    group : Group
-        The claim; by default the group that the engine found.
-    digits : int
-        The accuracy of the matrices: 15 by default.
-    limits : Limits
-        What the continuation may cost.
-
-    Returns
-    -------
-    Agreement
-        `verdict` is False, a proof that it isn't this group; True, where nothing contradicts it and all was seen that matrices
-        show; or None, where they can't tell.  `reason` is a sentence that says what was seen.
-
-    Raises
-    ------
-    InputError
-        Where there is no group, since the equation is undecided, and what `kovacic.monodromy` raises.
-
-    Examples
-    --------
     >>> import kovacic
     >>> from kovacic.galois import Ground
     >>> equation = kovacic.solve("-3/(16*x^2)")
@@ -108,8 +84,6 @@ def agrees_with_group(
     Agreement(verdict=True, reason='the monodromy group has 4 elements, with the traces of mu_4')
     >>> agrees_with_group(equation, Group(GroupKind.CYCLIC, Ground.RESIDUES, 2)).verdict
     False
-    >>> agrees_with_group(kovacic.solve("x"))
-    Agreement(verdict=None, reason='there is no finite singular point, so the monodromy is trivial')
     """
     group = derived.group(answer) if group is None else group
     if group is None:
@@ -160,36 +134,40 @@ def _enumerate(generators: list[acb_mat], angles: dict[Fraction, int], group: Gr
     """A finite group: its elements by their traces."""
     traces = {angle: _cosine(angle) for angle in angles}
     order = sum(angles.values())
-    elements, found, position = [acb_mat([[1, 0], [0, 1]])], Counter([Fraction(0)]), 0
-    while position < len(elements):
+    elements = [acb_mat([[1, 0], [0, 1]])]
+    found = Counter([Fraction(0)])
+    for element in elements:  # which grows meanwhile
         for generator in generators:
-            candidate = generator * elements[position]
+            candidate = generator * element
             own = [angle for angle, value in traces.items() if candidate.trace().overlaps(value)]
             if not own:
                 return Agreement(False, f"the monodromy group has an element whose trace isn't one of {group}")
             quotients = [candidate * _inverse(other) for other in elements]
-            # is it one of the elements?  None where the ball leaves that open
-            equal = [
-                (True if all(not q.trace().overlaps(v) for angle, v in traces.items() if angle) else None)
-                if q.trace().overlaps(traces[Fraction(0)])
-                else False
-                for q in quotients
-            ]
+            equal = [_is_identity(quotient, traces) for quotient in quotients]
             if any(same and not _may_be_identity(q) for same, q in zip(equal, quotients, strict=True)):
                 return Agreement(False, f"the monodromy group has a unipotent element, unlike {group}")
-            if len(own) > 1 or (None in equal and True not in equal):
+            is_known = True in equal
+            if len(own) > 1 or (None in equal and not is_known):
                 return Agreement(None, "the matrices aren't known well enough to tell the elements apart")
-            if True in equal:
+            if is_known:
                 continue
             elements.append(candidate)
             found[own[0]] += 1
             if len(elements) > order:
                 return Agreement(False, f"the monodromy group has more elements than {group}")
-        position += 1
     if found != Counter(angles):
         return Agreement(False, f"the monodromy group has {len(elements)} elements, with other traces than {group}")
     plural = "element" if order == 1 else "elements"
     return Agreement(True, f"the monodromy group has {order} {plural}, with the traces of {group}")
+
+
+def _is_identity(element: acb_mat, traces: dict[Fraction, acb]) -> bool | None:
+    """Is an element the identity, if its trace is one of these?  None where the ball leaves that open."""
+    trace = element.trace()
+    if not trace.overlaps(traces[Fraction(0)]):
+        return False
+    others = [value for angle, value in traces.items() if angle]
+    return None if any(trace.overlaps(value) for value in others) else True
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,7 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import Start, middle, spread
 from kovacic.enclosure.system import check_segment
-from kovacic.enclosure.transport import walk
+from kovacic.enclosure.transport import Leg, walk
 from kovacic.errors import InputError
 from kovacic.limits import check_time, count_work
 
@@ -166,41 +166,49 @@ class Traveller:
         self.here = stop
 
     def fan(self, stops: Sequence[ExactPoint], start: State) -> list[State]:
-        """The user's (z, z') at the ends of straight lines from here.
-
-        A disc on the line to the farthest of them serves others, too.
-        """
+        """The user's (z, z') at the ends of straight lines from here."""
         if self.closed is not None:
             return [self.by_closed_form(self.closed, stop, start) for stop in stops]
-        here, system, found = self.here, self.problem.system, dict[int, State]()
-        alone = self.forcing is not None or is_split(system, self.prec // max(1, len(stops)))
-        if alone or isinstance(here, Singular):
-            for ray in _rays(here, stops):
-                one = replace(self)
-                while ray and (alone or isinstance(one.here, Singular)):
-                    first = ray.pop(0)
-                    found[first] = one.visit(stops[first], start)
-                found |= zip(ray, one.fan([stops[i] for i in ray], start), strict=True)
-            return [found[i] for i in range(len(stops))]
-        origin, places = to_double(here), [to_double(stop) for stop in stops]
-        waiting = sorted(range(len(stops)), key=lambda i: abs(places[i] - origin))
+        alone = self.forcing is not None or is_split(self.problem.system, self.prec // max(1, len(stops)))
+        if alone or isinstance(self.here, Singular):
+            return self._by_rays(stops, start, alone=alone)
+        return self._by_discs(self.here, stops, start)
+
+    def _by_rays(self, stops: Sequence[ExactPoint], start: State, *, alone: bool) -> list[State]:
+        """Stop by stop along each straight way: out of a singular point, or all the way where the stops can't share discs."""
+        found: dict[int, State] = {}
+        for ray in _rays(self.here, stops):
+            one = replace(self)
+            while ray and (alone or isinstance(one.here, Singular)):
+                first = ray.pop(0)
+                found[first] = one.visit(stops[first], start)
+            found |= zip(ray, one.fan([stops[i] for i in ray], start), strict=True)
+        return [found[i] for i in range(len(stops))]
+
+    def _by_discs(self, here: ExactPoint, stops: Sequence[ExactPoint], start: State) -> list[State]:
+        """Along the line to the farthest stop, again and again: the discs on it serve others, too."""
+        system, origin = self.problem.system, to_double(here)
+        places = [to_double(stop) for stop in stops]
+        found = {i: self.state(start) for i, stop in enumerate(stops) if stop == here}
+        waiting = sorted((i for i in range(len(stops)) if i not in found), key=lambda i: abs(places[i] - origin))
         while waiting:
-            last, way = stops[waiting[-1]], self.product
-            found |= {i: self.state(start) for i in waiting if stops[i] == here}
-            waiting = [i for i in waiting if i not in found]
+            last = stops[waiting[-1]]
+            way = self.product
             for leg in walk(system, here, last, self.prec, len(waiting)):
-                served = list(leg.disc.served(system, here, [(i, places[i], stops[i]) for i in waiting]))
+                served = [*leg.disc.served(system, here, [(i, places[i], stops[i]) for i in waiting])]
                 if served:
-                    ends = [stops[i] for i in served]
-                    for end in ends:
-                        self._check_gauge(here, end)
-                    states = leg.states(way.apply(start), ends)
-                    found |= zip(served, map(self._given, states, ends), strict=True)
+                    states = self._at_ends(here, leg, way.apply(start), [stops[i] for i in served])
+                    found |= zip(served, states, strict=True)
                     waiting = [i for i in waiting if i not in found]
                 if leg.disc.leave != last:
                     way = way.after(leg.matrix)
-            waiting = [i for i in waiting if i not in found]
         return [found[i] for i in range(len(stops))]
+
+    def _at_ends(self, here: ExactPoint, leg: Leg, entering: State, ends: list[ExactPoint]) -> list[State]:
+        """The user's (z, z') at points that a disc serves, from the state where it is entered."""
+        for end in ends:
+            self._check_gauge(here, end)
+        return [*map(self._given, leg.states(entering, ends), ends)]
 
     def by_closed_form(self, closed: Closed, stop: ExactPoint, start: State) -> State:
         """The user's (z, z') at the end of a straight line from here."""

@@ -87,44 +87,101 @@ def raise_precision(
     journey: Journey, targets: Sequence[Number], closed: Closed | None, digits: int, limits: Limits
 ) -> tuple[PointValue, ...]:
     """Make the journey at rising precision until every relative radius is small enough."""
-    prec, exact = start_bits(digits), journey.is_exact(targets)
-    highest = 6 * prec + 4000  # a value below 2^-highest isn't told from zero, unless others are as large
-    most = int(max(highest, limits.digits * math.log2(10)))
-    runs = 0
-    previous: tuple[PointValue, ...] | None = None
+    exact = journey.is_exact(targets)
+    prec = start_bits(digits)
+    ceiling = _Ceiling.of(digits, limits, capped=closed is not None)
+    previous: _Run | None = None  # the last one with finite balls
+    number = 0
     while True:
-        runs += 1
+        number += 1
         try:
-            with working_precision(prec + 40):
-                states = journey.states(targets, closed, prec)
-                route = Route(digits, METHODS[closed is not None], prec, runs)
-                lacking = [_missing_bits(y, digits, prec, doubled=runs == 1 or closed is not None) for y, _ in states]
-                finite = all(y.is_finite() and dy.is_finite() for y, dy in states)
-                found = tuple(map(PointValue, targets, states, lacking, repeat(route))) if finite else None
-                missing = max(lacking, default=0)
-            _LOG.info(
-                "run %d, %d bits: %d of %d points to %d digits", runs, prec, lacking.count(0), len(lacking), digits
-            )
+            run = _Run.made(journey, targets, closed, Route(digits, METHODS[closed is not None], prec, number))
         except LimitExceeded as limit:
             if previous is None:
                 raise
-            return tuple(result if result.reached else replace(result, note=str(limit)) for result in previous)
-        if missing == 0 and found is not None:
-            return found
-        # where a higher precision hasn't halved the balls, their size comes from the initial values
-        stalled = bool(not exact and previous and found) and all(
-            f.reached or (_is_telling(f, runs) and 2 * arb(f.y.rad) > arb(p.y.rad))
-            for p, f in zip(previous or (), found or (), strict=True)
-        )
-        if exact and found is not None and runs > 1:  # a recessive solution is as small as the others are large
-            highest = max(highest, 2 * max(map(_growth, found)) + 2 * start_bits(digits))
-            highest = highest if closed is None else min(highest, most)
-        if prec >= highest or stalled or highest > most:
-            if found is None:
+            return previous.explained(str(limit))
+        if run.reached:
+            return run.values
+        if exact and run.finite and number > 1:
+            ceiling = ceiling.raised(run)
+        stalled = not exact and previous is not None and run.finite and run.is_stalled(previous)
+        if stalled or ceiling.is_reached(prec):
+            if not run.finite:
                 raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
-            return tuple(result if result.reached else replace(result, note=_reason(result)) for result in found)
-        previous = found or previous
-        prec = min(prec + missing + 16, highest)
+            return run.explained()
+        previous = run if run.finite else previous
+        prec = min(prec + run.missing + 16, ceiling.bits)
+
+
+@dataclass(frozen=True)
+class _Ceiling:
+    """The highest precision: below 2^-bits a value isn't told from zero, unless other solutions are as large.
+
+    `most` is what the limits allow; a closed form is `capped` by it, other ways end beyond it.
+    """
+
+    bits: int
+    most: int
+    digits: int
+    capped: bool
+
+    @classmethod
+    def of(cls, digits: int, limits: Limits, *, capped: bool) -> _Ceiling:
+        bits = 6 * start_bits(digits) + 4000
+        return cls(bits, int(max(bits, limits.digits * math.log2(10))), digits, capped)
+
+    def raised(self, run: _Run) -> _Ceiling:
+        """A recessive solution is as small as the others are large."""
+        bits = max(self.bits, 2 * max(map(_growth, run.values)) + 2 * start_bits(self.digits))
+        return replace(self, bits=min(bits, self.most) if self.capped else bits)
+
+    def is_reached(self, prec: int) -> bool:
+        return prec >= self.bits or self.bits > self.most
+
+
+@dataclass(frozen=True)
+class _Run:
+    """What one precision gave: without values if the balls aren't all finite; `missing` are the bits that lack at most."""
+
+    values: tuple[PointValue, ...]
+    missing: int
+    route: Route
+    finite: bool
+
+    @classmethod
+    def made(cls, journey: Journey, targets: Sequence[Number], closed: Closed | None, route: Route) -> _Run:
+        """Make the journey once, at the precision of this route."""
+        doubled = route.runs == 1 or closed is not None
+        with working_precision(route.bits + 40):
+            states = journey.states(targets, closed, route.bits)
+            lacking = [_missing_bits(y, route.digits, route.bits, doubled=doubled) for y, _ in states]
+            finite = all(y.is_finite() and dy.is_finite() for y, dy in states)
+            values = tuple(map(PointValue, targets, states, lacking, repeat(route))) if finite else ()
+        _LOG.info(
+            "run %d, %d bits: %d of %d points to %d digits",
+            *(route.runs, route.bits, lacking.count(0), len(lacking), route.digits),
+        )
+        return cls(values, max(lacking, default=0), route, finite)
+
+    @property
+    def reached(self) -> bool:
+        """Are all values known to as many digits as were asked for?"""
+        return self.finite and self.missing == 0
+
+    def is_stalled(self, previous: _Run) -> bool:
+        """Where a higher precision hasn't halved the balls, their size comes from the initial values."""
+        return all(
+            value.reached or (self._is_telling(value) and 2 * arb(value.y.rad) > arb(before.y.rad))
+            for before, value in zip(previous.values, self.values, strict=True)
+        )
+
+    def _is_telling(self, value: PointValue) -> bool:
+        """Does the size of the ball tell of more than a precision that was too low at first?"""
+        return self.route.runs > 2 or not value.y.contains_zero()
+
+    def explained(self, limit: str | None = None) -> tuple[PointValue, ...]:
+        """The values, with a note where there are fewer digits than were asked for: the limit, or what the balls tell."""
+        return tuple(value if value.reached else replace(value, note=limit or _reason(value)) for value in self.values)
 
 
 def _missing_bits(y: acb, digits: int, prec: int, *, doubled: bool) -> int:
@@ -143,11 +200,6 @@ def _missing_bits(y: acb, digits: int, prec: int, *, doubled: bool) -> int:
     if y.contains(0):  # if the solution is the recessive one, twice the growth of the others is lost
         return max(prec, 2 * _lost(y, prec) + goal - prec)
     return max(0, goal - int(y.rel_accuracy_bits()))
-
-
-def _is_telling(result: PointValue, runs: int) -> bool:
-    """Does the size of the ball tell of more than a precision that was too low at first?"""
-    return runs > 2 or not result.y.contains_zero()
 
 
 def _lost(y: acb, prec: int) -> int:

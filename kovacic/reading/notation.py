@@ -124,33 +124,15 @@ def _unicode(text: str) -> str:
 _DOTTED = frozenset("xyzuvwqrsθφψ")
 _DOT_PRIMES = {"\u0307": "'", "\u0308": "''"}
 
+#: Functions that have one name in every notation.
+_COMMON = ("sin", "cos", "tan", "cot", "sinh", "cosh", "tanh", "coth", "exp", "log")
 _MATHEMATICA_NAMES = {
     "ArcSin": "asin",
     "ArcCos": "acos",
     "ArcTan": "atan",
     "Pi": "pi",
     "D": "diff",
-    **{
-        name.capitalize(): name
-        for name in [
-            "sin",
-            "cos",
-            "tan",
-            "cot",
-            "sec",
-            "csc",
-            "sinh",
-            "cosh",
-            "tanh",
-            "coth",
-            "sech",
-            "csch",
-            "exp",
-            "log",
-            "sqrt",
-            "erf",
-        ]
-    },
+    **{name.capitalize(): name for name in (*_COMMON, "sec", "csc", "sech", "csch", "sqrt", "erf")},
 }
 
 
@@ -337,26 +319,7 @@ _COMMANDS |= {
     "\\pi": "pi",
     "\\imath": "I",
 }
-_LATEX_FUNCTIONS = frozenset(
-    {
-        "sin",
-        "cos",
-        "tan",
-        "cot",
-        "sec",
-        "csc",
-        "sinh",
-        "cosh",
-        "tanh",
-        "coth",
-        "exp",
-        "log",
-        "ln",
-        "arcsin",
-        "arccos",
-        "arctan",
-    }
-)
+_LATEX_FUNCTIONS = frozenset((*_COMMON, "sec", "csc", "ln", "arcsin", "arccos", "arctan"))
 #: Braces in braces.
 _DEEPEST = 60
 
