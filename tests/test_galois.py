@@ -296,8 +296,8 @@ def test_the_orders_of_points_on_an_elliptic_curve() -> None:
     """y^2 = x^3 + 1 over F_7 has 12 points; (2, 3) has order 6, (0, 1) order 3, (-1, 0) order 2."""
     curve = Jacobian(nmod_poly([1, 0, 0, 1], 7))
 
-    def order(x: int, y: int) -> int | None:
-        return curve.order(curve.point(nmod_poly([-x % 7, 1], 7), nmod_poly([y], 7)), 100)
+    def order(x: int, y: int) -> int:
+        return curve.order(curve.point(nmod_poly([-x % 7, 1], 7), nmod_poly([y], 7)))
 
     assert (order(2, 3), order(0, 1), order(6, 0)) == (6, 3, 2)
     with pytest.raises(ValueError, match="on the curve"):
@@ -309,9 +309,9 @@ def test_multiplication_in_a_jacobian_of_genus_two() -> None:
     points = [(x, y) for x in range(11) for y in range(1, 11) if (x**5 + 2 * x**3 + 3 * x + 1 - y * y) % 11 == 0]
     classes = [curve.point(nmod_poly([-x % 11, 1], 11), nmod_poly([y], 11)) for x, y in points]
     for c in classes:
-        n = curve.order(c, 1000)
-        assert n is not None
-        assert not curve.multiple(n, c).u.degree()
+        n = curve.order(c)
+        assert not any(curve.multiple(k, c) == curve.zero for k in range(1, n))
+        assert curve.multiple(n, c) == curve.zero
         assert curve.add(curve.multiple(5, c), curve.multiple(-3, c)) == curve.multiple(2, c)
     a, b, c = classes[:3]
     assert curve.add(curve.add(a, b), c) == curve.add(a, curve.add(b, c))

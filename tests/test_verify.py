@@ -659,7 +659,7 @@ TORSION = [
 @pytest.mark.parametrize(("H", "order"), TORSION, ids=str)
 def test_orders_of_torsion_are_the_same_modulo_every_good_prime(H: RatFunc, order: int) -> None:
     def primes_with(k: int, residue: Fraction = Fraction(1)) -> list[int]:
-        return [p for p in range(62) if order_holds(H * residue**2, {residue}, p, k, Budget())]
+        return [p for p in range(62) if order_holds(H * residue**2, {residue}, p, k)]
 
     good = primes_with(order)
     assert good[-9:] == [23, 29, 31, 37, 41, 43, 47, 53, 59, 61][-9:]
@@ -685,7 +685,7 @@ def test_infinite_order_is_seen_from_two_primes() -> None:
         orders[p] = n if n % 2 else n // 2
         for residue in (Fraction(1), Fraction(1, 3)):
             H = through(X**3 - 2, 3, 5, residue)
-            assert [k for k in range(3 * p) if order_holds(H, {residue}, p, k, Budget())] == [orders[p]]
+            assert [k for k in range(3 * p) if order_holds(H, {residue}, p, k)] == [orders[p]]
     assert len(set(orders.values())) > 2
 
 
@@ -705,14 +705,18 @@ def test_the_orders_of_the_kernel_are_those_of_cantors_arithmetic(
     good = image.gcd(image.derivative()).degree() == 0 and value % p != 0
     assume(residue.numerator * residue.denominator % p)
     H = through(RatFunc(h), 0, value, residue)
-    claimed = {k for k in range(1, 60) if order_holds(H, {residue}, p, k, Budget())}
     if not good:
-        assert not claimed
+        assert not any(order_holds(H, {residue}, p, k) for k in range(1, 30))
         return
+    assume(any(pow(int(image(x)), p // 2, p) == p - 1 for x in range(1, p)))  # where the kernel puts infinity
     curve = Jacobian(image)
     point = curve.point(nmod_poly([0, 1], p), nmod_poly([value], p))
-    order = curve.order(curve.multiple(2 * residue.numerator, point), 59)
-    assert claimed == ({order} if order else set())
+    order = curve.order(curve.multiple(2 * residue.numerator, point))
+    others = {*range(1, 30), *(order // q for q in range(2, order + 1) if order % q == 0), 2 * order, 3 * order} - {
+        order
+    }
+    assert order_holds(H, {residue}, p, order)
+    assert not any(order_holds(H, {residue}, p, k) for k in others)
 
 
 INFINITE = [
@@ -777,8 +781,8 @@ def test_residues_that_agree_modulo_a_prime() -> None:
     assert answer.group.orders[0][0] > 5
     assert answer.verify()
     residues = {Fraction(1), Fraction(4)}
-    assert not any(order_holds(H, residues, 5, k, Budget()) for k in range(1, 20))
-    assert any(order_holds(H, residues, 7, k, Budget()) for k in range(1, 20))
+    assert not any(order_holds(H, residues, 5, k) for k in range(1, 20))
+    assert any(order_holds(H, residues, 7, k) for k in range(1, 20))
 
 
 def test_true_orders_dont_make_a_finite_group_infinite() -> None:
@@ -797,7 +801,7 @@ def test_true_orders_dont_make_a_finite_group_infinite() -> None:
     a, b, c = riccati.numerators
     H = RatFunc(b * b - 4 * a * c, (a * riccati.D) ** 2)
     for k in range(1, 7):  # (A + z)^(2/5), and A + z has the divisor 3 D/6 for the points at infinity
-        orders = tuple((p, k) for p in range(3, 40) if order_holds(H, {Fraction(6, 5)}, p, k, Budget()))
+        orders = tuple((p, k) for p in range(3, 40) if order_holds(H, {Fraction(6, 5)}, p, k))
         assert bool(orders) is (k == 1)
         assert not orders or not verify(S, decision, GroupClaim("infinite dihedral", None, None, orders[:2]))
 

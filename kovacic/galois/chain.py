@@ -34,10 +34,9 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import CurveFunction, Piece
-from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
-#: Bits of a coefficient beyond which a class isn't a torsion one, or not one of a small order.
+#: Bits of a coefficient beyond which a class is taken for one of infinite order.
 _LARGEST_HEIGHT = 50_000
 
 
@@ -67,7 +66,7 @@ class Model:
 def function_of_order(H: RatFunc, k: int) -> CurveFunction | None:
     """f with the divisor k D, and the holomorphic rest of k l sqrt(H) dx - df/f; None if k D isn't principal.
 
-    Raises `LimitExceeded` where coefficients become so long that k isn't the order of D.
+    None, too, where coefficients become so long that it won't be: those of a torsion class stay short.
     """
     model = model_of(H)
     l = lcm(*(residue.denominator for _, residue in model.poles))  # noqa: E741 - as in the module's text
@@ -174,7 +173,7 @@ def _in_x(model: Model, f: CurveFunction) -> CurveFunction:
 
 
 def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
-    """The pieces of a function with the divisor sum N_P P, up to functions of x alone; None if there is none."""
+    """The pieces of a function with the divisor sum N_P P, up to functions of x alone; None if none was found."""
     one = model.h.field.poly([1])
     total = Points(one, one * 0)
     pieces: list[Piece] = []
@@ -186,7 +185,7 @@ def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
                 total = _sum(model.h, total, points)
         total, found = _reduced(model, total)
         if total.u.height_bits() > _LARGEST_HEIGHT:
-            raise LimitExceeded("the multiples of a divisor have long coefficients", limit="bits")
+            return None
         if found is not None:
             pieces.append(Piece(2**place, *found))
     return None if total.u.degree else pieces

@@ -28,7 +28,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import count, islice, takewhile
 from math import lcm, prod
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import fmpz, nmod_poly
 
@@ -49,8 +49,6 @@ from kovacic.galois.jacobian import Jacobian
 
 #: Primes whose orders must agree before a function of this order is looked for.
 _AGREEING_PRIMES = 3
-#: The largest order of a divisor that is looked for modulo a prime.
-_LARGEST_ORDER = 3000
 #: So many orders are tried where no prime shows one.
 _ORDERS_TRIED = 12
 #: Primes that are tried, beyond which the bad ones are too many.
@@ -127,21 +125,23 @@ def _of_positive_genus(problem: Problem, f: SemiInvariant, curve: SquareRootCurv
     for h in _small_homomorphisms(problem.field, curve.genus):
         problem.budget.check()
         try:
+            _demand_a_value_without_root(H, h)
             k = _order_modulo(h, curve, l)
         except BadPrimeError:
             continue
-        if k is None:
-            break
         orders.append((h.p, k))
         if k != orders[0][1]:
             return Group(GroupKind.INFINITE_DIHEDRAL, Ground.NOT_TORSION, orders=(orders[0], orders[-1]))
-        if len(orders) == _AGREEING_PRIMES and (group := _by_function(H, k)) is not None:
-            return group
+        if len(orders) == _AGREEING_PRIMES:
+            group = _by_function(H, k)
+            if group is not None:
+                return group
     if len(orders) < _AGREEING_PRIMES:  # too few of them are small enough
         candidates = [orders[0][1]] if orders else range(1, _ORDERS_TRIED + 1)
         for k in candidates:
             problem.budget.check()
-            if (group := _by_function(H, k)) is not None:
+            group = _by_function(H, k)
+            if group is not None:
                 return group
     return Group(GroupKind.IMPRIMITIVE, Ground.UNDETERMINED, max(l, 2))
 
@@ -163,41 +163,91 @@ def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
     return takewhile(lambda h: h.p**genus <= 10**7, tried)
 
 
-def _order_modulo(h: Homomorphism, curve: SquareRootCurve, l: int) -> int | None:  # noqa: E741
-    """The order of the divisor of l eta in the Jacobian modulo p; None if it exceeds the bound."""
-    p, one = h.p, nmod_poly([1], h.p)
-    squares = {r * r for r in curve.residues}  # the kernel knows the residues by them
-    if any(
-        r.numerator * r.denominator % p == 0 for r in {*squares, *(a - b for a in squares for b in squares if a != b)}
-    ):
+def _demand_a_value_without_root(H: RatFunc, h: Homomorphism) -> None:
+    """The kernel moves infinity to where H isn't a square modulo p: there has to be such a place."""
+    num, den = h(H.num), h(H.den)
+    for r in range(h.p):
+        if fmpz(int(num(r)) * int(den(r))).jacobi(h.p) == -1:
+            return
+    raise BadPrimeError("all values are squares")
+
+
+# ------------------------------------------------------------------------------------------- orders modulo primes
+
+
+class _Image(NamedTuple):
+    """The places over the roots of a factor modulo p, the valuation e of g there, and the residue of eta modulo p."""
+
+    factor: Any
+    e: int
+    residue: Fraction
+
+
+def _order_modulo(h: Homomorphism, curve: SquareRootCurve, l: int) -> int:  # noqa: E741 - as in the module's text
+    """The order of the divisor of l eta in the Jacobian modulo p.  Raises `BadPrimeError` where that says nothing."""
+    _demand_units(curve.residues, h.p)
+    images = _images(curve, h)
+    if curve.infinity.e % 2 == 0:
+        images = _moved(images, curve.infinity, h.p)
+    poles = [(image, _ordinate(image, images)) for image in images if image.residue]
+    jacobian = Jacobian(_curve_through(*poles[0], images))
+    total = jacobian.zero
+    for image, s in poles:
+        points = jacobian.point(image.factor, s)
+        total = jacobian.add(total, jacobian.multiple(int(2 * l * image.residue), points))
+    return jacobian.order(total)
+
+
+def _demand_units(residues: list[Fraction], p: int) -> None:
+    """The kernel knows the residues by their squares modulo p: these have to be units, and different ones."""
+    squares = {residue**2 for residue in residues}
+    differences = {a - b for a in squares for b in squares if a != b}
+    if any(value.numerator * value.denominator % p == 0 for value in squares | differences):
         raise BadPrimeError("a residue isn't a unit, or two have the same square")
-    points = [(h.keeping_degree(point.factor), point.e, point.residue) for point in curve.points]
-    together = prod((image for image, _, _ in points), start=one)
+
+
+def _images(curve: SquareRootCurve, h: Homomorphism) -> list[_Image]:
+    images = [_Image(h.keeping_degree(point.factor), point.e, point.residue) for point in curve.points]
+    together = prod((image.factor for image in images), start=nmod_poly([1], h.p))
     if together.gcd(together.derivative()).degree() > 0:
         raise BadPrimeError("points meet")
-    if curve.infinity.e % 2 == 0:
-        points = _moved(points, curve.infinity, p)
-    # g = c b Q^2 with b of the branch points, and eta = dx/(s Q) on s^2 = b/c': s = 1/(residue * Q') at a pole shows c'.
-    branch = prod((image for image, e, _ in points if e % 2), start=one)
-    above = prod((image for image, e, _ in points if e == 2), start=one)
-    below = prod((image ** (-(e // 2)) for image, e, _ in points if e < 0), start=one)
-    poles = [
-        (image, r, below * (above.derivative() * (r.numerator * pow(r.denominator, -1, p) % p)).xgcd(image)[1] % image)
-        for image, _, r in points
-        if r
-    ]
-    image, _, s = poles[0]
-    jacobian = Jacobian(branch * int((s * s * branch.xgcd(image)[1] % image)[0]))
-    total = jacobian.zero
-    for image, r, s in poles:
-        total = jacobian.add(total, jacobian.multiple(int(2 * l * r), jacobian.point(image, s)))
-    return jacobian.order(total, _LARGEST_ORDER)
+    return images
 
 
-def _moved(points: list[tuple[Any, int, Fraction]], infinity: CurvePoint, p: int) -> list[tuple[Any, int, Fraction]]:
+def _moved(images: list[_Image], infinity: CurvePoint, p: int) -> list[_Image]:
     """The points in a coordinate t = 1/(x - r), which keeps eta, with a branch point at infinity; the old infinity is 0."""
-    r = next((r for image, e, _ in points if e % 2 for r in simple_roots(image)), None)
-    if r is None:
-        raise BadPrimeError("no branch point is rational modulo this prime")
-    moved = [(image.compose(nmod_poly([r, 1], p)).reverse(), e, residue) for image, e, residue in points]
-    return [*(point for point in moved if point[0].degree()), (nmod_poly([0, 1], p), infinity.e, infinity.residue)]
+    r = _rational_branch_point(images)
+    moved = []
+    for image in images:
+        factor = image.factor.compose(nmod_poly([r, 1], p)).reverse()
+        if factor.degree():
+            moved.append(image._replace(factor=factor))
+    return [*moved, _Image(nmod_poly([0, 1], p), infinity.e, infinity.residue)]
+
+
+def _rational_branch_point(images: list[_Image]) -> int:
+    for image in images:
+        if image.e % 2:
+            for root in simple_roots(image.factor):
+                return root
+    raise BadPrimeError("no branch point is rational modulo this prime")
+
+
+# With g = c b Q^2, b the product over the branch points, eta = dx/(s Q) on the curve s^2 = b/c', c' a constant.
+
+
+def _ordinate(pole: _Image, images: list[_Image]) -> Any:
+    """s = 1/(residue * Q') at the roots of a factor of Q."""
+    q = pole.factor
+    one = q**0
+    above = prod((image.factor for image in images if image.e == 2), start=one)
+    below = prod((image.factor ** (-(image.e // 2)) for image in images if image.e < 0), start=one)
+    residue = pole.residue.numerator * pow(pole.residue.denominator, -1, q.modulus())
+    return below * (above.derivative() * residue).xgcd(q)[1] % q
+
+
+def _curve_through(pole: _Image, s: Any, images: list[_Image]) -> Any:
+    """b/c', where c' is known from one of its points."""
+    q = pole.factor
+    branch = prod((image.factor for image in images if image.e % 2), start=q**0)
+    return branch * int((s * s * branch.xgcd(q)[1] % q)[0])

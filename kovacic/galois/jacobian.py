@@ -3,14 +3,18 @@
 A class of degree 0 is represented by (u, v): u monic, deg v < deg u <= genus, u | h - v^2; it stands for the points
 (x, v(x)) at the roots x of u, each minus the one point at infinity.  The neutral element is (1, 0).
 
-Reference: D. Cantor, "Computing in the Jacobian of a hyperelliptic curve", Math. Comp. 48 (1987) 95-101.
+References: D. Cantor, "Computing in the Jacobian of a hyperelliptic curve", Math. Comp. 48 (1987) 95-101; D. Shanks, "Class
+number, a theory of factorization, and genera", Proc. Symp. Pure Math. 20 (1971) 415-440, for the steps to an order.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import accumulate, repeat
+from fractions import Fraction
+from math import isqrt
 from typing import Any, NamedTuple
+
+from flint import fmpz
 
 
 class DivisorClass(NamedTuple):
@@ -18,6 +22,11 @@ class DivisorClass(NamedTuple):
 
     u: Any
     v: Any
+
+    @property
+    def key(self) -> tuple[Any, ...]:
+        """What can be looked up."""
+        return tuple(self.u), tuple(self.v)
 
 
 @dataclass(frozen=True)
@@ -57,10 +66,47 @@ class Jacobian:
             k >>= 1
         return result
 
-    def order(self, value: DivisorClass, bound: int) -> int | None:
-        """The order of a class, or None if it exceeds `bound`."""
-        multiples = accumulate(repeat(value, bound), self.add)
-        return next((k for k, multiple in enumerate(multiples, start=1) if not multiple.u.degree()), None)
+    def order(self, value: DivisorClass) -> int:
+        """The order of a class: of a multiple that is zero, without the prime factors that aren't needed."""
+        order = self._vanishing_multiple(value)
+        for q, _ in fmpz(order).factor():
+            while order % int(q) == 0 and self._is_zero(order // int(q), value):
+                order //= int(q)
+        return order
+
+    def _is_zero(self, k: int, value: DivisorClass) -> bool:
+        return self.multiple(k, value) == self.zero
+
+    def _vanishing_multiple(self, value: DivisorClass) -> int:
+        """Some n > 0 with n D = 0, from the interval of Hasse and Weil in which the number of all classes lies.
+
+        n = least + i s - j for one of the giant steps i and of the s baby steps j [Shanks].
+        """
+        least, width = self._number_of_classes()
+        s = isqrt(width) + 1
+        babies: dict[tuple[Any, ...], int] = {}
+        current = self.zero
+        for j in range(s):
+            babies[current.key] = j
+            current = self.add(current, value)
+            if current == self.zero:
+                return j + 1
+        giant = self.multiple(s, value)
+        current = self.multiple(least, value)
+        for i in range(s + 2):
+            j = babies.get(current.key)
+            if j is not None and least + i * s > j:
+                return least + i * s - j
+            current = self.add(current, giant)
+        raise AssertionError("the number of classes is in the interval of Hasse and Weil")
+
+    def _number_of_classes(self) -> tuple[int, int]:
+        """A natural number and a width: the number of classes is between (sqrt(p) - 1)^(2g) and (sqrt(p) + 1)^(2g) [Weil]."""
+        genus = (self.h.degree() - 1) // 2
+        root = Fraction(isqrt(int(self.h.modulus()) << 40), 1 << 20)  # at most sqrt(p), and more than sqrt(p) - 2^-20
+        least = max(int((root - 1) ** (2 * genus)), 1)
+        most = int((root + 1 + Fraction(1, 1 << 20)) ** (2 * genus)) + 1
+        return least, most - least
 
     def _reduced(self, u: Any, v: Any) -> DivisorClass:
         while 2 * u.degree() >= self.h.degree():

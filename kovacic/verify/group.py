@@ -196,13 +196,13 @@ def _on_curve_of_positive_genus(
     if claim.family == "infinite dihedral" and claim.n is None:
         if claim.function is not None:
             return has_holomorphic_rest(H, claim.function)
-        return _is_no_torsion(inspector, H, claim.orders, curve)
+        return _is_no_torsion(H, claim.orders, curve)
     return None if claim.family == "imprimitive" else False
 
 
-def _is_no_torsion(inspector: Inspector, H: RatFunc, orders: tuple[tuple[int, int], ...], curve: Curve) -> bool:
+def _is_no_torsion(H: RatFunc, orders: tuple[tuple[int, int], ...], curve: Curve) -> bool:
     """Has the divisor of l eta different orders modulo two primes of good reduction?  A finite order is the same modulo all."""
     residues = set(curve.differences)
     if len({k for _, k in orders}) < 2:
         return False
-    return all(order_holds(H, residues, p, k, inspector.budget) for p, k in orders)
+    return all(order_holds(H, residues, p, k) for p, k in orders)

@@ -1,97 +1,207 @@
 """The order of a divisor class modulo a prime, for groups on curves of positive genus.
 
 For f = y1 y2, H = (y1'/y1 - y2'/y2)^2 is rational, and eta = sqrt(H) dx = d log(y1/y2) here has simple poles with rational
-residues +-Delta only, l their common denominator.  Modulo p, H = h s^2, h squarefree; eta lives on y^2 = h, y = sqrt(H)/s.
-At a double pole of H, a root of q, y = Delta q'/(s q) has the residue Delta; there the divisor D of l eta has m = l Delta
-points P, less their conjugates.  By norms, n D is the divisor of some (a + b y)/prod q^(n m) exactly when
+residues +-Delta only, l their common denominator.  D is the sum of the l Delta (P - P') over the poles: P is the point with the
+residue Delta > 0, P' its conjugate.  Reduction is injective on torsion where p is odd and unramified and no zeros or poles of
+H, infinity among them, meet; so a D with different orders modulo two such primes has none.
 
-    a + b v = 0 mod U = prod q^(2 n m),    2 deg a <= deg U,    2 deg b + deg h <= deg U,                          (1)
+Modulo p there is a coordinate t, x = r + 1/t, for which H(r) isn't a square.  Then H dx^2 = N/M dt^2 and N M = h T^2, where
+h is squarefree, of an even degree 2g + 2, and its leading coefficient isn't a square: on y^2 = h the two points at t = infinity
+are conjugate, and a + b y has a pole of the order max(deg a, deg b + g + 1) at both.  So
 
-v^2 = h modulo U, v = y at the P.  Euclid's algorithm for U and v has the only candidate.  Reduction is injective on torsion
-where p is odd and unramified and no points of the support of H, or infinity, meet.
+- eta = T y/M dt, and y = Delta q' (M/q^2)/(T/q) at the P over a double root of M, a root of q;
+- an effective divisor E stands for the class of E - (deg E/2) (both points at infinity), and P + P' for 0;
+- E without pairs P + P', of an even degree up to g + 1, is principal only if it is 0: a function with poles at infinity only, of
+  the order deg E/2 < g + 1, is a polynomial in t, whose zeros are such pairs.
+
+References: D. Cantor, Math. Comp. 48 (1987) 95-101, for sums and reduction; N. Katz, Invent. Math. 62 (1981) 481-502, appendix,
+for torsion under reduction.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from math import lcm, prod
-from typing import Any
+from math import lcm
+from typing import Any, NamedTuple
 
-from flint import fmpz, nmod_poly
+from flint import fmpz
 
 from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.limits import Budget
-from kovacic.verify.primes import homomorphisms_modulo
+from kovacic.verify.primes import homomorphisms_modulo, is_usable_prime, translated
 
 
-def order_holds(H: RatFunc, residues: set[Fraction], p: int, k: int, budget: Budget) -> bool:
+def order_holds(H: RatFunc, residues: set[Fraction], p: int, k: int) -> bool:
     """Is p a prime of good reduction, modulo which the class of D has the order k?"""
-    if p < 3 or k < 1 or not fmpz(p).is_prime():
+    if k < 1 or not is_usable_prime(p):
         return False
+    return any(_has_order(curve, D, k) for curve, D in _reductions(H, residues, p))
+
+
+def _reductions(H: RatFunc, residues: set[Fraction], p: int) -> Iterator[tuple[Curve, Points]]:
+    """The curve and D under the homomorphisms to F_p, where the reduction is good."""
     for h in homomorphisms_modulo(H.field, p):
         try:
-            divisor = _divisor(H, residues, h)
+            differential = _differential(H, h)
+            yield Curve(differential.h), _class_of_poles(differential, residues)
         except BadPrimeError:
             continue
-        budget.check_degree(k * sum(2 * m * q.degree() for q, _, m in divisor.points), "a function on the curve")
-        if divisor.is_principal(k) and not any(divisor.is_principal(k // int(q)) for q, _ in fmpz(k).factor()):
-            return True
-    return False
 
 
-@dataclass(frozen=True)
-class _Divisor:
-    """m points (x, y) over the roots of each q, less their conjugates, on y^2 = h over F_p; y modulo q."""
+def _has_order(curve: Curve, D: Points, k: int) -> bool:
+    """Is k D principal, and no k/q D for a prime q?"""
+    if not curve.multiple(k, D).is_zero:
+        return False
+    return not any(curve.multiple(k // int(q), D).is_zero for q, _ in fmpz(k).factor())
+
+
+# ------------------------------------------------------------------------------------------- the differential
+
+
+class Differential(NamedTuple):
+    """eta = T y/M dt on y^2 = h over F_p, as in the module's text."""
 
     h: Any
-    points: tuple[tuple[Any, Any, int], ...]
-
-    def is_principal(self, n: int) -> bool:
-        """Is n times the divisor that of a function?  By (1)."""
-        v, one, known, most = self.h * 0, self.h**0, 1, max(2 * n * m for _, _, m in self.points)
-        radical, U = prod((q for q, *_ in self.points), start=one), prod(q ** (2 * n * m) for q, _, m in self.points)
-        for q, y, _ in self.points:
-            v += radical // q * (y * _inverse(radical // q, q) % q)
-        while known < most:
-            known = min(2 * known, most)
-            v = (v - (v * v - self.h) * _inverse(2 * v, radical**known)) % radical**known
-        r0, r1 = U, v % U
-        while 2 * r1.degree() > U.degree():
-            r0, r1 = r1, r0 % r1
-        return bool(U.degree() + self.h.degree() <= 2 * r0.degree())  # a = r1, deg b = deg U - deg r0
+    T: Any
+    M: Any
 
 
-def _divisor(H: RatFunc, residues: set[Fraction], h: Homomorphism) -> _Divisor:
-    """D modulo p; raises `BadPrimeError` where points of the support meet, or residues are the same up to their signs."""
-    p, num, den = h.p, h.keeping_degree(H.num), h.keeping_degree(H.den)
-    support = sum(f.degree - f.gcd(f.derivative()).degree for f in (H.num, H.den)) + (H.den.degree != H.num.degree + 4)
-    if (
-        den.degree() == num.degree() + 2
-    ):  # a double pole at infinity becomes t = 0, x = r + 1/t, and no other one infinity
-        r = next((r for r in range(p) if not any(k == 2 and not q(r) for q, k in den.factor()[1])), None)
-        if r is None:
-            raise BadPrimeError("every point is a pole")
-        num, den = (f.compose(nmod_poly([r, 1], p)).reverse() for f in (num, den))
-        den = den.left_shift(2)
-    (c, above), (d, below) = num.factor(), den.factor()
-    factors = [*above, *((q, -k) for q, k in below)]
-    count = sum(q.degree() for q, _ in factors) + (den.degree() != num.degree() + 4)
-    squares = {r.numerator**2 * pow(r.denominator, -2, p) % p: r for r in residues if r.denominator % p}
-    if num.gcd(den).degree() > 0 or count < support or len(squares) < len(residues):
-        raise BadPrimeError("points meet, or residues agree")
-    curve = prod((q for q, k in factors if k % 2), start=nmod_poly([int(c) * pow(int(d), -1, p)], p))
-    top, bottom = (prod((q ** abs(k // 2) for q, k in factors if sign * k > 0), start=num**0) for sign in (1, -1))
-    points, l = [], lcm(*(r.denominator for r in residues))  # noqa: E741 - as in the module's text
-    for q in (q for q, k in below if k == 2):
-        y = q.derivative() * (bottom // q) * _inverse(top, q) % q  # for Delta = 1
-        delta = squares.get(int((curve * _inverse(y * y, q) % q)[0]))
-        if delta is None:
-            raise BadPrimeError("a residue is another one")
-        points.append((q, y * (delta.numerator * pow(delta.denominator, -1, p) % p), int(l * delta)))
-    return _Divisor(curve, tuple(points))
+def _differential(H: RatFunc, homomorphism: Homomorphism) -> Differential:
+    """eta modulo p; raises `BadPrimeError` where zeros or poles meet."""
+    num, den = (homomorphism.keeping_degree(f) for f in (H.num, H.den))
+    N, M = _moved(num, den, _no_square_at(num, den))
+    leading, factors = (N * M).factor()
+    if sum(q.degree() for q, _ in factors) < _size_of_support(H):
+        raise BadPrimeError("zeros or poles meet")
+    h = N**0 * int(leading)
+    T = N**0
+    for q, multiplicity in factors:
+        T *= q ** (multiplicity // 2)
+        if multiplicity % 2:
+            h *= q
+    return Differential(h, T, M)
+
+
+def _no_square_at(num: Any, den: Any) -> int:
+    """The least r at which num/den isn't a square modulo p, nor zero or infinite."""
+    p = num.modulus()
+    for r in range(p):
+        if fmpz(int(num(r)) * int(den(r))).jacobi(p) == -1:
+            return r
+    raise BadPrimeError("all values are squares")
+
+
+def _moved(num: Any, den: Any, r: int) -> tuple[Any, Any]:
+    """N and M with num/den dx^2 = N/M dt^2, x = r + 1/t; num and den don't vanish at r."""
+    N = translated(num, r).reverse()
+    M = translated(den, r).reverse()
+    shift = den.degree() - num.degree() - 4  # dx = -dt/t^2
+    return N.left_shift(max(shift, 0)), M.left_shift(max(-shift, 0))
+
+
+def _size_of_support(H: RatFunc) -> int:
+    """The number of zeros and poles of H dx^2, infinity counted."""
+    size = 0
+    for f in (H.num, H.den):
+        size += f.degree - f.gcd(f.derivative()).degree
+    return size + (H.den.degree != H.num.degree + 4)
+
+
+def _class_of_poles(eta: Differential, residues: set[Fraction]) -> Points:
+    """D: with 2 P for P - P', the sum of the 2 l Delta P."""
+    curve = Curve(eta.h)
+    l = lcm(*(residue.denominator for residue in residues))  # noqa: E741 - as in the module's text
+    by_square = _by_square(residues, eta.h.modulus())
+    total = curve.zero
+    for q, multiplicity in eta.M.factor()[1]:
+        if multiplicity == 2:
+            points, residue = _pole(eta, q, by_square)
+            total = curve.sum(total, curve.multiple(int(2 * l * residue), points))
+    return total
+
+
+def _by_square(residues: set[Fraction], p: int) -> dict[int, Fraction]:
+    """The residues by their squares modulo p, which have to be different."""
+    found = {}
+    for residue in residues:
+        if residue.denominator % p == 0:
+            raise BadPrimeError("a residue isn't integral")
+        found[residue.numerator**2 * pow(residue.denominator, -2, p) % p] = residue
+    if len(found) < len(residues):
+        raise BadPrimeError("residues agree up to their signs")
+    return found
+
+
+def _pole(eta: Differential, q: Any, by_square: dict[int, Fraction]) -> tuple[Points, Fraction]:
+    """The points over the roots of q, a double factor of M, where the residue of eta is positive, and this residue."""
+    p = q.modulus()
+    y = q.derivative() * (eta.M // (q * q)) * _inverse(eta.T // q, q) % q  # where the residue is 1
+    square = eta.h * _inverse(y * y, q) % q
+    residue = by_square.get(int(square[0]))
+    if square.degree() > 0 or residue is None:
+        raise BadPrimeError("a residue is another one")
+    return Points(q, y * (residue.numerator * pow(residue.denominator, -1, p) % p)), residue
 
 
 def _inverse(value: Any, modulus: Any) -> Any:
+    """1/value modulo an irreducible polynomial that doesn't divide it."""
     return (value % modulus).xgcd(modulus)[1]
+
+
+# ------------------------------------------------------------------------------------------- classes of divisors
+
+
+class Points(NamedTuple):
+    """The points over the roots of the monic u, with y = v there [Mumford]: an effective divisor without pairs P + P'."""
+
+    u: Any
+    v: Any
+
+    @property
+    def is_zero(self) -> bool:
+        return bool(self.u.degree() == 0)
+
+
+@dataclass(frozen=True)
+class Curve:
+    """y^2 = h over F_p, the two points at infinity conjugate."""
+
+    h: Any
+
+    @property
+    def zero(self) -> Points:
+        return Points(self.h**0, self.h * 0)
+
+    def multiple(self, n: int, E: Points) -> Points:
+        """n E, reduced, for n > 0: by doubling, from the leading binary digit of n on."""
+        total = self.zero
+        for digit in f"{n:b}":
+            total = self.sum(total, total)
+            if digit == "1":
+                total = self.sum(total, E)
+        return total
+
+    def sum(self, first: Points, second: Points) -> Points:
+        """The sum without pairs P + P', which are over the roots of d, reduced [Cantor].
+
+        The functions u1 u2, u1 (y - v2), u2 (y - v1) and (y - v1)(y - v2) vanish on the sum; what they generate
+        contains u d and (y - v) d.
+        """
+        u1, v1 = first
+        u2, v2 = second
+        common, e1, e2 = u1.xgcd(u2)
+        d, c, c3 = common.xgcd(v1 + v2)
+        u = u1 * u2 // (d * d)
+        v = (c * e1 * u1 * v2 + c * e2 * u2 * v1 + c3 * (v1 * v2 + self.h)) // d
+        return self._reduced(Points(u, v % u))
+
+    def _reduced(self, E: Points) -> Points:
+        """A divisor of the class, of degree g + 1 at most: the conjugates of the other zeros of y - v, as often as needed."""
+        u, v = E
+        while 2 * u.degree() > self.h.degree():
+            others = (v * v - self.h) // u
+            u = others * pow(int(others.leading_coefficient()), -1, u.modulus())
+            v = -v % u
+        return Points(u, v)
