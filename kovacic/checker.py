@@ -45,7 +45,20 @@ from math import inf, isqrt, lcm, prod
 from operator import add, mul, sub, truediv
 from typing import Any, NamedTuple
 
-from flint import Ordering, acb_poly, acb_series, arb, ctx, fmpq, fmpq_mat, fmpq_mpoly_ctx, fmpq_poly, fmpz, nmod_mat
+from flint import (
+    Ordering,
+    acb_poly,
+    acb_series,
+    arb,
+    ctx,
+    fmpq,
+    fmpq_mat,
+    fmpq_mpoly_ctx,
+    fmpq_poly,
+    fmpq_series,
+    fmpz,
+    nmod_mat,
+)
 from flint import nmod_poly as nmod
 
 LONGEST = 6000  # the largest degrees, and the most terms of a series, that are computed with
@@ -226,6 +239,12 @@ def frobenius(E: Any, M: Any, e: int, count: int, q: int) -> tuple[Any, bool]:
     return nmod(a, q), True
 
 
+def square_root(square: Any) -> Any:
+    """The root of the square of a rational number; None for other numbers."""
+    root = fmpq(isqrt(int(max(square.p * square.q, 0))), square.q)
+    return root if root * root == square else None
+
+
 @contextmanager
 def series_of_length(n: int) -> Iterator[None]:
     """FLINT's series end after so many terms, in the block."""
@@ -263,9 +282,7 @@ class Place:
         """Delta >= 0, the difference of the exponents, if it is a rational number (1 at an ordinary point)."""
         if self.is_irregular or self.leading.degree() > 0:
             return None
-        square = self.leading[0]
-        root = fmpq(isqrt(int(max(square.p * square.q, 0))), square.q)
-        return root if root * root == square else None
+        return square_root(self.leading[0])
 
     @property
     def can_branch(self) -> bool:
@@ -319,44 +336,99 @@ class Place:
             possible = [(m + i * (self.difference or fmpq(0))) / 2 for i in surplus]
         return min((int(value.p) for value in possible if value.q == 1), default=inf)
 
+    @property
+    def has_no_rational_omega(self) -> bool:
+        """Are the exponents at a single place irrational, or the two of a ramified one conjugate?"""
+        if self.size > 1 or not self.k:
+            return self.is_ramified
+        return self.half_difference is None
+
+    @cached_property
+    def half_difference(self) -> Any:
+        """Half the difference of the exponents, summed over the roots, where it is a rational number that is easily known.
+
+        At a single irregular place it is the residue of sqrt(S): the coefficient of t^(nu - 1) in sqrt(t^(2 nu) S).
+        """
+        if self.difference is not None:
+            return self.size * self.difference / 2
+        if self.size > 1 or not self.is_irregular or self.is_ramified:
+            return None
+        root = -self.p[0]
+        num = fmpq_series(self.num(X + root).coeffs(), prec=self.nu)
+        den = fmpq_series((self.den // self.p**self.k)(X + root).coeffs(), prec=self.nu)
+        with series_of_length(self.nu):
+            ratio = num / den
+            coefficient = (ratio / ratio[0]).sqrt()[self.nu - 1]
+        return square_root(ratio[0] * coefficient**2)
+
     def exponents(self) -> Any:
         """A ball around the sum over the roots of p of the real parts of the least exponents (k not odd > 2)."""
-        nu, total = self.nu, arb(0)
-        parts = self.num * self.p ** (2 * nu - self.k), self.den // self.p**self.k, self.p
-        with series_of_length(nu + 1):
+        total = arb(0)
+        with series_of_length(self.nu + 1):
             for root, _ in self.p.complex_roots():
-                shifted = (acb_poly([arb(c) for c in f.coeffs()])(acb_poly([root, 1])).coeffs() for f in parts)
-                num, rest, unit = (acb_series(f, nu + 1) for f in shifted)
-                ratio = num / (rest * acb_series([unit[i + 1] for i in range(nu)], nu) ** self.k)  # t^(2 nu) S
-                half = ratio[0].sqrt() * (ratio / ratio[0]).sqrt()[nu - 1] if nu > 1 else (1 + 4 * ratio[0]).sqrt() / 2
-                total += arb(nu) / 2 + (abs(half.real) if self.logarithm else -abs(half.real))
+                half = self.half_difference_at(root)
+                total += arb(self.nu) / 2 + (half if self.logarithm else -half)
         return total
 
-    def expansions(self, root: int, q: int, count: int) -> Iterator[Any]:
-        """The series w = t^nu omega modulo q of the solutions that have one, where the place tells the solutions apart.
+    def half_difference_at(self, root: Any) -> Any:
+        """A ball around the real part of half the difference of the exponents at one root."""
+        nu = self.nu
+        num, rest, unit = (
+            acb_series(acb_poly([arb(c) for c in f.coeffs()])(acb_poly([root, 1])).coeffs(), nu + 1)
+            for f in (self.num * self.p ** (2 * nu - self.k), self.den // self.p**self.k, self.p)
+        )
+        slope = acb_series([unit[i + 1] for i in range(nu)], nu)
+        ratio = num / (rest * slope**self.k)  # t^(2 nu) S
+        if self.is_irregular:
+            return abs((ratio[0].sqrt() * (ratio / ratio[0]).sqrt()[nu - 1]).real)
+        return abs(((1 + 4 * ratio[0]).sqrt() / 2).real)
 
-        With s = t^(2 nu) S the equation omega' + omega^2 = S is t^(2 nu) (omega' + omega^2) = s, a term after the other.
-        """
-        nu, half = self.nu, pow(2, -1, q)
+    def expansions(self, root: int, q: int, count: int) -> Iterator[Any]:
+        """The series w = t^nu omega modulo q of the solutions that have one, where the place tells the solutions apart."""
         E, M = self.local(root, q)
-        s = [int(c) for c in M.mul_low(E.inverse_series_trunc(count), count).coeffs()] + [0] * count
-        square = (s[0] if nu > 1 else 1 + 4 * s[0]) % q
-        if fmpz(square).jacobi(q) == -1:
-            return
-        if self.difference is None:
-            first = int(fmpz(square).sqrtmod(q))
-        else:
-            first = int(self.difference.p) * pow(int(self.difference.q), -1, q)
-        for sign in (1,) if self.logarithm else (1, -1):
-            w = [(sign * first if nu > 1 else (1 + sign * first) * half) % q]
-            for j in range(1, count):
-                rest = s[j] - sum(a * b for a, b in zip(w[1:j], w[j - 1 : 0 : -1], strict=True))
-                if nu > 1 and j >= nu - 1:
-                    rest -= (j - 2 * nu + 1) * w[j - nu + 1]
-                pivot = (2 * w[0] + (j - 1 if nu == 1 else 0)) % q
-                demand(pivot, "the prime avoids the exponents")
-                w.append(rest * pow(pivot, -1, q) % q)
-            yield nmod(w, q)
+        s = M.mul_low(E.inverse_series_trunc(count), count)  # t^(2 nu) S
+        for first in self.first_coefficients(int(s[0]), q):
+            yield self.continued(first, s, count, q)
+
+    def first_coefficients(self, s0: int, q: int) -> list[int]:
+        """What w can begin with: one of the square roots of s_0 at an irregular place, one of the exponents at a regular one.
+
+        With a logarithm omega belongs to the solution without, which has the larger exponent.
+        """
+        delta = self.delta_modulo(s0, q)
+        if delta is None:
+            return []
+        if self.is_irregular:
+            return [delta, -delta]
+        half = pow(2, -1, q)
+        larger, smaller = (1 + delta) * half % q, (1 - delta) * half % q
+        return [larger] if self.logarithm else [larger, smaller]
+
+    def delta_modulo(self, s0: int, q: int) -> int | None:
+        """Delta modulo q, or a square root of s_0 at an irregular place; None if there is none."""
+        if self.difference is not None:
+            return int(self.difference.p) * pow(int(self.difference.q), -1, q) % q
+        square = fmpz(s0 if self.is_irregular else 1 + 4 * s0) % q
+        return None if square.jacobi(q) == -1 else int(square.sqrtmod(q))
+
+    def continued(self, first: int, s: Any, count: int, q: int) -> Any:
+        """w with this first coefficient: t^(2 nu) (omega' + omega^2) = s, a term after the other.
+
+        The coefficient of t^j in t^(2 nu) omega' is (j - 2 nu + 1) w_(j - nu + 1), and contains w_j itself where nu = 1.
+        """
+        nu = self.nu
+        terms = [int(c) for c in s.coeffs()] + [0] * count
+        w = [first % q]
+        for j in range(1, count):
+            rest = terms[j] - sum(map(mul, w[1:j], w[j - 1 : 0 : -1]))
+            pivot = 2 * w[0]
+            if nu == 1:
+                pivot += j - 1
+            elif j >= nu - 1:
+                rest -= (j - 2 * nu + 1) * w[j - nu + 1]
+            demand(pivot % q, "the prime avoids the exponents")
+            w.append(rest * pow(pivot, -1, q) % q)
+        return nmod(w, q)
 
 
 def places_of(num: Any, den: Any) -> list[Place]:
@@ -510,59 +582,110 @@ class Exclusions:
         At an ordinary point a form is a sum of y1^(m-i) y2^i; divided by prod p^v it is a polynomial of degree `room`, so that
         its terms beyond that are zero: as many equations as one likes, whose rank modulo a prime isn't larger than over Q.
         """
-        valuations = [place.least_valuation(m) for place in self.places]
         room = self.room(m)
         if room < 0:
             return 0
         n, q = affordable(room + m + 6, f"the number of zeros of a form of degree {m}"), prime or PRIMES[0]
         demand(q > 2 * n and fmpz(q).is_prime(), "the modulus is a large prime")
-        c = next(c for c in range(LONGEST + 1) if int(reduced(self.den, q)(c))) if point is None else point
-        den, num = reduced(self.den, q, c), reduced(self.num, q, c).left_shift(2)
+        if point is None:
+            den = reduced(self.den, q)
+            point = next(c for c in range(LONGEST + 1) if int(den(c)))
+        forms = self.forms_modulo(m, n, q, point)
+        return m + 1 - int(nmod_mat([[int(form[j]) for j in range(room + 1, n)] for form in forms], q).rank())
+
+    def forms_modulo(self, m: int, n: int, q: int, c: int) -> list[Any]:
+        """n terms at the point c of the y1^(m-i) y2^i, divided by prod p^v."""
+        den = reduced(self.den, q, c)
         demand(int(den[0]), "the point is ordinary")
+        num = reduced(self.num, q, c).left_shift(2)
         y1 = frobenius(den, num, 0, n, q)[0]
         y2 = frobenius(den, num, 1, n, q)[0].left_shift(1)
         scale = nmod([1], q)
-        for place, v in zip(self.places[:-1], valuations, strict=False):
+        for place in self.places[:-1]:
+            v = place.least_valuation(m)
             power = reduced(place.p, q, c).truncate(n).pow_trunc(abs(v), n)
             scale = scale.mul_low(power.inverse_series_trunc(n) if v > 0 else power, n)
-        forms = [scale.mul_low(y1.pow_trunc(m - i, n), n).mul_low(y2.pow_trunc(i, n), n) for i in range(m + 1)]
-        return m + 1 - int(nmod_mat([[int(form[j]) for j in range(room + 1, n)] for form in forms], q).rank())
+        return [scale.mul_low(y1.pow_trunc(m - i, n), n).mul_low(y2.pow_trunc(i, n), n) for i in range(m + 1)]
 
     def no_omega(self, item: dict[str, Any]) -> None:
-        """No omega in Q(x) is the only one: no solution's is A/(den B) modulo a prime, deg B <= the number of zeros.
-
-        The bound for the zeros is that of this program, by the real parts of the exponents; `degree` is the other's.
-        """
+        """No omega in Q(x) is the only one: no solution's is A/(den B) modulo a prime, deg B <= the number of zeros."""
         demand_keys(item, "evidence", "kind degree prime place")
-        prime, name = item["prime"], item["place"]
-        demand(is_whole(item["degree"]) and item["degree"] >= -1, "the degree is one, or -1")
-        empty = prime is None and name == ""
-        demand(empty if item["degree"] < 0 else is_whole(prime) and name, "a prime and a place belong to a degree")
-        degree = self.zeros()
+        degree, prime, name = item["degree"], item["prime"], item["place"]
+        demand(is_whole(degree) and degree >= -1, "the degree is one, or -1")
         if degree < 0:
-            return
+            demand_equal((prime, name), (None, ""), "prime and place, without a degree,")
+        else:
+            demand(is_whole(prime) and name, "a prime and a place belong to a degree")
+        if self.most_zeros is not None:
+            demand_equal(degree, self.most_zeros, "the largest number of zeros")
+        if self.zeros() >= 0:
+            self.no_expansion(prime, name)
+
+    def no_expansion(self, prime: int | None, name: str) -> None:
+        """At a place that tells the solutions apart, none has an omega with so few zeros, modulo the prime."""
         apart = [place for place in self.places if place.tells_solutions_apart]
         place = self.place(name) if name else apart[0]
         demand(place in apart, "the place tells the solutions apart")
         q, root = next(place.roots([prime] if prime else PRIMES), (0, 0))
         demand(q > 10**6 and fmpz(q).is_prime(), "the place has a root modulo a large prime")
+        degree = self.zeros()
         den = reduced(place.den, q, root)
         top = degree + den.degree() + max(p.k for p in self.places)
         count = affordable(top + degree + 12, "the number of zeros of a solution")
         for w in place.expansions(root, q, count):
-            r0, r1 = nmod([1], q).left_shift(count), den.right_shift(place.nu).mul_low(w, count)
-            while r1.degree() > top:  # r1 = B den w modulo t^count, deg B = count - deg r0
-                r0, r1 = r1, r0 % r1
-            demand(count - r0.degree() > degree, "no expansion of omega is that of a rational function")
+            multiple = den.right_shift(place.nu).mul_low(w, count)  # A/B, if w is that of a rational function
+            found = least_denominator(multiple, count, top) <= degree
+            demand(not found, "no expansion of omega is that of a rational function")
 
     def zeros(self) -> int:
-        """The most zeros at ordinary points that a solution with an omega in Q(x) can have, by Fuchs' relation; or -1."""
-        if any(place.is_ramified for place in self.places):
-            return -1
+        """The most zeros at ordinary points that a solution with an omega in Q(x) can have, or more; -1 if there is none.
+
+        By Fuchs' relation: the exponents at the singular points and the zeros add up to 1.
+        """
+        if self.most_zeros is not None:
+            return affordable(self.most_zeros, "the number of zeros of a solution")
         total = 1 - sum((place.exponents() for place in self.places if place.k), arb(0))
         if total < 0:
             return -1
         return affordable(total.upper().floor().unique_fmpz(), "the number of zeros of a solution")
+
+    @cached_property
+    def most_zeros(self) -> int | None:
+        """The largest number of zeros that the exponents leave, -1 for none; None where they aren't easily known."""
+        if any(place.has_no_rational_omega for place in self.places):
+            return -1
+        places = [place for place in self.places if place.k]
+        halves = [place.half_difference for place in places]
+        if None in halves:
+            return None
+        total = 1 - sum((fmpq(place.size * place.nu, 2) for place in places), fmpq(0))
+        total -= sum((half for place, half in zip(places, halves, strict=True) if place.logarithm), fmpq(0))
+        return largest_natural_sum(total, [place.half_difference for place in places if not place.logarithm])
+
+
+def largest_natural_sum(total: Any, choices: list[Any]) -> int | None:
+    """The largest natural number among `total` plus or minus each choice; -1 for none, None for too many fractional parts."""
+    unit = lcm(int(total.q), *(int(choice.q) for choice in choices))  # all in units of 1/unit
+    start = int(total * unit)
+    largest = {start % unit: start}  # for each fractional part that a sum can have
+    for choice in choices:
+        step = int(choice * unit)
+        sums = [value - step for value in largest.values()] + [value + step for value in largest.values()]
+        largest = {value % unit: value for value in sorted(sums)}
+        if len(largest) > LONGEST:
+            return None
+    return max(largest.get(0, -1) // unit, -1)
+
+
+def least_denominator(series: Any, count: int, top: int) -> int:
+    """The least degree of a B != 0 with B series = A + O(t^count), deg A <= top.
+
+    By Euclid's algorithm for t^count and the series: deg B = count - deg r0 for the remainder r0 before A.
+    """
+    r0, r1 = nmod([1], series.modulus()).left_shift(count), series
+    while r1.degree() > top:
+        r0, r1 = r1, r0 % r1
+    return int(count - r0.degree())
 
 
 # ------------------------------------------------------------------------------------------- forms
@@ -751,26 +874,19 @@ class Imprimitive:
         if not data:
             return None
         demand_keys(data, "the function", "multiple h pieces rest")
+        f = CurveFunction.read(data, self.names)
         n = whole(data["multiple"])
         demand(n > 0, "a multiple of log u is taken")
-        h, w = (polynomial(read(data[key], self.names)) for key in ("h", "rest"))
-        pieces = [piece(entry, self.names) for entry in data["pieces"]]
-        total = Value(from_one_variable(w))
-        for e, a, b in pieces:
-            norm = a * a - h * b * b
-            odd = (b.derivative() * h + b * h.derivative() / 2) * a - a.derivative() * b * h
-            total += Value(from_one_variable(odd * e), from_one_variable(norm))
-        square = self.H * Value(from_one_variable(h)) * Value(n) ** 2
+        rest = polynomial(read(data["rest"], self.names))
+        total = f.logarithmic_derivative() + Value(from_one_variable(rest))
+        square = self.H * Value(from_one_variable(f.h)) * Value(n) ** 2
         demand((total * total).equals(square), "the differential of f is that of a power of u")
-        demand(h.degree() >= 3 and h.gcd(h.derivative()).degree() == 0, "h has no square factor")
-        if w != 0:
-            demand(w.degree() < (h.degree() - 1) // 2, "the rest is holomorphic")
+        if rest != 0:
+            demand(rest.degree() < (f.h.degree() - 1) // 2, "the rest is holomorphic")
             return "infinite dihedral", None
-        odd_norms = prod((a * a - h * b * b for e, a, b in pieces if e % 2), start=X**0)
-        demand(all(k % 2 == 0 for _, k in odd_norms.factor()[1]), "the norm of f is a square")
-        G = prod((p ** (k // 2) for p, k in odd_norms.factor()[1]), start=X**0)
+        G = f.root_of_norms()
         for prime, _ in fmpz(n).factor():
-            demand(is_no_power(int(prime), h, pieces, G), f"the function isn't a power with the exponent {prime}")
+            demand(f.is_no_power(int(prime), G), f"the function isn't a power with the exponent {prime}")
         return "dicyclic", n
 
     #: In this order; the second place is the evidence that a rule uses.
@@ -828,38 +944,87 @@ def from_one_variable(f: Any) -> Any:
     return sum((PLANE.constant(f[k]) * X2**k for k in range(f.degree() + 1)), start=PLANE.constant(0))
 
 
-def piece(data: dict[str, Any], names: dict[str, Value]) -> tuple[int, Any, Any]:
-    """Exponent, a and b of one factor (a + b y)^e."""
-    demand_keys(data, "a piece", "exponent a b")
-    return whole(data["exponent"]), polynomial(read(data["a"], names)), polynomial(read(data["b"], names))
+class Piece(NamedTuple):
+    """(a + b y)^exponent on a curve y^2 = h."""
+
+    exponent: int
+    a: Any
+    b: Any
+
+    @classmethod
+    def read(cls, data: dict[str, Any], names: dict[str, Value]) -> Piece:
+        demand_keys(data, "a piece", "exponent a b")
+        return cls(whole(data["exponent"]), polynomial(read(data["a"], names)), polynomial(read(data["b"], names)))
+
+    def norm(self, h: Any) -> Any:
+        return self.a * self.a - h * self.b * self.b
+
+    def value(self, x: int, y: int, q: int) -> int:
+        """At a point modulo q, over the norm to the power of the integral part of exponent/2; 0 where a norm is 0."""
+        even, odd = int(self.a(x)), int(self.b(x)) * y
+        norm = (even - odd) * (even + odd) % q
+        return pow(even + odd, self.exponent, q) * pow(norm, -(self.exponent // 2), q) % q if norm else 0
 
 
-def is_no_power(exponent: int, h: Any, pieces: list[tuple[int, Any, Any]], G: Any) -> bool:
-    """Isn't f an l-th power, up to a constant?  Else all values at points over F_q lie in one class modulo l-th powers.
+@dataclass(frozen=True)
+class CurveFunction:
+    """f, the product of the pieces, on the curve y^2 = h."""
 
-    f is the product of the (a + b y)^e, divided by G and by the norms to the power of the integral part of e/2.
-    """
-    affordable(exponent // 10**9, "a prime factor of the order")
-    candidates = (q for q in range(exponent * (2**41 // exponent) + 1, 2**62, exponent) if fmpz(q).is_prime())
-    for q in islice(candidates, 30):
-        found = set()
-        curve, root = reduced(h, q), reduced(G, q)
-        demand(curve.gcd(curve.derivative()).degree() == 0, f"{q} is a good prime")
-        factors = [(e, reduced(a, q), reduced(b, q)) for e, a, b in pieces]
+    h: Any
+    pieces: list[Piece]
+
+    @classmethod
+    def read(cls, data: dict[str, Any], names: dict[str, Value]) -> CurveFunction:
+        h = polynomial(read(data["h"], names))
+        demand(h.degree() >= 3 and h.gcd(h.derivative()).degree() == 0, "h has no square factor")
+        return cls(h, [Piece.read(entry, names) for entry in the_list(data["pieces"], "the pieces")])
+
+    def logarithmic_derivative(self) -> Value:
+        """R, where R dx/y is half of d log of f over its conjugate."""
+        h, total = self.h, Value(0)
+        for e, a, b in self.pieces:
+            odd = (b.derivative() * h + b * h.derivative() / 2) * a - a.derivative() * b * h
+            total += Value(from_one_variable(odd * e), from_one_variable(a * a - h * b * b))
+        return total
+
+    def root_of_norms(self) -> Any:
+        """G, where the norm of the product of the pieces with odd exponents is a constant times G^2."""
+        product = prod((piece.norm(self.h) for piece in self.pieces if piece.exponent % 2), start=X**0)
+        factors = product.factor()[1]
+        demand(all(k % 2 == 0 for _, k in factors), "the norm of f is a square")
+        return prod((p ** (k // 2) for p, k in factors), start=X**0)
+
+    def is_no_power(self, exponent: int, G: Any) -> bool:
+        """Isn't f/G, divided by the norms, an l-th power, up to a constant?
+
+        Else its values at all points over F_q, q = 1 modulo l, lie in one class modulo l-th powers.
+        """
+        affordable(exponent // 10**9, "a prime factor of the order")
+        first = exponent * (2**41 // exponent) + 1
+        moduli = (q for q in range(first, 2**62, exponent) if fmpz(q).is_prime())
+        for q in islice(moduli, 30):
+            f = self.modulo(q)
+            demand(f.h.gcd(f.h.derivative()).degree() == 0, f"{q} is a good prime")
+            classes = {pow(value, (q - 1) // exponent, q) for value in f.values(reduced(G, q), q)}
+            if len(classes) > 1:
+                return True
+        return False
+
+    def modulo(self, q: int) -> CurveFunction:
+        return CurveFunction(reduced(self.h, q), [Piece(e, reduced(a, q), reduced(b, q)) for e, a, b in self.pieces])
+
+    def values(self, G: Any, q: int) -> Iterator[int]:
+        """The values of f/G, divided by the norms, at points modulo q, neither zeros nor poles of a part of it."""
         for x in range(60):
-            square = fmpz(int(curve(x)))
-            if square.jacobi(q) != 1 or not int(root(x)):
-                continue
-            y, value = int(square.sqrtmod(q)), pow(int(root(x)), -1, q)
-            for e, a, b in factors:
-                here, conjugate = (int(a(x)) + int(b(x)) * y) % q, (int(a(x)) - int(b(x)) * y) % q
-                norm = here * conjugate % q
-                value = value * pow(here, e, q) * pow(norm, -(e // 2), q) % q if norm else 0
-            if value:
-                found.add(pow(value, (q - 1) // exponent, q))
-        if len(found) > 1:
-            return True
-    return False
+            square = fmpz(int(self.h(x)))
+            root = int(G(x))
+            if square.jacobi(q) == 1 and root:
+                y = int(square.sqrtmod(q))
+                value = pow(root, -1, q)
+                for piece in self.pieces:
+                    value = value * piece.value(x, y, q) % q
+                if value:
+                    yield value
 
 
 class Pole(NamedTuple):
@@ -884,63 +1049,95 @@ class Differential:
         odd = sum(int(p.degree()) for p, k in factors if k % 2)
         return odd + int(self.den.degree() - self.num.degree()) % 2
 
-    def with_finite_poles(self, q: int) -> Differential:
-        """In the coordinate t of x = r + 1/t, if there is a pole at infinity; r is no zero or pole, modulo q."""
-        if self.poles[-1].factor is not None:
-            return self
-        r = next(r for r in range(q) if int(reduced(self.num * self.den, q)(r)))
+    def moved(self, q: int) -> Differential:
+        """In the coordinate t, x = r + 1/t, where num/den isn't a square modulo q at r: no place is at infinity."""
+        product = reduced(self.num * self.den, q)
+        r = next(r for r in range(q) if fmpz(int(product(r))).jacobi(q) == -1)
 
         def flipped(f: Any) -> Any:
             return fmpq_poly(f(X + r).coeffs()[::-1])
 
-        moved = [Pole(flipped(pole.factor), pole.residue) for pole in self.poles[:-1]]
-        at_zero = Pole(X, self.poles[-1].residue)
-        return Differential(flipped(self.num), flipped(self.den) * X**2, [*moved, at_zero])
+        poles = [Pole(X if pole.factor is None else flipped(pole.factor), pole.residue) for pole in self.poles]
+        shift = self.den.degree() - self.num.degree() - 4  # dx = -dt/t^2
+        num, den = flipped(self.num) * X ** max(shift, 0), flipped(self.den) * X ** max(-shift, 0)
+        return Differential(num, den, poles)
+
+
+class Points(NamedTuple):
+    """The points over the roots of u, with y = v there, no two of them conjugate: what they are is told by (u, y - v)."""
+
+    u: Any
+    v: Any
+
+
+@dataclass(frozen=True)
+class ClassGroup:
+    """The classes of divisors on y^2 = h modulo a prime, where h has an even degree and its first coefficient is no square.
+
+    The two points at infinity are conjugate, so that Points E of an even degree stand for the class of E less deg E/2 times
+    both; each class has Points of the degree deg h/2 at most, and 0 those without a point only [Cantor, Math. Comp. 48 (1987)].
+    """
+
+    h: Any
+
+    def multiple(self, n: int, E: Points) -> Points:
+        """n E, by halving n."""
+        if n == 0:
+            return Points(self.h**0, self.h * 0)
+        half = self.multiple(n // 2, E)
+        double = self.together(half, half)
+        return self.together(double, E) if n % 2 else double
+
+    def together(self, E: Points, F: Points) -> Points:
+        """The sum: the ideal of the products of (u, y - v) for both, without the conjugate points over the roots of d."""
+        common, a, b = E.u.xgcd(F.u)
+        d, c, e = common.xgcd(E.v + F.v)
+        u = (E.u // d) * (F.u // d)
+        v = c * a * (E.u // d) * F.v + c * b * (F.u // d) * E.v + e * (E.v * F.v + self.h) // d
+        return self.reduced(u, v % u)
+
+    def reduced(self, u: Any, v: Any) -> Points:
+        """y - v has further zeros, and their conjugates the same class: fewer points, as long as v has the degree to spare."""
+        while u.degree() > self.h.degree() // 2:
+            u = (self.h - v * v) // u
+            v = -v % u
+        return Points(u, v)
 
 
 def order_modulo(q: Any, n: Any, given: Differential) -> int:
     """n, if it is the order modulo q of the class of D = sum l d (P - P'), for eta with the residue d at the points P, l the
-    common denominator, P' the conjugate of P.
-
-    With y^2 = h, k D is the divisor of a function if a + b y vanishes to the order 2 k l d at the P, 2N times in all, for
-    polynomials with deg a, deg b + deg h/2 <= N, b != 0: linear equations, for y is known at the P as a series.
-    """
+    common denominator, P' the conjugate of P."""
     demand(is_whole(q) and is_whole(n) and n > 0, "prime and order are integers")
-    demand(q > 2 and fmpz(q).is_prime(), "an order is one modulo an odd prime")
-    eta = given.with_finite_poles(q)
-    h, y, E = curve_modulo(q, eta)
-
-    def principal(k: int) -> bool:
-        U, v, N = E ** (2 * k), y, affordable(k * E.degree(), "an order")
-        for _ in range(N.bit_length() + 1):  # Newton's steps for sqrt(h)
-            v = (v * v + h) * (2 * v).xgcd(U)[1] % U
-        multiples = [v.left_shift(i) % U for i in range(N + 1 - (h.degree() + 1) // 2)]
-        rows = [[int(f[j]) for j in range(N + 1, 2 * N)] for f in multiples]
-        return bool(rows) and int(nmod_mat(rows, q).rank()) < len(rows)
-
-    least = principal(n) and not any(principal(n // int(p)) for p, _ in fmpz(n).factor())
-    demand(least, f"{n} is the order modulo {q}")
+    demand(2 < q < 2**63 and fmpz(q).is_prime(), "an order is one modulo an odd prime")
+    eta = given.moved(q)
+    points = prod(p for p, _ in eta.num.factor()[1] + eta.den.factor()[1])
+    distinct = reduced(points, q)
+    demand(distinct.gcd(distinct.derivative()).degree() == 0, f"{q} is a good prime: no points meet")
+    group, D = class_of_poles(q, eta)
+    divisors = [n // int(p) for p, _ in fmpz(n).factor()]
+    is_zero = {k: group.multiple(k, D).u.degree() == 0 for k in [n, *divisors]}
+    demand(is_zero.pop(n) and not any(is_zero.values()), f"{n} is the order modulo {q}")
     return int(n)
 
 
-def curve_modulo(q: int, eta: Differential) -> tuple[Any, Any, Any]:
-    """Modulo q: h of the curve y^2 = h, y at the points P modulo the product of their factors f, and prod f^(l d)."""
-    factors = eta.num.factor()[1] + eta.den.factor()[1]
+def class_of_poles(q: int, eta: Differential) -> tuple[ClassGroup, Points]:
+    """The curve modulo q, and D: P - P' is 2 P, up to what stands for 0.
+
+    With num den = h t^2 and y = den sqrt(num/den)/t, the residue of eta over a root of f is d = y (t/f) / (f' den/f^2).
+    """
+    squares = [(p, k // 2) for p, k in eta.num.factor()[1] + eta.den.factor()[1]]
+    t = prod((p**k for p, k in squares), start=X**0)
+    group = ClassGroup(reduced(eta.num * eta.den // t**2, q))
     l = lcm(*(int(pole.residue.q) for pole in eta.poles))  # noqa: E741
-    t = prod(p ** (k // 2) for p, k in factors)  # y = sqrt(num/den) den/t
-    R = prod(pole.factor for pole in eta.poles)
-    distinct = reduced(prod(p for p, _ in factors), q)
-    demand(distinct.gcd(distinct.derivative()).degree() == 0, f"{q} is a good prime: no points meet")
-    h = reduced(eta.num * eta.den // t**2, q)
-    top, under, R_q = reduced(eta.den // R**2, q), reduced(t // R, q), reduced(R, q)
-    slope = R_q * 0
+    D = Points(group.h**0, group.h * 0)
     for pole in eta.poles:
         f = reduced(pole.factor, q)
-        residue = int(pole.residue.p) * pow(int(pole.residue.q), -1, q)
-        slope += f.derivative() * (R_q // f) * residue
-    y = slope * top * under.xgcd(R_q)[1] % R_q
-    demand((y * y - h) % R_q == 0, "the residues are exponent differences")
-    return h, y, reduced(prod(pole.factor ** int(l * pole.residue) for pole in eta.poles), q)
+        above, below = reduced(eta.den // pole.factor**2, q), reduced(t // pole.factor, q)
+        d = int(pole.residue.p) * pow(int(pole.residue.q), -1, q)
+        y = d * f.derivative() * above * (below % f).xgcd(f)[1] % f
+        demand((y * y - group.h) % f == 0, "the residues are exponent differences")
+        D = group.together(D, group.multiple(2 * int(l * pole.residue), Points(f, y)))
+    return group, D
 
 
 # ------------------------------------------------------------------------------------------- answers
@@ -1029,20 +1226,29 @@ class Answer:
 
     def not_looked_at(self, checked: list[str]) -> Iterator[str]:
         """The keys that have no part in what was checked."""
-        data, equation = self.data, self.data.get("equation")
         looked_at = "input" if "S from input" in checked else ""
-        yield from (key for key in NOT_LOOKED_AT if key in data and key != looked_at)
-        if equation is not None and "gauge" in checked:
-            yield from (f"equation.{key}" for key in NOT_LOOKED_AT_IN_THE_EQUATION if key in equation)
-        elif equation is not None:
-            yield from ("equation", "gauge")
-        if "group" in data and "group" not in checked:
+        yield from (key for key in NOT_LOOKED_AT if key in self.data and key != looked_at)
+        yield from self.not_looked_at_in_the_equation("gauge" in checked)
+        if "group" in self.data and "group" not in checked:
             yield "group"
-        evidence = chain(*(entry["evidence"] for entry in self.proof["excluded"]))
-        if any(item["kind"] == "no_rational_omega" for item in evidence):
+        if self.exclusions.most_zeros is None and self.names_zeros():
             yield "degree of no_rational_omega"
-        others = set(data) - set(REQUIRED.split()) - set(OPTIONAL.split())
+        others = set(self.data) - set(REQUIRED.split()) - set(OPTIONAL.split())
         yield from (key if key.isidentifier() else ascii(key)[:60] for key in sorted(others))
+
+    def not_looked_at_in_the_equation(self, has_gauge: bool) -> Iterator[str]:
+        equation = self.data.get("equation")
+        if equation is None:
+            return
+        if has_gauge:
+            yield from (f"equation.{key}" for key in NOT_LOOKED_AT_IN_THE_EQUATION if key in equation)
+        else:
+            yield from ("equation", "gauge")
+
+    def names_zeros(self) -> bool:
+        """Does the evidence say how many zeros a solution can have?"""
+        evidence = chain(*(entry["evidence"] for entry in self.proof["excluded"]))
+        return any(item["kind"] == "no_rational_omega" for item in evidence)
 
     def case(self) -> None:
         """Everything before the structure is excluded, each once and in order; without a structure, all five are."""

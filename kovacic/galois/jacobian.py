@@ -94,9 +94,9 @@ class Jacobian:
         giant = self.multiple(s, value)
         current = self.multiple(least, value)
         for i in range(s + 2):
-            j = babies.get(current.key)
-            if j is not None and least + i * s > j:
-                return least + i * s - j
+            n = least + i * s - babies.get(current.key, 0)
+            if current.key in babies and n > 0:
+                return n
             current = self.add(current, giant)
         raise AssertionError("the number of classes is in the interval of Hasse and Weil")
 

@@ -108,12 +108,10 @@ class Inspector:
     def _no_rational_omega(self, item: NoRationalOmega) -> bool:
         """No unique rational omega: no number of zeros is possible, or no expansion at the place is one, modulo the prime."""
         counts = self.zero_counts
-        if counts is None:
-            return True
-        if item.degree != counts.largest:
+        if counts is None or counts.largest < 0:
+            return item.degree < 0 and item.prime is None
+        if item.degree != counts.largest or item.prime is None:
             return False
-        if item.prime is None or counts.largest < 0:
-            return item.prime is None and counts.largest < 0
 
         def has_none(h: Homomorphism) -> bool:
             return any(self._no_omega_at(place, h, counts) for place in self._telling(item.place))

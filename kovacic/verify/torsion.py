@@ -11,8 +11,8 @@ are conjugate, and a + b y has a pole of the order max(deg a, deg b + g + 1) at 
 
 - eta = T y/M dt, and y = Delta q' (M/q^2)/(T/q) at the P over a double root of M, a root of q;
 - an effective divisor E stands for the class of E - (deg E/2) (both points at infinity), and P + P' for 0;
-- E without pairs P + P', of an even degree up to g + 1, is principal only if it is 0: a function with poles at infinity only, of
-  the order deg E/2 < g + 1, is a polynomial in t, whose zeros are such pairs.
+- E without pairs P + P', of an even degree up to g + 1, is principal only if it is 0: a function with poles at infinity alone,
+  of the order deg E/2 < g + 1, is a polynomial in t, whose zeros are such pairs.
 
 References: D. Cantor, Math. Comp. 48 (1987) 95-101, for sums and reduction; N. Katz, Invent. Math. 62 (1981) 481-502, appendix,
 for torsion under reduction.
