@@ -54,6 +54,76 @@ def run(*arguments: str, stdin: str = "") -> subprocess.CompletedProcess[str]:
     )
 
 
+def test_a_form_with_irrational_residues_isnt_rational() -> None:
+    """y1 = exp(int dx/(x^2 - 2)): y1^2 is a form, not a rational one, though its residues x/2 at the roots begin with 0."""
+    x = RatFunc(QQ.poly([0, 1]))
+    data = json.loads(solve(transform.from_omega(1 / (x**2 - 2))).to_json(full=True))
+    data["proof"]["invariant"] = {"degree": 2, "theta": "2/(x**2 - 2)", "P": "1"}
+    assert checker.verdict(json.dumps(data)) == "refuted: it isn't shown that a form is a rational function"
+
+
+def test_two_points_of_branching_are_enough() -> None:
+    """Exponent differences 1/2, 1/2, 1/3: dicyclic, and no fewer than two places can branch."""
+    solution = solve(transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, 3)))
+    exclusions = checker.Answer(json.loads(solution.to_json(full=True))).exclusions
+    statement = checker.RULES["too_few_branch_points"][0]
+    for places in (["x", "x - 1"], ["x"], []):
+        item = {
+            "kind": "necessary_condition",
+            "rule": "too_few_branch_points",
+            "places": places,
+            "statement": statement,
+        }
+        with pytest.raises(AssertionError):
+            exclusions.condition("imprimitive", item)
+
+
+def test_a_square_whose_inverse_has_an_integral() -> None:
+    """y1 = x/((x - 1)^2 (x + 1/2)): 1/y1^2 has no residue at 0, though that of (x - 1)^3 (x + 1/2)/x^2 isn't 0."""
+    x = RatFunc(QQ.poly([0, 1]))
+    solution = solve(transform.from_omega(1 / x - 2 / (x - 1) - 1 / (x + Fraction(1, 2))))
+    assert solution.group.name == "trivial"
+    assert "; group;" in checker.verdict(solution.to_json(full=True))
+
+
+@pytest.mark.parametrize(("S", "name"), [("1", "G_m"), ("0", "trivial"), ("x^2 + 1", "Borel"), ("-1/(4*x^2)", "G_a")])
+def test_constants_and_one_pole(S: str, name: str) -> None:
+    solution = kovacic.solve(S, var="x")
+    assert solution.group.name.startswith(name)
+    assert checker.verdict(solution.to_json(full=True)).startswith(GROUP_TOO)
+
+
+@pytest.mark.parametrize("key", ["kind", "degree", "prime", "place"])
+def test_evidence_against_omega_is_refuted_where_it_says_something_else(key: str) -> None:
+    """The five zeros that a solution of y'' = (x^4 + x^2 + 12 x) y may have, and a prime modulo which there is none."""
+    text = "x^4 + x^2 + 12*x"
+    evidence = json.loads(kovacic.solve(text).to_json())["proof"]["excluded"][0]["evidence"]
+    where = next(k for k, item in enumerate(evidence) if item["kind"] == "no_rational_omega")
+    item = evidence[where]
+    assert item["degree"] == 5
+    wrong = {
+        "kind": ["omega", "no_invariant"],
+        "degree": [4, 6, -1],
+        "prime": [None, 101, 2**61 + 1],
+        "place": ["", "x"],
+    }
+    for value in wrong[key]:
+        said = edited(text, **{f"proof__excluded__0__evidence__{where}__{key}": value})
+        assert said.startswith("refuted"), (value, said)
+
+
+def test_exponents_at_conjugate_places() -> None:
+    """S = (8 + 4 x)/(x^2-2)^2: Delta^2 = 1 + 4 (8 + 4 r)/(4 * 2) = 5 + 2 r at r = sqrt(2) and at -sqrt(2)."""
+    p = QQ.poly([-2, 0, 1])
+    with flint.ctx.workprec(333):
+        place = checker.Place(p.rep, 2, QQ.poly([8, 4]).rep, (p * p).rep)
+        assert place.half_difference is None
+        least = place.exponents()
+        expected = 1 - ((5 + 2 * flint.arb(2).sqrt()).sqrt() + (5 - 2 * flint.arb(2).sqrt()).sqrt()) / 2
+        assert least.overlaps(expected)
+        assert least.rad() < 1e-50
+
+
 # ------------------------------------------------------------------------------------------- as a program
 
 
@@ -253,13 +323,30 @@ def test_another_group_on_a_curve_of_genus_two_is_refuted(change: dict[str, Any]
 
 
 def test_a_power_of_the_function_doesnt_make_the_order_larger() -> None:
-    data = json.loads(on_a_curve())
-    shown = data["group"]["function"]
-    for k in (2, 3):
-        pieces = [piece | {"exponent": k * piece["exponent"]} for piece in shown["pieces"]]
-        power = shown | {"multiple": 5 * k, "pieces": pieces}
-        data["group"] |= {"n": 5 * k, "order": 20 * k, "name": f"dicyclic of order {20 * k}", "function": power}
-        assert checker.verdict(json.dumps(data)).startswith("refuted: it isn't shown that the function isn't a power")
+    """Of (y - 1)^2/x^5, and of a function in three pieces, one of them with an odd exponent and a norm that isn't constant."""
+    x = RatFunc(QQ.poly([0, 1]))
+    triangle = transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(7, 5))
+    for S in (
+        transform.from_squared_product(x**2 * (x**5 + 1), 1),
+        transform.pull_back(triangle, (x**2 + 1) / (x - 3)),
+    ):
+        answer = solve(S)
+        claim = answer.group.claim
+        assert claim.n == 5
+        for k in (2, 3, 5):
+            f = claim.function
+            pieces = tuple(replace(piece, exponent=k * piece.exponent) for piece in f.pieces)
+            power = replace(claim, n=5 * k, function=replace(f, multiple=5 * k, pieces=pieces))
+            assert not verify(S, answer.decision, power)
+            data = json.loads(answer.to_json(full=True))
+            shown = data["group"]["function"]
+            shown["multiple"] = 5 * k
+            for piece in shown["pieces"]:
+                piece["exponent"] *= k
+            data["group"] |= {"n": 5 * k, "order": 20 * k, "name": f"dicyclic of order {20 * k}"}
+            assert checker.verdict(json.dumps(data)).startswith(
+                "refuted: it isn't shown that the function isn't a power"
+            )
 
 
 #: Infinite groups that orders of a divisor class modulo primes show.

@@ -12,7 +12,7 @@ import pytest
 import strategies
 import sympy
 import transform
-from build import QQ, Equation, RatFunc
+from build import QQ, AlgebraicField, Equation, Field, RatFunc
 from flint import nmod_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -153,7 +153,7 @@ def _only_powers(problem: Problem, k: int) -> bool:
     ],
     ids=["genus 1", "genus 1, no rational pole", "genus 3"],
 )
-@pytest.mark.parametrize(("difference", "n"), [((1, 1000), 1000), ((61, 30), 30), ((3001, 1000), 1000)])
+@pytest.mark.parametrize(("difference", "n"), [((1, 1000), 1000), ((5, 2), 2), ((3001, 1000), 1000)])
 def test_large_orders_and_large_multiples_on_curves(f: RatFunc, difference: tuple[int, int], n: int) -> None:
     """u^n is a power of sqrt(f) + sqrt(f - 1) in lowest terms: the order is 4n."""
     S = transform.pull_back(transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(*difference)), f)
@@ -178,6 +178,58 @@ def test_the_same_divisor_with_another_holomorphic_part(constant: int, order: in
     for function in (group.function, without):
         claim = replace(group.claim, family=family, n=n, function=function)
         assert not verify(solution.S, solution.decision, claim)
+
+
+def pell(genus: int, field: Field, rest: int, multiple: Fraction) -> RatFunc:
+    """S with y1/y2 = exp(int eta), eta = multiple * (da + rest dx)/y on y^2 = a^2 - 3: da/y is d log(a + y), a + y a unit."""
+    c = field.generator if isinstance(field, AlgebraicField) else 2
+    a = field.poly([1, c, *[0] * (genus - 1), 1])
+    above = (a.derivative() + rest) * multiple
+    return transform.from_squared_difference(RatFunc(above * above, a * a - 3))
+
+
+NUMBER_FIELDS = [QQ, AlgebraicField(QQ, QQ.poly([-2, 0, 1]), "sqrt(2)"), AlgebraicField(QQ, QQ.poly([1, 0, 1]), "I")]
+
+
+@pytest.mark.parametrize("multiple", [Fraction(1, 1000), Fraction(4001, 1000)], ids=str)
+@pytest.mark.parametrize("field", NUMBER_FIELDS, ids=str)
+@pytest.mark.parametrize("genus", [1, 2, 3])
+def test_a_unit_beside_a_differential_of_the_first_kind(genus: int, field: Field, multiple: Fraction) -> None:
+    """The divisor of eta is a torsion one in both cases; only the holomorphic rest tells the infinite group."""
+    for rest, order in ((0, 4000), (5, None)):
+        solution = kovacic.solve(str(pell(genus, field, rest, multiple)), var="x")
+        group = solution.group
+        assert group.order == order
+        assert bool(group.function.rest) is bool(rest)
+        assert solution.verify()
+        claim = group.claim
+        for wrong in (rest + 1, rest - 1, -rest) if rest else (1, -1):
+            function = replace(group.function, rest=group.function.rest * 0 + wrong)
+            assert not verify(solution.S, solution.decision, replace(claim, function=function))
+        other = (
+            replace(claim, family="dicyclic", n=1000) if rest else replace(claim, family="infinite dihedral", n=None)
+        )
+        assert not verify(solution.S, solution.decision, other)
+        if field == QQ:
+            assert "; case; omega; group;" in checker.verdict(solution.to_json(full=True))
+
+
+@pytest.mark.parametrize("multiple", [Fraction(401), Fraction(4001, 1000)], ids=str)
+@pytest.mark.parametrize(
+    "h", [X**3 - X + 4, X**5 - X + 4, X**6 + X**5 + X + 4], ids=["genus 1", "genus 2", "genus 2, even"]
+)
+def test_large_multiples_of_a_divisor_of_infinite_order(h: RatFunc, multiple: Fraction) -> None:
+    """eta = multiple * 2 dx/(x y) has the poles (0, 2) and (0, -2), and infinity stays an ordinary point or a branch point."""
+    solution = kovacic.solve(transform.from_squared_difference((2 * multiple / X) ** 2 / h))
+    group = solution.group
+    assert (group.name, group.ground) == ("N(T)", Ground.NOT_TORSION)
+    verification = solution.verify()
+    assert verification
+    assert not verification.unchecked
+    assert "; case; omega; group;" in checker.verdict(solution.to_json(full=True))
+    (p, k), other = group.orders
+    for orders in (((p, k + 1), other), ((p, 2 * k), other), ((p, k), (p, k)), ((p, other[1]), other)):
+        assert not verify(solution.S, solution.decision, replace(group.claim, orders=orders))
 
 
 @pytest.mark.parametrize("m", [3, 4, 5, 6, 12])
