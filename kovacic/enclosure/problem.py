@@ -163,39 +163,44 @@ def _of_text(equation: str) -> NumericProblem:
 
 def read_problem(equation: object, params: Mapping[str, object] | None = None) -> NumericProblem:
     """As `as_problem`, whatever its coefficients and its right-hand side are."""
-    found: Answer | Parsed
-    if isinstance(equation, Answer):
-        found = equation
-        decision: Decision | None = equation.decision
-    elif isinstance(equation, Parsed):
-        found = equation
-        decision = None
-    else:
-        from kovacic.reading.read import read_input
-
-        found = read_input(equation)
-        decision = None
-    S, given = found.S, found.equation
-    gauge = None if given is None else given.gauge or None
-    names = parameters_of(S.field) if given is None else parameters_of((given.a + given.b + given.c).field)
+    found = _read(equation)
+    given = found.equation
     if given is not None and given.change is not None:
         raise InputError(f"numerical evaluation needs coefficients that are rational in {given.change.variable}")
+    S = found.S
+    gauge = None if given is None else given.gauge or None
     right = None if given is None or given.is_homogeneous else given
-    if right is not None and right.h is not None:
-        names = tuple(sorted({*names, *(symbol.name for symbol in right.h.free_symbols)} - {right.variable}))
+    names = _parameters(S, given, right)
     numbers = _values(names, params or {}) if params is not None or names else {}
     values = {name: value.re for name, value in numbers.items() if isinstance(value, ExactPoint) and value.is_real()}
     functions = [S, gauge, None if right is None else right.f]
     has_algebraic = any(f is not None and isinstance(f.field, AlgebraicField) for f in functions)
     if has_algebraic or len(values) < len(numbers):
         return NumericProblem(System((), (1,)), right=right, embedded=Embedded(S, gauge, numbers)).at(_BITS)
-    if numbers:
-        # The decision is that for generic values.
-        decision = None
-        S = _specialised(S, values)
-        gauge = None if gauge is None else _specialised(gauge, values)
-        right = None if right is None else _right_at(right, values)
-    return NumericProblem(System.of(S), S, decision, gauge, right)
+    if not numbers:
+        decision = found.decision if isinstance(found, Answer) else None
+        return NumericProblem(System.of(S), S, decision, gauge, right)
+    S = _specialised(S, values)
+    gauge = None if gauge is None else _specialised(gauge, values)
+    right = None if right is None else _right_at(right, values)
+    return NumericProblem(System.of(S), S, None, gauge, right)  # a decision was that for generic values
+
+
+def _read(equation: object) -> Answer | Parsed:
+    if isinstance(equation, Answer | Parsed):
+        return equation
+    from kovacic.reading.read import read_input
+
+    return read_input(equation)
+
+
+def _parameters(S: RatFunc, given: Equation | None, right: Equation | None) -> tuple[str, ...]:
+    """The names of the parameters, those of a right-hand side that isn't rational among them."""
+    names = parameters_of(S.field) if given is None else parameters_of((given.a + given.b + given.c).field)
+    if right is None or right.h is None:
+        return names
+    symbols = {symbol.name for symbol in right.h.free_symbols}
+    return tuple(sorted({*names, *symbols} - {right.variable}))
 
 
 def _right_at(right: Equation, values: dict[str, Fraction]) -> Equation:

@@ -27,7 +27,7 @@ from kovacic.parametric.check import CheckReport, Disagreement, Sampler
 from kovacic.parametric.functions import Point
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
-from kovacic.parametric.record import Reader, constant_data, constant_from, equation_data, equation_from
+from kovacic.parametric.record import StatementReader, constant_data, constant_from, equation_data, equation_from
 from kovacic.parametric.regions import Condition, Verdict, in_one_line
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.statements import both
@@ -217,7 +217,7 @@ class Conditions:
             names, variable, constant = tuple(data["parameters"]), data["variable"], constant_from(data)
             if not all(name.isidentifier() for name in (*names, variable)):
                 raise ValueError("a parameter or the variable isn't a name")
-            reader = Reader(FunctionField((*names, *constant.names)), constant.names)
+            reader = StatementReader(FunctionField((*names, *constant.names)))
             regions = tuple(
                 Condition(
                     reader.statement(region["statement"]),

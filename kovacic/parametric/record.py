@@ -27,9 +27,10 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes
-from kovacic.reading.arithmetic import VARIABLE, Arithmetic
+from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.expression import parse_with
 from kovacic.reading.read import read_input
+from kovacic.reading.written import WrittenReader
 
 #: What was written by the package was within its limits.
 _LIMITS = Limits(degree=10**6, bits=10**8, digits=10**7, text_length=10**8, exponent=10**6)
@@ -131,21 +132,15 @@ def constant_from(data: Mapping[str, Any]) -> Point:
 
 
 @dataclass(frozen=True)
-class Reader:
-    """Functions of the parameters, and statements about them; `constants` are those named by a formula, sqrt(2)."""
+class StatementReader:
+    """Functions of the parameters, and statements about them; parameters with the name of a formula are constants, sqrt(2)."""
 
     field: FunctionField
-    constants: tuple[str, ...] = ()
 
     def function(self, text: str, letter: str = "x") -> RatFunc:
         """A rational function in `letter` over Q(t)."""
-        arithmetic = Arithmetic(_LIMITS)
-        names: Any = {name: self.field.generator(name) for name in self.field.names} | {letter: VARIABLE}
-        for number, constant in enumerate(name for name in self.constants if not name.isidentifier()):
-            plain = f"algebraic_constant_{number}"
-            text, names[plain] = text.replace(constant, plain), names.pop(constant)
-        value = arithmetic.rational(parse_with(text, names, arithmetic))
-        return RatFunc(value.num.over(self.field), value.den.over(self.field))
+        names: dict[str, Value] = {name: self.field.generator(name) for name in self.field.names}
+        return WrittenReader(self.field, {**names, letter: VARIABLE}, Arithmetic(_LIMITS)).ratfunc(text)
 
     def polynomial(self, text: str, letter: str = "x") -> FunctionPoly:
         value = self.function(text, letter)

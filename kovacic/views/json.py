@@ -40,13 +40,13 @@ from kovacic.decision import (
     Status,
     Structure,
 )
-from kovacic.equation import Equation, parameters_of
+from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Limits
 from kovacic.numerals import as_text, for_json
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
-from kovacic.reading.expression import parse_with
 from kovacic.reading.read import read_input
+from kovacic.reading.written import WrittenReader
 from kovacic.shown import json_line
 from kovacic.verify import verify
 from kovacic.writing.formula import Formulas
@@ -57,9 +57,6 @@ SCHEMA = 1
 _LIMITS = Limits(digits=10**7, exponent=10**6, degree=200_000, bits=40_000_000)
 
 _ARITHMETIC = Arithmetic(_LIMITS)
-
-# Stands for a generator such as sqrt(2) where text is read.
-_RADICAL = "radical_"
 
 
 def dumps(answer: Answer, *, full: bool = False) -> str:
@@ -174,25 +171,45 @@ def group_dict(answer: Answer) -> dict[str, Any] | None:
 
 def from_dict(data: Mapping[str, Any]) -> Answer:
     """The answer that `to_dict` made into an object: S and the equation are read from the input, as `solve` reads them."""
-    variable, text, proof = _typed(data, "variable", str), _typed(data, "input", str), data["proof"]
-    given = ((data.get("equation") or {}).get("change") or {}).get("variable", variable)
+    variable = _typed(data, "variable", str)
+    text = _typed(data, "input", str)
+    parsed = _read_again(data, text, variable)
+    decision = _decision(data, parsed.S, variable)
+    notices = tuple(_typed({"notice": notice}, "notice", str) for notice in data["notices"])
+    seconds = _typed(data, "seconds", int, float, type(None))
+    verified = bool(verify(parsed.S, decision))
+    answer = Answer(text, variable, parsed.S, decision, notices, verified, seconds, parsed.equation)
+    if verified and not _typed(data, "verified", bool):
+        raise ValueError("the answer says that it failed its check, and passes it")
+    _demand_the_same(data, to_dict(answer), "")
+    _check_normal_form(answer)
+    if data.get("group") is not None and verified:
+        _check_group(answer, data["group"])
+    return answer
+
+
+def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
+    """The input.  Raises `ValueError` where S, the equation or the gauge aren't those of the data."""
+    change = (data.get("equation") or {}).get("change") or {}
+    given = change.get("variable", variable)
     parsed = read_input(text, var=given, limits=_LIMITS, exponentials=given != variable)
-    S, equation = parsed.S, parsed.equation
-    rational = reader = _Reader.over(S.field, variable)
-    names = Formulas(variable, S.field)
-    if parsed.variable != variable or data.get("field") != _field(S.field) or rational.ratfunc(data["S"]) != S:
+    is_over_the_same = parsed.variable == variable and data.get("field") == _field(parsed.S.field)
+    if not is_over_the_same or _Reader.over(parsed.S.field, variable).ratfunc(data["S"]) != parsed.S:
         raise ValueError("S isn't that of the input")
     if data.get("equation") is not None or data.get("gauge") is not None:
-        _check_equation(data, equation, variable)
-    constants, semi_invariant, riccati = data["constants"], proof["semi_invariant"], data["riccati"]
-    if constants is not None:
-        symbol = constants["symbol"]
-        modulus = replace(rational, names={**rational.names, symbol: VARIABLE}).poly(constants["minimal_polynomial"])
-        field = AlgebraicField(rational.field, modulus)
-        reader = replace(rational, names={**rational.names, symbol: field.generator}, field=field)
-    if (riccati is None) != (semi_invariant is None) or (riccati is None and constants is not None):
+        _check_equation(data, parsed.equation, variable)
+    return parsed
+
+
+def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
+    """What is claimed of S, with its proof; nothing is verified."""
+    proof, riccati, semi_invariant = data["proof"], data["riccati"], data["proof"]["semi_invariant"]
+    has_omega = riccati is not None
+    if has_omega != (semi_invariant is not None) or (data["constants"] is not None and not has_omega):
         raise ValueError("omega needs its polynomial and the semi-invariant")
-    form = None if semi_invariant is None else reader.semi_invariant(semi_invariant)
+    rational, names = _Reader.over(S.field, variable), Formulas(variable, S.field)
+    reader = rational.extended(data["constants"])
+    form = reader.semi_invariant(semi_invariant) if has_omega else None
     decision = Decision(
         structure=None if proof["structure"] is None else Structure(proof["structure"]),
         exclusions=tuple(
@@ -206,16 +223,7 @@ def from_dict(data: Mapping[str, Any]) -> Answer:
     )
     if Status(data["status"]) is not decision.status or data["case"] != decision.case:
         raise ValueError("status or case contradict the proof")
-    notices = tuple(_typed({"notice": notice}, "notice", str) for notice in data["notices"])
-    seconds = _typed(data, "seconds", int, float, type(None))
-    answer = Answer(text, variable, S, decision, notices, bool(verify(S, decision)), seconds, equation)
-    if answer.verified and not _typed(data, "verified", bool):
-        raise ValueError("the answer says that it failed its check, and passes it")
-    _demand_the_same(data, to_dict(answer), "")
-    _check_normal_form(answer)
-    if data.get("group") is not None and answer.verified:
-        _check_group(answer, data["group"])
-    return answer
+    return decision
 
 
 #: What is read by its value; what isn't looked at, or elsewhere; and what may be absent.
@@ -308,12 +316,8 @@ def _field(field: Field) -> dict[str, Any] | None:
 
 
 @dataclass(frozen=True)
-class _Reader:
-    """Expressions as polynomials and rational functions over a field; `radical` is a constant that is no name: sqrt(2)."""
-
-    field: Field
-    names: Mapping[str, Value]
-    radical: str = ""
+class _Reader(WrittenReader):
+    """What `to_dict` wrote of a decision."""
 
     @classmethod
     def over(cls, field: Field, variable: str) -> _Reader:
@@ -322,23 +326,18 @@ class _Reader:
             name: field.ground.generator(name)  # type: ignore[attr-defined]
             for name in parameters_of(field)
         }
-        radical = ""
         if isinstance(field, AlgebraicField):
-            radical = "" if field.name.isidentifier() else field.name
-            names[_RADICAL if radical else field.name] = field.generator
-        return cls(field, {**names, variable: VARIABLE}, radical)
+            names[field.name] = field.generator
+        return cls(field, {**names, variable: VARIABLE}, _ARITHMETIC)
 
-    def ratfunc(self, text: str) -> RatFunc:
-        if self.radical:
-            text = text.replace(self.radical, f"({_RADICAL})")
-        value = _ARITHMETIC.rational(parse_with(text, self.names, _ARITHMETIC))
-        return RatFunc(value.num.over(self.field), value.den.over(self.field), reduced=True)
-
-    def poly(self, text: str) -> Poly:
-        value = self.ratfunc(text)
-        if not value.is_polynomial:
-            raise ValueError(f"{text!r} isn't a polynomial")
-        return value.num
+    def extended(self, constants: Mapping[str, Any] | None) -> _Reader:
+        """With the constants of omega, too."""
+        if constants is None:
+            return self
+        symbol = constants["symbol"]
+        modulus = replace(self, names={**self.names, symbol: VARIABLE}).poly(constants["minimal_polynomial"])
+        field = AlgebraicField(self.field, modulus)
+        return replace(self, names={**self.names, symbol: field.generator}, field=field)
 
     def semi_invariant(self, data: Mapping[str, Any]) -> SemiInvariant:
         return SemiInvariant(data["degree"], self.ratfunc(data["theta"]), self.poly(data["P"]))
