@@ -18,7 +18,7 @@ from typing import Any
 from kovacic.algebra.extension import adjoined_square_root
 from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.lifting import Lifter
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.decision import Evidence, Exclusion, NoInvariant, NoRationalOmega, Structure
@@ -75,9 +75,15 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
         return Form(1, R, y1)
     weight = singular_factor(problem, F.R, 1)
     w = adjoined_square_root(problem.field, value / weight(point) ** 2)
-    field, Y = w.field, w * weight
+    field = w.field
+    Y = w * weight
     if field == QQ and P.degree <= _EXACT_DEGREE:
         return Form(1, *_first_factor(problem.D, P, X, Y, Fraction(1, 2)))
+    return _lifted_factor(problem, field, P, X, Y)
+
+
+def _lifted_factor(problem: Problem, field: Field, P: Poly, X: Poly, Y: Poly) -> Form:
+    """The form of degree 1 from its images modulo primes."""
     lifter = Lifter(field)
     for bundle in field.bundles():
         problem.budget.check()
@@ -91,11 +97,12 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
         degree = degrees.pop()
         directly = degree <= _LIFTED_DEGREE
         proposal = lifter.add(bundle, [[R, zeros] if directly else [R] for R, zeros in parts])
-        if proposal:
-            R = proposal[0]
-            form = Form(1, R, proposal[1] if directly else _polynomial_part(problem, R, degree) or field.poly([]))
-            if form.P and form.is_form(problem):
-                return form
+        if not proposal:
+            continue
+        R = proposal[0]
+        form = Form(1, R, proposal[1] if directly else _polynomial_part(problem, R, degree) or field.poly([]))
+        if form.P and form.is_form(problem):
+            return form
     raise AssertionError("the sequence of primes is infinite")
 
 
@@ -116,36 +123,57 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
     bound = degree_bound(problem) if is_cheap(problem) else None
     if bound is not None and not isinstance(bound, DegreeBound):
         return bound
-    # Only finitely many local solutions can belong to omega there; the cheapest such place.
-    suitable = (place for place in problem.places if not place.is_apparent)
-    place = min(suitable, key=lambda place: (place.degree, not place.logarithm, not place.at_infinity))
-    degrees = _FIRST_DEGREES if bound is None else _ladder(bound.largest)
-    # For small degrees the expansion that can be left out costs less than to find it.
-    exponents = None if bound is None or bound.largest <= degrees[0] else bound.exponents(place)
+    search = _ModularSearch(problem, bound)
     lifter = Lifter(problem.field)
     for bundle in problem.field.bundles():
         problem.budget.check()
         try:
-            parts = [_omega_modulo(h, problem, place, degrees, exponents) for h in bundle]
-            if None in parts:
-                if bound is None:
-                    bound = degree_bound(problem)
-                if not isinstance(bound, DegreeBound):
-                    return bound
-                further = [n for n in _ladder(bound.largest) if n > degrees[-1]]
-                if further:
-                    parts = [_omega_modulo(h, problem, place, further, exponents) for h in bundle]
-                for h, part in zip(bundle, parts, strict=True):
-                    if part is None:
-                        return NoRationalOmega(bound.largest, h.p, place.name)
+            images = search.images(bundle)
         except BadPrimeError:
             continue
-        images = [part for part in parts if part is not None]
-        degrees = [images[0][1]]
+        if not isinstance(images, list):
+            return images
         form = _lifted(problem, lifter, bundle, images)
         if form is not None:
             return form
     raise AssertionError("the sequence of primes is infinite")
+
+
+class _ModularSearch:
+    """omega modulo primes, with what has been learnt so far: the bound on the degree of P, which is computed when it is needed,
+    and the degrees that are worth a trial."""
+
+    def __init__(self, problem: Problem, bound: DegreeBound | None) -> None:
+        # Only finitely many local solutions can belong to omega there; the cheapest such place.
+        suitable = (place for place in problem.places if not place.is_apparent)
+        self._place = min(suitable, key=lambda place: (place.degree, not place.logarithm, not place.at_infinity))
+        self._problem = problem
+        self._bound: DegreeBound | Evidence | None = bound
+        self._degrees = _FIRST_DEGREES if bound is None else _ladder(bound.largest)
+        # For small degrees the expansion that can be left out costs less than to find it.
+        left_out = bound is not None and bound.largest > self._degrees[0]
+        self._exponents = bound.exponents(self._place) if bound is not None and left_out else None
+
+    def images(self, bundle: Sequence[Homomorphism]) -> list[tuple[Any, int]] | Evidence:
+        """R and deg P of omega modulo each prime, or a proof that there is none.  Raises `BadPrimeError`."""
+        found = self._modulo(bundle, self._degrees)
+        if None in found:
+            if self._bound is None:
+                self._bound = degree_bound(self._problem)
+            if not isinstance(self._bound, DegreeBound):
+                return self._bound
+            further = [n for n in _ladder(self._bound.largest) if n > self._degrees[-1]]
+            if further:
+                found = self._modulo(bundle, further)
+            for h, part in zip(bundle, found, strict=True):
+                if part is None:
+                    return NoRationalOmega(self._bound.largest, h.p, self._place.name)
+        images = [part for part in found if part is not None]
+        self._degrees = [images[0][1]]
+        return images
+
+    def _modulo(self, bundle: Sequence[Homomorphism], degrees: list[int]) -> list[tuple[Any, int] | None]:
+        return [_omega_modulo(h, self._problem, self._place, degrees, self._exponents) for h in bundle]
 
 
 def _omegas_of_low_degree(problem: Problem) -> list[Form]:
