@@ -7,16 +7,16 @@ from dataclasses import fields
 from typing import Any
 
 from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of
-from kovacic.parametric import answer
+from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.api import DEFAULT_DEGREE, find_conditions
 from kovacic.solution import Solution
 
 
-class Conditions(answer.Conditions):
-    __doc__ = answer.Conditions.__doc__
+class Conditions(ParametricAnswer):
+    __doc__ = ParametricAnswer.__doc__
 
     @classmethod
-    def of(cls, found: answer.Conditions) -> Conditions:
+    def of(cls, found: ParametricAnswer) -> Conditions:
         """The same conditions, with `solve_at`."""
         return cls(**{field.name: getattr(found, field.name) for field in fields(found)})
 

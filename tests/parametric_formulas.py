@@ -12,11 +12,11 @@ import mpmath
 import sympy
 from build import AlgebraicField
 
-from kovacic.parametric.answer import Conditions
+from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.check import Sampler
-from kovacic.parametric.functions import Point
+from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
-from kovacic.parametric.regions import Condition
+from kovacic.parametric.regions import ParameterRegion
 from kovacic.parametric.statements import Statement, both
 from tests.parametric_cases import FAMILIES
 from tests.parametric_texts import RANGE, NotReadError, numbers_said, says
@@ -37,7 +37,9 @@ def all_families() -> dict[str, str]:
     return found
 
 
-def points_in(answer: Conditions, region: Condition, number: int, seed: int = 1) -> Iterator[Point]:
+def points_in(
+    answer: ParametricAnswer, region: ParameterRegion, number: int, seed: int = 1
+) -> Iterator[ParameterPoint]:
     """Points that belong to this region and to none before, at most so many."""
     sampler = Sampler(answer.constant, answer.parameters, answer.assumptions, Random(seed))
     found, points = 0, sampler.points([region.statement])
@@ -51,13 +53,13 @@ def points_in(answer: Conditions, region: Condition, number: int, seed: int = 1)
             return
 
 
-def numbers_in(point: Point, region: Condition) -> list[int | None]:
+def numbers_in(point: ParameterPoint, region: ParameterRegion) -> list[int | None]:
     """The degrees to be asked for: those that the exponents allow at the point, and None where there is none to choose."""
     natural = [part for part in both(region.statement).parts if isinstance(part, Natural) and part.m == 1]
     return [number for part in natural for number in part.numbers_at(point)] if natural else [None]
 
 
-def as_sympy(point: Point) -> dict[Any, Any] | None:
+def as_sympy(point: ParameterPoint) -> dict[Any, Any] | None:
     """The values by symbol, exact ones where they are rational, else numbers; None where no root is meant."""
     field = point.field
     if not isinstance(field, AlgebraicField):
@@ -101,14 +103,16 @@ def residual(y: Any, equation: tuple[Any, Any, Any], x: Any, at: Any) -> tuple[A
         return (abs(sum(terms)) / largest if largest else mpmath.mpf(0)), value
 
 
-def equation_of(answer: Conditions) -> tuple[Any, Any, Any]:
+def equation_of(answer: ParametricAnswer) -> tuple[Any, Any, Any]:
     """The coefficients of the equation whose normal form was given, as SymPy reads them."""
     names = {name: sympy.Symbol(name) for name in (*answer.parameters, answer.variable)}
     S = sympy.sympify(answer.S.to_str(answer.variable), locals=names)
     return sympy.Integer(1), sympy.Integer(0), -S
 
 
-def wrong_solutions(answer: Conditions, equation: tuple[Any, Any, Any], x: Any, points: int) -> tuple[int, list[str]]:
+def wrong_solutions(
+    answer: ParametricAnswer, equation: tuple[Any, Any, Any], x: Any, points: int
+) -> tuple[int, list[str]]:
     """How many solutions were put into the equation, and those that don't solve it, or points without one."""
     tried = 0
     wrong: list[str] = []
@@ -126,7 +130,7 @@ def wrong_solutions(answer: Conditions, equation: tuple[Any, Any, Any], x: Any, 
 
 
 def _tried_at(
-    point: Point, values: dict[Any, Any], region: Condition, equation: tuple[Any, Any, Any], x: Any
+    point: ParameterPoint, values: dict[Any, Any], region: ParameterRegion, equation: tuple[Any, Any, Any], x: Any
 ) -> tuple[int, list[str]]:
     there = tuple(sympy.sympify(part).subs(values) for part in equation)
     tried, wrong, offered = 0, list[str](), False
@@ -148,7 +152,7 @@ def _tried_at(
     return tried, wrong if tried or not offered else [f"no solution at {point}"]
 
 
-def misread(answer: Conditions, points: int, seed: int = 5) -> tuple[int, list[str]]:
+def misread(answer: ParametricAnswer, points: int, seed: int = 5) -> tuple[int, list[str]]:
     """How many statements were read as text at rational points, and those whose text says something else."""
     statements = [region.statement for region in answer.regions]
     sampler = Sampler(answer.constant, answer.parameters, answer.assumptions, Random(seed))
@@ -171,7 +175,7 @@ def misread(answer: Conditions, points: int, seed: int = 5) -> tuple[int, list[s
     return read, wrong
 
 
-def _comparison(part: Statement, point: Point, values: dict[str, Any]) -> bool | None:
+def _comparison(part: Statement, point: ParameterPoint, values: dict[str, Any]) -> bool | None:
     """Does the text say what the statement means there?  None where it isn't one that is read."""
     try:
         if isinstance(part, Natural):

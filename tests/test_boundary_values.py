@@ -16,7 +16,7 @@ from sympy import E, Rational, Symbol, cos, exp, log, oo, pi, sin, sqrt
 
 import kovacic
 from kovacic.general_solution import dsolve
-from kovacic.general_solution.behaviour import Place, behaviour
+from kovacic.general_solution.behaviour import Approach, behaviour
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.constants import Outcome, Row, determine
 from kovacic.general_solution.expansion import CONSTANT, UnknownBehaviour
@@ -319,7 +319,7 @@ EXPANDED = [
 @pytest.mark.parametrize(("e", "point"), EXPANDED, ids=str)
 def test_expansions(e: Any, point: Any) -> None:
     """Against values by mpmath, near the point."""
-    place = Place(sympy.sympify(point))
+    place = Approach(sympy.sympify(point))
     found = behaviour(e, x, place)
     t = Rational(1, 40) if place.is_infinite else Rational(1, 400)
     with mpmath.workdps(40):
@@ -338,8 +338,8 @@ def test_expansions_that_are_not_known() -> None:
     assert all(e.is_negative is None for e in [nu])
     for e in (sympy.zeta(x), sympy.Integral(exp(-(x**2)) / x, x), log(log(x)), sin(1 / x) ** Rational(1, 2)):
         with pytest.raises((UnknownBehaviour, NotImplementedError)):
-            behaviour(e, x, Place(sympy.Integer(0)))
-    assert behaviour(sympy.hyper((), (Rational(3, 4),), -(x**4)), x, Place(sympy.Integer(0))).terms[CONSTANT] == 1
+            behaviour(e, x, Approach(sympy.Integer(0)))
+    assert behaviour(sympy.hyper((), (Rational(3, 4),), -(x**4)), x, Approach(sympy.Integer(0))).terms[CONSTANT] == 1
 
 
 # -------------------------------------------------------------------------------------------- zero, rank and what leaves

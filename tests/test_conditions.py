@@ -25,7 +25,7 @@ from kovacic.parameters import Conditions
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.ranks import without_constant_pivots
-from kovacic.parametric.regions import Condition, Verdict, without_empty
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.riemann import kimura
 from kovacic.parametric.statements import Statement, Vanishes, both
@@ -62,10 +62,10 @@ def test_two_hundred_exact_points_agree_with_the_engine(family: Family, answers:
 
 def test_a_wrong_region_is_noticed(answers: dict[str, Conditions]) -> None:
     answer = answers["bessel"]
-    wrong = replace(answer.regions[0], verdict=Verdict(Structure.IMPRIMITIVE))
+    wrong = replace(answer.regions[0], verdict=RegionVerdict(Structure.IMPRIMITIVE))
     assert not replace(answer, regions=(wrong,)).check(20)
     assert not replace(answer, regions=()).check(200) or not replace(
-        answer, generic=Verdict(wrong.verdict.structure)
+        answer, generic=RegionVerdict(wrong.verdict.structure)
     ).check(20)
 
 
@@ -818,7 +818,7 @@ def test_what_earlier_regions_cover() -> None:
         return Congruence.make(equation, [0], 1)
 
     def kept(*statements: Statement) -> list[int]:
-        regions = [Condition(statement, Verdict(None)) for statement in statements]
+        regions = [ParameterRegion(statement, RegionVerdict(None)) for statement in statements]
         return [regions.index(region) for region in without_empty(regions)]
 
     squares = root(N**2 - q)

@@ -169,7 +169,7 @@ def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, growth: float
     if a == b:
         return
     check_segment(system, a, b)
-    piece = Piece(system, a, b, _allowed_growth(prec) if growth is None else growth)
+    piece = StraightPiece(system, a, b, _allowed_growth(prec) if growth is None else growth)
     t, enter, guess = fmpq(0), a, None
     while t < 1:
         check_time()
@@ -183,7 +183,7 @@ def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, growth: float
 
 
 @dataclass(frozen=True)
-class Piece:
+class StraightPiece:
     """The straight piece from a to b, and by how many bits the solutions may grow in a disc."""
 
     system: System

@@ -30,7 +30,7 @@ from kovacic.engine.places import Kind, LocalEquation, Place, Problem, local_equ
 
 
 @dataclass(frozen=True)
-class Chart:
+class ModularChart:
     """The equation modulo p in a coordinate t in which the chosen place is t = 0: y'' = num/den y, with D as in `Problem`.
 
     `growth` bounds deg A - deg P for omega = A / (D P): deg D - 1, or more if infinity is irregular.
@@ -45,7 +45,7 @@ class Chart:
     inverted: bool
 
 
-def chart(h: Homomorphism, problem: Problem, place: Place) -> Chart | None:
+def chart(h: Homomorphism, problem: Problem, place: Place) -> ModularChart | None:
     """The chart at the least simple root of the place's factor; None if it has none in F_p."""
     if place.at_infinity:
         root: int | None = 0
@@ -60,7 +60,7 @@ def chart(h: Homomorphism, problem: Problem, place: Place) -> Chart | None:
         D = reverse(D, D.degree()).left_shift(place.weight)
     num, den, D = (translate(f, root) for f in (num, den, D))
     equation = local_equation(num, den, place.order)
-    return Chart(num, den, D, D.degree() + max(opposite, 1) - 2, equation, root, place.at_infinity)
+    return ModularChart(num, den, D, D.degree() + max(opposite, 1) - 2, equation, root, place.at_infinity)
 
 
 def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence[Fraction] | None = None) -> list[Any]:
@@ -100,7 +100,7 @@ def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence
     return parts
 
 
-def rational_omega(c: Chart, Q: Any, degree: int) -> tuple[Any, Any] | None:
+def rational_omega(c: ModularChart, Q: Any, degree: int) -> tuple[Any, Any] | None:
     """`(A, P)` modulo p with omega = A/(D P) in the chart, deg P <= degree, for the local solution of type Q, or None.
 
     None is a proof that no such rational omega over K has a P of degree at most `degree` (see `cases.reducible`).
@@ -120,7 +120,7 @@ def rational_omega(c: Chart, Q: Any, degree: int) -> tuple[Any, Any] | None:
     return A, P
 
 
-def omega_parts(h: Homomorphism, problem: Problem, c: Chart, A: Any, P: Any) -> tuple[Any, int]:
+def omega_parts(h: Homomorphism, problem: Problem, c: ModularChart, A: Any, P: Any) -> tuple[Any, int]:
     """R and the degree of P for omega = R/D + P'/P in the coordinate x, modulo p."""
     if c.inverted:
         # omega(x) = 1/x - omega_z(1/x)/x^2 with omega_z = A/B.

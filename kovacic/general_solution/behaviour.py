@@ -28,7 +28,7 @@ _DEPTHS = (4, 8, 16)
 
 
 @dataclass(frozen=True)
-class Place:
+class Approach:
     """x = point + direction * t, or direction/t for infinite points; t > 0 tends to 0."""
 
     point: Expr
@@ -44,7 +44,7 @@ class Place:
         return self.point + self.direction * t
 
 
-def behaviour(expression: Expr, x: Expr, place: Place) -> Expansion:
+def behaviour(expression: Expr, x: Expr, place: Approach) -> Expansion:
     """The expansion, up to errors that tend to 0 where as many terms show that.
 
     Raises `UnknownBehaviour`.

@@ -17,7 +17,7 @@ from typing import Any
 import sympy
 
 from kovacic.errors import InputError
-from kovacic.general_solution.behaviour import Place, behaviour
+from kovacic.general_solution.behaviour import Approach, behaviour
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.constants import Case, Outcome, Row, determine
 from kovacic.general_solution.expansion import CONSTANT, Expansion, Monomial, UnknownBehaviour
@@ -40,7 +40,7 @@ class Limit:
 
 
 def constants_of(
-    question: Question, basis: Basis, particular: Expr, names: tuple[Expr, Expr], limits: dict[Expr, Place]
+    question: Question, basis: Basis, particular: Expr, names: tuple[Expr, Expr], limits: dict[Expr, Approach]
 ) -> tuple[Case, list[Case]]:
     """What the conditions determine: for generic parameters, and for particular ones.
 
@@ -75,7 +75,7 @@ def _applied(condition: Condition, function: Expr, x: Expr) -> Expr:
     return sympy.Add(*values)
 
 
-def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: dict[Expr, Place]) -> Expr | None:
+def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: dict[Expr, Approach]) -> Expr | None:
     """For y and y' at one point, given first: the determinant, which isn't zero, in a form that is short; else None."""
     first_two = question.conditions[:2]
     if len(first_two) < 2 or not all(condition.is_value for condition in first_two):
@@ -94,7 +94,7 @@ def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: di
 # ------------------------------------------------------------------------------------------------------------- limits
 
 
-def _limit_place(condition: Condition, limits: dict[Expr, Place]) -> Place | None:
+def _limit_place(condition: Condition, limits: dict[Expr, Approach]) -> Approach | None:
     """Where the condition is one on a limit; None for values at ordinary points.  Raises `InputError` for what is both."""
     at_limits = [term for term in condition.terms if term.point in limits]
     if not at_limits:
@@ -108,7 +108,7 @@ def _limit_place(condition: Condition, limits: dict[Expr, Place]) -> Place | Non
     return limits[at_limits[0].point]
 
 
-def _limit(condition: Condition, functions: Sequence[Expr], basis: Basis, question: Question, place: Place) -> Limit:
+def _limit(condition: Condition, functions: Sequence[Expr], basis: Basis, question: Question, place: Approach) -> Limit:
     """`functions` are y1, y2, y0 in the user's symbols."""
     (term,) = condition.terms
     x = question.x
@@ -129,7 +129,7 @@ def _limit(condition: Condition, functions: Sequence[Expr], basis: Basis, questi
     return Limit(tuple(rows), said)
 
 
-def _growth(wronskian: Expr, x: Expr, place: Place) -> Growth | None:
+def _growth(wronskian: Expr, x: Expr, place: Approach) -> Growth | None:
     """The exponential part of the Wronskian, None where it isn't known."""
     try:
         return behaviour(wronskian, x, place).leading()[0].growth

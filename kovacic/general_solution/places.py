@@ -15,7 +15,7 @@ import sympy
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.errors import InputError
-from kovacic.general_solution.behaviour import Place, behaviour
+from kovacic.general_solution.behaviour import Approach, behaviour
 from kovacic.general_solution.expansion import UnknownBehaviour
 from kovacic.general_solution.particular import place_of
 from kovacic.general_solution.question import Question
@@ -86,7 +86,7 @@ def is_singular(question: Question, point: Expr) -> bool:
     return finite_value(smooth, question.x, point) is None
 
 
-def limit_points(question: Question) -> dict[Expr, Place]:
+def limit_points(question: Question) -> dict[Expr, Approach]:
     """The points of the conditions at which these are conditions on limits, with the side.
 
     Raises `InputError` where the others are on both sides.
@@ -95,9 +95,9 @@ def limit_points(question: Question) -> dict[Expr, Place]:
     found = {}
     for point in points:
         if point in _INFINITIES:
-            found[point] = Place(point)
+            found[point] = Approach(point)
         elif is_singular(question, point):
-            found[point] = Place(point, _side(point, [*points, *jump_points(question)]))
+            found[point] = Approach(point, _side(point, [*points, *jump_points(question)]))
     return found
 
 
@@ -120,7 +120,7 @@ def _apart(point: Expr, points: Sequence[Expr]) -> InputError:
     return InputError(f"{said}: {point}; on each side the solutions are others")
 
 
-def start_of(question: Question, limits: dict[Expr, Place]) -> Expr:
+def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     """An ordinary point on the side that is meant: the first one with a condition, or one between singular points."""
     for point in given_points(question):
         if point not in limits:
@@ -140,7 +140,7 @@ def start_of(question: Question, limits: dict[Expr, Place]) -> Expr:
     return (place.point + nearest) / 2
 
 
-def _beyond(place: Place, poles: Sequence[Expr]) -> Expr:
+def _beyond(place: Approach, poles: Sequence[Expr]) -> Expr:
     """An integer beyond all poles."""
     if place.point == sympy.oo:
         return sympy.ceiling(sympy.Max(0, *poles)) + 1
@@ -227,7 +227,7 @@ def _rates_in_x(question: Question, value: Expr) -> list[Expr]:
 def _is_analytic(rates: Sequence[Expr], x: Expr, point: Expr) -> bool:
     """Have the coefficients limits at the point?"""
     try:
-        return all(not behaviour(rate, x, Place(point)).parts[0] for rate in rates)
+        return all(not behaviour(rate, x, Approach(point)).parts[0] for rate in rates)
     except (UnknownBehaviour, NotImplementedError):
         return False
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.general_solution.behaviour import Place, behaviour
+from kovacic.general_solution.behaviour import Approach, behaviour
 from kovacic.general_solution.expansion import UnknownBehaviour
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.zero import Zero, agree, when_zero
@@ -54,7 +54,7 @@ def _limit(expression: Expr, x: Expr, point: Expr) -> Expr | None:
     limits = []
     for direction in (1, -1):
         try:
-            large, constant, _ = behaviour(expression, x, Place(point, direction)).parts
+            large, constant, _ = behaviour(expression, x, Approach(point, direction)).parts
         except (UnknownBehaviour, NotImplementedError):
             return None
         if any(when_zero(coefficient) is not Zero.ALWAYS for coefficient in large.values()):

@@ -24,11 +24,11 @@ from kovacic.exact import whole
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.check import CheckReport, Disagreement, Sampler
-from kovacic.parametric.functions import Point
+from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.plot import plot
 from kovacic.parametric.record import StatementReader, constant_data, constant_from, equation_data, equation_from
-from kovacic.parametric.regions import Condition, Verdict, in_one_line
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, in_one_line
 from kovacic.parametric.restriction import NO_CONSTANT
 from kovacic.parametric.statements import both
 from kovacic.reading.constants import with_root
@@ -42,7 +42,7 @@ _SCREEN = 24
 
 
 @dataclass(frozen=True)
-class Conditions:
+class ParametricAnswer:
     """The partition of parameter space for y'' = S y: frozen and picklable.
 
     `generic` holds where no region's statement does; the regions are tried in their order.  `complete` is True where the
@@ -55,14 +55,14 @@ class Conditions:
     S: RatFunc
     variable: str
     parameters: tuple[str, ...]
-    generic: Verdict
-    regions: tuple[Condition, ...]
+    generic: RegionVerdict
+    regions: tuple[ParameterRegion, ...]
     complete: bool | str
     theory: str
     limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
     notices: tuple[str, ...] = ()
     assumptions: Assumptions = NOTHING_ASSUMED
-    constant: Point = NO_CONSTANT
+    constant: ParameterPoint = NO_CONSTANT
     equation: Equation | None = None
 
     @property
@@ -70,11 +70,11 @@ class Conditions:
         """Was everything examined, without reaching a limit of time?"""
         return self.complete is True or not str(self.complete).startswith("only as far")
 
-    def region_at(self, values: Mapping[Any, Any]) -> Condition | None:
+    def region_at(self, values: Mapping[Any, Any]) -> ParameterRegion | None:
         """The region that contains a point; None for the generic one."""
         return self.region_of(self.point(values))
 
-    def region_of(self, point: Point) -> Condition | None:
+    def region_of(self, point: ParameterPoint) -> ParameterRegion | None:
         """The same for a point of `self.point`."""
         return next((region for region in self.regions if region.statement.holds(point)), None)
 
@@ -128,7 +128,7 @@ class Conditions:
             raise VerificationFailed(f"the answer for S = {S} failed its own check; please report it")
         return replace(answer, verified=verified)
 
-    def predicted(self, point: Point) -> Verdict | None:
+    def predicted(self, point: ParameterPoint) -> RegionVerdict | None:
         """What the regions claim; None where S isn't defined."""
         try:
             point.restricted(self.S)
@@ -137,9 +137,9 @@ class Conditions:
         region = self.region_of(point)
         if region is not None:
             return region.verdict if region.defined else None
-        return self.generic if self.complete is True else Verdict(self.generic.structure, known=False)
+        return self.generic if self.complete is True else RegionVerdict(self.generic.structure, known=False)
 
-    def point(self, values: Mapping[Any, Any]) -> Point:
+    def point(self, values: Mapping[Any, Any]) -> ParameterPoint:
         """The values of the parameters as constants of one field."""
         given = {str(name): value for name, value in values.items()}
         missing = ", ".join(name for name in self.parameters if name not in given)
@@ -200,7 +200,7 @@ class Conditions:
         }
 
     @classmethod
-    def from_json(cls, text: str | Mapping[str, Any]) -> Conditions:
+    def from_json(cls, text: str | Mapping[str, Any]) -> ParametricAnswer:
         """The conditions that `to_json` wrote, but for `Condition.solution`.
 
         Raises `InputError` for other data.
@@ -219,15 +219,15 @@ class Conditions:
                 raise ValueError("a parameter or the variable isn't a name")
             reader = StatementReader(FunctionField((*names, *constant.names)))
             regions = tuple(
-                Condition(
+                ParameterRegion(
                     reader.statement(region["statement"]),
-                    Verdict.from_dict(region["verdict"]),
+                    RegionVerdict.from_dict(region["verdict"]),
                     **{name: region[name] for name in ("complete", "defined")},
                     determinants=tuple(region.get("determinants", ())),
                 )
                 for region in data["regions"]
             )
-            claim = (Verdict.from_dict(data["generic"]["verdict"]), regions, data["complete"], data["theory"])
+            claim = (RegionVerdict.from_dict(data["generic"]["verdict"]), regions, data["complete"], data["theory"])
             known = read_assumptions(data["assumptions"], None, names) if data["assumptions"] else NOTHING_ASSUMED
             S, notices = reader.function(data["S"], variable), tuple(data["notices"])
             equation = equation_from(data.get("equation"), variable, names)
@@ -307,7 +307,7 @@ class Conditions:
         return self.text()
 
 
-def _point(names: tuple[str, ...], values: list[Any], constant: Point, limits: Limits) -> Point:
+def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, limits: Limits) -> ParameterPoint:
     """Constants of one field, from numbers, SymPy numbers or text, together with the constant of S."""
     kinds = {type(value) for value in values}
     if str not in kinds and any(kind.__module__.startswith("sympy") for kind in kinds):
@@ -330,5 +330,5 @@ def _point(names: tuple[str, ...], values: list[Any], constant: Point, limits: L
         field, numbers = constant.field, [number.over(constant.field) for number in numbers]
     elif isinstance(constant.field, AlgebraicField):
         *numbers, root = with_root(numbers, field, constant.field, limits)
-        return Point((*names, *constant.names), (*numbers, root), root.field)
-    return Point((*names, *constant.names), (*numbers, *constant.values), field)
+        return ParameterPoint((*names, *constant.names), (*numbers, root), root.field)
+    return ParameterPoint((*names, *constant.names), (*numbers, *constant.values), field)

@@ -1,4 +1,4 @@
-"""For which values of the parameters is the equation solvable?  From the input to `Conditions`."""
+"""For which values of the parameters is the equation solvable?  From the input to `ParametricAnswer`."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from kovacic.equation import PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.exact import whole
 from kovacic.limits import Budget, Limits
-from kovacic.parametric.answer import Conditions
+from kovacic.parametric.answer import ParametricAnswer
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
-from kovacic.parametric.functions import Point
+from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.partition import Partition, Settings, partition, together
-from kovacic.parametric.regions import Condition, Verdict, without_empty
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty
 from kovacic.parametric.restriction import reduced, with_free_constant
 from kovacic.parametric.solutions import Given
 from kovacic.parametric.statements import Statement
@@ -37,7 +37,7 @@ DEFAULT_DEGREE = 2
 
 def find_conditions(
     S: Any, *, var: Any, assume: Mapping[Any, Any] | None, max_degree: int, limits: Limits
-) -> Conditions:
+) -> ParametricAnswer:
     """What `kovacic.conditions` returns, as data: arguments and exceptions are the same."""
     parsed = read_input(S, var=var, limits=limits, exponentials=True)
     given = parsed
@@ -56,7 +56,7 @@ def find_conditions(
     return conditions_of(parsed, known, most, limits)
 
 
-def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, limits: Limits) -> Conditions:
+def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, limits: Limits) -> ParametricAnswer:
     """The conditions for an input that was read; `max_degree` None: by theorems only."""
     lifted, shown, constant = with_free_constant(parsed.S)
     assumptions = replace(known, values=tuple(zip(constant.names, constant.values, strict=True)))
@@ -69,7 +69,7 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
     regions = _distinct(found.regions, field, constant, parsed.variable, budget)
     result = _under(assumptions, replace(found, regions=tuple(regions)), parsed.S, budget)
     regions = [_finished(region, parsed.equation, max_degree, budget) for region in result.regions]
-    return Conditions(
+    return ParametricAnswer(
         shown,
         parsed.variable,
         parameters_of(parsed.S.field),
@@ -86,12 +86,12 @@ def conditions_of(parsed: Parsed, known: Assumptions, max_degree: int | None, li
 
 
 def _distinct(
-    regions: Iterable[Condition], field: FunctionField, constant: Point, variable: str, budget: Budget
-) -> list[Condition]:
+    regions: Iterable[ParameterRegion], field: FunctionField, constant: ParameterPoint, variable: str, budget: Budget
+) -> list[ParameterRegion]:
     """The regions with statements about all parameters, each statement once, and without those that earlier ones cover."""
     names = (variable, *field.names)
     numbers = (*constant.names, *(name for name in field.names if name == PI))
-    different: dict[Statement, Condition] = {}
+    different: dict[Statement, ParameterRegion] = {}
     for region in regions:
         statement = reduced(region.statement, constant).avoiding(names, numbers)
         different.setdefault(statement, replace(region, statement=statement))
@@ -104,23 +104,25 @@ def _distinct(
 def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budget) -> Partition:
     """What is left to say where the assumptions hold."""
     generic, complete = found.generic, found.complete
-    regions: list[Condition] = []
+    regions: list[ParameterRegion] = []
     for region in found.regions:
         decided = region.statement.decided(assumptions)
         if decided is True:
-            generic = region.verdict if region.verdict.known else Verdict.of(decide(S, budget, certify=False))
+            generic = region.verdict if region.verdict.known else RegionVerdict.of(decide(S, budget, certify=False))
             complete = together([*regions, region])
             break
         if decided is None:
             regions.append(replace(region, statement=region.statement.narrowed(assumptions)))
-    nothing = Verdict(None)
+    nothing = RegionVerdict(None)
     if complete is True and generic == nothing:
         while regions and regions[-1].plain and regions[-1].verdict == nothing:
             regions.pop()
     return Partition(generic, complete, found.theory, tuple(regions))
 
 
-def _finished(region: Condition, equation: Equation | None, max_degree: int | None, budget: Budget) -> Condition:
+def _finished(
+    region: ParameterRegion, equation: Equation | None, max_degree: int | None, budget: Budget
+) -> ParameterRegion:
     """With its first determinants, and solutions of the equation that was given."""
     if region.origin is not None and equation is not None:
         region = replace(region, origin=Given(region.origin, equation))
@@ -133,7 +135,7 @@ def _finished(region: Condition, equation: Equation | None, max_degree: int | No
     return replace(region, determinants=tuple(determinants))
 
 
-def _notices(parsed: Parsed, constant: Point) -> tuple[str, ...]:
+def _notices(parsed: Parsed, constant: ParameterPoint) -> tuple[str, ...]:
     """What was noticed at reading, with the constant's own name among the parameters."""
     notices = [notice for notice in parsed.notices if "parameter" not in notice]
     if isinstance(constant.field, AlgebraicField):

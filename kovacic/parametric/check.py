@@ -12,7 +12,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.functions import Point, coefficients_in, degrees
+from kovacic.parametric.functions import ParameterPoint, coefficients_in, degrees
 from kovacic.parametric.statements import Statement
 
 
@@ -27,7 +27,7 @@ class Disagreement:
 
 @dataclass(frozen=True)
 class CheckReport:
-    """The outcome of `Conditions.check`: true when every sample agrees.
+    """The outcome of `kovacic.parameters.Conditions.check`: true when every sample agrees.
 
     `inside` and `outside` count the points that were solved in a special region and in the generic one; `open` those for
     which the regions claim nothing.
@@ -46,19 +46,19 @@ class CheckReport:
 class Sampler:
     """Points with small coordinates: values of the `names` that the assumptions admit, beside the `start`, which is fixed."""
 
-    start: Point
+    start: ParameterPoint
     names: Sequence[str]
     assumptions: Assumptions
     random: Random
 
-    def points(self, statements: Sequence[Statement]) -> Iterator[Point | None]:
+    def points(self, statements: Sequence[Statement]) -> Iterator[ParameterPoint | None]:
         """Every other one where one of the statements holds; None where an attempt failed."""
         for attempt in count(1):
             chosen = statements[attempt // 2 % len(statements)] if statements and attempt % 2 else None
             point = self._point(chosen)
             yield point if point and self.assumptions.admits(zip(point.names, point.values, strict=True)) else None
 
-    def _point(self, statement: Statement | None) -> Point | None:
+    def _point(self, statement: Statement | None) -> ParameterPoint | None:
         """A point at which the statement holds; None if none was found."""
         values = dict(zip(self.start.names, self.start.values, strict=True))
         values |= {name: QQ.poly([self.assumptions.of(name).sample(self.random)]) for name in self.names}
@@ -68,7 +68,9 @@ class Sampler:
                 field = self._solve_for_zero(function, values, field, free)
         except (ZeroDivisionError, ValueError):
             return None
-        point = Point((*self.start.names, *self.names), tuple(value.over(field) for value in values.values()), field)
+        point = ParameterPoint(
+            (*self.start.names, *self.names), tuple(value.over(field) for value in values.values()), field
+        )
         return point if statement is None or statement.holds(point) else None
 
     def _solve_for_zero(self, function: FunctionPoly, values: dict[str, Poly], field: Field, free: list[str]) -> Field:

@@ -86,7 +86,7 @@ def normal_form(function: Poly) -> tuple[FunctionPoly, Fraction, Fraction]:
 
 
 @dataclass(frozen=True)
-class Point:
+class ParameterPoint:
     """Values of the parameters, in the order of the names: constants of one field, Q or Q(alpha), or functions of others."""
 
     names: tuple[str, ...]

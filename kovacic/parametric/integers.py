@@ -18,7 +18,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.functions import Coset, Point, common_multiple, degrees, normal_form, over_parameters
+from kovacic.parametric.functions import Coset, ParameterPoint, common_multiple, degrees, normal_form, over_parameters
 from kovacic.parametric.spectra import Notation, families, integer_condition, kind
 from kovacic.parametric.statements import ALWAYS, Statement, either
 
@@ -77,7 +77,7 @@ class Congruence(Statement):
         """The classes of N."""
         return [Coset(residue, self.modulus) for residue in self.residues]
 
-    def _holds(self, point: Point) -> bool:
+    def _holds(self, point: ParameterPoint) -> bool:
         return any(coset.contains(N) for N in rational_roots(point.at(self.equation)) for coset in self.cosets)
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:

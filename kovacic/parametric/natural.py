@@ -31,7 +31,7 @@ from kovacic.parametric.exponents import choices_of_degree, form_conditions, has
 from kovacic.parametric.formulas import equation_written, shown, text_of, written
 from kovacic.parametric.functions import (
     Coset,
-    Point,
+    ParameterPoint,
     degrees,
     irreducible_factors,
     over_parameters,
@@ -70,7 +70,7 @@ class Determinant:
         factors = tuple(g for f in self.factors for g in (irreducible_factors(change(f)) if f else [f]))
         return replace(self, factors=factors, system=tuple(map(change, self.system)))
 
-    def holds(self, point: Point) -> bool:
+    def holds(self, point: ParameterPoint) -> bool:
         """Is d the degree at the point, and does P exist there?"""
         if self.factors is None or point.at(self.exponents):
             return False
@@ -109,12 +109,12 @@ class Natural(Statement):
         S = RatFunc(change(over_parameters(self.S.num)), change(over_parameters(self.S.den)))
         return replace(self, S=S, factors=tuple(map(change, self.factors)))
 
-    def numbers_at(self, point: Point) -> list[int]:
+    def numbers_at(self, point: ParameterPoint) -> list[int]:
         """The natural numbers that the exponents allow at a point."""
         roots = {root for factor in self.factors for root in rational_roots(point.at(factor))}
         return sorted(int(root) for root in roots if root.denominator == 1 and root >= 0)
 
-    def _holds(self, point: Point) -> bool:
+    def _holds(self, point: ParameterPoint) -> bool:
         """Decided by the rank of the systems at the point."""
         numbers = self.numbers_at(point)
         if not numbers:

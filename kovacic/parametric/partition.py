@@ -28,24 +28,24 @@ from kovacic.galois import group_of
 from kovacic.limits import Budget
 from kovacic.parametric import restriction
 from kovacic.parametric.functions import denominators, irreducible_factors, union
-from kovacic.parametric.regions import Condition, Theorem, Verdict
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
 from kovacic.parametric.restriction import Hypersurface, hypersurface
 from kovacic.parametric.search import Findings, search
 from kovacic.parametric.solutions import solutions_there
 from kovacic.parametric.statements import ALWAYS, NEVER, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
 
-_UNKNOWN = Verdict(None, known=False)
+_UNKNOWN = RegionVerdict(None, known=False)
 
 
 @dataclass(frozen=True)
 class Partition:
     """Regions, tried in order; `generic` holds where none of them does, `complete` as for a region."""
 
-    generic: Verdict
+    generic: RegionVerdict
     complete: bool | str
     theory: str
-    regions: tuple[Condition, ...] = ()
+    regions: tuple[ParameterRegion, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
     """The partition for S over Q(t), or the single verdict for S over Q or Q(alpha)."""
     constants = S.field
     decision = decide(S, settings.budget, certify=False)
-    verdict = Verdict.of(decision)
+    verdict = RegionVerdict.of(decision)
     if constants.ground == QQ:
         return Partition(verdict, verdict.known or str(decision.undecided), "the engine")
     if not isinstance(constants, FunctionField):
@@ -74,18 +74,18 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
         return Partition(verdict, _as_far_as(limit), "nothing but the generic answer")
 
 
-def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
+def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
     if expected.known and expected.structure is Structure.REDUCIBLE:
         name = "a rational omega for generic values, and so for all"  # where S is defined: see the head of this module
-        theorem: Theorem | None = Theorem(name, restriction.undefined(problem), [Condition(ALWAYS, expected)])
+        theorem: Theorem | None = Theorem(name, restriction.undefined(problem), [ParameterRegion(ALWAYS, expected)])
     else:
         theorem = kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
     if theorem is None:
         if settings.only_theorems:
             return Partition(expected, "for generic values only", "no theorem covers all values")
         return _by_candidates(problem, expected, settings)
-    regions, always = _degenerate(problem.S, theorem.exceptions, settings), Verdict(None)
+    regions, always = _degenerate(problem.S, theorem.exceptions, settings), RegionVerdict(None)
     for region in theorem.regions:
         if region.statement == ALWAYS:
             always = region.verdict
@@ -98,13 +98,13 @@ def _by_theory(S: RatFunc, expected: Verdict, settings: Settings) -> Partition:
     return Partition(always, together(regions), theorem.name, tuple(regions))
 
 
-def together(regions: Sequence[Condition]) -> bool | str:
+def together(regions: Sequence[ParameterRegion]) -> bool | str:
     """True where everything is complete, else the first sentence that says what isn't."""
     return next((r.complete for r in regions if r.complete is not True), True)
 
 
-def _by_candidates(problem: Problem, expected: Verdict, settings: Settings) -> Partition:
-    regions, findings = list[Condition](), Findings("polynomial conditions")
+def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings) -> Partition:
+    regions, findings = list[ParameterRegion](), Findings("polynomial conditions")
     complete: bool | str = True
     try:
         regions = _degenerate(problem.S, restriction.structure_changes(problem), settings)
@@ -128,8 +128,11 @@ def _by_candidates(problem: Problem, expected: Verdict, settings: Settings) -> P
         structure = statement.structure
         if structure is not expected.structure and (expected.structure is None or structure is Structure.REDUCIBLE):
             primitive = "binary tetrahedral, octahedral or icosahedral" if structure.case == 3 else None
-            verdict, origin = Verdict(structure, family=primitive), partial(statement.solutions, settings.variable)
-            regions.append(Condition(statement, verdict, origin=origin))
+            verdict, origin = (
+                RegionVerdict(structure, family=primitive),
+                partial(statement.solutions, settings.variable),
+            )
+            regions.append(ParameterRegion(statement, verdict, origin=origin))
     return Partition(expected, together(regions) if complete is True else complete, findings.theory, tuple(regions))
 
 
@@ -144,14 +147,14 @@ def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:
     return union(irreducible_factors(element) for element in elements)
 
 
-def _degenerate(S: RatFunc, functions: Iterable[FunctionPoly], settings: Settings) -> list[Condition]:
+def _degenerate(S: RatFunc, functions: Iterable[FunctionPoly], settings: Settings) -> list[ParameterRegion]:
     """Regions for the values at which the generic theory doesn't apply; what the limits don't allow is unknown."""
-    regions: list[Condition] = []
+    regions: list[ParameterRegion] = []
     for function in functions:
         try:
             regions += _pieces(S, function, settings)
         except LimitExceeded as limit:
-            regions.append(Condition(Vanishes(function), _UNKNOWN, _as_far_as(limit)))
+            regions.append(ParameterRegion(Vanishes(function), _UNKNOWN, _as_far_as(limit)))
     return regions
 
 
@@ -159,25 +162,25 @@ def _as_far_as(limit: LimitExceeded) -> str:
     return f"only as far as the limits allowed: {limit}"
 
 
-def _pieces(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Condition]:
+def _pieces(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
     """The regions that make up the zeros of a polynomial, in their order."""
     settings.budget.check()
     regions = _inside(S, function, settings)
     return [*_missed(S, function, settings), *regions] if regions[-1].defined else regions
 
 
-def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Condition]:
+def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
     """Regions for the zeros of a polynomial at which the parameter to be eliminated can have any value.
 
     There a second polynomial g vanishes, so that they are the zeros of the first one on g = 0, and those that are missed there.
     """
-    regions, first = list[Condition](), Vanishes(function)
+    regions, first = list[ParameterRegion](), Vanishes(function)
     for other in hypersurface(function).missed:
         surface, second = hypersurface(other), Vanishes(other)
         try:
             restricted = surface.restricted(S)
         except ZeroDivisionError:
-            regions.append(Condition(both(first, second), _UNKNOWN, defined=False))
+            regions.append(ParameterRegion(both(first, second), _UNKNOWN, defined=False))
             continue
         regions += _also(_missed(S, other, settings), first)
         rest = surface.at(function)
@@ -189,20 +192,20 @@ def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
     return regions
 
 
-def _also(regions: list[Condition], *conditions: Vanishes) -> list[Condition]:
+def _also(regions: list[ParameterRegion], *conditions: Vanishes) -> list[ParameterRegion]:
     """The parts of regions, of fewer parameters maybe, where more conditions hold."""
     field = conditions[0].function.field
     return [replace(r, statement=both(*conditions, restriction.over_all(r.statement, field))) for r in regions]
 
 
-def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Condition]:
+def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
     """The regions where a polynomial vanishes, except for the points that `missed` is about; the last one is all the rest."""
     statement = Vanishes(function)
     surface = hypersurface(function)
     try:
         restricted = surface.restricted(S)
     except ZeroDivisionError:
-        return [Condition(statement, _UNKNOWN, defined=False)]
+        return [ParameterRegion(statement, _UNKNOWN, defined=False)]
     inner = partition(restricted, settings)
     rest = _rest(statement, surface, restricted, inner, settings)
     special = _special(inner.regions, surface)
@@ -211,14 +214,16 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Cond
     return [*_also(special, statement), rest]
 
 
-def _says_the_same(region: Condition, rest: Condition) -> bool:
+def _says_the_same(region: ParameterRegion, rest: ParameterRegion) -> bool:
     """Is a region like the one that follows it, so that it needn't be named?"""
     if not region.defined:
         return False
     return region.verdict == rest.verdict and region.complete == rest.complete
 
 
-def _rest(statement: Vanishes, surface: Hypersurface, S: RatFunc, inner: Partition, settings: Settings) -> Condition:
+def _rest(
+    statement: Vanishes, surface: Hypersurface, S: RatFunc, inner: Partition, settings: Settings
+) -> ParameterRegion:
     """The region of all values on a hypersurface for which nothing else is said; S is the one there."""
     field, verdict, complete = surface.field, inner.generic, inner.complete
     if field.ground == QQ:
@@ -230,25 +235,25 @@ def _rest(statement: Vanishes, surface: Hypersurface, S: RatFunc, inner: Partiti
     origin = None
     if verdict.known and verdict.case == 1 and not surface.curve:
         origin = partial(solutions_there, S, settings.variable)
-    return Condition(statement, verdict, complete, origin=origin)
+    return ParameterRegion(statement, verdict, complete, origin=origin)
 
 
 def _at_a_value(
-    statement: Vanishes, S: RatFunc, verdict: Verdict, complete: bool | str, settings: Settings
-) -> Condition:
+    statement: Vanishes, S: RatFunc, verdict: RegionVerdict, complete: bool | str, settings: Settings
+) -> ParameterRegion:
     """The region of one value, or of conjugate ones, of the only parameter, with the group there."""
     decision = decide(S, settings.budget)
     if decision.structure is None or decision.undecided:
-        return Condition(statement, verdict, complete)
+        return ParameterRegion(statement, verdict, complete)
     verdict = replace(verdict, family=str(group_of(S, decision)))
     origin = partial(solutions_there, S, settings.variable) if decision.case == 1 else None
-    return Condition(statement, verdict, complete, origin=origin)
+    return ParameterRegion(statement, verdict, complete, origin=origin)
 
 
-def _special(regions: Iterable[Condition], surface: Hypersurface) -> list[Condition]:
+def _special(regions: Iterable[ParameterRegion], surface: Hypersurface) -> list[ParameterRegion]:
     """The regions on a hypersurface, in the original parameters, without those that it doesn't cover."""
     elsewhere = {str(factor) for factor in surface.leading}  # as texts: of fewer parameters, maybe
-    special: list[Condition] = []
+    special: list[ParameterRegion] = []
     for region in regions:
         first = both(region.statement).parts[0]
         if isinstance(first, Vanishes) and str(first.function) in elsewhere:

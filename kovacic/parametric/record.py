@@ -21,7 +21,7 @@ from kovacic.equation import Change, Equation, parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.numerals import as_text, for_json, fraction
-from kovacic.parametric.functions import Point, over_parameters
+from kovacic.parametric.functions import ParameterPoint, over_parameters
 from kovacic.parametric.integers import Congruence, free_letter
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.restriction import NO_CONSTANT
@@ -109,7 +109,7 @@ def _in_order(function: RatFunc, names: tuple[str, ...]) -> RatFunc:
     return RatFunc(*(over_parameters(part).value_at(values, ordered) for part in (function.num, function.den)))
 
 
-def constant_data(constant: Point) -> dict[str, Any]:
+def constant_data(constant: ParameterPoint) -> dict[str, Any]:
     """The algebraic constant that is a parameter of the statements: its name, equation and place."""
     field = constant.field
     if not isinstance(field, AlgebraicField) or field.approximation is None:
@@ -118,7 +118,7 @@ def constant_data(constant: Point) -> dict[str, Any]:
     return {"constant": constant.names[0], "constant_root": root | {"symbol": field.name}}
 
 
-def constant_from(data: Mapping[str, Any]) -> Point:
+def constant_from(data: Mapping[str, Any]) -> ParameterPoint:
     """What `constant_data` wrote.  Raises `InputError` for what isn't an irreducible polynomial."""
     if data["constant"] is None:
         return NO_CONSTANT
@@ -128,7 +128,7 @@ def constant_from(data: Mapping[str, Any]) -> Point:
         raise InputError(f"{root['minimal_polynomial']} isn't an irreducible polynomial")
     real, imaginary = map(Fraction, root["near"])
     field = AlgebraicField(QQ, modulus, root["symbol"], (real, imaginary))
-    return Point((data["constant"],), (field.generator,), field)
+    return ParameterPoint((data["constant"],), (field.generator,), field)
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.decision import Decision, Status, Structure
 from kovacic.limits import check_time
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
-from kovacic.parametric.functions import Point, irreducible_factors, over_parameters
+from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.record import statement_data
@@ -30,7 +30,7 @@ _LINE = 100
 
 
 @dataclass(frozen=True)
-class Verdict:
+class RegionVerdict:
     """The case (None: no Liouvillian solution), the structure, and whether that is known at all.
 
     `family` says more about the group than the structure does.
@@ -41,7 +41,7 @@ class Verdict:
     family: str | None = field(default=None, compare=False)
 
     @classmethod
-    def of(cls, decision: Decision) -> Verdict:
+    def of(cls, decision: Decision) -> RegionVerdict:
         """What the engine's decision says."""
         return cls(decision.structure, decision.status is not Status.UNDECIDED)
 
@@ -49,7 +49,7 @@ class Verdict:
         return {"structure": self.structure and self.structure.value, "known": self.known, "family": self.family}
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Verdict:
+    def from_dict(cls, data: Mapping[str, Any]) -> RegionVerdict:
         structure = data["structure"]
         return cls(None if structure is None else Structure(structure), data["known"], data["family"])
 
@@ -79,7 +79,7 @@ _GROUPS = {
 
 
 @dataclass(frozen=True)
-class Condition:
+class ParameterRegion:
     """One region: where `statement` holds and no earlier region's.
 
     `case` is Kovacic's case (None: no Liouvillian solution), `group` the family of the Galois group, `complete` True where it
@@ -88,7 +88,7 @@ class Condition:
     """
 
     statement: Statement
-    verdict: Verdict
+    verdict: RegionVerdict
     complete: bool | str = True
     defined: bool = True
     determinants: tuple[str, ...] = ()
@@ -159,16 +159,16 @@ class Theorem:
 
     name: str
     exceptions: list[FunctionPoly]
-    regions: Iterable[Condition]
+    regions: Iterable[ParameterRegion]
 
 
-def _mirrored(regions: Sequence[Condition]) -> Iterator[Condition]:
+def _mirrored(regions: Sequence[ParameterRegion]) -> Iterator[ParameterRegion]:
     """The regions, with those of n = 0 and n = -1 in one where what is said in all of them is the same.
 
     Regions in a row that begin with the same vanishing function are a block.  Two blocks in a row that differ in that function
     alone mean the same as one of either: at a point of both, the first of their common conditions that holds decides.
     """
-    merged: list[tuple[list[Statement], list[Condition]]] = []
+    merged: list[tuple[list[Statement], list[ParameterRegion]]] = []
     for first, group in groupby(regions, key=lambda region: both(region.statement).parts[0]):
         block = [replace(region, statement=Both(both(region.statement).parts[1:])) for region in group]
         firsts, last = merged[-1] if merged else ([], [])
@@ -182,9 +182,9 @@ def _mirrored(regions: Sequence[Condition]) -> Iterator[Condition]:
             yield replace(region, statement=Both(parts) if len(parts) > 1 else parts[0])
 
 
-def in_one_line(regions: Sequence[Condition]) -> list[Condition]:
+def in_one_line(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
     """The regions, with those in a row that have the same case in one, where that is short."""
-    found: list[Condition] = []
+    found: list[ParameterRegion] = []
     for region in _mirrored(regions):
         last = found[-1] if found else None
         if last is not None and last.plain and region.plain and last.case == region.case:
@@ -203,9 +203,9 @@ def _alternatives(statement: Statement) -> Sequence[Statement]:
     return statement.parts if isinstance(statement, Either) else (statement,)
 
 
-def without_empty(regions: Sequence[Condition]) -> list[Condition]:
+def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
     """The regions without those that earlier ones cover, for example because they say the same and more."""
-    kept: list[Condition] = []
+    kept: list[ParameterRegion] = []
     seen: list[set[Any]] = []
     for region in regions:
         check_time()
@@ -219,7 +219,7 @@ def without_empty(regions: Sequence[Condition]) -> list[Condition]:
     return kept
 
 
-def _charts(statement: Statement) -> list[tuple[Point, Assumptions]]:
+def _charts(statement: Statement) -> list[tuple[ParameterPoint, Assumptions]]:
     """Values that are all of those at which the statement holds, and maybe more, with what is known of their parameters.
 
     They are functions of fewer parameters, or of one more, an integer k.  [] where none are known.
@@ -228,40 +228,42 @@ def _charts(statement: Statement) -> list[tuple[Point, Assumptions]]:
     if len(functions) > 1:
         chart = _common_zeros(functions)
         return [] if chart is None else [(chart, NOTHING_ASSUMED)]
-    charts: list[tuple[Point, Assumptions]] = []
+    charts: list[tuple[ParameterPoint, Assumptions]] = []
     for part in _alternatives(statement):
         if not isinstance(part, Congruence) or part.form is not None or not families(part.equation):
             return []
         (name, f), names = families(part.equation)[0], part.equation.field.names
         k = next(name for name in map("k{}".format, count()) if name not in names)
         field = FunctionField((*names, k))
-        chart = Point(names, tuple(map(field.generator, names)), field)
+        chart = ParameterPoint(names, tuple(map(field.generator, names)), field)
         above, below = (chart.at(over_parameters(g)) for g in (f.num, f.den))
         known = Assumptions(((k, Known(("integer",))),))
         for residue in part.residues:
             N = field.generator(k) * part.modulus + residue
             values = tuple(above(N) / below(N) if n == name else field.generator(n) for n in names)
-            charts.append((Point(names, values, field), known))
+            charts.append((ParameterPoint(names, values, field), known))
     return charts
 
 
 @lru_cache(maxsize=256)
-def _common_zeros(functions: tuple[FunctionPoly, ...]) -> Point | None:
+def _common_zeros(functions: tuple[FunctionPoly, ...]) -> ParameterPoint | None:
     """Where the functions vanish; None where that isn't one piece."""
     field = functions[0].field
-    start = Point(field.names, tuple(map(field.generator, field.names)), field)
+    start = ParameterPoint(field.names, tuple(map(field.generator, field.names)), field)
     try:
         before = _common_zeros(functions[:-1]) if len(functions) > 1 else start
         factors = irreducible_factors(before.at(functions[-1])) if before else []
         if before is None or len(factors) != 1:
             return None
         after = hypersurface(factors[0])
-        return Point(before.names, tuple(after.at(over_parameters(value)) for value in before.values), after.field)
+        return ParameterPoint(
+            before.names, tuple(after.at(over_parameters(value)) for value in before.values), after.field
+        )
     except (TypeError, ZeroDivisionError):  # a function on a hypersurface, or one that isn't defined at these values
         return None
 
 
-def _holds_on(statement: Statement, chart: Point, known: Assumptions) -> bool:
+def _holds_on(statement: Statement, chart: ParameterPoint, known: Assumptions) -> bool:
     """Is it provably true at all of these values?"""
     if isinstance(statement, Both | Either):
         return (all if isinstance(statement, Both) else any)(_holds_on(part, chart, known) for part in statement.parts)

@@ -28,7 +28,7 @@ from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.limits import Budget
 from kovacic.parametric import functions
 from kovacic.parametric.formulas import shown
-from kovacic.parametric.functions import Point, degrees, element, irreducible_factors, over_parameters, union
+from kovacic.parametric.functions import ParameterPoint, degrees, element, irreducible_factors, over_parameters, union
 from kovacic.parametric.statements import Statement
 
 
@@ -110,11 +110,11 @@ def _down(constant: Poly) -> FunctionPoly:
 
 
 #: The point of no algebraic constant.
-NO_CONSTANT = Point((), ())
+NO_CONSTANT = ParameterPoint((), ())
 
 
 @dataclass(frozen=True)
-class Hypersurface(Point):
+class Hypersurface(ParameterPoint):
     """Where an irreducible polynomial in the parameters vanishes: their values over a field of fewer ones, or an extension.
 
     The zeros of the `leading` functions (of fewer parameters) aren't covered, and `missed` are functions of which one vanishes
@@ -188,7 +188,7 @@ def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
     return Hypersurface(names, tuple(values), field, (T,), (u if i < j else v,), (name, parameter))
 
 
-def with_free_constant(S: RatFunc) -> tuple[RatFunc, RatFunc, Point]:
+def with_free_constant(S: RatFunc) -> tuple[RatFunc, RatFunc, ParameterPoint]:
     """S with its algebraic constant as one more parameter, the same as it is shown, and the value of this parameter.
 
     The first has its denominator in factors: with a free constant it needn't be a square where it is one.  S is over Q(t),
@@ -204,7 +204,7 @@ def with_free_constant(S: RatFunc) -> tuple[RatFunc, RatFunc, Point]:
     factors = [_free(S.den.lc, larger), *(_free(factor, larger) ** k for factor, k in field.factor(S.den))]
     num, modulus = _free(S.num, larger), QQ.poly([base.rational_value(c) or 0 for c in field.modulus])
     numbers = AlgebraicField(QQ, modulus, field.name, field.approximation)
-    point = Point((name,), (numbers.generator,), numbers)
+    point = ParameterPoint((name,), (numbers.generator,), numbers)
     return RatFunc(num, product(factors)), RatFunc(num, _free(S.den, larger)), point
 
 
@@ -231,12 +231,12 @@ def over_all(statement: Statement, field: FunctionField) -> Statement:
     return statement.rewritten(change)
 
 
-def reduced(statement: Statement, constant: Point) -> Statement:
+def reduced(statement: Statement, constant: ParameterPoint) -> Statement:
     """The same statement, with high powers of the constant replaced by means of its minimal polynomial."""
     return statement.rewritten(lambda function: _reduced(function, constant)) if constant.names else statement
 
 
-def _reduced(function: FunctionPoly, constant: Point) -> FunctionPoly:
+def _reduced(function: FunctionPoly, constant: ParameterPoint) -> FunctionPoly:
     """The numerator in lowest powers of the constant, the last parameter of its field."""
     field, base, numbers = function.field, FunctionField(function.field.names[:-1]), constant.field
     assert isinstance(numbers, AlgebraicField)

@@ -32,7 +32,7 @@ from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
 from kovacic.parametric.formulas import root_written, shown
-from kovacic.parametric.functions import Point, common_multiple, normal_form, over_parameters, roots
+from kovacic.parametric.functions import ParameterPoint, common_multiple, normal_form, over_parameters, roots
 from kovacic.parametric.integers import Congruence, integer_roots
 from kovacic.parametric.statements import ALWAYS, Statement, either
 
@@ -91,7 +91,7 @@ class Schwarz(Statement):
     cubic: FunctionPoly
     structures: tuple[Structure, ...]
 
-    def _holds(self, point: Point) -> bool:
+    def _holds(self, point: ParameterPoint) -> bool:
         return kimura([*map(rational_square_root, roots(point.at(self.cubic)))]) in self.structures
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:

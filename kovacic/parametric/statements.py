@@ -16,13 +16,13 @@ from typing import ClassVar
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.formulas import equation_written, latex_of, text_of
-from kovacic.parametric.functions import Point, numerator
+from kovacic.parametric.functions import ParameterPoint, numerator
 
 
 class Statement(ABC):
     """A statement about the parameters."""
 
-    def holds(self, point: Point) -> bool:
+    def holds(self, point: ParameterPoint) -> bool:
         """Is it true at the point?  Not where a function in it isn't defined."""
         try:
             return self._holds(point)
@@ -30,7 +30,7 @@ class Statement(ABC):
             return False
 
     @abstractmethod
-    def _holds(self, point: Point) -> bool: ...
+    def _holds(self, point: ParameterPoint) -> bool: ...
 
     @cached_property
     @abstractmethod
@@ -78,7 +78,7 @@ class Vanishes(Statement):
 
     function: FunctionPoly
 
-    def _holds(self, point: Point) -> bool:
+    def _holds(self, point: ParameterPoint) -> bool:
         return not point.at(self.function)
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
@@ -102,7 +102,7 @@ class _Several(Statement):
     parts: tuple[Statement, ...]
     decisive: ClassVar[bool]
 
-    def _holds(self, point: Point) -> bool:
+    def _holds(self, point: ParameterPoint) -> bool:
         return any(part.holds(point) is self.decisive for part in self.parts) is self.decisive
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:

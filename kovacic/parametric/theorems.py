@@ -65,7 +65,7 @@ from kovacic.parametric import restriction, riemann
 from kovacic.parametric.formulas import shifted
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
-from kovacic.parametric.regions import Condition, Theorem, Verdict
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
 from kovacic.parametric.solutions import PolynomialSolution, jacobi, may_be_natural, root
 from kovacic.parametric.statements import NEVER, Statement, both
 from kovacic.reading.symbolic import read_expression
@@ -130,19 +130,19 @@ def kimura(problem: Problem, variable: str) -> Theorem | None:
     return None
 
 
-def structures(problem: Problem, n: int) -> Iterator[Condition]:
+def structures(problem: Problem, n: int) -> Iterator[ParameterRegion]:
     """As `riemann.structures`, for the equation in x, with the family of the groups where the structure doesn't say it."""
     for structure, statement in riemann.structures(problem):
         family = riemann.group(problem, structure)
         if structure is Structure.IMPRIMITIVE and n % 2 == 0:
             diagonal = _with_denominators(problem, (2, 2))
-            yield Condition(diagonal, Verdict(Structure.REDUCIBLE))
+            yield ParameterRegion(diagonal, RegionVerdict(Structure.REDUCIBLE))
         if structure is Structure.TETRAHEDRAL and n % 3 == 0:
             threefold = _with_denominators(problem, (3, 3, 2))
-            yield Condition(threefold, Verdict(Structure.IMPRIMITIVE, family="the quaternion group"))
+            yield ParameterRegion(threefold, RegionVerdict(Structure.IMPRIMITIVE, family="the quaternion group"))
         if structure is Structure.OCTAHEDRAL and n % 2 == 0:
             family = "binary tetrahedral, or octahedral"
-        yield Condition(statement, Verdict(structure, family=family))
+        yield ParameterRegion(statement, RegionVerdict(structure, family=family))
 
 
 def jacobi_solutions(
@@ -260,10 +260,10 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
         integer_roots(over_parameters(equation), [n], 2 * n),
         partial(laguerre_solutions, form, variable),
     )
-    verdict = Verdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
+    verdict = RegionVerdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
     if q:
         family = "Borel group, or G_m where both exponential factors occur" if r else "G_m"
-        verdict = Verdict(Structure.REDUCIBLE, family=family)
-    region = Condition(statement, verdict, origin=origin)
+        verdict = RegionVerdict(Structure.REDUCIBLE, family=family)
+    region = ParameterRegion(statement, verdict, origin=origin)
     name = f"{'Whittaker' if q else 'Bessel'}'s equation in {coordinate}: Martinet & Ramis"
     return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(q or r)], [region])

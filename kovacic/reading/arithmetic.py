@@ -30,7 +30,7 @@ _SMALL_BITS = 2048
 _LONG = 2000
 
 
-class Term:
+class Monomial:
     """`coefficient * x**power`, the coefficient an integer or fraction of at most `_SMALL_BITS` bits; never changed."""
 
     __slots__ = ("coefficient", "power")
@@ -40,8 +40,8 @@ class Term:
         self.power = power
 
 
-VARIABLE = Term(1, 1)
-Value = Term | Poly | RatFunc
+VARIABLE = Monomial(1, 1)
+Value = Monomial | Poly | RatFunc
 
 
 class NotAnInteger(ValueError):
@@ -73,7 +73,7 @@ class Arithmetic:
         """A rational number as a value."""
         bits = _bits(value)
         self._check(0, bits)
-        return Term(value, 0) if bits <= _SMALL_BITS and type(value) is int else _term(value, 0)
+        return Monomial(value, 0) if bits <= _SMALL_BITS and type(value) is int else _term(value, 0)
 
     def decimal(self, text: str) -> Poly:
         """The rational number that a decimal such as 1.5e-3 denotes."""
@@ -95,7 +95,7 @@ class Arithmetic:
         return value if isinstance(value, RatFunc) else RatFunc(value)
 
     def negate(self, value: Value) -> Value:
-        return Term(-value.coefficient, value.power) if isinstance(value, Term) else -self.closed(value)
+        return Monomial(-value.coefficient, value.power) if isinstance(value, Monomial) else -self.closed(value)
 
     def sum(self, terms: Sequence[Value]) -> Value:
         """The sum of at least one term."""
@@ -104,7 +104,7 @@ class Arithmetic:
         coefficients: dict[int, int | Fraction] = {}
         polynomials, fractions = list[Poly](), list[RatFunc]()
         for term in terms:
-            if isinstance(term, Term):
+            if isinstance(term, Monomial):
                 known = coefficients.get(term.power)
                 if known is None or _bits(known) <= _SMALL_BITS:
                     coefficients[term.power] = term.coefficient if known is None else known + term.coefficient
@@ -122,7 +122,7 @@ class Arithmetic:
         return fraction.num if fraction.is_polynomial else fraction
 
     def multiply(self, left: Value, right: Value) -> Value:
-        if isinstance(left, Term) and isinstance(right, Term):
+        if isinstance(left, Monomial) and isinstance(right, Monomial):
             power = left.power + right.power
             self._check(power, 0)
             return _term(left.coefficient * right.coefficient, power)
@@ -133,7 +133,7 @@ class Arithmetic:
         return self._product(left, right)
 
     def divide(self, left: Value, right: Value) -> Value:
-        if isinstance(left, Term) and isinstance(right, Term) and right.coefficient:
+        if isinstance(left, Monomial) and isinstance(right, Monomial) and right.coefficient:
             quotient = Fraction(left.coefficient, right.coefficient)
             if right.power == 0:
                 return _term(quotient, left.power)
@@ -160,19 +160,23 @@ class Arithmetic:
         if abs(n) > self.limits.exponent:
             shown = str(n) if abs(n) < 10**20 else f"of {n.bit_length()} bits"
             raise LimitExceeded(f"an exponent {shown}, above the limit of {self.limits.exponent}", limit="exponent")
-        if isinstance(base, Term) and n > 0 and (base.coefficient == 1 or n * _bits(base.coefficient) <= _SMALL_BITS):
+        if (
+            isinstance(base, Monomial)
+            and n > 0
+            and (base.coefficient == 1 or n * _bits(base.coefficient) <= _SMALL_BITS)
+        ):
             self._check(base.power * n, 0)
-            return Term(base.coefficient**n, base.power * n)
+            return Monomial(base.coefficient**n, base.power * n)
         base = self.closed(base)
         if not base:
             if n <= 0:
                 raise ZeroDivisionError("0 has no powers with exponent zero or below")
             return base
         if n == 0:
-            return Term(1, 0)
+            return Monomial(1, 0)
         if not isinstance(base, RatFunc):
             power = self._poly_power(base, abs(n))
-            return power if n > 0 else self.divide(Term(1, 0), power)
+            return power if n > 0 else self.divide(Monomial(1, 0), power)
         num, den = (base.num, base.den) if n > 0 else (base.den, base.num)
         num, den = self._poly_power(num, abs(n)), self._poly_power(den, abs(n))
         leading = den.lc.inverse()
@@ -180,7 +184,7 @@ class Arithmetic:
 
     def closed(self, value: Value) -> Poly | RatFunc:
         """The value as a polynomial or rational function."""
-        return _monomial(value.coefficient, value.power) if isinstance(value, Term) else value
+        return _monomial(value.coefficient, value.power) if isinstance(value, Monomial) else value
 
     def _poly_sum(self, left: Poly, right: Poly) -> Poly:
         self._check(max(left.degree, right.degree), left.height_bits() + right.height_bits() + 1)
@@ -225,7 +229,7 @@ class Arithmetic:
             self._budget.check()
 
     def _integer_value(self, exponent: Value) -> int:
-        if isinstance(exponent, Term) and exponent.power == 0 and isinstance(exponent.coefficient, int):
+        if isinstance(exponent, Monomial) and exponent.power == 0 and isinstance(exponent.coefficient, int):
             return exponent.coefficient
         number = self.number(exponent)
         if number is None or number.denominator != 1:
@@ -245,12 +249,12 @@ def _bits(value: int | Fraction) -> int:
     return max(value.numerator.bit_length(), value.denominator.bit_length())
 
 
-def _term(coefficient: int | Fraction, power: int) -> Term | Poly:
+def _term(coefficient: int | Fraction, power: int) -> Monomial | Poly:
     """`coefficient * x**power`; a whole fraction becomes an integer."""
     if type(coefficient) is not int and coefficient.denominator == 1:
         coefficient = coefficient.numerator
     if _bits(coefficient) <= _SMALL_BITS:
-        return Term(coefficient, power)
+        return Monomial(coefficient, power)
     return _monomial(coefficient, power)
 
 

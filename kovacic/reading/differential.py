@@ -18,9 +18,9 @@ from typing import Any
 from kovacic.equation import ENERGY, EULER, PI, UNKNOWN, Equation, over
 from kovacic.errors import NotLinear, NotRational, ParseError
 from kovacic.limits import Limits
-from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
+from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
 from kovacic.reading.constants import Constants
-from kovacic.reading.expression import Place, RationalReader
+from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import REST, LinearArithmetic, LinearForm, is_rational
 from kovacic.reading.names import FUNCTION_NAMES, TRANSCENDENTAL_HINT
@@ -62,7 +62,7 @@ class EquationReader(RationalReader):
     def equation_of(self, value: Any, text: str | None) -> Equation:
         """The equation that says that a linear form is zero; `text` is what it was read from."""
         parts = {**value.parts} if isinstance(value, LinearForm) else {REST: value}
-        rest, y = parts.pop(REST, Term(0, 0)), self.unknown
+        rest, y = parts.pop(REST, Monomial(0, 0)), self.unknown
         coefficients = {k: self.arithmetic.rational(c) for k, c in parts.items()}
         order = max((k for k, c in coefficients.items() if c), default=0)
         if order != 2:
@@ -79,8 +79,8 @@ class EquationReader(RationalReader):
 
             terms = [(term, walked(term, self)) for term in rest.as_ordered_terms()]
             h = -sum(term for term, value in terms if not is_rational(value)) or None
-            rest = self.arithmetic.sum([Term(0, 0), *(value for _, value in terms if is_rational(value))])
-        coefficients[REST], zero = self.arithmetic.rational(rest), self.arithmetic.rational(Term(0, 0))
+            rest = self.arithmetic.sum([Monomial(0, 0), *(value for _, value in terms if is_rational(value))])
+        coefficients[REST], zero = self.arithmetic.rational(rest), self.arithmetic.rational(Monomial(0, 0))
         r, c, b, a = (over(coefficients.get(k, zero), self.constants.field) for k in (REST, 0, 1, 2))
         return Equation(a, b, c, -r, h, self.variable, y)
 
@@ -148,7 +148,7 @@ class EquationReader(RationalReader):
         """A coefficient may stand before the unknown function without a sign."""
         return name.rstrip(PRIMES) == self.unknown or name in DERIVATIVES
 
-    def power(self, base: Any, exponent: Any, place: Place) -> Any:
+    def power(self, base: Any, exponent: Any, place: OperationPlace) -> Any:
         try:
             return self.arithmetic.power(base, exponent)
         except NotAnInteger:
@@ -210,7 +210,7 @@ class EquationReader(RationalReader):
 
 
 def _derivative_of_unknown(order: int) -> LinearForm:
-    return LinearForm({order: Term(1, 0)})
+    return LinearForm({order: Monomial(1, 0)})
 
 
 def _order_of(primes: str) -> int:

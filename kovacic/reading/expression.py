@@ -29,7 +29,7 @@ _LARGEST_INDEX = 100
 _ALONE = "give S alone, the factor of y on the right of y'' = S(x) y"
 
 
-class Place(Protocol):
+class OperationPlace(Protocol):
     """Where an operation stands, in a text or in a SymPy expression."""
 
     def text(self) -> str:
@@ -105,7 +105,7 @@ class RationalReader:
         """May this name or call be the second factor of an implicit product whose first one ends in a name?"""
         return False
 
-    def power(self, base: Value, exponent: Value, place: Place) -> Value:
+    def power(self, base: Value, exponent: Value, place: OperationPlace) -> Value:
         try:
             return self.arithmetic.power(base, exponent)
         except NotAnInteger:
@@ -135,7 +135,7 @@ class RationalReader:
             raise NotRational(f"{message} number, nor known to be an algebraic one", hint=TRANSCENDENTAL_HINT)
         raise NotRational(f"{message} function of {self.variable}")
 
-    def _radical(self, value: Value, n: int, place: Place) -> Poly:
+    def _radical(self, value: Value, n: int, place: OperationPlace) -> Poly:
         """The principal n-th root of a number, or of a parameter's square; an error for a function of the variable."""
         closed = self.arithmetic.closed(value)
         if not isinstance(closed, Poly) or not closed.is_constant:
@@ -148,7 +148,7 @@ class RationalReader:
             raise NotRational(f"{place.text()} isn't rational in the parameters", hint=hint)
         return root
 
-    def _rational_power(self, base: Value, exponent: Value, place: Place) -> Value:
+    def _rational_power(self, base: Value, exponent: Value, place: OperationPlace) -> Value:
         """`base ** exponent` for an exponent that isn't an integer: a power of a root of a number, or an error."""
         power = self.arithmetic.closed(exponent)
         if not isinstance(power, Poly) or not power.is_constant:

@@ -19,7 +19,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.equation import over
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import Limits, check_duration
-from kovacic.reading.arithmetic import Arithmetic, Term
+from kovacic.reading.arithmetic import Arithmetic, Monomial
 from kovacic.reading.names import FUNCTION_NAMES, RECIPROCALS
 
 #: Bits of a number in SymPy's expressions: Python prints integers of at most 4300 digits.
@@ -29,7 +29,7 @@ _LARGEST_EXPONENT = 1000
 
 LINEAR_HINT = "the equation is a y'' + b y' + c y = f, where a, b, c and f depend on the variable alone"
 
-_RATIONAL = (Term, Poly, RatFunc)
+_RATIONAL = (Monomial, Poly, RatFunc)
 
 #: The key of the part r of a linear form.
 REST = -1
@@ -72,7 +72,7 @@ class LinearArithmetic(Arithmetic):
             raise NotLinear(f"the unknown function {self.unknown} within a function or a power", hint=LINEAR_HINT)
         if not is_rational(value):
             return value
-        if isinstance(value, Term):
+        if isinstance(value, Monomial):
             return sympy.Rational(value.coefficient) * sympy.Symbol(self.variable) ** value.power
         function = self.rational(value)
         if function:  # above and below may be over different fields: a/x^2
@@ -177,7 +177,7 @@ class LinearArithmetic(Arithmetic):
         import sympy
 
         if head in RECIPROCALS:
-            return self.divide(Term(1, 0), self.applied(RECIPROCALS[head], argument))
+            return self.divide(Monomial(1, 0), self.applied(RECIPROCALS[head], argument))
         argument = self.expression(argument)
         if head == "exp":
             self._check_exponent(argument)

@@ -9,7 +9,7 @@ import sympy
 
 from kovacic.errors import NotLinear
 from kovacic.limits import Limits
-from kovacic.reading.arithmetic import Term
+from kovacic.reading.arithmetic import Monomial
 from kovacic.reading.differential import EquationReader
 from kovacic.reading.linear import REST, Symbols
 from kovacic.reading.source import Source, source_of
@@ -23,7 +23,7 @@ def parts_of(source: Source, limits: Limits) -> tuple[Parts, list[str]]:
     reader = EquationReader(source.variable, source.unknown, limits, Symbols())  # type: ignore[arg-type]
     reader.arithmetic.coefficient = lambda expression: expression  # any one
     value = source.walk(reader)
-    parts = getattr(value, "parts", {}) if source.unknown else {2: Term(1, 0), 0: reader.arithmetic.negate(value)}
+    parts = getattr(value, "parts", {}) if source.unknown else {2: Monomial(1, 0), 0: reader.arithmetic.negate(value)}
     found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
     if max(found, default=0) != 2:
         raise NotLinear("a linear equation of second order is expected")

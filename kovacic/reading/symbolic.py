@@ -23,8 +23,8 @@ from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import Limits
-from kovacic.reading.arithmetic import VARIABLE, NotAnInteger, Term
-from kovacic.reading.expression import Place, RationalReader
+from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
+from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import tokens_of
 from kovacic.reading.linear import LinearArithmetic, Symbols
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
@@ -165,7 +165,7 @@ class SymbolicReader(RationalReader):
     def equation(self, left: Any, right: Any) -> Any:
         raise InputError(f"{self.what} is an expression, not an equation")
 
-    def power(self, base: Any, exponent: Any, place: Place) -> Any:
+    def power(self, base: Any, exponent: Any, place: OperationPlace) -> Any:
         try:
             return self.arithmetic.power(base, exponent)
         except NotAnInteger:
@@ -173,7 +173,7 @@ class SymbolicReader(RationalReader):
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:
         if head == "root" and len(arguments) == 2:
-            return self.power(arguments[0], self.arithmetic.divide(Term(1, 0), arguments[1]), site)
+            return self.power(arguments[0], self.arithmetic.divide(Monomial(1, 0), arguments[1]), site)
         if head not in FUNCTION_NAMES or len(arguments) != 1 or isinstance(arguments[0], tuple):
             hint = f"the functions are {', '.join(sorted(FUNCTION_NAMES))}, of one argument"
             raise InputError(f"{self.what} can't contain {site.text()}", hint=hint)

@@ -31,8 +31,8 @@ from kovacic.special.pullback import Pullback, StandardEquation, variable
 from kovacic.special.values import (
     LIMIT,
     Cost,
-    Solution,
     StandardForm,
+    StandardSolution,
     State,
     each,
     is_integer,
@@ -227,7 +227,9 @@ def sign_of(n: Any, d: Any) -> int:
     return int(d != 0 and bool(acb(n / d).real < 0))
 
 
-def standard_form(n: fmpq_poly, d: fmpq_poly, mu: Any, found: tuple[Solution, Solution, Any]) -> StandardForm:
+def standard_form(
+    n: fmpq_poly, d: fmpq_poly, mu: Any, found: tuple[StandardSolution, StandardSolution, Any]
+) -> StandardForm:
     """With the exponents 1/2 +- mu at 0, two solutions, and the factor of the slit of the second, which then is of the second
     kind."""
     first, second, slit = found
@@ -236,10 +238,10 @@ def standard_form(n: fmpq_poly, d: fmpq_poly, mu: Any, found: tuple[Solution, So
     return StandardForm(n, d, ((half + mu, 0), (lower, 0)), each(first, second), (slit, None))
 
 
-def values(factor: Any, order: Any, *, squared: bool) -> tuple[Solution, Solution, Any]:
+def values(factor: Any, order: Any, *, squared: bool) -> tuple[StandardSolution, StandardSolution, Any]:
     """0F1(; 1 +- order; argument), the argument factor z or, `squared`, factor z^2/4; and the factor of the slit."""
 
-    def first(order: Any) -> Solution:
+    def first(order: Any) -> StandardSolution:
         c = acb(1 + order)
 
         def value(z: acb) -> State:

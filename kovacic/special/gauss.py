@@ -42,8 +42,8 @@ from kovacic.special.pullback import Pullback, StandardEquation, variable
 from kovacic.special.values import (
     LIMIT,
     Cost,
-    Solution,
     StandardForm,
+    StandardSolution,
     State,
     each,
     ends,
@@ -54,7 +54,7 @@ from kovacic.special.values import (
 
 if TYPE_CHECKING:
     from kovacic.closed_form.atoms import Expr
-    from kovacic.special.writer import Term, Writer, WrittenFactor
+    from kovacic.special.writer import Writer, WrittenFactor, WrittenTerm
 
 
 @dataclass(frozen=True)
@@ -157,7 +157,7 @@ class _Form:
         return self.writer.factor(self.f, powers)
 
     @property
-    def term(self) -> Term:
+    def term(self) -> WrittenTerm:
         """u, with the sign of beta that leaves fewer factors."""
         forms = [replace(self, beta=sign * self.beta) for sign in (1, -1)]
         form = min(forms, key=lambda form: form.factor.size)
@@ -250,7 +250,7 @@ def _jacobi(form: _Form) -> tuple[Expr, Expr]:
     return writer.pair((form.factor, writer.without_constant(polynomial)), second)
 
 
-def _even_and_odd(form: _Form) -> tuple[Term, Term]:
+def _even_and_odd(form: _Form) -> tuple[WrittenTerm, WrittenTerm]:
     """The even and the odd solution in 1 - 2 f, for alpha = beta."""
     writer = form.writer
     t = writer.argument(1 - 2 * form.f)
@@ -295,7 +295,7 @@ def _values(mapped: tuple[Any, Any, Any, Any, Any]) -> StandardForm:
     return StandardForm(n, d, ((upper, right), (upper, right)), each(first, second), (1, 1), independent)
 
 
-def _root(e: Any) -> Solution:
+def _root(e: Any) -> StandardSolution:
     """((1 + w)/2)^(-e), w = sqrt(1 - z)."""
 
     def value(z: acb) -> State:
@@ -306,7 +306,7 @@ def _root(e: Any) -> Solution:
     return value
 
 
-def _sine(e: Any) -> Solution:
+def _sine(e: Any) -> StandardSolution:
     """sin(e theta)/(e sqrt(z)), theta/sqrt(z) for e = 0."""
 
     def value(z: acb) -> State:
@@ -318,7 +318,7 @@ def _sine(e: Any) -> Solution:
     return value
 
 
-def _cosine(e: Any) -> Solution:
+def _cosine(e: Any) -> StandardSolution:
     """cos(e theta)."""
 
     def value(z: acb) -> State:
@@ -329,7 +329,7 @@ def _cosine(e: Any) -> Solution:
     return value
 
 
-def _hypergeometric(e0: Any, e1: Any, e2: Any, *, mirrored: bool) -> Solution:
+def _hypergeometric(e0: Any, e1: Any, e2: Any, *, mirrored: bool) -> StandardSolution:
     """2F1 with the exponent differences e0 at 0, e1 at 1, e2 at infinity, in z, or in 1 - z if it is mirrored."""
     a, b, c = (1 + e0 + e1 + e2) / 2, (1 + e0 + e1 - e2) / 2, 1 + e0
     whole = [is_integer(v) for v in (e2, a - c, b - c, e1)]

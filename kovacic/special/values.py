@@ -19,8 +19,10 @@ from flint.utils.flint_exceptions import DomainError
 from kovacic.algebra.rationals import RationalPoly
 
 State = tuple["acb", "acb"]  # (E, E')
-Solution = Callable[["acb"], State]  # at z
-Solutions = Callable[["acb", Sequence[bool]], list[State]]  # for those of both that are needed, zeros for the other
+StandardSolution = Callable[["acb"], State]  # at z
+StandardSolutions = Callable[
+    ["acb", Sequence[bool]], list[State]
+]  # for those of both that are needed, zeros for the other
 HALF = fmpq(1, 2)
 
 
@@ -35,7 +37,7 @@ class StandardForm:
     n: fmpq_poly
     d: fmpq_poly
     powers: tuple[tuple[Any, Any], tuple[Any, Any]]
-    values: Solutions
+    values: StandardSolutions
     slits: tuple[Any, Any] = (None, None)
     independent: bool = True
 
@@ -51,7 +53,7 @@ class StandardForm:
         return list(zip(*rows, strict=True))
 
 
-def each(*solutions: Solution) -> Solutions:
+def each(*solutions: StandardSolution) -> StandardSolutions:
     """The values of either."""
     return lambda z, needed: [
         solution(z) if wanted else (acb(0), acb(0)) for solution, wanted in zip(solutions, needed, strict=True)

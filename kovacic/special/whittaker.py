@@ -48,8 +48,8 @@ from kovacic.special.pullback import Pullback, StandardEquation, variable
 from kovacic.special.values import (
     LIMIT,
     Cost,
-    Solution,
     StandardForm,
+    StandardSolution,
     State,
     each,
     ends,
@@ -60,7 +60,7 @@ from kovacic.special.values import (
 
 if TYPE_CHECKING:
     from kovacic.closed_form.atoms import Expr
-    from kovacic.special.writer import Term, Writer, WrittenFactor
+    from kovacic.special.writer import Writer, WrittenFactor, WrittenTerm
 
 #: Irregular places up to which all signs are tried where no residue tells them.
 _MOST_SIGNS = 10
@@ -195,12 +195,12 @@ class _Form:
         """exp(-z/2) z^power, and what belongs to the pull-back."""
         return self.writer.factor(self.f, [(power, self.f)], (-self.q, self.f))
 
-    def kummer(self, mu: Number) -> Term:
+    def kummer(self, mu: Number) -> WrittenTerm:
         """M_mu."""
         return self.factor(mu + HALF), self.writer.hypergeometric((mu - self.kappa + HALF,), (2 * mu + 1,), self.z)
 
     @property
-    def tricomi(self) -> Term:
+    def tricomi(self) -> WrittenTerm:
         """W."""
         top = [mu - self.kappa + HALF for mu in (self.mu, -self.mu)]
         return self.factor(self.kappa), self.writer.hypergeometric(top, (), -1 / self.z)
@@ -252,13 +252,13 @@ def _laguerre(form: _Form) -> tuple[Expr, Expr] | None:
 # ------------------------------------------------------------------------------------------ values
 
 
-def _values(q: Any, r: Any, mu: Any) -> tuple[Solution, Solution, Any]:
+def _values(q: Any, r: Any, mu: Any) -> tuple[StandardSolution, StandardSolution, Any]:
     """Two solutions, and the factor of the slit of the second where that is U."""
     rho = square_root(q)
     kappa = r / (2 * rho)
     half = fmpq(1, 2)
 
-    def first(mu: Any) -> Solution:
+    def first(mu: Any) -> StandardSolution:
         a, b = acb(half + mu - kappa), acb(1 + 2 * mu)
 
         def value(z: acb) -> State:

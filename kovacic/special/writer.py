@@ -36,7 +36,7 @@ class WrittenFactor:
 
 
 #: Powers and exponentials, and the special function that they are multiplied with.
-Term = tuple[WrittenFactor, Expr]
+WrittenTerm = tuple[WrittenFactor, Expr]
 
 
 class Writer:
@@ -72,7 +72,7 @@ class Writer:
                 others.append(exp(self.constant(Number(number.part * 0, number.roots)) * self.argument(function)))
         return WrittenFactor(product(rate), tuple(others))
 
-    def pair(self, first: Term, second: Term) -> tuple[Expr, Expr]:
+    def pair(self, first: WrittenTerm, second: WrittenTerm) -> tuple[Expr, Expr]:
         """The two solutions, the one with fewer factors first."""
         if second[0].size < first[0].size:
             first, second = second, first
