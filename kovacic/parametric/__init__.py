@@ -1,7 +1,8 @@
 """For which values of the parameters does y'' = S y have Liouvillian solutions?
 
-In goes S over Q(t1, ..., tk), out comes a `ParametricAnswer`: the partition of parameter space into regions, each an exact statement
-with Kovacic's case, and whether the list is proven to be complete.  Read `api` first, then `partition`.  One step a module:
+In goes S over Q(t1, ..., tk), out comes a `ParametricAnswer`: the partition of parameter space into regions, each an exact
+statement with Kovacic's case, and whether the list is proven to be complete.  Read `api` first, then `partition`.  One step a
+module:
 
 1. `api` reads S, and makes an algebraic constant one more parameter; `assumptions` are what is known about the parameters;
 2. `partition` asks the engine for the generic answer, and treats the values at which S changes by recursion on hypersurfaces:

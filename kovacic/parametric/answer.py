@@ -201,7 +201,7 @@ class ParametricAnswer:
 
     @classmethod
     def from_json(cls, text: str | Mapping[str, Any]) -> ParametricAnswer:
-        """The conditions that `to_json` wrote, but for `Condition.solution`.
+        """The conditions that `to_json` wrote, but for `ParameterRegion.solution`.
 
         Raises `InputError` for other data.
 
