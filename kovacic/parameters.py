@@ -24,6 +24,46 @@ class Conditions(ParametricAnswer):
         """The verified answer at a point: the omega that the region makes possible."""
         return Solution.of(self.answer_at(values))
 
+    def theorem(self, *, format: str = "text") -> str:
+        r"""The conditions as the theorem that a paper prints: hypothesis, cases with groups and solutions, proof, references.
+
+        Parameters
+        ----------
+        format : str
+            "text" (the default), "markdown" with formulas between dollar signs, "latex", the body of a document with amsmath,
+            amssymb and graphicx, or "html", a page of its own.
+
+        Returns
+        -------
+        str
+            "The equation has Liouvillian solutions if and only if one of the following holds", each case where none of those
+            before it holds, with its group, its solutions, and the first Delta_d; where the list isn't proven to be complete,
+            what isn't.
+
+        Raises
+        ------
+        ValueError
+            For another format.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> print(kovacic.conditions("x^4 + mu*x", var="x").theorem().partition("\n\nCase 1")[0])
+        Theorem
+        =======
+        <BLANKLINE>
+        Let mu be a complex number. The equation
+        <BLANKLINE>
+            y'' = (x^4 + mu*x) y
+        <BLANKLINE>
+        has Liouvillian solutions if and only if the following holds:
+        <BLANKLINE>
+        mu = 2, 4 mod 6.
+        """
+        from kovacic.views.theorem import theorem
+
+        return theorem(self, format=format)
+
 
 def conditions(
     S: Any,

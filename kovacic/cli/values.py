@@ -104,6 +104,13 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
 @click.argument("equation", metavar="S")
 @click.option("--json", "as_json", is_flag=True, help="One line of JSON.")
 @click.option("--latex", "as_latex", is_flag=True, help="A LaTeX formula.")
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["text", "markdown", "latex", "html"]),
+    help="The theorem as a paper prints it: text; Markdown with formulas between dollar signs; the body of a LaTeX document "
+    "(amsmath, amssymb, graphicx); or a page of its own for a browser.",
+)
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
 @options.ASSUME
 @click.option("--max-degree", default=2, show_default=True, help="The determinants Delta_d are shown up to this d.")
@@ -112,13 +119,21 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
 @click.option("--check", "samples", metavar="N", type=int, help="Solve at N exact points, and compare.")
 @options.LIMIT
 def conditions(
-    equation: str, as_json: bool, as_latex: bool, everything: bool, explained: bool, samples: int | None, **given: Any
+    equation: str,
+    as_json: bool,
+    as_latex: bool,
+    form: str | None,
+    everything: bool,
+    explained: bool,
+    samples: int | None,
+    **given: Any,
 ) -> int:
     """For which values of its parameters does y'' = S(x) y have Liouvillian solutions?
 
     \b
     kovacic conditions "(4*n^2 - 1)/(4*x^2) - 1"
     kovacic conditions --check 200 "x^4 + mu*x"
+    kovacic conditions --format latex "x^4 + a*x^2 + b*x + c"
     """
     from kovacic.parameters import conditions
 
@@ -129,6 +144,9 @@ def conditions(
             shown = answer.to_json()
         elif as_latex:
             shown = answer.latex()
+        elif form is not None:
+            theorem = answer.theorem(format=form).rstrip("\n")
+            shown = options.fitted(theorem) if form == "text" else theorem
         else:
             shown = options.fitted(answer.explain() if explained else answer.text(all=everything))
     print(shown)
@@ -138,7 +156,7 @@ def conditions(
             agreement = f"{len(report.disagreements)} disagree"
         print(
             f"  checked at {report.inside} points inside and {report.outside} outside: {agreement}",
-            file=sys.stderr if as_json or as_latex else sys.stdout,
+            file=sys.stderr if as_json or as_latex or form else sys.stdout,
         )
         if not report:
             return CHECK_FAILED

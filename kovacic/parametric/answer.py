@@ -239,10 +239,10 @@ class ParametricAnswer:
         """The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values."""
         rows = [rf"\text{{{r.verdict}}} & {r.statement.latex()}" for r in in_one_line(self.regions) if r.defined]
         rows.append(rf"\text{{{self.generic}}} & \text{{{self._where_generic}}}")
-        return rf"y'' = {self._right.latex}" + r"\colon\quad \begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
+        return rf"y'' = {self.right.latex}" + r"\colon\quad \begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
 
     @property
-    def _right(self) -> Math:
+    def right(self) -> Math:
         """S y."""
         return Formulas(self.variable, self.S.field).times(self.S, "y", "y")
 
@@ -269,7 +269,7 @@ class ParametricAnswer:
         def label_at(values: Mapping[Any, Any]) -> str:
             return str(self.predicted(self.point(values)) or "S not defined")
 
-        title = f"y'' = {self._right.text}"
+        title = f"y'' = {self.right.text}"
         return plot(
             label_at, self.parameters, title, axes, parameters=parameters, ranges=ranges, steps=steps, fixed=fixed
         )
@@ -280,7 +280,7 @@ class ParametricAnswer:
         With `all=True` every region is written.
         """
         known = f" ({self.assumptions})" if self.assumptions else ""
-        lines = [f"y'' = {self._right.text}, parameters {', '.join(self.parameters)}{known}"]
+        lines = [f"y'' = {self.right.text}, parameters {', '.join(self.parameters)}{known}"]
         lines += [f"  note: {notice}" for notice in self.notices]
         regions = in_one_line(self.regions)
         number = len(regions) if all or len(regions) <= _SCREEN + 1 else _SCREEN

@@ -111,8 +111,9 @@ def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budge
             generic = region.verdict if region.verdict.known else RegionVerdict.of(decide(S, budget, certify=False))
             complete = together([*regions, region])
             break
-        if decided is None:
-            regions.append(replace(region, statement=region.statement.narrowed(assumptions)))
+        statement = region.statement.narrowed(assumptions)
+        if decided is None and statement.decided(assumptions) is not False:
+            regions.append(replace(region, statement=statement))
     nothing = RegionVerdict(None)
     if complete is True and generic == nothing:
         while regions and regions[-1].plain and regions[-1].verdict == nothing:

@@ -132,6 +132,11 @@ class Assumptions:
     def of(self, name: str) -> Known:
         return dict(self.known).get(name, Known())
 
+    def is_integer(self, name: str) -> bool:
+        """Is it known to be one?"""
+        coset = self.of(name).coset
+        return coset is not None and coset.is_covered_by([_INTEGERS])
+
     def also(self, name: str, words: tuple[str, ...]) -> Assumptions:
         """The same with more words about one parameter."""
         together = dict.fromkeys((*self.of(name).words, *words))

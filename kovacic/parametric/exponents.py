@@ -135,8 +135,31 @@ def _parts(polynomial: Poly, below: Field) -> list[Poly]:
     return [leaf for part in polynomial.parts for leaf in _parts(part, below)]
 
 
+@dataclass(frozen=True)
+class _Places:
+    """The choices at each singular point, rational over the field."""
+
+    problem: Problem
+    field: Field
+    parts: list[list[LocalPart]]
+
+
 def _choices(problem: Problem) -> list[Exponents] | None:
-    """All choices of exponents, which differ by a root: the exponent difference, or the root of a leading coefficient."""
+    """All choices of exponents."""
+    places = _places(problem)
+    if places is None:
+        return None
+    return [Exponents(places.problem, places.field, choice) for choice in product(*places.parts)]
+
+
+def local_parts(problem: Problem) -> list[list[LocalPart]] | None:
+    """One or two at each singular point, over one field; None as in `choices_of_degree`."""
+    places = _places(problem)
+    return None if places is None else places.parts
+
+
+def _places(problem: Problem) -> _Places | None:
+    """The choices differ by a root: the exponent difference, or the root of a leading coefficient."""
     if problem.field.ground != QQ and problem.field.absolute_degree > _SURFACE:
         return None
     split = _with_rational_points(problem)
@@ -155,7 +178,7 @@ def _choices(problem: Problem) -> list[Exponents] | None:
         roots.append(root)
     S = RatFunc(split.S.num.over(field), split.S.den.over(field))
     parts = [_local_parts(place, S, root.over(field)) for place, root in zip(singular, roots, strict=True)]
-    return [Exponents(split, field, choice) for choice in product(*parts)]
+    return _Places(split, field, parts)
 
 
 def _with_rational_points(problem: Problem) -> Problem | None:

@@ -8,7 +8,7 @@ among words, formulas are marked by backquotes, from which `latex_of` makes LaTe
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
@@ -21,7 +21,7 @@ from kovacic.algebra.rationals import square_part
 from kovacic.algebra.sparse import by_power, factorisation
 from kovacic.numerals import digits
 from kovacic.parametric.functions import over_parameters
-from kovacic.writing.formula import caret, latex_text
+from kovacic.writing.formula import Math, caret, latex_text
 
 #: Terms up to which a quotient is written as a sum.
 _TERMS = 4
@@ -34,6 +34,7 @@ _SIGNS = {
     r"\\mathrm{in} ([ZN])$": r"\\in \\mathbb{\1}",
     r" = (.*) \\mathrm{mod} (.*)$": r" \\equiv \1 \\pmod{\2}",
     r"\\mathrm{Delta}": r"\\Delta",
+    r"Z$": r"\\mathbb{Z}",
     r"\+- ?": r"\\pm ",
 }
 
@@ -46,16 +47,16 @@ def text_of(said: str) -> str:
 def latex_of(said: str) -> str:
     r"""The same in LaTeX.
 
-    >>> print(latex_of("`E = -n^2 - b^2/(4*n^2)` for an integer n"))
-    E = -n^{2} - \frac{b^{2}}{4 n^{2}} \text{ for an integer n}
+    >>> print(latex_of("`E = -n^2 - b^2/(4*n^2)` for an integer `n`"))
+    E = -n^{2} - \frac{b^{2}}{4 n^{2}}\text{ for an integer } n
     """
+    return "".join(part.latex if isinstance(part, Math) else rf"\text{{{part}}} " for part in sentence_of(said)).strip()
+
+
+def sentence_of(said: str) -> list[str | Math]:
+    """The same as the parts of a sentence, words and formulas."""
     pieces = enumerate(said.split(_MARK))
-    return "".join(_formula(piece) if k % 2 else _words(piece) for k, piece in pieces if piece)
-
-
-def _words(text: str) -> str:
-    said = text.replace("^", r"\^{}")
-    return " " * text.startswith(" ") + rf"\text{{{said}}}" + " " * text.endswith(" ")
+    return [Math(piece, _formula(piece)) if k % 2 else piece for k, piece in pieces if piece]
 
 
 def _formula(text: str) -> str:
@@ -84,22 +85,69 @@ def written(function: FunctionPoly | RatFunc, letter: str = "x") -> str:
     return min((_sum(form, names) for form in _forms(above, below)), key=len)
 
 
+def partial_fractions(S: RatFunc, variable: str) -> str:
+    """S, not zero, as a polynomial in the variable and fractions with powers of the irreducible factors of its denominator."""
+    whole, rest = divmod(S.num, S.den)
+    terms = [_monomial(whole[k], variable, k) for k in range(whole.degree, -1, -1) if whole[k]]
+    for factor, k in S.field.factor(S.den):
+        power = factor**k
+        above = rest * (S.den // power).inverse_modulo(power) % power
+        digits_from_below = []
+        for _ in range(k):
+            above, digit = divmod(above, factor)
+            digits_from_below.append(digit)
+        for j, digit in enumerate(digits_from_below):
+            if digit:
+                terms.append(_in_factors(RatFunc(digit, factor ** (k - j)), variable))
+    return _joined(terms)
+
+
+def _monomial(coefficient: Poly, variable: str, k: int) -> str:
+    text = written(over_parameters(coefficient))
+    if k == 0:
+        return text
+    power = variable if k == 1 else f"{variable}^{k}"
+    if text in ("1", "-1"):
+        return text[:-1] + power
+    return f"({text})*{power}" if " " in text else f"{text}*{power}"
+
+
+def _in_factors(function: RatFunc, variable: str) -> str:
+    above, below, names = _cleared(function, variable)
+    return _sum([_factored(above, below)], names)
+
+
 def equation_written(function: FunctionPoly) -> str:
-    """`function = 0`; a linear form is solved for a parameter, and two terms stand on two sides."""
+    """`function = 0`; it is solved where it is linear, or a power is a product of linear factors; two terms have two sides."""
     above, _, names = _cleared(function, "x")
     terms, context, left, right = above.to_dict(), above.context(), above, "0"
+    power = None if len(terms) < 3 else _power_in_linear_factors(above)
     linear = {next(i for i, k in enumerate(e) if k): e for e in terms if sum(map(int, e)) == 1}
     if linear and len(terms) - len(linear) == sum(1 for e in terms if not any(e)):
         i = next((i for i, e in linear.items() if abs(int(terms[e])) == 1), next(iter(linear)))
         left, coefficient = context.gen(i), int(terms[linear[i]])
         values = _forms(left * coefficient - above, context.constant(coefficient))
         right = min((_sum(form, names) for form in values), key=len)
+    elif power is not None:
+        left, right = power[0], _sum([power[1]], names)
     elif len(terms) == 2 and sum(1 for c in terms.values() if int(c) < 0) == 1:
         left, other = (
             context.from_dict({e: abs(int(c))}) for e, c in sorted(terms.items(), key=lambda t: int(t[1]) < 0)
         )
         right = _polynomial(other, names)
     return f"{_polynomial(left, names)} = {right}"
+
+
+def _power_in_linear_factors(polynomial: Any) -> tuple[Any, _Term] | None:
+    """`(t^k, f)` where the polynomial vanishes exactly where t^k = f, and f is a product of linear forms; None if none is."""
+    for i, degree in enumerate(map(int, polynomial.degrees())):
+        parts = by_power(polynomial, i) if degree else {}
+        if len(parts) != 2 or 0 not in parts or not parts[degree].is_constant():
+            continue
+        value = _factored(-parts[0], parts[degree])
+        if all(factor.total_degree() == 1 for factor, _ in value.top):
+            return polynomial.context().gen(i) ** degree, value
+    return None
 
 
 def root_written(square: Poly) -> str:
@@ -163,7 +211,11 @@ def _without_squares(polynomial: Any) -> tuple[int, tuple[Power, ...], Any]:
 
 
 def _sum(terms: Sequence[_Term], names: Sequence[str]) -> str:
-    return " + ".join(_term(term, names) for term in terms).replace("+ -", "- ") or "0"
+    return _joined(_term(term, names) for term in terms) or "0"
+
+
+def _joined(terms: Iterable[str]) -> str:
+    return " + ".join(terms).replace("+ -", "- ")
 
 
 def _polynomial(polynomial: Any, names: Sequence[str]) -> str:

@@ -15,6 +15,9 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.sparse import by_power, factorisation
 
+#: Integers that are tried one by one.
+_MOST_INTEGERS = 1000
+
 
 def over_parameters(value: Poly) -> FunctionPoly:
     """The same polynomial; raises `TypeError` where its field isn't a Q(t)."""
@@ -134,3 +137,29 @@ def common_divisor(a: Fraction, b: Fraction) -> Fraction:
 def common_multiple(a: Fraction, b: Fraction) -> Fraction:
     """The least positive integral multiple of both; a and b are positive."""
     return a * b / common_divisor(a, b)
+
+
+def values_at_integers(form: FunctionPoly, largest: int) -> tuple[str, dict[int, Fraction]] | None:
+    """The only parameter in a form (a t + b)/(c t + d), and its values with such denominators, by the integers t.
+
+    c isn't 0; None for any other form, and where there might be too many.  The denominator is that of c t + d divided by a
+    divisor of a d - b c.
+    """
+    above, below = form.num, form.den
+    used = [k for k, degree in enumerate(map(int, (above * below).degrees())) if degree]
+    if form.degree > 0 or len(used) != 1:
+        return None
+    (k,) = used
+    if int(below.degrees()[k]) != 1 or int(above.degrees()[k]) > 1:
+        return None
+    a, b, c, d = (_number(by_power(part, k).get(power)) for part in (above, below) for power in (1, 0))
+    most = largest * abs(a * d - b * c)
+    if most > _MOST_INTEGERS:
+        return None
+    end = (most + abs(d)) // abs(c)
+    values = {t: Fraction(a * t + b, c * t + d) for t in range(-end, end + 1) if c * t + d}
+    return form.field.names[k - 1], {t: value for t, value in values.items() if value.denominator <= largest}
+
+
+def _number(constant: Any) -> int:
+    return 0 if constant is None or constant.is_zero() else int(constant.leading_coefficient())

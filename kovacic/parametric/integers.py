@@ -18,9 +18,17 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.functions import Coset, ParameterPoint, common_multiple, degrees, normal_form, over_parameters
+from kovacic.parametric.functions import (
+    Coset,
+    ParameterPoint,
+    common_multiple,
+    degrees,
+    normal_form,
+    over_parameters,
+    values_at_integers,
+)
 from kovacic.parametric.spectra import Notation, families, integer_condition, kind
-from kovacic.parametric.statements import ALWAYS, Statement, either
+from kovacic.parametric.statements import ALWAYS, Statement, Vanishes, either
 
 #: What integers are called, the first that isn't a parameter.
 LETTERS = "nNmMkKjJ"
@@ -121,6 +129,18 @@ class Congruence(Statement):
             return assumptions.meets_classes(self.form, self.cosets)
         roots = [-f[0] for f, _ in self.equation.field.factor(self.equation) if f.degree == 1] if assumptions else []
         return True if any(assumptions.meets_classes(over_parameters(root), self.cosets) for root in roots) else None
+
+    def narrowed(self, assumptions: Assumptions) -> Statement:
+        """The values of an integer parameter t, of which only finitely many make (a t + b)/(c t + d) so integral."""
+        largest = lcm(self.modulus.denominator, *(residue.denominator for residue in self.residues))
+        known = None if self.form is None else values_at_integers(self.form, largest)
+        if known is None or not assumptions.is_integer(known[0]):
+            return self
+        name, values = known
+        field = self.equation.field
+        numbers = [t for t, value in values.items() if any(coset.contains(value) for coset in self.cosets)]
+        found = [Vanishes(over_parameters(field.generator(name) - number)) for number in numbers]
+        return either(*(here for here in found if here.decided(assumptions) is not False))
 
     def avoiding(self, names: Collection[str], fixed: Collection[str] = ()) -> Statement:
         return replace(self, letter=free_letter(names), fixed=tuple(fixed))

@@ -16,6 +16,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.decision import Decision, Status, Structure
 from kovacic.limits import check_time
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
+from kovacic.parametric.formulas import text_of
 from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
@@ -60,6 +61,11 @@ class RegionVerdict:
     @property
     def group(self) -> str:
         """The family of the Galois group."""
+        return text_of(self.group_written)
+
+    @property
+    def group_written(self) -> str:
+        """The same with formulas between backquotes."""
         return (self.family or _GROUPS[self.structure]) if self.known else "not determined"
 
     def __str__(self) -> str:
@@ -74,7 +80,7 @@ _GROUPS = {
     Structure.TETRAHEDRAL: "binary tetrahedral, order 24",
     Structure.OCTAHEDRAL: "binary octahedral, order 48",
     Structure.ICOSAHEDRAL: "binary icosahedral, order 120",
-    None: "SL2(C)",
+    None: "`SL2(C)`",
 }
 
 
@@ -213,7 +219,7 @@ def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
         if any(known <= said for known in seen):
             continue
         charts = _charts(region.statement)
-        if not charts or not all(any(_holds_on(r.statement, *chart) for r in kept) for chart in charts):
+        if not charts or not all(any(holds_on(r.statement, *chart) for r in kept) for chart in charts):
             seen.append(said)
             kept.append(region)
     return kept
@@ -263,10 +269,10 @@ def _common_zeros(functions: tuple[FunctionPoly, ...]) -> ParameterPoint | None:
         return None
 
 
-def _holds_on(statement: Statement, chart: ParameterPoint, known: Assumptions) -> bool:
+def holds_on(statement: Statement, chart: ParameterPoint, known: Assumptions) -> bool:
     """Is it provably true at all of these values?"""
     if isinstance(statement, Both | Either):
-        return (all if isinstance(statement, Both) else any)(_holds_on(part, chart, known) for part in statement.parts)
+        return (all if isinstance(statement, Both) else any)(holds_on(part, chart, known) for part in statement.parts)
     try:
         if isinstance(statement, Vanishes):
             return not chart.at(statement.function)

@@ -31,12 +31,23 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
+from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.formulas import root_written, shown
-from kovacic.parametric.functions import ParameterPoint, common_multiple, normal_form, over_parameters, roots
+from kovacic.parametric.functions import (
+    ParameterPoint,
+    common_multiple,
+    normal_form,
+    over_parameters,
+    roots,
+    values_at_integers,
+)
 from kovacic.parametric.integers import Congruence, integer_roots
-from kovacic.parametric.statements import ALWAYS, Statement, either
+from kovacic.parametric.restriction import Hypersurface, hypersurface, over_all
+from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both, either
 
 _F = Fraction
+#: The largest denominator in Schwarz's table.
+_LARGEST = 5
 #: Schwarz's rows: the structure, the exponent differences modulo 1, and whether l + m + q must be even.
 _SCHWARZ: dict[int, tuple[Structure, tuple[Fraction, Fraction, Fraction], bool]] = {
     2: (Structure.TETRAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 3)), False),
@@ -108,12 +119,65 @@ class Schwarz(Statement):
 
     @cached_property
     def written(self) -> str:
-        names = _differences(self.cubic)
+        names = differences(self.cubic)
         rows = [k for k, row in _SCHWARZ.items() if row[0] in self.structures]
         which = f"rows {rows[0]}-{rows[-1]}" if rows else "row 1 (two half-integers)"
         if self.structures == (Structure.IMPRIMITIVE,) and len(names) == 3:
             return _two_half_integers(names)
-        return f"the exponent differences {', '.join(names)} are in Schwarz's {which}"
+        return f"the exponent differences {', '.join(f'`{name}`' for name in names)} are in Schwarz's {which}"
+
+    def narrowed(self, assumptions: Assumptions) -> Statement:
+        """At each value of an integer parameter for which its exponent difference has a denominator of the table."""
+        field = self.cubic.field
+        for square in roots(self.cubic):
+            difference = field.sqrt(square)
+            known = None if difference is None else values_at_integers(over_parameters(difference), _LARGEST)
+            if known is None or not assumptions.is_integer(known[0]):
+                continue
+            name, numbers = known
+            found: list[Statement] = []
+            for number in numbers:
+                here = Vanishes(over_parameters(field.generator(name) - number))
+                if here.decided(assumptions) is False:
+                    continue
+                there = self._on(hypersurface(here.function))
+                if there != NEVER:
+                    found.append(both(here, there))
+            return either(*found)
+        return self
+
+    def _on(self, surface: Hypersurface) -> Statement:
+        """The same for fewer parameters, said in all of them."""
+        cubic = surface.at(self.cubic)
+        if not isinstance(cubic, FunctionPoly):
+            differences = [*map(rational_square_root, roots(cubic))]
+            return ALWAYS if kimura(differences) in self.structures else NEVER
+        single = _one_function(cubic)
+        if single is None:
+            return over_all(Schwarz(cubic, self.structures), self.cubic.field)
+        return over_all(either(*(_classes(single, structure) for structure in self.structures)), self.cubic.field)
+
+    def resolved(self) -> tuple[list[str], list[tuple[Structure, list[str]]]]:
+        """The classes modulo 1 or 2, up to signs, of two differences beside a constant one, with their names.
+
+        Else no names, and the rows of Schwarz's table.
+        """
+        constants, _ = _split(self.cubic)
+        names = [name for name in differences(self.cubic) if not re.fullmatch(r"[\d/]+", name)]
+        if len(constants) != 1 or constants[0] is None or len(names) != 2:
+            rows = [row for row in _SCHWARZ.values() if row[0] in self.structures]
+            return [], [(kind, [f"`{_text(row)}`", "even" if even else "any"]) for kind, row, even in rows]
+        third, found = int(60 * constants[0]) % 120, list[tuple[Structure, int, int]]()
+        for u, v in product(range(61), repeat=2):
+            kind = _table().get(tuple(sorted((u, v, third))))
+            if kind in self.structures:
+                found.append((kind, u, v))
+        modulus = 2
+        if {(kind, 60 - u, v) for kind, u, v in found} == {(kind, u, 60 - v) for kind, u, v in found} == {*found}:
+            modulus, found = 1, [(kind, u, v) for kind, u, v in found if max(u, v) <= 30]
+        lattice = "Z" if modulus == 1 else "2*Z"
+        found.sort(key=lambda row: (self.structures.index(row[0]), row[1:]))
+        return names, [(kind, [f"`+-{_F(u, 60)} + {lattice}`", f"`+-{_F(v, 60)} + {lattice}`"]) for kind, u, v in found]
 
     def merged(self, other: Statement) -> Schwarz | None:
         if isinstance(other, Schwarz) and other.cubic == self.cubic:
@@ -121,19 +185,23 @@ class Schwarz(Statement):
         return None
 
 
+def _text(row: Sequence[Fraction]) -> str:
+    return ", ".join(map(str, row))
+
+
 def _two_half_integers(names: list[str]) -> str:
-    """That two of the exponent differences are half-integers."""
-    constants = [name for name in names if re.fullmatch(r"[\d/]+", name)]
-    free = [name for name in names if name not in constants]
+    """That two of the exponent differences, of which no constant one is a half-integer, are half-integers."""
+    free = [name for name in names if not re.fullmatch(r"[\d/]+", name)]
     twice = [name for name in free if free.count(name) > 1]
-    needed = 2 - sum(name.endswith("/2") for name in constants)
-    different = twice[:1] if needed == 2 and twice else list(dict.fromkeys(free))
-    if needed == 1 or len(different) == 1:
-        return f"{'one of ' * (len(different) > 1)}{', '.join(different)} is a half-integer"
-    return f"{'two of ' * (len(different) > 2)}{(' and ' if len(different) == 2 else ', ').join(different)} are half-integers"
+    different = [f"`{name}`" for name in (twice[:1] or free)]
+    if len(different) == 1:
+        return f"{different[0]} is a half-integer"
+    if len(different) == 2:
+        return f"{' and '.join(different)} are half-integers"
+    return f"two of {', '.join(different)} are half-integers"
 
 
-def _differences(cubic: FunctionPoly) -> list[str]:
+def differences(cubic: FunctionPoly) -> list[str]:
     """The exponent differences where they are square roots over Q(t), else one text that says what they are."""
     factors = cubic.field.factor(cubic)
     if any(factor.degree > 1 for factor, _ in factors):
@@ -180,9 +248,9 @@ def group(problem: Problem, structure: Structure) -> str | None:
     constants, variable = _split(cubic)
     if structure is Structure.REDUCIBLE:
         if None not in constants and len(constants) >= 2:
-            return "mu_n, or G_a extended by mu_n"  # a third difference is rational because their sum is
-        where = f"where {', '.join(_differences(cubic))} are rational"
-        return f"mu_n, or G_a extended by mu_n, {where}; else G_m, or the Borel group"
+            return "`mu_n`, or `G_a` extended by `mu_n`"  # a third difference is rational because their sum is
+        where = f"where {', '.join(f'`{name}`' for name in differences(cubic))} are rational"
+        return f"`mu_n`, or `G_a` extended by `mu_n`, {where}; else `G_m`, or the Borel group"
     if structure is not Structure.IMPRIMITIVE:
         return None
     halves = [d for d in constants if d is not None and d.denominator == 2]
@@ -190,7 +258,7 @@ def group(problem: Problem, structure: Structure) -> str | None:
     if len(constants) >= 2 and rest:
         return "the infinite dihedral group" if rest[0] is None else "dicyclic"
     if len(constants) == 2 and variable is not None:
-        return f"dicyclic where {root_written(variable)} is rational, else the infinite dihedral group"
+        return f"dicyclic where `{root_written(variable)}` is rational, else the infinite dihedral group"
     return "dicyclic where the third exponent difference is rational, else the infinite dihedral group"
 
 
@@ -209,13 +277,24 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
         yield always, ALWAYS
     if always is not None or len(constants) == 3:
         return
+    halves = [d % 1 for d in constants if d is not None]
     residues = {int(60 * d) % 120 if d is not None and d.denominator <= 5 else None for d in constants}
     for structure in (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL):
         rows = (set(row) for row, known in _table().items() if known is structure)
         if single is not None:
             yield structure, _classes(single, structure)
+        elif structure is Structure.IMPRIMITIVE and _F(1, 2) in halves:
+            yield structure, _one_more_half_integer(cubic)
         elif structure is Structure.IMPRIMITIVE or any(residues <= row for row in rows):
             yield structure, Schwarz(cubic, (structure,))
+
+
+def _one_more_half_integer(cubic: FunctionPoly) -> Statement:
+    """That an exponent difference that depends on the parameters is a half-integer: its square N^2/4 with an odd N."""
+    field = cubic.field
+    factors = [factor for factor, k in field.factor(cubic) for _ in range(k)]
+    variable = (f for f in factors if any(field.rational_value(c) is None for c in f))
+    return either(*(integer_roots(over_parameters(f(field.poly([0, 0, _F(1, 4)]))), [1], 2) for f in variable))
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,10 @@ the conditions say for which of the two signs y is a solution.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
+from itertools import product
 from typing import Any
 
 import sympy
@@ -20,11 +21,12 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, display
-from kovacic.closed_form.product import product
+from kovacic.closed_form.product import product as product_of_powers
 from kovacic.engine.decide import decide
+from kovacic.engine.places import Problem
 from kovacic.equation import Equation
 from kovacic.limits import Budget
-from kovacic.parametric.exponents import Exponents
+from kovacic.parametric.exponents import Exponents, local_parts
 from kovacic.parametric.formulas import equation_written
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
 from kovacic.reading.change_of_variable import solution_in_x
@@ -92,6 +94,28 @@ class PolynomialSolution:
 
 #: From the degree d, if there is one to be chosen.
 Origin = Callable[[int | None], tuple[PolynomialSolution, ...]]
+#: The solution for signs, numbers +-1 or symbols for them.
+BySigns = Callable[[Sequence[Any]], PolynomialSolution]
+
+
+@dataclass(frozen=True)
+class Signed:
+    """Solutions for each choice of so many signs; `formula()` is None where there are none in radicals."""
+
+    formula: Callable[[], BySigns | None]
+    signs: int
+
+    def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
+        by_signs = self.formula()
+        if by_signs is None:
+            return ()
+        found = map(by_signs, product((1, -1), repeat=self.signs))
+        return tuple(dict.fromkeys(solution for solution in found if may_be_natural(solution.degree)))
+
+    def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
+        """All of them in one, with symbols for the signs."""
+        by_signs = self.formula()
+        return None if by_signs is None else by_signs(signs[: self.signs])
 
 
 @dataclass(frozen=True)
@@ -104,12 +128,48 @@ class Given:
     def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
         return tuple(replace(solution, y=self.translated(solution.y)) for solution in self.origin(number))
 
+    def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
+        """All of them in one, with symbols for the signs; None where there is no such formula."""
+        found = general(self.origin, signs)
+        return None if found is None else replace(found, y=self.translated(found.y))
+
     def translated(self, y: Any) -> Any:
         """Times the gauge factor, and in the user's variable."""
         equation = self.equation
         if equation.gauge:
-            y = y * display(product(equation.gauge), Atoms(sympy.Symbol(equation.variable)))
+            y = y * display(product_of_powers(equation.gauge), Atoms(sympy.Symbol(equation.variable)))
         return solution_in_x(equation, y)
+
+
+def general(origin: Origin | None, signs: Sequence[Any]) -> PolynomialSolution | None:
+    """The formula with symbols for the signs; None where there isn't one."""
+    return origin.general(signs) if isinstance(origin, Signed | Given) else None
+
+
+def weight_by_signs(problem: Problem, variable: str, P: Any) -> tuple[BySigns, int] | None:
+    """y = exp(int theta) P, deg P = degree, for all choices of the exponents at once, and how many signs choose them.
+
+    None where the exponents need too large an extension, or other roots than square roots.
+    """
+    parts = local_parts(problem)
+    if not parts or not _has_radicals(parts[0][0].exponent.field):
+        return None
+    x = sympy.Symbol(variable)
+
+    def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
+        y, degree, left = P, sympy.Integer(1), list(signs)
+        for choices in parts:
+            first, last = choices[0], choices[-1]
+            exponent, main = first.exponent.to_sympy(x), first.main.to_sympy(x)
+            if len(choices) > 1:
+                sign, other = left.pop(0), last.exponent.to_sympy(x)
+                exponent = sympy.factor((exponent + other) / 2) + sign * sympy.factor((exponent - other) / 2)
+                main = sign * main
+            y *= _local_factor(first.factor, exponent, main, x)
+            degree -= exponent
+        return PolynomialSolution(y, sympy.expand(degree))
+
+    return by_signs, sum(len(choices) > 1 for choices in parts)
 
 
 def solution_of_degree(exponents: Exponents, d: int, variable: str, given: FunctionPoly) -> PolynomialSolution | None:
@@ -129,7 +189,7 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
     x = sympy.Symbol(variable)
     y = P.to_sympy(x)
     for part in exponents.parts:
-        y *= _local_factor(part.factor, part.exponent, part.main, x)
+        y *= _local_factor(part.factor, sympy.factor(part.exponent.to_sympy(x)), part.main.to_sympy(x), x)
     zero = [" or ".join(f"{_text(f)} = 0" for f in factors) for factors in dict.fromkeys(map(tuple, alternatives))]
     conditions = [given.to_sympy(x), *(sympy.Mul(*(f.to_sympy(x) for f in factors)) for factors in alternatives)]
     return PolynomialSolution(y, sympy.Integer(d), tuple(conditions), ", ".join([equation_written(given), *zero]))
@@ -146,7 +206,7 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
     omega = -riccati.coefficients[0]
     x = sympy.Symbol(variable)
     constant = _constant(omega.field, S.field)
-    y = product(omega)
+    y = product_of_powers(omega)
     if constant is None or y.roots:
         return ()
 
@@ -176,13 +236,13 @@ def _constant(field: Field, below: Field) -> Any:
     return sympy.sqrt(sympy.factor(half**2 - rest)) - half
 
 
-def _local_factor(u: Poly | None, exponent: Poly, main: Poly, x: Any) -> Any:
+def _local_factor(u: Poly | None, exponent: Any, main: Any, x: Any) -> Any:
     """exp(int theta) for the part of theta at one point."""
-    integral = sympy.integrate(sympy.expand(main.to_sympy(x)), x)
+    integral = sympy.integrate(sympy.expand(main), x)
     if u is None:
         return sympy.exp(integral)
     base = u.to_sympy(x)
-    return base ** sympy.factor(exponent.to_sympy(x)) * sympy.exp(integral.subs(x, 1 / base))
+    return base**exponent * sympy.exp(integral.subs(x, 1 / base))
 
 
 def _has_radicals(field: Field) -> bool:

@@ -120,14 +120,15 @@ def _is_negative(n: Notation, f: RatFunc) -> bool:
 
 def kind(residues: Sequence[Fraction | int], modulus: Fraction | int, letter: str = "") -> str:
     """What an integer in these classes is, maybe with its name: "an odd integer n", "an integer not divisible by 3"."""
-    name = f" {letter}" if letter else ""
+    name = f" `{letter}`" if letter else ""
     if modulus == 1 and not any(residues):
         return f"an integer{name}"
     if modulus == 2 and list(residues) in ([0], [1]):
         return f"an {'odd' if residues[0] else 'even'} integer{name}"
     if len(residues) > 1 and list(residues) == list(range(1, int(modulus))):
         return f"an integer{name} not divisible by {modulus}"
-    return f"an integer{name} = {', '.join(map(str, residues))} mod {modulus}"
+    equation = f"{letter} = {', '.join(map(str, residues))} mod {modulus}"
+    return f"an integer `{equation}`" if letter else f"an integer`{equation}`"
 
 
 def integer_condition(equation: FunctionPoly, residues: Sequence[int], modulus: int, n: Notation) -> str:
@@ -191,7 +192,7 @@ def _choices(
         signs, shifts = ((1, -1), (0, -1, 1)) if modulus == 1 else ((1,), (0, -1))
         for sign, shift in product(signs, shifts):
             chosen = RatFunc(N * (sign * modulus) + residues[0] + modulus * shift)
-            yield f(chosen), f" for an integer {n.letter}", lambda n: n.denominator == 1
+            yield f(chosen), f" for an integer `{n.letter}`", lambda n: n.denominator == 1
     center = _center(equation, f)
     if center is None:
         return

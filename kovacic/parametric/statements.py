@@ -117,8 +117,11 @@ class _Several(Statement):
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """The parts that aren't the case anyway: false ones where one has to hold, true ones where all have to."""
-        parts = tuple(p.narrowed(assumptions) for p in self.parts if p.decided(assumptions) is not (not self.decisive))
-        return parts[0] if len(parts) == 1 else replace(self, parts=parts) if parts else self
+        parts = [part.narrowed(assumptions) for part in self.parts]
+        left = [part for part in parts if part.decided(assumptions) is not (not self.decisive)]
+        if not left:
+            return self
+        return either(*left) if self.decisive else both(*left) if len(left) > 1 else left[0]
 
 
 class Either(_Several):

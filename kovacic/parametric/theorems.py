@@ -47,11 +47,11 @@ d = (e beta - f Delta - n)/(2 n).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from itertools import chain, product
+from itertools import chain
 from math import gcd
 from typing import Any
 
@@ -66,7 +66,7 @@ from kovacic.parametric.formulas import shifted
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem
-from kovacic.parametric.solutions import PolynomialSolution, jacobi, may_be_natural, root
+from kovacic.parametric.solutions import BySigns, PolynomialSolution, Signed, jacobi, root
 from kovacic.parametric.statements import NEVER, Statement, both
 from kovacic.reading.symbolic import read_expression
 
@@ -120,7 +120,7 @@ def kimura(problem: Problem, variable: str) -> Theorem | None:
     ):
         if riemann.is_fuchsian(equation) and riemann.singular_points(equation) <= 3:
             points = "singular points" if coordinate.n == 1 else f"singular points in {coordinate}"
-            origin = partial(jacobi_solutions, equation, coordinate, variable)
+            origin = Signed(partial(jacobi_formula, equation, coordinate, variable), 3)
             regions = (
                 replace(region, origin=origin if region.case == 1 else None)
                 for region in structures(equation, coordinate.n)
@@ -145,10 +145,8 @@ def structures(problem: Problem, n: int) -> Iterator[ParameterRegion]:
         yield ParameterRegion(statement, RegionVerdict(structure, family=family))
 
 
-def jacobi_solutions(
-    problem: Problem, coordinate: Coordinate, variable: str, _: int | None = None
-) -> tuple[PolynomialSolution, ...]:
-    """Equation (1), for all signs for which d can be a natural number; () where three singular points are conjugate."""
+def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> BySigns | None:
+    """Equation (1) for signs f, g, h; None where three singular points are conjugate."""
     x, n = sympy.Symbol(variable), coordinate.n
     base, weight = map(read_expression, (coordinate.base, coordinate.weight))
     points: list[tuple[Any, Any]] = []
@@ -166,25 +164,24 @@ def jacobi_solutions(
     if len(points) == 2 and problem.infinity.kind is Kind.ORDINARY:
         points.append((None, sympy.Integer(1)))
     if len(points) != 3:
-        return ()
+        return None
     (c, first), (c1, second), (c2, third) = points
     z = base**n
     if c2 is None:
         argument, last = 1 - 2 * (z - c) / (c1 - c), sympy.Integer(1)
     else:
         argument, last = 1 - 2 * (z - c) * (c1 - c2) / ((z - c2) * (c1 - c)), z - c2
-    found = []
-    for f, g, h in product((1, -1), repeat=3):
+
+    def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
+        f, g, h = signs
         degree = sympy.expand((-1 - f * first - g * second - h * third) / 2)
-        if not may_be_natural(degree):
-            continue
-        e, e1 = sympy.expand((1 + f * first) / 2), sympy.expand((1 + g * second) / 2)
-        powers = (
-            _power(base, n, c, e, -sympy.Rational(n - 1, 2)) * _positive(z, c1) ** e1 * last ** sympy.expand(1 - e - e1)
-        )
-        y = weight * powers * jacobi(degree, f * first, g * second, argument)
-        found.append(PolynomialSolution(y, degree))
-    return tuple(dict.fromkeys(found))
+        e = sympy.expand((1 + f * first) / 2)
+        e1 = sympy.expand((1 + g * second) / 2)
+        powers = _power(base, n, c, e, -sympy.Rational(n - 1, 2)) * _positive(z, c1) ** e1
+        powers *= last ** sympy.expand(1 - e - e1)
+        return PolynomialSolution(weight * powers * jacobi(degree, f * first, g * second, argument), degree)
+
+    return by_signs
 
 
 def _power(base: Any, n: int, c: Any, exponent: Any, own: Any) -> Any:
@@ -225,21 +222,22 @@ class Confluent:
     q: Poly
 
 
-def laguerre_solutions(form: Confluent, variable: str, _: int | None = None) -> tuple[PolynomialSolution, ...]:
-    """Equation (3), for all signs for which d can be a natural number."""
+def laguerre_formula(form: Confluent, variable: str) -> BySigns | None:
+    """Equation (3) for signs e, f; None for q = 0."""
     if not form.q:
-        return ()
+        return None
     x, s, weight = sympy.Symbol(variable), *map(read_expression, (form.coordinate.base, form.coordinate.weight))
     rate, delta = root(form.q), root(1 + 4 * form.b)
     beta, n = form.r.to_sympy(x) / rate, form.coordinate.n
-    found = []
-    for e, f in product((1, -1), repeat=2):
+
+    def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
+        e, f = signs
         degree = sympy.expand((e * beta - f * delta - n) / (2 * n))
-        if may_be_natural(degree):
-            u, power = sympy.expand(-2 * e * rate / n) * s**n, sympy.expand((1 + f * delta) / 2)
-            y = s**power * sympy.exp(-u / 2) * sympy.assoc_laguerre(degree, f * delta / n, u)
-            found.append(PolynomialSolution(weight * y, degree))
-    return tuple(dict.fromkeys(found))
+        u = sympy.expand(-2 * e * rate / n) * s**n
+        y = s ** sympy.expand((1 + f * delta) / 2) * sympy.exp(-u / 2) * sympy.assoc_laguerre(degree, f * delta / n, u)
+        return PolynomialSolution(weight * y, degree)
+
+    return by_signs
 
 
 def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
@@ -258,11 +256,11 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     equation = (z - beta - delta) ** 2 - 4 * beta * delta if q else z - 4 * delta
     statement, origin = (
         integer_roots(over_parameters(equation), [n], 2 * n),
-        partial(laguerre_solutions, form, variable),
+        Signed(partial(laguerre_formula, form, variable), 2),
     )
     verdict = RegionVerdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
     if q:
-        family = "Borel group, or G_m where both exponential factors occur" if r else "G_m"
+        family = "the Borel group, or `G_m` where both exponential factors occur" if r else "`G_m`"
         verdict = RegionVerdict(Structure.REDUCIBLE, family=family)
     region = ParameterRegion(statement, verdict, origin=origin)
     name = f"{'Whittaker' if q else 'Bessel'}'s equation in {coordinate}: Martinet & Ramis"

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from io import StringIO
 
-from kovacic import derived, shown
+from kovacic import derived
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.answer import Answer
 from kovacic.decision import Exclusion, NecessaryCondition, SemiInvariant, Status, Structure
@@ -28,7 +28,7 @@ from kovacic.views.sentences import (
     solutions_of,
 )
 from kovacic.views.steps import DEGREE, Steps
-from kovacic.writing.document import FORMATS, Block, Formula, Heading, Paragraph, Table, say
+from kovacic.writing.document import FORMATS, Block, Formula, Heading, Paragraph, Table, page, say
 from kovacic.writing.formula import LARGEST_DEGREE, Math, shortened
 from kovacic.writing.omega import constants_math, omega_math
 
@@ -64,8 +64,7 @@ def explain(answer: Answer, *, format: str = "text", solutions: bool = True) -> 
     if format != "html":
         return FORMATS[format].render(blocks)
     body = FORMATS[format].render(blocks) + _picture(answer)
-    page = _PAGE.replace("BODY", body, 1).replace("TITLE", shown.html(shortened(answer.text)), 1)
-    return page.encode("ascii", "xmlcharrefreplace").decode()
+    return page(shortened(answer.text), body)
 
 
 def document(answer: Answer, *, solutions: bool = True) -> list[Block]:
@@ -234,17 +233,3 @@ def rational_form(form: SemiInvariant, problem: Problem) -> RatFunc:
     for place in problem.finite_places:
         F = F * RatFunc(place.factor) ** residue(problem, R, place)
     return F
-
-
-_PAGE = """<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<title>TITLE</title>
-<style>
-body { max-width: 52rem; margin: 2rem auto; padding: 0 1rem; font: 1rem/1.5 Georgia, serif; color: #222; background: #fff }
-table { border-collapse: collapse; margin: 1rem 0 } td, th { padding: .25rem .8rem; border-bottom: 1px solid #ddd }
-h2 { margin-top: 2rem; border-bottom: 1px solid #ccc } svg { max-width: 100%; height: auto } math { font-size: 1.08em }
-p { overflow-x: auto }
-mtd { text-align: left; math-style: normal } figure { margin: 1rem 0 } figcaption { color: #666; font-size: .9em }
-</style></head><body>
-BODY</body></html>
-"""

@@ -193,3 +193,23 @@ FORMATS = {
         paragraph=lambda text: f"<p>{text}</p>",
     ),
 }
+
+
+def page(title: str, body: str) -> str:
+    """A page of HTML that needs nothing from elsewhere, in ASCII."""
+    written = _HTML.replace("BODY", body, 1).replace("TITLE", shown.html(title), 1)
+    return written.encode("ascii", "xmlcharrefreplace").decode()
+
+
+_HTML = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>TITLE</title>
+<style>
+body { max-width: 52rem; margin: 2rem auto; padding: 0 1rem; font: 1rem/1.5 Georgia, serif; color: #222; background: #fff }
+table { border-collapse: collapse; margin: 1rem 0 } td, th { padding: .25rem .8rem; border-bottom: 1px solid #ddd }
+h2 { margin-top: 2rem; border-bottom: 1px solid #ccc } svg { max-width: 100%; height: auto } math { font-size: 1.08em }
+p { overflow-x: auto }
+mtd { text-align: left; math-style: normal } figure { margin: 1rem 0 } figcaption { color: #666; font-size: .9em }
+</style></head><body>
+BODY</body></html>
+"""

@@ -1,0 +1,211 @@
+"""From regions, of which the first decides, to the cases of a theorem: solvable if and only if one of them holds.
+
+Regions without a Liouvillian solution, "a = 0: none", are no cases.  A later case holds outside of them only, which needn't
+be said where the two exclude one another, or meet in values of an earlier case.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.rationals import QQ
+from kovacic.parametric.assumptions import NOTHING_ASSUMED
+from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters
+from kovacic.parametric.integers import Congruence
+from kovacic.parametric.natural import Natural
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, holds_on
+from kovacic.parametric.restriction import hypersurface, over_all
+from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both, either
+
+
+@dataclass(frozen=True)
+class Case:
+    """Where `statement` holds, none of `without`, and no case before: what is said is that of each of the `regions`."""
+
+    regions: tuple[ParameterRegion, ...]
+    without: tuple[Statement, ...] = ()
+
+    @property
+    def statement(self) -> Statement:
+        return either(*(region.statement for region in self.regions))
+
+    @property
+    def verdict(self) -> RegionVerdict:
+        return self.regions[0].verdict
+
+    def holds(self, point: ParameterPoint) -> bool:
+        """Is the point one of this case, if it is none of an earlier one?"""
+        return self.statement.holds(point) and not any(statement.holds(point) for statement in self.without)
+
+
+def outside(regions: Iterable[ParameterRegion]) -> Iterator[ParameterRegion]:
+    """The regions of which a theorem doesn't speak: S isn't defined there, or nothing is known."""
+    return (region for region in regions if not _is_known(region))
+
+
+def _is_known(region: ParameterRegion) -> bool:
+    return region.defined and region.verdict.known
+
+
+def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
+    """The cases in which there are Liouvillian solutions, in the order of the regions; neighbours that say the same in one."""
+    found: list[Case] = []
+    unsolvable: list[Statement] = []
+    for region in filter(_is_known, regions):
+        if region.case is None:
+            unsolvable.append(region.statement)
+            continue
+        before = [case.statement for case in found if not case.without]
+        charts = _within(region.statement, _everything(regions))
+        where_both = {other: _within(region.statement, _within(other, charts)) for other in unsolvable}
+        meeting = (other for other, common in where_both.items() if not _covered(common, before))
+        found.append(Case((region,), _shortest(_left_to_say(other, region.statement, charts) for other in meeting)))
+    return _joined(found)
+
+
+def _everything(regions: Sequence[ParameterRegion]) -> list[ParameterPoint]:
+    """All values of the parameters, none where no region says which they are."""
+    field = next((field for region in regions if (field := _field(region.statement)) is not None), None)
+    return [] if field is None else [ParameterPoint(field.names, tuple(map(field.generator, field.names)), field)]
+
+
+def _field(statement: Statement) -> FunctionField | None:
+    """That of the functions in a statement."""
+    found: list[FunctionField] = []
+
+    def noted(function: FunctionPoly) -> FunctionPoly:
+        found.append(function.field)
+        return function
+
+    statement.rewritten(noted)
+    return found[0] if found else None
+
+
+def _left_to_say(other: Statement, statement: Statement, charts: list[ParameterPoint]) -> Statement:
+    """What the other statement says beside this one, where the values of this one are those of one chart."""
+    if len(charts) != 1:
+        return other
+    (chart,) = charts
+    field = _field(other)
+    left: list[Statement] = []
+    for part in both(other).parts:
+        value = chart.at(part.function) if isinstance(part, Vanishes) else None
+        if value is None or field is None:
+            left.append(part)
+        elif isinstance(value, FunctionPoly):
+            factors = irreducible_factors(value) if value else []
+            left += [over_all(either(*map(Vanishes, factors)), field)] if factors else []
+        elif value:
+            left.append(part)
+    return both(*left) if len(left) > 1 else left[0] if left else other
+
+
+def _shortest(statements: Iterable[Statement]) -> tuple[Statement, ...]:
+    """Each once, and none that another one follows from."""
+    parts = {statement: {*both(statement).parts} for statement in statements}
+    return tuple(one for one in parts if not any(parts[other] < parts[one] for other in parts))
+
+
+def _joined(cases: Iterable[Case]) -> list[Case]:
+    joined: list[Case] = []
+    for case in cases:
+        last = joined[-1] if joined else None
+        if last is not None and last.without == case.without and _are_one(last.regions[-1], case.regions[0]):
+            case = Case((*joined.pop().regions, *case.regions), case.without)
+        joined.append(case)
+    return joined
+
+
+def _are_one(first: ParameterRegion, second: ParameterRegion) -> bool:
+    """Can the two be said in one sentence?  Both have simple statements of the same kind, and the same group."""
+    kinds = {type(part) for region in (first, second) for part in _alternatives(region.statement)}
+    is_simple = len(kinds) == 1 and kinds <= {Vanishes, Congruence}
+    return (
+        is_simple and first.plain and second.plain and first.verdict == second.verdict and first.group == second.group
+    )
+
+
+def _alternatives(statement: Statement) -> Sequence[Statement]:
+    return statement.parts if isinstance(statement, Either) else (statement,)
+
+
+def _covered(charts: list[ParameterPoint], statements: Sequence[Statement]) -> bool:
+    """Does one of the statements provably hold at each of the values?"""
+    return all(any(_covers(known, chart) for known in statements) for chart in charts)
+
+
+def _covers(statement: Statement, chart: ParameterPoint) -> bool:
+    """Does it provably hold at all values of the chart?"""
+    is_point = chart.field.ground == QQ
+    return statement.holds(chart) if is_point else holds_on(statement, chart, NOTHING_ASSUMED)
+
+
+def _together(parts: Iterable[list[ParameterPoint] | None]) -> list[ParameterPoint] | None:
+    """All points of lists; None where one of them isn't known."""
+    found: list[ParameterPoint] = []
+    for part in parts:
+        if part is None:
+            return None
+        found += part
+    return found
+
+
+def _within(statement: Statement, charts: list[ParameterPoint]) -> list[ParameterPoint]:
+    """Parts of the charts that contain all values at which the statement holds."""
+    if isinstance(statement, Both):
+        for part in statement.parts:
+            charts = _within(part, charts)
+        return charts
+    if isinstance(statement, Either):
+        return [
+            zeros for chart in charts for zeros in _union((_within(part, [chart]) for part in statement.parts), chart)
+        ]
+    return [zeros for chart in charts for zeros in _on_chart(statement, chart)]
+
+
+def _on_chart(statement: Statement, chart: ParameterPoint) -> list[ParameterPoint]:
+    try:
+        if isinstance(statement, Vanishes):
+            return _where_zero(chart.at(statement.function), chart)
+        if isinstance(statement, Congruence):
+            return _without_unknown(chart.at(statement.equation), chart)
+        if isinstance(statement, Natural):
+            return _union((_without_unknown(chart.at(factor), chart) for factor in statement.factors), chart)
+    except ZeroDivisionError:  # a statement doesn't hold where it isn't defined
+        return []
+    except (TypeError, ValueError):  # no function of parameters
+        pass
+    return [chart]
+
+
+def _union(parts: Iterable[list[ParameterPoint]], chart: ParameterPoint) -> list[ParameterPoint]:
+    """All of the parts of a chart; the chart alone where one of them is all of it."""
+    found: list[ParameterPoint] = []
+    for part in parts:
+        if any(zeros is chart for zeros in part):
+            return [chart]
+        found += part
+    return found
+
+
+def _without_unknown(equation: Poly, chart: ParameterPoint) -> list[ParameterPoint]:
+    """Where an equation for a number can have a root: everywhere, if the number occurs in it on the chart."""
+    return [chart] if equation.degree > 0 else _where_zero(equation[0] if equation else equation, chart)
+
+
+def _where_zero(value: Poly, chart: ParameterPoint) -> list[ParameterPoint]:
+    if not value:
+        return [chart]
+    if not isinstance(value, FunctionPoly):
+        return []
+    found: list[ParameterPoint] = []
+    for factor in irreducible_factors(value):
+        surface = hypersurface(factor)
+        if surface.missed or surface.curve:
+            return [chart]
+        values = tuple(surface.at(over_parameters(value)) for value in chart.values)
+        found.append(ParameterPoint(chart.names, values, surface.field))
+    return found

@@ -1,0 +1,384 @@
+"""Conditions as the theorem that a paper prints: hypothesis, cases, groups, solutions, Delta_d, what proves it, references.
+
+"Let ... The equation ... has Liouvillian solutions if and only if one of the following holds": each case where none of those
+before holds.  Text, Markdown, LaTeX or HTML, as for `explain`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+import sympy
+
+from kovacic.algebra.function_field import FunctionField
+from kovacic.decision import Structure
+from kovacic.equation import PI
+from kovacic.limits import DEFAULT_LIMITS, Budget
+from kovacic.parametric.answer import ParametricAnswer
+from kovacic.parametric.assumptions import WORDS
+from kovacic.parametric.cases import Case, outside, solvable_cases
+from kovacic.parametric.formulas import equation_written, partial_fractions, sentence_of
+from kovacic.parametric.natural import Determinant, Natural
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict
+from kovacic.parametric.riemann import Schwarz
+from kovacic.parametric.solutions import Given, PolynomialSolution, general, weight_by_signs
+from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both
+from kovacic.views.bibliography import literature
+from kovacic.writing.document import FORMATS, Block, Formula, Heading, Sentence, Table, page, say
+from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy
+
+#: Publications, by a name that the theory of an answer contains.
+_SOURCES = {
+    "Kimura": ("Kim69",),
+    "Martinet": ("MR89", "DLR92"),
+    "Darboux": ("Dar82", "TV90"),
+    "invariants": ("UW96", "HW97"),
+    "natural degree": ("Kov86", "AMW11"),
+    "rational omega": ("Kov86",),
+}
+#: What the signs in a solution are called, those that aren't parameters.
+_SIGNS = ("epsilon", "zeta", "eta", "kappa", "iota", "tau", "upsilon", "chi")
+#: Solutions that are written one by one; more are written with symbols for their signs.
+_ONE_BY_ONE = 2
+#: Alternatives from which on they stand in a table.
+_TABLE = 3
+_GROUP_NAME = re.compile(r"\w+_\w+|\w+\(\w\)|\{.*\}")
+_NOUNS = ("integer", "half-integer")
+
+
+def theorem(answer: ParametricAnswer, *, format: str = "text") -> str:
+    """The theorem as "text", "markdown", "latex" (the body of a document with amsmath, amssymb and graphicx) or "html".
+
+    Raises `ValueError` for another format.
+    """
+    if format not in FORMATS:
+        raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {format!r}")
+    body = FORMATS[format].render(blocks(answer))
+    return page(f"y'' = {answer.right.text}", body) if format == "html" else body
+
+
+def blocks(answer: ParametricAnswer) -> list[Block]:
+    """The theorem, and what it rests on."""
+    return [*_Writer(answer).blocks()]
+
+
+class _Writer:
+    def __init__(self, answer: ParametricAnswer) -> None:
+        self.answer = answer
+        self.is_solvable = answer.generic.known and answer.generic.case is not None
+        self.cases = solvable_cases(answer.regions)
+        self.left_out = [*outside(answer.regions)]
+        self.signs = [sign for sign in map(sympy.Symbol, _SIGNS) if sign.name not in answer.parameters]
+
+    def blocks(self) -> Iterator[Block]:
+        cases = self.cases
+        yield Heading("Theorem", 1)
+        yield from self._hypothesis()
+        yield self._claim(cases)
+        for number, case in enumerate(cases, 1):
+            yield from self._case(case, f"({number}) " if len(cases) > 1 else "")
+        if self.is_solvable:
+            yield from self._otherwise(cases)
+        yield from self._exceptions()
+        yield from self._delta(cases)
+        yield from self._proof()
+
+    # The hypothesis
+
+    def _hypothesis(self) -> Iterator[Block]:
+        answer, equation = self.answer, self.answer.equation
+        names = [name for name in answer.parameters if name != PI]
+        sentence: list[str | Math] = []
+        if names:
+            several = len(names) > 1
+            sentence = ["Let ", *_listed([_name(name) for name in names])]
+            sentence.append(" be complex numbers" if several else " be a complex number")
+            sentence += [part for name in names for part in self._assumed(name)]
+            sentence += [
+                part for other in self.left_out if _is_unequal(other) for part in (", ", _unequal(other.statement))
+            ]
+            sentence.append(". ")
+        if equation is None or equation.is_normal_form:
+            yield say(*sentence, "The equation")
+            yield Formula(self._normal_form("y"))
+        else:
+            v = "v" if equation.unknown != "v" else "u"
+            yield say(*sentence, "The equation")
+            yield Formula(Math(str(equation), latex_text(equation.text(caret=False))))
+            yield say(*self._change(), "becomes, with ", *self._substitution(v), ", its normal form")
+            yield Formula(self._normal_form(v))
+            yield say("Each of the two")
+
+    def _exceptions(self) -> Iterator[Block]:
+        """The values that are left out, but for those that the hypothesis excludes."""
+        for region in self.left_out:
+            why = (
+                f"what holds there isn't known, {region.complete}"
+                if region.defined
+                else "the equation isn't defined there"
+            )
+            if not _is_unequal(region):
+                yield say("Values with ", *_said(region.statement), f" are left out: {why}.")
+
+    def _assumed(self, name: str) -> list[str | Math]:
+        """`, n a nonnegative integer, E > 0`."""
+        found: list[str | Math] = []
+        words = self.answer.assumptions.of(name).words
+        adjectives = [word for word in words if word in WORDS and word not in _NOUNS]
+        nouns = [word for word in words if word in _NOUNS] or ["integer"] * bool({"even", "odd"} & {*words})
+        if adjectives or nouns:
+            said = " ".join([*adjectives, *(nouns or ["number"])])
+            article = "an" if said[0] in "aeio" else "a"
+            found += [", ", _name(name), f" {article} {said}"]
+        for bound in words:
+            if bound not in WORDS:
+                sign = bound.rstrip("0123456789/+-")
+                found += [", ", _relation(name, sign, bound.removeprefix(sign))]
+        return found
+
+    def _change(self) -> list[str | Math]:
+        change = self.answer.equation and self.answer.equation.change
+        if not change:
+            return []
+        t = Math(self.answer.variable, latex_text(self.answer.variable))
+        expression = Math(change.expression.replace("**", "^"), latex_text(change.expression))
+        return ["in ", t.equals(expression), " (", _name(change.variable), " is the variable that was given) "]
+
+    def _substitution(self, v: str) -> list[str | Math]:
+        equation, x = self.answer.equation, self.answer.variable
+        assert equation is not None
+        gamma = Formulas(x, equation.gauge.field).math(equation.gauge)
+        text = f"{equation.unknown} = {v} exp(int ({gamma.text}) d{x})"
+        latex = rf"{equation.unknown} = {v} \exp \int {gamma.latex} \, d{latex_text(x)}"
+        return [Math(text, latex) if equation.gauge else _name(equation.unknown).equals(_name(v))]
+
+    def _normal_form(self, y: str) -> Math:
+        S = self.answer.S
+        right = Formulas(self.answer.variable, S.field).times(S, y, y)
+        if isinstance(S.field, FunctionField) and S:
+            text = partial_fractions(S, self.answer.variable)
+            right = Math(f"({text}) {y}", rf"\left({latex_text(text)}\right) {y}")
+        return Math(f"{y}''", f"{y}''").equals(right)
+
+    # What is claimed
+
+    def _claim(self, cases: list[Case]) -> Block:
+        if self.is_solvable:
+            return say("has Liouvillian solutions for all these values. More precisely:")
+        if not cases:
+            generic = "" if self.answer.complete is True else " for generic values"
+            return say(f"has no Liouvillian solution{generic}.")
+        which = "the following holds:" if len(cases) == 1 else "one of the following holds:"
+        if self.answer.complete is True:
+            order = "" if len(cases) == 1 else " (each case where none of those before it holds)"
+            return say(f"has Liouvillian solutions if and only if {which}"[:-1] + f"{order}:")
+        return say(f"has Liouvillian solutions if {which}"[:-1] + ", and none for other generic values:")
+
+    def _case(self, case: Case, number: str) -> Iterator[Block]:
+        rows = _alternatives(case)
+        without = [part for other in case.without for part in (", and not: ", *_said(other))]
+        if all(isinstance(other, Vanishes) for other in case.without):
+            without = [part for other in case.without for part in (", and ", _unequal(other))]
+        if rows:
+            yield say(f"{number}one row of the table holds", *without, ":")
+            yield Table(("where", "condition"), rows)
+        else:
+            yield say(number, *_said(case.statement), *without, ".")
+        yield from (Table(head, table) for head, table in _schwarz(case.statement))
+        yield self._group(case.regions[0])
+        yield from self._solutions(case)
+
+    def _group(self, region: ParameterRegion) -> Block:
+        return say(f"Case {region.case}. The group is ", *_group(region.verdict), ".")
+
+    def _otherwise(self, cases: list[Case]) -> Iterator[Block]:
+        otherwise = "Otherwise" if cases else "For all values"
+        if self.answer.complete is not True:
+            otherwise += ", for generic values,"
+        group = _group(self.answer.generic)
+        yield say(f"{otherwise} it is case {self.answer.generic.case}. The group is ", *group, ".")
+
+    # Solutions
+
+    def _solutions(self, case: Case) -> Iterator[Block]:
+        for region in case.regions:
+            if len(case.regions) > 1:
+                yield say("For ", *_said(region.statement), ":")
+            natural = [part for part in both(region.statement).parts if isinstance(part, Natural)]
+            weight = natural[0] if natural and natural[0].m == 1 else None
+            if weight is not None:
+                yield from self._with_determinant(region, weight)
+                yield from _values(weight, len(region.determinants))
+                continue
+            one_by_one = region.solution()
+            together = general(region.origin, self.signs) if len(one_by_one) > _ONE_BY_ONE else None
+            if together is not None:
+                yield from self._with_signs(together)
+                continue
+            for solution in one_by_one:
+                yield Formula(_named_solution(solution))
+                if solution.degree.free_symbols:
+                    yield say("where ", of_sympy(solution.degree), " is a natural number.")
+
+    def _with_signs(self, solution: PolynomialSolution) -> Iterator[Block]:
+        """A formula with symbols for the signs, where its degree is a natural number."""
+        used = [sign for sign in self.signs if sign in solution.y.free_symbols | solution.degree.free_symbols]
+        yield Formula(_named_solution(solution))
+        yield say("where ", of_sympy(solution.degree), " is a natural number", *_chosen(used), ".")
+
+    def _with_determinant(self, region: ParameterRegion, natural: Natural) -> Iterator[Block]:
+        """exp(int theta) P for the exponents of the region; P has the degree d."""
+        from kovacic.engine.places import analyse
+
+        P = sympy.Symbol(f"P_{natural.letter}")
+        found = weight_by_signs(analyse(natural.S, Budget(DEFAULT_LIMITS)), self.answer.variable, P)
+        if found is None or found[1] > len(self.signs):
+            return
+        by_signs, _ = found
+        solution = by_signs(self.signs)
+        if isinstance(region.origin, Given):
+            solution = replace(solution, y=region.origin.translated(solution.y))
+        used = [sign for sign in self.signs if sign in solution.y.free_symbols | solution.degree.free_symbols]
+        yield Formula(_named_solution(solution))
+        degree = _name(natural.letter).equals(of_sympy(solution.degree))
+        yield say("with a polynomial ", _name(P.name), " of degree ", degree, *_chosen(used), ".")
+
+    # Delta_d
+
+    def _delta(self, cases: list[Case]) -> Iterator[Block]:
+        """What Delta_d is, and its first values."""
+        parts = [part for case in cases for region in case.regions for part in both(region.statement).parts]
+        natural = [part for part in parts if isinstance(part, Natural)]
+        for m in sorted({part.m for part in natural}):
+            d = next(part.letter for part in natural if part.m == m)
+            delta = Math(f"Delta_{d}", rf"\Delta_{{{d}}}")
+            if m == 1:
+                P = Math(f"P_{d}", f"P_{{{d}}}")
+                text = f"P_{d}'' + 2 theta P_{d}' + (theta' + theta^2 - S) P_{d} = 0"
+                latex = rf"P_{{{d}}}'' + 2 \theta P_{{{d}}}' + (\theta' + \theta^2 - S) P_{{{d}}} = 0"
+                theta = Math("theta", r"\theta")
+                yield say(
+                    delta, " vanishes exactly where the linear system for the coefficients of ", P, ", of degree ",
+                    _name(d), ", has a solution:"
+                )  # fmt: skip
+                yield Formula(Math(text, latex))
+                yield say("with ", theta, " the logarithmic derivative of ", Math("y/P", f"y/P_{{{d}}}"), ".")
+            else:
+                what = f" for an invariant of degree {m} says that there is a rational function of x that is "
+                what += f"a form of degree {m} in two solutions and has "
+                yield say(Math(f"{delta.text} = 0", f"{delta.latex} = 0"), what, _name(d), " zeros.")
+
+    # The proof
+
+    def _proof(self) -> Iterator[Block]:
+        answer = self.answer
+        yield Heading("Proof")
+        if answer.complete is True:
+            yield say("The list is complete: ", *_theory(answer), ".")
+        else:
+            yield say(f"The list is complete {answer.complete} (", *_theory(answer), ").")
+        notices = (notice for notice in answer.notices if not notice.startswith(f"in {answer.variable} = "))
+        for notice in notices:
+            yield say(f"Note: {notice}.")
+        keys = dict.fromkeys(key for name, keys in _SOURCES.items() if name in answer.theory for key in keys)
+        if any(part for case in self.cases for part in _schwarz(case.statement)):
+            keys["Kim69"] = None
+        yield Heading("References")
+        yield from (say(literature()[key].text()) for key in (keys or {"Kov86": None}))
+
+
+def _name(name: str) -> Math:
+    return Math(name, latex_text(name))
+
+
+def _relation(name: str, sign: str, value: str) -> Math:
+    latex = {">=": r"\ge", "<=": r"\le", "!=": r"\ne"}.get(sign, sign)
+    return Math(f"{name} {sign} {value}", f"{latex_text(name)} {latex} {latex_text(value)}")
+
+
+def _listed(parts: list[Math]) -> list[str | Math]:
+    """`a, b and c`."""
+    found: list[str | Math] = []
+    for k, part in enumerate(parts):
+        found += [" and " if k == len(parts) - 1 else ", "] if k else []
+        found.append(part)
+    return found
+
+
+def _chosen(signs: list[sympy.Symbol]) -> list[str | Math]:
+    """`, with a choice of epsilon and zeta from +-1`."""
+    if not signs:
+        return []
+    return [", with a choice of ", *_listed([_name(sign.name) for sign in signs]), " from ", Math("+-1", r"\pm 1")]
+
+
+def _group(verdict: RegionVerdict) -> list[str | Math]:
+    """The name of the group; what looks like a formula in it is one."""
+    written = verdict.group_written
+    return sentence_of(written if "`" in written else _GROUP_NAME.sub(r"`\g<0>`", written))
+
+
+def _theory(answer: ParametricAnswer) -> list[str | Math]:
+    """The theorem that proves it; the coordinate in which it holds is a formula."""
+    return sentence_of(re.sub(r" in (.+?): ", r" in `\1`: ", answer.theory))
+
+
+def _said(statement: Statement) -> list[str | Math]:
+    return sentence_of(statement.written)
+
+
+def _is_unequal(region: ParameterRegion) -> bool:
+    """Does the hypothesis say "t != 0" for the region?"""
+    return not region.defined and isinstance(region.statement, Vanishes)
+
+
+def _unequal(statement: Statement) -> Math:
+    (equation,) = (part for part in _said(statement) if isinstance(part, Math))
+    left, _, right = equation.text.partition(" = ")
+    left_latex, _, right_latex = equation.latex.partition(" = ")
+    return Math(f"{left} != {right}", rf"{left_latex} \ne {right_latex}")
+
+
+def _alternatives(case: Case) -> list[list[Sentence]]:
+    """Rows for many alternatives "k = 3, and ..."; none where a sentence says it."""
+    statement = case.statement
+    parts = statement.parts if isinstance(statement, Either) else ()
+    if len(parts) < _TABLE or not all(isinstance(part, Both) and isinstance(part.parts[0], Vanishes) for part in parts):
+        return []
+    return [[_said(both(part).parts[0]), _said(Both(both(part).parts[1:]))] for part in parts]
+
+
+def _schwarz(statement: Statement) -> Iterator[tuple[list[Sentence], list[list[Sentence]]]]:
+    """The rows of Schwarz's table that are meant, for the exponent differences that depend on the parameters."""
+    parts: Iterable[Statement] = statement.parts if isinstance(statement, Both | Either) else (statement,)
+    for part in parts:
+        if not isinstance(part, Schwarz) or part.structures == (Structure.IMPRIMITIVE,):
+            continue
+        names, rows = part.resolved()
+        heads: list[Sentence] = [Math(name, latex_text(name)) for name in names]
+        if not names:
+            heads = ["differences up to order, signs and integers", "sum of the integers"]
+        yield ["group", *heads], [[structure.value, *map(sentence_of, values)] for structure, values in rows]
+
+
+def _named_solution(solution: PolynomialSolution) -> Math:
+    return Math("y", "y").equals(of_sympy(solution.y))
+
+
+def _values(natural: Natural, number: int) -> Iterator[Block]:
+    """The first determinants: d, where it is the degree, and Delta_d in factors."""
+    rows: list[list[Sentence]] = []
+    for d in range(number):
+        found: dict[str, list[Determinant]] = defaultdict(list)
+        for determinant in natural.determinants(d):
+            found[str(determinant)].append(determinant)
+        for value, determinants in found.items():
+            places = dict.fromkeys(f"`{equation_written(determinant.exponents)}`" for determinant in determinants)
+            said = value if value == "not computed" else f"`{value}`"
+            rows.append([str(d), sentence_of(" or ".join(places)), sentence_of(said)])
+    if rows:
+        delta = Math(f"Delta_{natural.letter}", rf"\Delta_{{{natural.letter}}}")
+        yield Table([_name(natural.letter), "where", delta], rows)
