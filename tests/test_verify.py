@@ -32,6 +32,7 @@ from kovacic.galois.jacobian import Jacobian
 from kovacic.limits import Budget, Limits
 from kovacic.verify import GroupClaim, verify
 from kovacic.verify.evidence import Inspector
+from kovacic.verify.factors import is_a_field, is_irreducible
 from kovacic.verify.identity import form_numerators
 from kovacic.verify.residue import exponent_difference_squared
 from kovacic.verify.torsion import order_holds
@@ -821,3 +822,47 @@ def test_orders_over_a_number_field() -> None:
     p, k = group.orders[0]
     assert not verify(answer.S, answer.decision, replace(group.claim, orders=((5, k), group.orders[1])))
     assert not verify(answer.S, answer.decision, replace(group.claim, orders=((p, k + 1), group.orders[1])))
+
+
+# ------------------------------------------------------------------------------- irreducibility over number fields
+
+ROOT2 = AlgebraicField(QQ, QQ.poly([-2, 0, 1]), "sqrt(2)")
+TOWER = AlgebraicField(ROOT2, ROOT2.poly([-3, 0, 1]), "sqrt(3)")
+CUBE = AlgebraicField(QQ, QQ.poly([-2, 0, 0, 1]), "root(2, 3)")
+
+
+@pytest.mark.parametrize(
+    ("field", "coefficients", "irreducible"),
+    [
+        (ROOT2, [-2, 0, 1], False),
+        (ROOT2, [-3, 0, 1], True),
+        (ROOT2, [1, 0, 0, 0, 1], False),  # (x^2 + 1)^2 - 2 x^2
+        (ROOT2, [3, 0, 0, 0, 1], True),
+        (ROOT2, [1, 0, 2, 0, 1], False),
+        (TOWER, [-6, 0, 1], False),
+        (TOWER, [-5, 0, 1], True),  # the roots of its norm are there twice without a shift
+        (TOWER, [1, 0, -10, 0, 1], False),
+        (CUBE, [-2, 0, 0, 1], False),
+        (CUBE, [4, 2, 0, 1], True),
+        (CUBE, [-5, 0, 1], True),
+    ],
+    ids=str,
+)
+def test_irreducible_polynomials_over_number_fields(field: Any, coefficients: list[int], irreducible: bool) -> None:
+    p = field.poly(coefficients)
+    assert is_irreducible(p) is irreducible
+    shifted = p(field.poly([field.generator, 1]))
+    assert is_irreducible(shifted) is irreducible
+    assert not is_irreducible(p * field.poly([field.generator, 1]))
+    extension = AlgebraicField(field, p.monic(), "c")
+    assert is_a_field(extension) is irreducible
+
+
+@pytest.mark.parametrize("S", ["sqrt(-6)*x/(x^2 + 6)^2", "sqrt(2)/(x^4 + 1)^2", "3/(x^2-2)^2 + sqrt(2)/(x^2 - 3)^2"])
+def test_factors_that_arent_irreducible_are_refused(S: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Over a field in which the denominator has factors, were the search to find none: nothing is passed."""
+    right = kovacic.solve(S, var="x")
+    assert right.verified
+    monkeypatch.setattr(AlgebraicField, "_factor_squarefree", lambda self, polynomial: [polynomial.monic()])
+    with pytest.raises(kovacic.KovacicError):
+        kovacic.solve(S, var="x").group.name.strip()

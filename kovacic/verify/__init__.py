@@ -25,6 +25,7 @@ from kovacic.decision import Decision, GroupClaim, RiccatiPolynomial, SemiInvari
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
+from kovacic.verify.factors import is_a_field
 from kovacic.verify.identity import form_numerators, is_power, is_rational
 
 #: The structures in the order of the proof, with the degree of omega.
@@ -64,6 +65,8 @@ def verify(
 
     Raises `LimitExceeded` when the budget (by default that of `kovacic.Limits()`) is used up before the group is reached.
     """
+    if not is_a_field(S.field):
+        return Verification((Check("the polynomials of the constants are irreducible", False),))
     inspector = Inspector(S, budget or Budget())
     checks = [*_claimed_solution(inspector, decision), *_claimed_exclusions(inspector, decision)]
     if group is None or not all(check.passed for check in checks):
@@ -134,8 +137,7 @@ def _irreducible_constants(S: RatFunc, riccati: RiccatiPolynomial) -> list[Check
     field = riccati.P.field
     if not isinstance(field, AlgebraicField) or field == S.field:
         return []
-    irreducible = field.modulus.degree > 1 and field.base.factor(field.modulus) == [(field.modulus, 1)]
-    return [Check(f"the polynomial of {field.name} is irreducible", irreducible)]
+    return [Check(f"the polynomial of {field.name} is irreducible", is_a_field(field))]
 
 
 def _omega_holds(S: RatFunc, form: SemiInvariant, riccati: RiccatiPolynomial, degree: int) -> list[Check]:

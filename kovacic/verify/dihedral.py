@@ -30,6 +30,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import CurveFunction
 from kovacic.errors import LimitExceeded
+from kovacic.verify.factors import factors_of
 from kovacic.verify.primes import homomorphisms_modulo
 
 #: Primes are taken upwards from here, so many of them, with so many points on the curve modulo each.
@@ -85,7 +86,7 @@ def _root_of_odd_norms(f: CurveFunction) -> Poly | None:
         if piece.exponent % 2:
             product = product * (piece.a * piece.a - f.h * piece.b * piece.b)
     root = field.poly([1])
-    for factor, multiplicity in field.factor(product) if product.degree else []:
+    for factor, multiplicity in factors_of(product):
         if multiplicity % 2:
             return None
         root = root * factor ** (multiplicity // 2)

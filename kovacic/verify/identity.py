@@ -18,6 +18,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import SemiInvariant
 from kovacic.limits import check_time
+from kovacic.verify.factors import factors_of
 
 
 def form_numerators(S: RatFunc, F: SemiInvariant, D: Poly) -> list[Poly] | None:
@@ -62,9 +63,7 @@ def _factors_of(den: Poly, known: Sequence[Poly]) -> list[Poly]:
         if quotient is not None:
             found.append(p)
             den = quotient
-    if den.degree > 0:
-        found += [p for p, _ in den.field.factor(den)]
-    return found
+    return found + [p for p, _ in factors_of(den)]
 
 
 def _rational_residue(theta: RatFunc, p: Poly) -> Fraction | None:

@@ -16,8 +16,8 @@ from typing import Any
 from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.errors import VerificationFailed
 from kovacic.limits import Budget, check_time
+from kovacic.verify.factors import factors_of, product
 from kovacic.verify.primes import homomorphisms, roots_modulo, translated
 from kovacic.verify.series import solution_at_singular_point
 
@@ -115,7 +115,7 @@ def points(S: RatFunc, budget: Budget) -> list[Point]:
 
     S(1/z)/z^4 is z^(-k) N/M, N and M with the coefficients of num and den in the reversed order, k = deg num - deg den + 4.
     """
-    found = _points_over(S.num, S.den, _factors(S.den), budget)
+    found = _points_over(S.num, S.den, factors_of(S.den), budget)
     order = max(S.num.degree - S.den.degree + 4, 0) if S.num else 0
     num = S.num.reversed(max(S.den.degree - S.num.degree - 4, 0))
     den = S.den.reversed(order)
@@ -137,32 +137,14 @@ def _points_over(
     return found
 
 
-def _factors(den: Poly) -> list[tuple[Poly, int]]:
-    """The irreducible factors with their multiplicities: found by the field's own arithmetic, and multiplied out."""
-    if den.degree == 0:
-        return []
-    factors = den.field.factor(den)
-    if _product([p**order for p, order in factors]) != den:
-        raise VerificationFailed(f"the factors of {den} were found as {', '.join(str(p) for p, _ in factors)}")
-    return factors
-
-
-def _product(factors: list[Poly]) -> Poly:
-    """In halves, so that the factors of a product have the same size."""
-    if len(factors) == 1:
-        return factors[0]
-    half = len(factors) // 2
-    return _product(factors[:half]) * _product(factors[half:])
-
-
 def _remainders(polynomial: Poly, moduli: list[Poly]) -> list[Poly]:
     """The polynomial modulo each of several ones, through its remainders modulo the products of halves of them."""
     if len(moduli) == 1:
         return [polynomial % moduli[0]]
     check_time()
     half = len(moduli) // 2
-    first = polynomial % _product(moduli[:half])
-    second = polynomial % _product(moduli[half:])
+    first = polynomial % product(moduli[:half])
+    second = polynomial % product(moduli[half:])
     return [*_remainders(first, moduli[:half]), *_remainders(second, moduli[half:])]
 
 

@@ -1,0 +1,63 @@
+"""The irreducible factors of a polynomial: found by its field, multiplied out, and proven to be irreducible.
+
+Over Q and over Q(t) the factors are FLINT's, whose irreducibility is taken from there.  Let p be a polynomial over K(c), n the
+degree of c over K, and N an irreducible polynomial over K of the degree n deg p, a multiple of p(x - s c) for some integer s.
+A root of p(x - s c) has the degree n deg p over K, and so at least the degree deg p over K(c): p is irreducible, however N was
+found.  The norm is such an N, if p is irreducible, where it has no multiple roots: for all but finitely many s
+[Trager, SYMSAC 1976].
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from kovacic.algebra.extension import AlgebraicField, norm
+from kovacic.algebra.poly import Field, Poly
+from kovacic.errors import VerificationFailed
+from kovacic.limits import check_time
+
+
+def factors_of(polynomial: Poly) -> list[tuple[Poly, int]]:
+    """The monic irreducible factors with their multiplicities; raises `VerificationFailed` where the field found other ones."""
+    if polynomial.degree <= 0:
+        return []
+    factors = polynomial.field.factor(polynomial)
+    right = product([p**multiplicity for p, multiplicity in factors]) == polynomial.monic()
+    if not right or not all(is_irreducible(p) for p, _ in factors):
+        raise VerificationFailed(f"the factors of {polynomial} were found as {', '.join(str(p) for p, _ in factors)}")
+    return factors
+
+
+def product(factors: list[Poly]) -> Poly:
+    """In halves, so that the factors of a product have the same size."""
+    if len(factors) == 1:
+        return factors[0]
+    half = len(factors) // 2
+    return product(factors[:half]) * product(factors[half:])
+
+
+@lru_cache(maxsize=64)
+def is_a_field(field: Field) -> bool:
+    """Is the polynomial of each constant irreducible over the field below?"""
+    if not isinstance(field, AlgebraicField):
+        return True
+    if field.modulus.degree < 2 or not is_a_field(field.base):
+        return False
+    return factors_of(field.modulus) == [(field.modulus, 1)]
+
+
+def is_irreducible(p: Poly) -> bool:
+    """Over a number field: by a multiple over the field below.  True over other fields for what is a factor there."""
+    field = p.field
+    if p.degree <= 1 or not isinstance(field, AlgebraicField):
+        return p.degree > 0
+    x = field.poly([0, 1])
+    roots = p.degree * field.dimension
+    for s in range(roots**2 + 1):  # at most so many shifts let two roots of the norm meet
+        check_time()
+        shifted = p(x - field.generator * s)
+        N = norm(shifted).monic()
+        if N.gcd(N.derivative()).degree == 0:
+            is_multiple = N.degree == roots and not field.embed(N) % shifted
+            return is_multiple and factors_of(N) == [(N, 1)]
+    return False
