@@ -26,20 +26,28 @@ from kovacic.verify.series import solution_at_singular_point
 class Point:
     """All roots of an irreducible factor p of den, of multiplicity `order`, with S = num/den; or infinity, with S(1/z)/z^4.
 
-    `near` has N and q modulo p^nu with S = N/(p^order q), nu = order/2 or 1.
+    `known` is `near` where it was computed for all points together.
     """
 
     factor: Poly
     order: int
     num: Poly
     den: Poly
-    near: tuple[Poly, Poly]
     budget: Budget
+    known: tuple[Poly, Poly] | None = None
     at_infinity: bool = False
 
     @cached_property
     def name(self) -> str:
         return "infinity" if self.at_infinity else str(self.factor)
+
+    @cached_property
+    def near(self) -> tuple[Poly, Poly]:
+        """N and q modulo p^nu with S = N/(p^order q), nu = order/2 or 1."""
+        if self.known is not None:
+            return self.known
+        modulus = self.factor ** max(self.order // 2, 1)
+        return self.num % modulus, self.den // self.factor**self.order % modulus
 
     @cached_property
     def at_double_pole(self) -> tuple[Poly, Poly]:
@@ -115,25 +123,28 @@ def points(S: RatFunc, budget: Budget) -> list[Point]:
 
     S(1/z)/z^4 is z^(-k) N/M, N and M with the coefficients of num and den in the reversed order, k = deg num - deg den + 4.
     """
-    found = _points_over(S.num, S.den, factors_of(S.den), budget)
+    factors = factors_of(S.den)
+    together = _at_regular_points(S, [(p, order) for p, order in factors if order <= 2])
+    found = [Point(p, order, S.num, S.den, budget, together.get(p)) for p, order in factors]
     order = max(S.num.degree - S.den.degree + 4, 0) if S.num else 0
     num = S.num.reversed(max(S.den.degree - S.num.degree - 4, 0))
     den = S.den.reversed(order)
     z = S.field.poly([0, 1])
-    return [*found, *_points_over(num, den, [(z, order)], budget, at_infinity=True)]
+    return [*found, Point(z, order, num, den, budget, at_infinity=True)]
 
 
-def _points_over(
-    num: Poly, den: Poly, factors: list[tuple[Poly, int]], budget: Budget, *, at_infinity: bool = False
-) -> list[Point]:
+def _at_regular_points(S: RatFunc, factors: list[tuple[Poly, int]]) -> dict[Poly, tuple[Poly, Poly]]:
+    """N and q modulo p with S = N/(p^order q), for each factor.
+
+    At irregular points they have more digits, and are computed one by one where a claim needs them.
+    """
     if not factors:
-        return []
-    nus = [max(order // 2, 1) for _, order in factors]
-    above = _remainders(num, [p**nu for (p, _), nu in zip(factors, nus, strict=True)])
-    below = _remainders(den, [p ** (order + nu) for (p, order), nu in zip(factors, nus, strict=True)])
-    found = []
+        return {}
+    above = _remainders(S.num, [p for p, _ in factors])
+    below = _remainders(S.den, [p ** (order + 1) for p, order in factors])
+    found = {}
     for (p, order), N, rest in zip(factors, above, below, strict=True):
-        found.append(Point(p, order, num, den, (N, rest // p**order), budget, at_infinity))
+        found[p] = (N, rest // p**order)
     return found
 
 
