@@ -11,7 +11,7 @@ from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRation
 from kovacic.limits import Budget
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
 from kovacic.verify.forms import ordinary_point, room
-from kovacic.verify.primes import roots_modulo
+from kovacic.verify.primes import homomorphisms, roots_modulo
 from kovacic.verify.zeros import zero_counts
 
 
@@ -45,4 +45,4 @@ def forged_evidence(S: RatFunc, structure: Structure) -> Iterator[tuple[Evidence
 
 def primes_with_a_root(factor: Poly) -> Iterator[int]:
     """The primes, among the first ones, modulo which a factor has a simple root."""
-    return (h.p for h in islice(factor.field.homomorphisms(), 100) if roots_modulo(factor, h))
+    return (h.p for h in islice(homomorphisms(factor.field), 100) if roots_modulo(factor, h))

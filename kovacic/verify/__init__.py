@@ -10,8 +10,8 @@ S and a `Decision` go in, a `Verification` comes out.  Read `verify` here first,
 `evidence` for the negative ones: `conditions` at the points of `local`, `forms`, and `omega` with `zeros` and `residue`, by
 `series` modulo `primes`.  `group` and `torsion` check the group.
 
-With the search the kernel shares the arithmetic of polynomials and rational functions over the fields, with factoring,
-square roots of constants and the reduction of an element modulo a prime; and the classes in which claims are written down.
+With the search the kernel shares the arithmetic of polynomials and rational functions over the fields, with factoring and
+square roots of constants, both of which it proves again; and the classes in which claims are written down.
 Everything else is written here, in the plainest way, and a contract in pyproject.toml forbids to import it.
 """
 

@@ -25,13 +25,13 @@ from typing import Any
 
 from flint import fmpz
 
-from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import CurveFunction
 from kovacic.errors import LimitExceeded
 from kovacic.verify.factors import factors_of
 from kovacic.verify.primes import homomorphisms_modulo
+from kovacic.verify.reduction import BadPrimeError, Homomorphism
 
 #: Primes are taken upwards from here, so many of them, with so many points on the curve modulo each.
 _SMALLEST, _PRIMES, _POINTS = 1 << 40, 100, 40

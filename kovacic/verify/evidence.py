@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
 
-from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRationalOmega, Rule, Structure
@@ -17,6 +16,7 @@ from kovacic.verify.forms import dimension_modulo, ordinary_point, room
 from kovacic.verify.local import Point, points
 from kovacic.verify.omega import chart, no_expansion_is_rational
 from kovacic.verify.primes import homomorphisms, homomorphisms_modulo, is_usable_prime, roots_modulo
+from kovacic.verify.reduction import BadPrimeError, Homomorphism
 from kovacic.verify.zeros import ZeroCounts, zero_counts
 
 #: The degree of the invariant that the structure would have; together with the uniqueness of omega for reducible groups.

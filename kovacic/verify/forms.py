@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.verify.local import Point
 from kovacic.verify.primes import translated
+from kovacic.verify.reduction import BadPrimeError, Homomorphism
 from kovacic.verify.series import nullity, product_of_powers, solutions_at_ordinary_point
 
 #: Terms that are looked at beyond the number of unknowns.

@@ -13,12 +13,12 @@ from functools import cached_property
 from math import isqrt
 from typing import Any
 
-from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.limits import Budget, check_time
 from kovacic.verify.factors import factors_of, product
 from kovacic.verify.primes import homomorphisms, roots_modulo, translated
+from kovacic.verify.reduction import BadPrimeError, Homomorphism
 from kovacic.verify.series import solution_at_singular_point
 
 

@@ -14,12 +14,10 @@ from typing import Any
 
 from flint import fmpz, nmod_poly
 
-from kovacic.algebra.evaluation import Evaluation
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField
-from kovacic.algebra.homomorphism import BadPrimeError, ExtensionHomomorphism, Homomorphism
 from kovacic.algebra.poly import Field, Poly
-from kovacic.algebra.rationals import RationalHomomorphism
+from kovacic.verify.reduction import AtRoot, AtValues, BadPrimeError, Homomorphism, OfRationals
 
 #: The kernel's own primes are taken downwards from here; a record may name any prime below twice this.
 _LARGEST = 1 << 62
@@ -50,13 +48,13 @@ def homomorphisms_modulo(field: Field, p: int) -> Iterator[Homomorphism]:
     if isinstance(field, AlgebraicField):
         for base in homomorphisms_modulo(field.base, p):
             for root in roots_modulo(field.modulus, base):
-                yield ExtensionHomomorphism(base, root)
+                yield AtRoot(base, root, field.height)
     elif isinstance(field, FunctionField):
         values = Random(p)
         for _ in range(_POINTS):
-            yield Evaluation(p, tuple(values.randrange(p) for _ in field.names))
+            yield AtValues(p, tuple(values.randrange(p) for _ in field.names))
     else:
-        yield RationalHomomorphism(p)
+        yield OfRationals(p)
 
 
 def homomorphisms(field: Field) -> Iterator[Homomorphism]:

@@ -11,8 +11,8 @@ from typing import Any
 
 from flint import nmod_mat, nmod_poly
 
-from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.limits import check_time
+from kovacic.verify.reduction import BadPrimeError
 
 #: Terms of a series between two looks at the clock.
 _LOOK = 64

@@ -28,9 +28,9 @@ from typing import Any, NamedTuple
 
 from flint import fmpz
 
-from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.verify.primes import homomorphisms_modulo, is_usable_prime, translated
+from kovacic.verify.reduction import BadPrimeError, Homomorphism
 
 
 def order_holds(H: RatFunc, residues: set[Fraction], p: int, k: int) -> bool:

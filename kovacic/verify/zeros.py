@@ -19,12 +19,12 @@ from itertools import islice
 from flint import fmpz
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.errors import VerificationFailed
 from kovacic.verify.local import Point
 from kovacic.verify.primes import homomorphisms, roots_modulo
+from kovacic.verify.reduction import BadPrimeError, Homomorphism
 from kovacic.verify.residue import exponent_difference_squared
 
 #: An element that isn't a square is one modulo so many primes with a probability of 2^-40.
