@@ -147,10 +147,19 @@ def _nearest_root(modulus: Poly, target: Any) -> tuple[Fraction, Fraction]:
         return _fraction(nearest.real), _fraction(nearest.imag)
 
 
+def root_near(polynomial: fmpz_poly, target: Any) -> Any:
+    """A ball around the root nearest to an approximation, at the working precision in force, but of 128 bits at least."""
+    with ctx.workprec(max(ctx.prec, 128)):
+        return _by_distance(polynomial, target)[0]
+
+
 def _roots(modulus: Poly, target: Any) -> list[Any]:
     """Balls around the roots of a polynomial over Q, the nearest one to the target first."""
-    integral = fmpz_poly([int(c * modulus.content()[1]) for c in modulus.rational_coefficients()])
-    return sorted((root for root, _ in integral.complex_roots()), key=lambda root: float(abs(root - target).mid()))
+    return _by_distance(fmpz_poly([int(c * modulus.content()[1]) for c in modulus.rational_coefficients()]), target)
+
+
+def _by_distance(polynomial: fmpz_poly, target: Any) -> list[Any]:
+    return sorted((root for root, _ in polynomial.complex_roots()), key=lambda root: float(abs(root - target).mid()))
 
 
 def _fraction(value: Any) -> Fraction:

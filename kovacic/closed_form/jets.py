@@ -11,31 +11,24 @@ Reference: DLMF 10.2, 10.6, 10.25, 10.29 (Bessel), 13.6, 16.3 (hypergeometric), 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import lru_cache, partial, reduce
+from functools import partial, reduce
 from math import prod
-from operator import add, mul
+from operator import add
 from typing import Any
 
 import sympy
 from flint import acb, acb_poly, acb_series, arb, ctx, fmpq, fmpz_poly
 from sympy.core.function import AppliedUndef
 
-Number = Any  # flint's acb
-Value = Any  # flint's acb_series, or an acb where the variable doesn't occur
+from kovacic.closed_form.balls import BallEvaluator, Value
 
+Number = Any  # flint's acb
+
+#: Functions with the names that flint's series have for them.
 _UNARY = {
-    sympy.exp: "exp",
-    sympy.log: "log",
-    sympy.sin: "sin",
-    sympy.cos: "cos",
-    sympy.tan: "tan",
-    sympy.atan: "atan",
-    sympy.erf: "erf",
-    sympy.erfi: "erfi",
     sympy.Ei: "ei",
     sympy.Si: "si",
     sympy.Ci: "ci",
-    sympy.gamma: "gamma",
     sympy.airyai: "airy_ai",
     sympy.airybi: "airy_bi",
     sympy.airyaiprime: "airy_ai_prime",
@@ -59,40 +52,29 @@ def parameter_value(name: str) -> Number:
     return acb(1 + arb(fmpq(sum(ord(c) * 31**k for k, c in enumerate(name)) % 9973, 9967)))
 
 
-class _Evaluator:
-    """The values of expressions for given values of some symbols; those of subexpressions are kept."""
+class _Evaluator(BallEvaluator):
+    """The values of all that a closed form of this package contains, with the conventions above."""
 
-    def __init__(self, bindings: dict[Any, Value]) -> None:
-        self.bindings = bindings
-        self.memo: dict[Any, Value] = dict(bindings)
-
-    def __call__(self, e: Any) -> Value:
-        known = self.memo.get(e)
-        if known is None:
-            known = self.memo[e] = self._evaluate(e)
-        return known
-
-    def _evaluate(self, e: Any) -> Value:
-        if e.is_Rational:
-            return acb(arb(fmpq(int(e.p), int(e.q))))
-        if e.is_Add:
-            return reduce(add, map(self, e.args))
-        if e.is_Mul:
-            return reduce(mul, map(self, e.args))
-        if e.is_Pow and not isinstance(e, sympy.exp):
-            base, exponent = e.args
-            return self(base) ** (int(exponent) if exponent.is_Integer else self(exponent))
-        if e.func in _UNARY:
-            value, name = self(e.args[0]), _UNARY[e.func]
-            return getattr(value if hasattr(value, name) else _lifted(value), name)()
+    def other(self, e: Any) -> Value:
         if isinstance(e, sympy.RootSum):
             a = e.fun.variables[0]
-            return reduce(add, (_Evaluator({**self.bindings, a: root})(e.fun.expr) for root in self._roots(e.poly)))
+            return reduce(add, (_Evaluator({**self.values, a: root})(e.fun.expr) for root in self._roots(e.poly)))
+        if isinstance(e, ANTIDERIVATIVES) and not (isinstance(e, sympy.elliptic_e) and len(e.args) == 1):
+            slope = self(e.diff(next(iter(self.values))))
+            return acb_series([1, slope[0], slope[1] / 2], prec=3)
+        if isinstance(e, sympy.Abs | sympy.sign):
+            return self._of_sign(e)
+        is_unit = e.is_Atom and not e.is_number
+        if is_unit or (isinstance(e, AppliedUndef) and not e.has(*self.values)):
+            return parameter_value(str(e))
+        return self._special(e)
+
+    def _special(self, e: Any) -> Value:
+        """A special function; a constant that is none of these by SymPy's numbers."""
+        if e.func in _UNARY:
+            return getattr(_lifted(self(e.args[0])), _UNARY[e.func])()
         if (known := rewritten(e)) is not None:
             return self(known)
-        if isinstance(e, ANTIDERIVATIVES):
-            slope = self(e.diff(next(iter(self.bindings))))
-            return acb_series([1, slope[0], slope[1] / 2], prec=3)
         if isinstance(e, (sympy.uppergamma, sympy.lowergamma)):
             name = "gamma_upper" if isinstance(e, sympy.uppergamma) else "gamma_lower"
             return getattr(acb_series, name)(self(e.args[0]), _lifted(self(e.args[1])))
@@ -100,16 +82,9 @@ class _Evaluator:
             z = _lifted(self(e.argument))
             return _taylor(z, _hypergeometric(e, self, z[0]))
         if (rule := _DERIVATIVES.get(e.func)) is not None:
-            *parameters, z = map(self, e.args)
-            z = _lifted(z)
+            *parameters, last = map(self, e.args)
+            z = _lifted(last)
             return _taylor(z, rule(parameters, z[0]))
-        if e.is_Symbol:
-            return parameter_value(e.name)
-        if isinstance(e, sympy.Abs | sympy.sign):
-            return self._of_sign(e)
-        is_unit = e.is_Atom and not e.is_number
-        if is_unit or (isinstance(e, AppliedUndef) and not e.has(*self.bindings)):
-            return parameter_value(str(e))
         if not e.free_symbols:
             return _number(e)
         raise NotImplementedError(f"the function {e.func} can't be evaluated")
@@ -161,23 +136,8 @@ def _with_real_roots(polynomial: Any, tolerance: Any) -> list[Number]:
     ]
 
 
-@lru_cache(maxsize=256)
-def _coarse_value(root: Any) -> complex:
-    """A root of a polynomial to a few digits: which one it is."""
-    return complex(root.evalf(15))
-
-
 def _number(e: Any) -> Number:
     """A constant that isn't made of the functions above."""
-    if e is sympy.I:
-        return acb(0, 1)
-    if e is sympy.pi:
-        return acb.pi()
-    if isinstance(e, sympy.CRootOf):
-        near = acb(_coarse_value(e))
-        integers = e.poly.clear_denoms()[1].all_coeffs()[::-1]
-        roots = fmpz_poly([int(c) for c in integers]).complex_roots()
-        return min((root for root, _ in roots), key=lambda root: float(abs(root - near).mid()))
     number = e._to_mpmath(ctx.prec)
     parts = number._mpc_ if hasattr(number, "_mpc_") else (number._mpf_,)
     return acb(*(arb((-mantissa if sign else mantissa, exponent)) for sign, mantissa, exponent, _ in parts))

@@ -10,16 +10,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from flint import acb, arb, ctx, fmpq, fmpz_poly
+from flint import acb, arb
 
-from kovacic.enclosure.points import ExactPoint, as_point, midpoint, to_acb, working_precision
+from kovacic.enclosure.points import ExactPoint, as_point, midpoint, to_acb
 from kovacic.errors import InputError
-
-_FUNCTIONS = """
-    exp sin cos tan cot sec csc asin acos atan sinh cosh tanh coth sech csch asinh acosh atanh gamma erf erfc zeta
-"""
-#: Their branch cuts are those of logarithms and roots.
-_INVERSE = {"asin", "acos", "atan", "asinh", "acosh", "atanh"}
 
 
 @dataclass(frozen=True)
@@ -97,58 +91,13 @@ def to_ball(number: Number) -> acb:
     return to_acb(number) if isinstance(number, ExactPoint) else number.value()
 
 
-def root_near(polynomial: fmpz_poly, target: acb) -> acb:
-    """The zero nearest to an approximation, at the working precision in force."""
-    with working_precision(max(ctx.prec, 128)):
-        roots = [root for root, _ in polynomial.complex_roots()]
-    return min(roots, key=lambda root: float(abs(root - target).mid()))
-
-
 def in_balls(expression: Any, values: Mapping[Any, acb], *, analytic: bool = False) -> acb:
     """A SymPy expression at these values of its symbols, at the working precision in force.
 
     With `analytic` the result isn't finite where the expression isn't analytic on the balls, for quadratures.  Raises
     InputError for functions that aren't known here.
     """
-    import sympy
+    from kovacic.closed_form.balls import BallEvaluator  # imports SymPy
 
-    def of(node: Any) -> acb:
-        if node in values:
-            return values[node]
-        if node.is_Rational:
-            return acb(arb(fmpq(int(node.p), int(node.q))))
-        if node.is_Float:
-            return to_acb(as_point(node, "the number"))
-        if node is sympy.I:
-            return acb(0, 1)
-        constants = {sympy.pi: arb.pi, sympy.E: arb.const_e, sympy.EulerGamma: arb.const_euler}
-        if node in constants:
-            return acb(constants[node]())
-        if node.is_Add or node.is_Mul:
-            total = of(node.args[0])
-            for part in node.args[1:]:
-                total = total + of(part) if node.is_Add else total * of(part)
-            return total
-        if node.is_Pow and node.exp.is_Integer:
-            return of(node.base) ** int(node.exp)
-        if node.is_Pow and abs(node.exp) == sympy.Rational(1, 2):
-            root = of(node.base).sqrt(analytic=analytic)
-            return root if node.exp > 0 else 1 / root
-        if node.is_Pow:
-            logarithm = acb(1) if node.base is sympy.E else of(node.base).log(analytic=analytic)
-            return (of(node.exp) * logarithm).exp()
-        if isinstance(node, sympy.CRootOf):
-            return root_near(fmpz_poly([int(c) for c in reversed(node.poly.all_coeffs())]), acb(complex(node)))
-        name = type(node).__name__
-        if name == "log" and len(node.args) == 1:
-            return of(node.args[0]).log(analytic=analytic)
-        if analytic and name in _INVERSE:
-            return of(node.rewrite(sympy.log))
-        if name in _FUNCTIONS.split() and len(node.args) == 1:
-            result: acb = getattr(of(node.args[0]), name)()
-            return result
-        raise InputError(
-            f"{node} isn't known in balls", hint=f"the functions are log, sqrt, {', '.join(_FUNCTIONS.split())}"
-        )
-
-    return of(expression)
+    value: acb = BallEvaluator(values, analytic=analytic)(expression)
+    return value

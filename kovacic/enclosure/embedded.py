@@ -16,13 +16,14 @@ from typing import Any
 
 from flint import acb, acb_poly, arb, arb_poly
 
+from kovacic.algebra.embedding import root_near
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.factors import squarefree_factors
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
-from kovacic.enclosure.constants import Number, root_near, to_ball
+from kovacic.enclosure.constants import Number, to_ball
 from kovacic.enclosure.log_derivative import LogDerivative, sharp_roots
 from kovacic.enclosure.points import floor, working_precision
 from kovacic.errors import InputError, LimitExceeded

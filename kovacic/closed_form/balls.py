@@ -1,0 +1,111 @@
+"""SymPy expressions in ball arithmetic, operation by operation: nothing of SymPy's own numerical evaluation goes in, whose
+digits aren't proven.
+
+A symbol has a ball (flint's `acb`) or, where derivatives are wanted, a Taylor series of balls (`acb_series`) for its value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache, reduce
+from operator import add, mul
+from typing import Any
+
+import sympy
+from flint import acb, arb, fmpq, fmpz_poly
+
+from kovacic.algebra.embedding import root_near
+from kovacic.errors import InputError
+
+Value = Any  # an acb or an acb_series
+
+_CONSTANTS = {sympy.pi: arb.pi, sympy.E: arb.const_e, sympy.EulerGamma: arb.const_euler}
+#: Flint's methods of the same names; none of these has a branch cut.
+_MEROMORPHIC = """
+    exp sin cos tan cot sec csc sinh cosh tanh coth sech csch gamma erf erfc erfi zeta
+"""
+#: Their branch cuts are those of logarithms and roots.
+_INVERSE = "asin acos atan asinh acosh atanh"
+_NAMES = {getattr(sympy, name): name for name in (_MEROMORPHIC + _INVERSE).split()}
+_CUT = {getattr(sympy, name) for name in _INVERSE.split()}
+
+
+class BallEvaluator:
+    """The values of expressions at given values of some symbols; those of subexpressions are kept.
+
+    With `analytic` a value isn't finite where the expression isn't analytic on the balls, for quadratures.
+    """
+
+    def __init__(self, values: Mapping[Any, Value], *, analytic: bool = False) -> None:
+        self.values = values
+        self.analytic = analytic
+        self._known: dict[Any, Value] = dict(values)
+
+    def __call__(self, e: Any) -> Value:
+        """Raises `InputError` for functions that aren't known here."""
+        found = self._known.get(e)
+        if found is None:
+            found = self._known[e] = self._evaluated(e)
+        return found
+
+    def _evaluated(self, e: Any) -> Value:
+        if e.is_Rational:
+            return acb(arb(fmpq(int(e.p), int(e.q))))
+        if e.is_Float:
+            return _exact(e)
+        if e is sympy.I:
+            return acb(0, 1)
+        if e in _CONSTANTS:
+            return acb(_CONSTANTS[e]())
+        if e.is_Add:
+            return reduce(add, map(self, e.args))
+        if e.is_Mul:
+            return reduce(mul, map(self, e.args))
+        if e.is_Pow:
+            return self._power(*e.args)
+        if e.func is sympy.log and len(e.args) == 1:
+            return self._cut(e.args[0], "log")
+        if isinstance(e, sympy.CRootOf):
+            integers = e.poly.clear_denoms()[1].all_coeffs()[::-1]
+            return root_near(fmpz_poly([int(c) for c in integers]), acb(_coarse_value(e)))
+        if e.func in _NAMES and len(e.args) == 1:
+            return self._applied(e)
+        return self.other(e)
+
+    def _power(self, base: Any, exponent: Any) -> Value:
+        if exponent.is_Integer:
+            return self(base) ** int(exponent)
+        if base is sympy.E:
+            return self(exponent).exp()
+        if abs(exponent) == sympy.S.Half:
+            root = self._cut(base, "sqrt")
+            return root if exponent > 0 else 1 / root
+        return (self(exponent) * self._cut(base, "log")).exp()
+
+    def _cut(self, argument: Any, name: str) -> Value:
+        """A root or a logarithm."""
+        value = self(argument)
+        return getattr(value, name)(analytic=self.analytic) if isinstance(value, acb) else getattr(value, name)()
+
+    def _applied(self, e: Any) -> Value:
+        if self.analytic and e.func in _CUT:
+            return self(e.rewrite(sympy.log))
+        value, name = self(e.args[0]), _NAMES[e.func]
+        return getattr(value, name)() if hasattr(value, name) else self.other(e)
+
+    def other(self, e: Any) -> Value:
+        """What isn't arithmetic and an elementary function."""
+        known = ", ".join((_MEROMORPHIC + _INVERSE).split())
+        raise InputError(f"{e} isn't known in balls", hint=f"the functions are log, sqrt, {known}")
+
+
+@lru_cache(maxsize=256)
+def _coarse_value(root: Any) -> complex:
+    """A root of a polynomial to a few digits: which one it is."""
+    return complex(root.evalf(15))
+
+
+def _exact(number: Any) -> acb:
+    """The dyadic number that a float of SymPy is."""
+    sign, mantissa, exponent, _ = number._mpf_
+    return acb(arb((-int(mantissa) if sign else int(mantissa), int(exponent))))
