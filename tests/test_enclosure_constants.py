@@ -167,3 +167,11 @@ def test_pi_and_e_are_constants_of_a_coefficient_alone_too() -> None:
         size = "pi" if text == "pi*x" else "exp(1)"
         assert alone.overlaps(kovacic.evaluate("n*x", 2, params={"n": size}, **options))
     assert kovacic.solve("pi*x").status is kovacic.solve("y'' = pi*x*y").status
+
+
+@pytest.mark.parametrize("exponent", ["I/2", "-I/2", "1/2", "-1/2", "3/10 + 2*I/5"])
+def test_powers_with_exponents_of_size_one_half(exponent: str) -> None:
+    """A number 2^c is exp(c log 2), a square root for c = 1/2 alone."""
+    power, exponential = (evaluate("1", x, x0=0, **START) for x in (f"2^({exponent})", f"exp(({exponent})*log(2))"))
+    with flint.ctx.workprec(200):
+        assert ball_to_flint(power).overlaps(ball_to_flint(exponential))

@@ -77,9 +77,9 @@ class BallEvaluator:
             return self(base) ** int(exponent)
         if base is sympy.E:
             return self(exponent).exp()
-        if abs(exponent) == sympy.S.Half:
+        if exponent in (sympy.S.Half, -sympy.S.Half):
             root = self._cut(base, "sqrt")
-            return root if exponent > 0 else 1 / root
+            return root if exponent == sympy.S.Half else 1 / root
         return (self(exponent) * self._cut(base, "log")).exp()
 
     def _cut(self, argument: Any, name: str) -> Value:
